@@ -97,24 +97,25 @@ class Constraints(Freezable):
         quantity = bodies[0].theta - bodies[1].theta if len(bodies) > 1 else bodies[0].theta
         return quantity, bodies, "rad"
 
-    def _define_distance(self, name: str, first: PointFrame, second: PointFrame) -> sp.Symbol:
+    def _define_distance(self, drive_name: str, first_point: PointFrame, second_point: PointFrame) -> sp.Symbol:
         """Return ‖r_Q − r_P‖ as a symbol, with the rules of its derivatives.
 
-        `name`: the drive, from which the names of the symbols are made. With its direction u: d length = u · dr and du
-        = (ẑ × u)(ẑ × u · dr)/length. Written out, the second derivatives of the root would be thousands of terms.
+        `drive_name` is the base of the symbols' names. With its direction u: d length = u · dr and
+        du = (ẑ × u)(ẑ × u · dr)/length. Written out, the second derivatives of the root would be thousands of terms.
         """
         define, rules = self.symbols.add_definition, self.symbols.rules
-        difference = (second.x - first.x, second.y - first.y)
+        difference = (second_point.x - first_point.x, second_point.y - first_point.y)
         x, y = (
-            define(f"{name}_span_{axis}", value, None, "span") for axis, value in zip("xy", difference, strict=True)
+            define(f"{drive_name}_span_{axis}", value, None, "span")
+            for axis, value in zip("xy", difference, strict=True)
         )
-        length = define(f"{name}_length", sp.sqrt(x**2 + y**2), None, "its length")
+        length = define(f"{drive_name}_length", sp.sqrt(x**2 + y**2), None, "its length")
         direction_x, direction_y = (
-            define(f"{name}_along_{axis}", value / length, None, "its direction")
+            define(f"{drive_name}_along_{axis}", value / length, None, "its direction")
             for axis, value in zip("xy", (x, y), strict=True)
         )
         rules[length], rules[direction_x], rules[direction_y] = {}, {}, {}
-        for q in [*(q for q, _ in self._find_coordinate_pairs(self._list_bodies(first, second))), self.t]:
+        for q in [*(q for q, _ in self._find_coordinate_pairs(self._list_bodies(first_point, second_point))), self.t]:
             dx, dy = (self.symbols.differentiate(value, q) for value in difference)
             if dx == dy == 0:
                 continue
@@ -204,7 +205,7 @@ def _differentiate_by_time(value: sp.Expr, t: sp.Symbol) -> sp.Expr:
     several are equal.
     """
     if value.has(*_SWITCHING_CLASSES):
-        value = value.replace(Pick, lambda side, a, b: Pick(side.replace(sp.sign, Apart), a, b))
+        value = value.replace(Pick, lambda branch, a, b: Pick(branch.replace(sp.sign, Apart), a, b))
         value = value.replace(sp.Abs, _make_differentiable_abs).replace(sp.Max, Largest).replace(sp.Min, Smallest)
     rate = compute_partial_derivative(value, t)
     if not rate.has(*_SWITCHING_CLASSES):

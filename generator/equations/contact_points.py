@@ -123,7 +123,9 @@ def _make_corner_points(
         )
 
 
-def _find_axis_in_slider(fields: JointFields, parameter_table: ParameterTable, joint: str) -> tuple[sp.Expr, sp.Expr]:
+def _find_axis_in_slider(
+    fields: JointFields, parameter_table: ParameterTable, joint_name: str
+) -> tuple[sp.Expr, sp.Expr]:
     """Return the components of the guide's axis in the slider's frame.
 
     The slider is at the angle that the joint prescribes; the components are (1, 0) if that angle is the axis' own.
@@ -134,7 +136,7 @@ def _find_axis_in_slider(fields: JointFields, parameter_table: ParameterTable, j
         return sp.Integer(1), sp.Integer(0)
     cos, sin = (
         parameter_table.derive(
-            f"{function.__name__}_slider_{joint}", function(axis_angle - slider_angle), "axis in the slider"
+            f"{function.__name__}_slider_{joint_name}", function(axis_angle - slider_angle), "axis in the slider"
         )
         for function in (sp.cos, sp.sin)
     )

@@ -157,12 +157,12 @@ def make_contour_normal_force(clearance: Clearance) -> list[Step]:
     return [Step(F_N, steep * _make_symbol("F_n"))] if clearance.contour else []
 
 
-def resolve_contour_force(F_n: sp.Expr, tangential: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
+def resolve_contour_force(F_n: sp.Expr, friction_force: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
     """Return the force of a contour along e and across it.
 
-    −F_n acts along the gradient of δ, the friction force `tangential` across it.
+    −F_n acts along the gradient of δ, `friction_force` across it.
     """
-    return -F_n + tangential * lean / steep, F_n * lean + tangential / steep
+    return -F_n + friction_force * lean / steep, F_n * lean + friction_force / steep
 
 
 def make_dry_moment_equations(clearance: Clearance) -> list[Step]:
@@ -218,11 +218,11 @@ def make_film_moment_equations(film: LawEquations) -> list[Step]:
 
 
 def make_blend_equations(clearance: Clearance, closed: bool = False) -> list[Step]:
-    """Return the equations of the fraction of the dry contact: 0 at e = c, 1 at e = c + e_0 (the paper's Eq.
+    """Return the equations of the fraction of the dry contact: 0 at e = c, 1 at e = c + e_0 (equation 17 of the paper).
 
-    17). A law of mixed lubrication replaces it. For a `closed` contact it has no switching point at e = c, which
-    opening and closing represent. The law reads `depth` then, since it may be undefined at δ < 0, where samples before
-    a separation lie.
+    A law of mixed lubrication replaces it. For a `closed` contact it has no switching point at e = c, which opening and
+    closing represent. The law reads `depth` then, since it may be undefined at δ < 0, where samples before a separation
+    lie.
     """
     if clearance.mixed is not None:
         replacement = {delta: depth if closed else sp.Max(0, delta)}
@@ -268,7 +268,10 @@ def make_resultant_equations(clearance: Clearance) -> list[Step]:
 
 
 def find_moment_symbols(clearance: Clearance) -> tuple[sp.Symbol, sp.Symbol]:
-    """Return the symbols of the moments about both centres, by which parts of the force the joint has."""
+    """Return the symbols of the moments about both centres; they depend on the parts of the joint's force.
+
+    A film and a dry contact together have M_i and M_j, a single part has symbols of its own.
+    """
     if clearance.normal is not None and clearance.film is not None:
         return M_i, M_j
     part = "film" if clearance.normal is None else "dry"

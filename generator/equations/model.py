@@ -259,11 +259,9 @@ class Model:
         return tuple(m for body in self.bodies for m in (body.mass, body.mass, body.inertia))
 
     def numpy(self) -> Any:
-        """Return the same equations as functions in NumPy: Φ, Φ_q, ν, γ, M and the right-hand side.
+        """Return the equations of the model as functions in NumPy: Φ, Φ_q, ν, γ, M and the right-hand side.
 
-        A NumPyModel, with their text as `source` (generator/targets/numpy/module.py says shapes and units): the
-        plainest form
-        of all that the emitted C computes at a state.
+        They are a NumPyModel, with their text as `source`; generator/targets/numpy/module.py lists shapes and units.
         """
         return self.derive_target("numpy")
 

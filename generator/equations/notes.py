@@ -84,9 +84,9 @@ def _explain_need_for_masses(model: Model) -> str:
 
 
 def find_missing_masses(mechanism: Mechanism, reason: str) -> Iterator[MissingKeyError]:
-    """Yield one MissingKeyError for all bodies that lack the same of mass and inertia.
+    """Yield one MissingKeyError for each set of missing keys (mass, inertia), with all bodies that lack them.
 
-    `reason` says why they are needed.
+    `reason`: why they are needed, for the message.
     """
     bodies_by_missing_keys: dict[tuple[str, ...], list[Body]] = {}
     for body in mechanism.bodies.values():

@@ -182,20 +182,23 @@ def _derive_clearance(
         constants[name] = parameter_table.derive(parameter_name, expression, meaning)
         return constants[name]
 
-    def derive_law_of_use(use: LawUse | None, symbols: PairSymbols = contact_point.law_symbols) -> LawEquations | None:
-        """Return a law of the contact with its symbols, or None if `use` is None.
+    def derive_contact_law(
+        law_use: LawUse | None, symbols: PairSymbols = contact_point.law_symbols
+    ) -> LawEquations | None:
+        """Return a law of the contact with its symbols, or None if `law_use` is None.
 
         `symbols`: radii, clearance and elastic constants.
         """
-        return None if use is None else _derive_law(use, symbols, parameter_table, derive_constant)
+        return None if law_use is None else _derive_law(law_use, symbols, parameter_table, derive_constant)
 
     contact = play.contact
     normal, friction, mixed = (
-        derive_law_of_use(contact.normal),
-        derive_law_of_use(contact.friction),
-        derive_law_of_use(contact.mixed),
+        derive_contact_law(contact.normal),
+        derive_contact_law(contact.friction),
+        derive_contact_law(contact.mixed),
     )
-    film = derive_law_of_use(contact.film, replace(bearing_symbols, c=constants.get(MEAN_CLEARANCE, bearing_symbols.c)))
+    film_symbols = replace(bearing_symbols, c=constants.get(MEAN_CLEARANCE, bearing_symbols.c))
+    film = derive_contact_law(contact.film, film_symbols)
     floor: sp.Expr = sp.Integer(0)  # of surfaces that give alone
     if contact.velocity_floor:
         floor = parameter_table.get_or_add(contact.velocity_floor)
@@ -232,41 +235,41 @@ def _make_contour(joint: Joint, play: Play, parameter_table: ParameterTable) -> 
 
 
 def _derive_law(
-    use: LawUse, bearing_symbols: PairSymbols, parameter_table: ParameterTable, derive: Derive
+    law_use: LawUse, bearing_symbols: PairSymbols, parameter_table: ParameterTable, derive_constant: Derive
 ) -> LawEquations:
     """Return a law with the symbols of its parameters and variables inserted.
 
-    `use`: the law as the file uses it; `derive` makes derived parameters from name, value and meaning. Variables that
-    the law may read but does not are left out. A user-defined law is checked (LawError), and its names get an ending of
-    their own.
+    `law_use`: the law as the file uses it; `derive_constant` makes derived parameters from name, value and meaning.
+    Variables that the law may read but does not are left out. A user-defined law is checked (LawError), and its names
+    get the ending `__`.
     """
-    law = find_all_laws()[use.law]
+    law = find_all_laws()[law_use.law]
     variables = {name: sp.Symbol(name, real=True) for name in law.variables}
-    force_names = {own_variables.name for own_variables in law.expressions}
+    force_names = {force.name for force in law.expressions}
     parameters = {
         name: parameter_table.get_or_add(quantity)
-        for name, quantity in use.quantities.items()
+        for name, quantity in law_use.quantities.items()
         if name not in force_names
     }
     for name in force_names:
         max_penetration = find_default_value(parameter_table, parameters.get(DEEPEST, bearing_symbols.c))
         parameters[name] = read_force_expression(
-            use.quantities[name], variables["delta"], max_penetration, parameter_table
+            law_use.quantities[name], variables["delta"], max_penetration, parameter_table
         )
     derived: dict[str, sp.Expr] = {}
 
     def derive_and_record(name: str, expression: sp.Expr, meaning: str) -> sp.Expr:
         """Return a derived parameter and record it under its name in the law."""
-        derived[name] = derive(name, expression, meaning)
+        derived[name] = derive_constant(name, expression, meaning)
         return derived[name]
 
-    steps = build_law(law, LawInputs(parameters, use.options, bearing_symbols, variables, derive_and_record, Whole))
+    steps = build_law(law, LawInputs(parameters, law_use.options, bearing_symbols, variables, derive_and_record, Whole))
     read_names = {symbol.name for step in steps.values() for symbol in step.free_symbols}
     unread_names = {name for name in law.further if name not in read_names}
-    own_variables = tuple(symbol for name, symbol in variables.items() if name not in unread_names)
+    law_variables = tuple(symbol for name, symbol in variables.items() if name not in unread_names)
     if law.name in USER_LAWS:
-        check_sampled_values(law, own_variables, steps, parameter_table)
-    equations = LawEquations(law, use.options, own_variables, steps, parameters, derived)
+        check_sampled_values(law, law_variables, steps, parameter_table)
+    equations = LawEquations(law, law_use.options, law_variables, steps, parameters, derived)
     return _rename_user_law(equations) if law.name in USER_LAWS else equations
 
 

@@ -133,23 +133,23 @@ _PLAIN_NUMBER, _ANY_UNIT = _Flexible(), _Flexible()
 _DimensionOrFlexible = Dimension | _Flexible
 
 
-def check_units(law: Law, use: LawUse) -> None:
+def check_units(law: Law, law_use: LawUse) -> None:
     """Raise LawError if a result of a law has another unit than its role needs, or if unlike units are added.
 
-    `use`: the law as the file uses it, with options and quantities.
+    `law_use`: the law as the file uses it, with options and quantities.
     """
-    probed_law = probe_law(law, use.options, use.quantities)
+    probed_law = probe_law(law, law_use.options, law_use.quantities)
     dimension_of_symbol: dict[str, _DimensionOrFlexible] = {f"probe_{name}": _PAIR.get(name, LENGTH) for name in PAIR}
     dimension_of_symbol |= {
-        f"probe_{name}": quantity.dimension or _ANY_UNIT for name, quantity in use.quantities.items()
+        f"probe_{name}": quantity.dimension or _ANY_UNIT for name, quantity in law_use.quantities.items()
     }
     dimension_of_symbol |= {name: _VARIABLES[name] for name in law.variables if name in _VARIABLES}
     dimension_of_symbol |= {state.name: LENGTH for state in law.states}
-    units = _DimensionFinder(law, dimension_of_symbol)
+    dimension_finder = _DimensionFinder(law, dimension_of_symbol)
     for name, value in probed_law.derived.items():
-        dimension_of_symbol[f"probe_{name}"] = units.find_dimension(name, value)
+        dimension_of_symbol[f"probe_{name}"] = dimension_finder.find_dimension(name, value)
     for name, step in probed_law.steps.items():
-        dimension_found = units.find_dimension(name, step)
+        dimension_found = dimension_finder.find_dimension(name, step)
         dimension_of_symbol[name] = dimension_found
         expected_dimension = VELOCITY if name.endswith("_rate") else _RESULTS.get(name)
         if (
@@ -160,7 +160,7 @@ def check_units(law: Law, use: LawUse) -> None:
         ):
             hint = "a number with a unit is one of its fields: number(name, meaning, DIMENSION, default=…)"
             raise LawError(
-                f"{units.message_prefix}{name} is {describe_dimension(dimension_found)}, expected "
+                f"{dimension_finder.message_prefix}{name} is {describe_dimension(dimension_found)}, expected "
                 f"{describe_dimension(expected_dimension)}",
                 hint=hint,
             )
@@ -168,11 +168,11 @@ def check_units(law: Law, use: LawUse) -> None:
 
 @dataclass
 class _DimensionFinder:
-    """Dimensions of a law's expressions, found from those of its symbols in `known`."""
+    """Dimensions of a law's expressions, found from those of its symbols in `dimension_of_symbol`."""
 
     law: Law
-    known: Mapping[str, _DimensionOrFlexible]  # by names of symbols
-    seen: dict[sp.Expr, _DimensionOrFlexible] = field(default_factory=dict)
+    dimension_of_symbol: Mapping[str, _DimensionOrFlexible]  # by names of symbols
+    cache: dict[sp.Expr, _DimensionOrFlexible] = field(default_factory=dict)
 
     @property
     def message_prefix(self) -> str:
@@ -184,9 +184,9 @@ class _DimensionFinder:
 
         Raise LawError if its terms have unlike units.
         """
-        if expression not in self.seen:
-            self.seen[expression] = self._compute_dimension(name, expression)
-        return self.seen[expression]
+        if expression not in self.cache:
+            self.cache[expression] = self._compute_dimension(name, expression)
+        return self.cache[expression]
 
     def _compute_dimension(self, name: str, expression: sp.Expr) -> _DimensionOrFlexible:
         """Return the dimension of an expression without reading the cache.
@@ -197,9 +197,9 @@ class _DimensionFinder:
         if expression.is_number:
             return _PLAIN_NUMBER
         if expression.is_Symbol:
-            return self.known.get(expression.name, _ANY_UNIT)
+            return self.dimension_of_symbol.get(expression.name, _ANY_UNIT)
         if expression.is_Pow or isinstance(expression, sp.exp):
-            return self._raise_dimension(name, *expression.as_base_exp())
+            return self._compute_power_dimension(name, *expression.as_base_exp())
         dimensions = [self.find_dimension(name, part) for part in expression.args]
         if expression.is_Mul:
             return self._multiply_dimensions(dimensions)
@@ -240,7 +240,7 @@ class _DimensionFinder:
             )
         return known_dimensions[0] if known_dimensions else _ANY_UNIT if _ANY_UNIT in dimensions else _PLAIN_NUMBER
 
-    def _raise_dimension(self, name: str, base: sp.Expr, exponent: sp.Expr) -> _DimensionOrFlexible:
+    def _compute_power_dimension(self, name: str, base: sp.Expr, exponent: sp.Expr) -> _DimensionOrFlexible:
         """Return the dimension of base**exponent.
 
         A base without a unit, or with any unit, keeps its dimension. A base with a unit and an exponent that is not a
@@ -307,36 +307,36 @@ _UNITS = {"delta": "m", "deltadot": "m/s", "F_n": "N", "v_t": "m/s", "w_n": "1/s
 def check_user_defined_laws(scene: Scene) -> None:
     """Raise LawError if a name in a user-defined law of the scene has two meanings, or if units do not fit."""
     for play in scene.play.values():
-        laws_in_use = [(find_all_laws()[use.law], use) for use in play.contact.laws]
+        laws_in_use = [(find_all_laws()[law_use.law], law_use) for law_use in play.contact.laws]
         if any(law.name in USER_LAWS for law, _ in laws_in_use):
-            names = {law.name: _LawNames(law, use) for law, use in laws_in_use}
-            for law, use in (pair for pair in laws_in_use if pair[0].name in USER_LAWS):
-                names[law.name].check()
-                check_units(law, use)
+            names = {law.name: _LawNames(law, law_use) for law, law_use in laws_in_use}
+            for law, law_use in (pair for pair in laws_in_use if pair[0].name in USER_LAWS):
+                names[law.name].check_names()
+                check_units(law, law_use)
             _check_common_names([names[law.name] for law, _ in laws_in_use if law.role != "film"])
 
 
 class _LawNames:
     """Names of the locals and parameters in the function of a law."""
 
-    def __init__(self, law: Law, use: LawUse) -> None:
+    def __init__(self, law: Law, law_use: LawUse) -> None:
         """Collect the names of locals and parameters by building the law with probe symbols."""
-        probed_law = probe_law(law, use.options, use.quantities)
+        probed_law = probe_law(law, law_use.options, law_use.quantities)
         self.law = law
-        self.locals = [
+        self.local_names = [
             *(state.name for state in law.states),
             *(name for name in probed_law.steps if name not in law.results),
         ]
-        self.numbers = [*use.quantities, *probed_law.derived]
+        self.parameter_names = [*law_use.quantities, *probed_law.derived]
 
-    def check(self) -> None:
+    def check_names(self) -> None:
         """Raise LawError for a name that is not an identifier, occurs twice, or has a fixed meaning for the law."""
         fixed_names = {
             *PAIR,
             "transition",
             *itertools.chain(*VARIABLES.values(), *FURTHER_VARIABLES.values(), *RESULTS.values()),
         }
-        all_names = [*self.locals, *self.numbers]
+        all_names = [*self.local_names, *self.parameter_names]
         for name in all_names:
             try:
                 check_law_name(name, "number or abbreviation")
@@ -355,7 +355,7 @@ def _check_common_names(dry_laws: Sequence[_LawNames]) -> None:
     The derivatives of a dry contact are one function, in which each local has one meaning.
     """
     for first_law, other_law in itertools.permutations(dry_laws, 2):
-        if common_names := {*first_law.locals} & {*other_law.locals, *other_law.numbers}:
+        if common_names := {*first_law.local_names} & {*other_law.local_names, *other_law.parameter_names}:
             message = f"{min(common_names)!r} names something in the contact's other law, {other_law.law.name}, too"
             raise LawError(
                 f"{_format_law_prefix(first_law.law)}{message}", hint="call the abbreviation of your own law otherwise"

@@ -29,7 +29,7 @@ class Branch(Line):
     """
 
     target: Key
-    value: sp.Expr  # Pick(side, then, otherwise)
+    value: sp.Expr  # Pick(branch, then, otherwise)
     comment: str = ""
 
     @property
@@ -76,13 +76,13 @@ class Branches:
         """
         self.names: dict[sp.Expr, str] = {}
         self._used_names = set(used_names)
-        self._switching_functions: dict[sp.Expr, sp.Expr] = {}  # sides, and the difference whose sign each is
+        self._switching_functions: dict[sp.Expr, sp.Expr] = {}  # branches, and the difference whose sign each is
 
     def insert_branches(self, lines: Iterable[Line]) -> list[Line]:
         """Return the lines with a `Branch` line inserted before the first line that reads each branch.
 
         An assignment whose value is itself a branch becomes a `Branch` line. The names found are added to `names`.
-        Called once per section, in order, by `readable`.
+        Called once per section, in order, by `make_readable`.
         """
         result: list[Line] = []
         for line in lines:

@@ -39,8 +39,9 @@ class _ComplexConverter:
 
     def __init__(self, kernel: Kernel, complex_keys: frozenset[Key], zero_arguments: frozenset[str]) -> None:
         """Begin with the kernel, the keys of complex arguments and arrays, and the names of zero arguments."""
-        self.source, self.complex, self.locals, self.zero = kernel, complex_keys, set[str](), zero_arguments
-        self.before: list[Line] = []  # what the next line reads
+        self.source, self.complex_keys, self.zero_arguments = kernel, complex_keys, zero_arguments
+        self.complex_locals: set[str] = set()
+        self.pending_locals: list[Line] = []  # auxiliary locals that the next line reads
         self.counts = {"size": 0, "divisor": 0, "factor": 0}
 
     def convert_kernel(self) -> Kernel:
@@ -68,11 +69,11 @@ class _ComplexConverter:
         None replace a zero argument; a complex number becomes a real and an imaginary argument. The linearization gets
         the type Complex…; other arguments stay.
         """
-        if argument.name in self.zero:
+        if argument.name in self.zero_arguments:
             return []
         if argument.name == LINEARIZATION:
             return [replace(argument, type=f"Complex{argument.type}")]
-        if argument.name in self.complex and argument.access is Access.VALUE:
+        if argument.name in self.complex_keys and argument.access is Access.VALUE:
             return [argument, replace(argument, name=argument.name + IMAGINARY)]
         return [argument]
 
@@ -82,7 +83,7 @@ class _ComplexConverter:
         The list of pending locals is emptied.
         """
         lines = self._convert_without_locals(line)
-        locals_, self.before = self.before, []
+        locals_, self.pending_locals = self.pending_locals, []
         return locals_ + lines
 
     def _make_local(self, kind: str, value: sp.Expr) -> sp.Symbol:
@@ -92,7 +93,7 @@ class _ComplexConverter:
         """
         self.counts[kind] += 1
         local = sp.Symbol(f"{kind}_{self.counts[kind]}", real=True)
-        self.before.append(Statement(local.name, value))
+        self.pending_locals.append(Statement(local.name, value))
         return local
 
     def _convert_without_locals(self, line: Line) -> list[Line]:
@@ -105,7 +106,7 @@ class _ComplexConverter:
             case Statement():
                 return self._split_statement(line)
             case Declare():
-                self.complex |= {line.name}
+                self.complex_keys |= {line.name}
                 return [replace(line, sizes=tuple(2 * n for n in line.sizes))]
             case Guard(test=Test() as test):
                 return self._convert_guard(line, test)
@@ -129,7 +130,7 @@ class _ComplexConverter:
         if local := line.declared_local:
             if imaginary == ZERO:
                 return [replace(line, value=real)]
-            self.locals.add(local)
+            self.complex_locals.add(local)
             return [replace(line, value=real), replace(line, target=local + IMAGINARY, value=imaginary)]
         if places := self._find_part_places(line.target):
             return [replace(line, target=places[0], value=real), replace(line, target=places[1], value=imaginary)]
@@ -157,7 +158,7 @@ class _ComplexConverter:
         Return None if the place is not an element of a complex array.
         """
         match place:
-            case Place(base, (*path, int() as k)) if {base, Place(base, (*path,))} & self.complex:
+            case Place(base, (*path, int() as k)) if {base, Place(base, (*path,))} & self.complex_keys:
                 return Place(base, (*path, 2 * k)), Place(base, (*path, 2 * k + 1))
         return None
 
@@ -166,7 +167,9 @@ class _ComplexConverter:
         name = symbol.name
         if places := self._find_part_places(find_key(symbol)):
             return PlaceSymbol(places[0]), PlaceSymbol(places[1])
-        return (symbol, sp.Symbol(name + IMAGINARY)) if name in self.locals or name in self.complex else None
+        return (
+            (symbol, sp.Symbol(name + IMAGINARY)) if name in self.complex_locals or name in self.complex_keys else None
+        )
 
     def split_expression(self, value: sp.Expr) -> Parts:
         """Return the real and the imaginary part of an expression.
@@ -176,10 +179,10 @@ class _ComplexConverter:
         """
         value = sp.sympify(value)
         if value.is_Symbol:
-            if value.name in self.zero:
+            if value.name in self.zero_arguments:
                 return ZERO, ZERO
             return self._find_part_symbols(value) or (value, ZERO)
-        if not any(self._find_part_symbols(s) or s.name in self.zero for s in value.free_symbols):
+        if not any(self._find_part_symbols(s) or s.name in self.zero_arguments for s in value.free_symbols):
             return value, ZERO
         if value.is_Add:
             term_parts = [self.split_expression(x) for x in value.args]

@@ -27,11 +27,11 @@ class LineMarks:
     by_parameter: Mapping[Place, Marks]
 
 
-def propagate_marks(function: Readable, marks: Callable[[Statement | Branch], Marks]) -> LineMarks:
+def propagate_marks(function: Readable, find_marks: Callable[[Statement | Branch], Marks]) -> LineMarks:
     """Return the marks of all statements and parameters of a function, propagated backwards along the data dependence.
 
-    A line has its own marks, `marks(line)`, and those of all later lines that depend on it. The result maps the target
-    of each line, and each parameter that is read, to a set of marks; entries without marks are left out.
+    A line has its own marks, `find_marks(line)`, and those of all later lines that depend on it. The result maps the
+    target of each line, and each parameter that is read, to a set of marks; entries without marks are left out.
     """
     marks_by_name: defaultdict[Key, set[str]] = defaultdict(set)
     marks_of_stored: defaultdict[Key, set[str]] = defaultdict(set)
@@ -41,7 +41,7 @@ def propagate_marks(function: Readable, marks: Callable[[Statement | Branch], Ma
             if not isinstance(line, (Statement, Branch)):
                 continue
             name = line.declared_local or name_of_place.get(line.target, line.target)
-            line_marks = marks_by_name[name] | marks(line)
+            line_marks = marks_by_name[name] | find_marks(line)
             marks_of_stored[line.target] |= line_marks
             for key in _find_read_keys(line, function):
                 marks_by_name[key] |= line_marks

@@ -41,30 +41,30 @@ class Tangents:
     def __init__(
         self,
         symbols: Symbols,
-        build: KernelBuilder,
+        builder: KernelBuilder,
         bases: Iterable[sp.Symbol],
         owner: str = "",
         share_powers: bool = False,
     ) -> None:
         """Begin with the base symbols, each with the derivative 1 by itself.
 
-        Locals that the tangents need are appended to `build`. `owner`: whose switches fix the branches; "" is the
+        Locals that the tangents need are appended to `builder`. `owner`: whose switches fix the branches; "" is the
         scene.
         """
-        self._symbols, self._build, self._owner, self._share_powers = symbols, build, owner, share_powers
+        self._symbols, self._builder, self._owner, self._share_powers = symbols, builder, owner, share_powers
         self._branches: dict[sp.Symbol, sp.Expr] = {}
         self._symbol_map: Mapping[sp.Symbol, sp.Symbol] = {}
         self._powers: dict[sp.Expr, sp.Symbol] = {}
         self._known: dict[sp.Symbol, Tangent] = {base: {base: ONE} for base in bases}
 
-    def make_for_variables(self, renamed: Mapping[sp.Symbol, sp.Symbol]) -> Tangents:
+    def make_tangents_for_variables(self, symbol_map: Mapping[sp.Symbol, sp.Symbol]) -> Tangents:
         """Return tangents in the same kernel for expressions that use other names for the variables.
 
-        `renamed` maps each of those variables to its symbol in this kernel; these symbols are the new bases. Branches
-        and shared powers are common to both objects.
+        `symbol_map` maps each of those variables to its symbol in this kernel; these symbols are the new bases.
+        Branches and shared powers are common to both objects.
         """
-        tangents = Tangents(self._symbols, self._build, renamed.values(), self._owner, self._share_powers)
-        tangents._branches, tangents._powers, tangents._symbol_map = self._branches, self._powers, renamed
+        tangents = Tangents(self._symbols, self._builder, symbol_map.values(), self._owner, self._share_powers)
+        tangents._branches, tangents._powers, tangents._symbol_map = self._branches, self._powers, symbol_map
         return tangents
 
     def store_tangent(self, symbol: sp.Symbol, tangent: Tangent) -> None:
@@ -94,25 +94,25 @@ class Tangents:
     def hold_branches(self, expression: sp.Expr) -> sp.Expr:
         """Return the expression with each switching function replaced by its active branch.
 
-        The variables of `evaluate_inside` are replaced by those of the kernel. A branch that is read for the first
-        time is assigned by a new line of the kernel.
+        The variables of `make_tangents_for_variables` are replaced by those of the kernel. A branch that is read for
+        the first time is assigned by a new line of the kernel.
         """
         n_known = len(self._branches)
         fixed = self._symbols.switches.hold_branches(expression, self._owner, self._branches)
         for branch, value in list(self._branches.items())[n_known:]:
-            self._build.append_line(Statement(branch.name, value.xreplace(self._symbol_map)))
+            self._builder.append_line(Statement(branch.name, value.xreplace(self._symbol_map)))
         return fixed.xreplace(self._symbol_map)
 
-    def compute_gradient(self, expression: sp.Expr, known_as: sp.Symbol | None = None) -> Tangent:
+    def compute_gradient(self, expression: sp.Expr, value_symbol: sp.Symbol | None = None) -> Tangent:
         """Return the non-zero derivatives of an expression by base symbol, with branches fixed.
 
-        `known_as`: a symbol that holds the value of the expression; a square root is then differentiated by dividing by
-        that symbol.
+        `value_symbol`: a symbol that holds the value of the expression; a square root is then differentiated by
+        dividing by that symbol.
         """
         fixed = self.hold_branches(expression)
         order = sorted(fixed.free_symbols, key=lambda s: s.name)
-        if known_as is not None and fixed.is_Pow and fixed.exp == sp.Rational(1, 2):
-            scale = sp.Rational(1, 2) / (known_as + TINY)
+        if value_symbol is not None and fixed.is_Pow and fixed.exp == sp.Rational(1, 2):
+            scale = sp.Rational(1, 2) / (value_symbol + TINY)
             return self.sum_tangents(
                 (compute_partial_derivative(fixed.base, s) * scale, self.get_tangent(s)) for s in order
             )
@@ -120,10 +120,10 @@ class Tangents:
             (compute_partial_derivative(fixed, s), self.get_tangent(s)) for s in order if self.get_tangent(s)
         )
 
-    def sum_tangents(self, parts: Iterable[tuple[sp.Expr, Tangent]]) -> Tangent:
+    def sum_tangents(self, factors_and_tangents: Iterable[tuple[sp.Expr, Tangent]]) -> Tangent:
         """Return Σ factor · tangent of pairs (factor, tangent), by base symbol; sums that vanish are left out."""
         terms: dict[sp.Symbol, list[sp.Expr]] = {}
-        for factor, tangent in parts:
+        for factor, tangent in factors_and_tangents:
             for base, value in tangent.items():
                 terms.setdefault(base, []).append(factor * value)
         sums = {base: sp.Add(*values) for base, values in terms.items()}
@@ -136,7 +136,7 @@ class Tangents:
         """
         if value.is_Number or value.is_Symbol or (-value).is_Symbol:
             return value
-        return self._build.append_local(f"{symbol.name}_by_{base.name}", self.share_powers_of(value))
+        return self._builder.append_local(f"{symbol.name}_by_{base.name}", self.share_powers_of(value))
 
     def share_powers_of(self, value: sp.Expr) -> sp.Expr:
         """Return the value with its denominators stored as locals that derivatives reuse.
@@ -165,7 +165,7 @@ class Tangents:
         Its name is the prefix and the name of its base, or "sum" if the base is not a symbol.
         """
         if value not in self._powers:
-            self._powers[value] = self._build.append_local(f"{prefix}_{base_name(value)}", value)
+            self._powers[value] = self._builder.append_local(f"{prefix}_{base_name(value)}", value)
         return self._powers[value]
 
 

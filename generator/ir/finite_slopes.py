@@ -232,17 +232,17 @@ def _differentiate_by_sympy(expression: sp.Expr, symbol: sp.Symbol) -> sp.Expr:
     return rate
 
 
-def _may_square_extreme_value(power: sp.Expr) -> bool:
+def _may_square_extreme_value(term: sp.Expr) -> bool:
     """Return whether differentiation of a term would square a value whose square may overflow or vanish.
 
     Such terms are v^-n with a number n, and atan(v) and similar functions.
     """
-    if isinstance(power, _SQUARING_CLASSES):
-        squares = power.args[0].is_Mul or bool(_find_unsquared_derivative(power))
-        return squares and any(map(_is_extreme, sp.preorder_traversal(power.args[0])))
-    if not (power.is_Pow and power.exp.is_number and power.exp.is_extended_negative):
+    if isinstance(term, _SQUARING_CLASSES):
+        squares = term.args[0].is_Mul or bool(_find_unsquared_derivative(term))
+        return squares and any(map(_is_extreme, sp.preorder_traversal(term.args[0])))
+    if not (term.is_Pow and term.exp.is_number and term.exp.is_extended_negative):
         return False
-    return any(map(_is_extreme, sp.preorder_traversal(power.base)))
+    return any(map(_is_extreme, sp.preorder_traversal(term.base)))
 
 
 def _find_unsquared_derivative(term: sp.Expr) -> str:

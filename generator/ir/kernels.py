@@ -160,7 +160,7 @@ def change_expression(line: Line, change: Callable[[sp.Basic], Value]) -> Line:
 
 LINEARIZATION = "lin"  # the argument that holds the linearized equations of motion
 HELD_BRANCHES_TITLE = (
-    "branches of switching functions that are held, if any"  # title of the lines from which a kernel reads sides
+    "branches of switching functions that are held, if any"  # title of the lines from which a kernel reads branches
 )
 
 
@@ -235,7 +235,7 @@ class KernelBuilder:
         lines = [s for _, group in self._sections for s in group]
         declared = {line.declared_local for line in lines if line.declared_local}
         expressions = [x for line in lines for x in line.expressions]
-        definitions, inputs = self._resolve(expressions, declared)
+        definitions, inputs = self._resolve_symbols(expressions, declared)
         symbol_info = self._symbols.info
         inputs_with_places = [(s.name, place) for s in inputs if (place := symbol_info[s].home)]
         structs = (PARAMETERS, LINEARIZATION)
@@ -268,18 +268,20 @@ class KernelBuilder:
         names = self._symbols.find_shorter_names(read_names)
         return Kernel(self._name, self._doc, tuple(arguments), nonempty, status, inline, names=names)
 
-    def _resolve(self, expressions: Iterable[sp.Expr], declared: set[str]) -> tuple[list[sp.Symbol], list[sp.Symbol]]:
+    def _resolve_symbols(
+        self, expressions: Iterable[sp.Expr], declared_names: set[str]
+    ) -> tuple[list[sp.Symbol], list[sp.Symbol]]:
         """Return the definitions to compute, in the order in which they were made, and the inputs to read.
 
         Both are the symbols on which the expressions depend, directly or through definitions, without those in
-        `declared`, which the function's own lines define.
+        `declared_names`, which the function's own lines define.
         """
         info, definitions = self._symbols.info, self._symbols.definitions
         found: set[sp.Symbol] = set()
         pending = [s for expression in expressions for s in find_symbols(expression)]
         while pending:
             symbol = pending.pop()
-            if symbol in found or symbol.name in declared or symbol not in info:
+            if symbol in found or symbol.name in declared_names or symbol not in info:
                 continue
             found.add(symbol)
             if not info[symbol].home:
@@ -309,7 +311,7 @@ def remove_unused_locals(kernel: Kernel) -> Kernel:
 
 
 class ValuePool:
-    """Values of one function that others read; `keep` stores a value and returns the symbol that reads it."""
+    """Values of one function that others read; `store_value` stores a value and returns the symbol that reads it."""
 
     def __init__(self, symbols: Symbols, array: Place) -> None:
         """Begin an empty pool whose values are stored in consecutive elements of `array`."""
@@ -318,7 +320,7 @@ class ValuePool:
         self._index_by_value: dict[sp.Expr, int] = {}
         self.size = 0
 
-    def store_value(self, build: KernelBuilder, value: sp.Expr, name: str) -> sp.Expr:
+    def store_value(self, builder: KernelBuilder, value: sp.Expr, name: str) -> sp.Expr:
         """Store a value in the pool and return ± the symbol of its element; `name` is the base of its name.
 
         A number, a parameter, or a value that is stored already up to its sign is not stored again.
@@ -328,21 +330,21 @@ class ValuePool:
                 return value
             if sign * value in self._symbols_by_value:
                 return sign * self._symbols_by_value[sign * value]
-        symbol = self._symbols.add_symbol(name, self.array[self._store(build, value)])
+        symbol = self._symbols.add_symbol(name, self.array[self._append_value(builder, value)])
         self._symbols_by_value[value], self._index_by_value[symbol] = symbol, self._index_by_value[value]
         return symbol
 
-    def store_local(self, build: KernelBuilder, value: sp.Expr) -> sp.Expr:
+    def store_local(self, builder: KernelBuilder, value: sp.Expr) -> sp.Expr:
         """Store the local of which a value is ±, so that other functions read it under the same name; return the value.
 
         Nothing is stored if the value has no symbol or its symbol is registered already.
         """
         symbol = next(iter(value.free_symbols), None)
         if symbol is not None and symbol not in self._symbols.info:
-            self._symbols.info[symbol] = SymbolInfo(self.array[self._store(build, symbol)], "", "")
+            self._symbols.info[symbol] = SymbolInfo(self.array[self._append_value(builder, symbol)], "", "")
         return value
 
-    def find_index_and_sign(self, build: KernelBuilder, value: sp.Expr) -> tuple[int, int]:
+    def find_index_and_sign(self, builder: KernelBuilder, value: sp.Expr) -> tuple[int, int]:
         """Return (index, sign) of a value in the pool.
 
         A value that is not stored yet, such as a number or parameter, is stored first.
@@ -350,11 +352,11 @@ class ValuePool:
         for sign in (1, -1):
             if sign * value in self._index_by_value:
                 return self._index_by_value[sign * value], sign
-        return self._store(build, value), 1
+        return self._append_value(builder, value), 1
 
-    def _store(self, build: KernelBuilder, value: sp.Expr) -> int:
+    def _append_value(self, builder: KernelBuilder, value: sp.Expr) -> int:
         """Append a statement that stores a value at the next free index, and return that index."""
-        build.append_store(self.array[self.size], value)
+        builder.append_store(self.array[self.size], value)
         self._index_by_value[value] = self.size
         self.size += 1
         return self._index_by_value[value]

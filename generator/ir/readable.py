@@ -142,10 +142,10 @@ def _remove_copies(lines: Sequence[Line], arguments: Collection[str], names: dic
     return result
 
 
-def _merge_copy_to_parameter(first: Line, second: Line) -> Statement | None:
+def _merge_copy_to_parameter(assignment: Line, copy_line: Line) -> Statement | None:
     """Return `p.x = value` for the lines `y = value` and `p.x = y`, where p.x is a parameter; None for other lines."""
-    if not (isinstance(first, Statement) and isinstance(second, Statement) and first.declared_local):
+    if not (isinstance(assignment, Statement) and isinstance(copy_line, Statement) and assignment.declared_local):
         return None
-    is_copy = second.value == sp.Symbol(first.declared_local, real=True)
-    is_stored = is_copy and isinstance(second.target, Place) and second.target.is_parameter
-    return replace(first, target=second.target) if is_stored else None
+    is_copy = copy_line.value == sp.Symbol(assignment.declared_local, real=True)
+    is_stored = is_copy and isinstance(copy_line.target, Place) and copy_line.target.is_parameter
+    return replace(assignment, target=copy_line.target) if is_stored else None

@@ -39,12 +39,12 @@ def hoist_reciprocals(parameter_table: ParameterTable, value: sp.Expr) -> sp.Exp
         """Return whether a part is a division by parameters alone."""
         return is_division(part) and parameter_table.is_constant(part.base)
 
-    def derive_parameter(part: sp.Pow) -> sp.Expr:
+    def derive_reciprocal(part: sp.Pow) -> sp.Expr:
         """Return the division as a power of a derived parameter 1/x, which is added to the table."""
         name = base_name(part)
         return parameter_table.derive(f"inverse_{name}", 1 / part.base, f"1/{name}") ** -part.exp
 
-    return value.replace(is_constant_division, derive_parameter) if value.has(sp.Pow) else value
+    return value.replace(is_constant_division, derive_reciprocal) if value.has(sp.Pow) else value
 
 
 def share_reciprocals(kernel: Kernel) -> Kernel:

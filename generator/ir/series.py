@@ -29,8 +29,8 @@ from gudgeon.generator.ir.series_rules import (
     VALUES,
     WIDE,
     Factor,
-    Lowered,
     NoTaylorSeries,
+    OrderPair,
     Product,
     Rules,
     StoreRow,
@@ -48,14 +48,14 @@ from gudgeon.generator.ir.signatures import (
 from gudgeon.generator.ir.statements import Call, Guard, Jump, Line, Return, SolveDependentRows, Statement, Status
 from gudgeon.generator.symbols.storage import Place, PlaceSymbol, find_key
 
-Titled = tuple[str, Line]  # a line and its section's title
+TitledLine = tuple[str, Line]  # a line and its section's title
 
 
-def split_late_sums(lines: Iterable[Titled], unique: Callable[[str], str]) -> list[Titled]:
+def split_late_sums(lines: Iterable[TitledLine], make_unique_name: Callable[[str], str]) -> list[TitledLine]:
     """Return the lines, with titles, in which each sum is split so that terms known late are added last.
 
-    No line then waits longer than it must for its operands. Partial sums become locals `<local>_known`; `unique`
-    returns an unused name.
+    No line then waits longer than it must for its operands. Partial sums become locals `<local>_known`;
+    `make_unique_name` returns an unused name.
     """
     depth_by_local: dict[str, int] = {}
 
@@ -63,7 +63,7 @@ def split_late_sums(lines: Iterable[Titled], unique: Callable[[str], str]) -> li
         """Return the largest depth of the symbols of an expression: how many dependent statements precede its value."""
         return max((depth_by_local.get(s.name, 0) for s in expression.free_symbols), default=0)
 
-    ordered: list[Titled] = []
+    ordered: list[TitledLine] = []
     for title, line in lines:
         if isinstance(line, Statement) and isinstance(line.value, sp.Expr):
             value: sp.Expr = line.value
@@ -71,7 +71,7 @@ def split_late_sums(lines: Iterable[Titled], unique: Callable[[str], str]) -> li
             terms = parts[:1]
             for previous, term in itertools.pairwise(parts if line.declared_local else []):
                 if find_depth(term) > find_depth(previous) and len(terms) > 1:
-                    name = unique(f"{line.declared_local}_known")
+                    name = make_unique_name(f"{line.declared_local}_known")
                     ordered.append((title, Statement(name, sp.Add(*terms))))
                     depth_by_local[name] = find_depth(previous)
                     terms = [sp.Symbol(name, real=True)]
@@ -156,22 +156,22 @@ class Linear:
 def derive_taylor_series(kernel: Kernel, find_place: FindPlace, name: str, linear: Linear | None = None) -> Series:
     """Return the functions for the Taylor series of a kernel's results.
 
-    `expected(place)`: the place of a result in the new functions, or None if it is not requested. `linear`: a linear
+    `find_place(place)`: the place of a result in the new functions, or None if it is not requested. `linear`: a linear
     system that the kernel solves. Raise NoTaylorSeries for operations without a series.
     """
     lines = _find_needed_lines(kernel, find_place)
-    builder = _Series(lines, linear)
+    builder = _SeriesBuilder(lines, linear)
     for title, line in lines:
         builder.convert_line(title, line)
     return builder.make_series(name)
 
 
-def _find_needed_lines(kernel: Kernel, find_place: FindPlace) -> list[Titled]:
+def _find_needed_lines(kernel: Kernel, find_place: FindPlace) -> list[TitledLine]:
     """Return the titled lines on which requested results depend; other stored values become locals.
 
-    `expected(place)` is the place of a requested result or None. Lines that handle singular equations are dropped.
+    `find_place(place)` is the place of a requested result or None. Lines that handle singular equations are dropped.
     """
-    lines: list[Titled] = []
+    lines: list[TitledLine] = []
     symbol_of_place: dict[sp.Basic, sp.Basic] = {}
     for section in kernel.sections:
         for line in section.statements:
@@ -195,10 +195,10 @@ def _replace_places(line: Line, local: Mapping[sp.Basic, sp.Basic]) -> Line:
     return change_expression(line, lambda value: value.xreplace(local))
 
 
-class _Series(Rules):
+class _SeriesBuilder(Rules):
     """Builder of both functions, line by line: lines of order 0 and of order k."""
 
-    def __init__(self, lines: Sequence[Titled], linear: Linear | None) -> None:
+    def __init__(self, lines: Sequence[TitledLine], linear: Linear | None) -> None:
         """Begin with no converted lines.
 
         `lines`: all titled lines of the kernel, whose names are used and whose functions keep their names. `linear`:
@@ -206,8 +206,8 @@ class _Series(Rules):
         """
         statements = [line for _, line in lines if isinstance(line, Statement)]
         super().__init__({line.declared_local for line in statements})
-        self._values: list[Titled] = []
-        self._terms: list[Titled] = []
+        self._values: list[TitledLine] = []
+        self._terms: list[TitledLine] = []
         self._angle_differences = differences(statements)
         self._name_of_function = {
             line.value: line.declared_local for line in statements if isinstance(line.value, sp.Function)
@@ -223,7 +223,7 @@ class _Series(Rules):
         self._title = title
         match line:
             case Statement(value=Place() as place):
-                self._add_read(line, place)
+                self._add_input_line(line, place)
             case Statement(value=sp.Expr() as value):
                 self._add_assignment(line, value)
             case Guard(test=test) if not isinstance(test, Call):
@@ -233,7 +233,7 @@ class _Series(Rules):
             case _:
                 raise NoTaylorSeries(f"a {type(line).__name__.lower()} of the right-hand side is no expression")
 
-    def _add_read(self, line: Statement, place: Place) -> None:
+    def _add_input_line(self, line: Statement, place: Place) -> None:
         """Append a line that reads time, state or a parameter to both functions.
 
         The local is recorded as a parameter or as varying. Raise NoTaylorSeries for other places.
@@ -257,9 +257,9 @@ class _Series(Rules):
         elif self._linear and self._title == self._linear.title:
             self._values.append((self._title, line))
         elif line.declared_local not in self.varying:  # else the partner function has defined it already
-            self.define(line.declared_local, value)
+            self.define_local(line.declared_local, value)
 
-    def define(self, target: str, value: sp.Expr, as_series: bool = False) -> sp.Symbol:
+    def define_local(self, target: str, value: sp.Expr, as_series: bool = False) -> sp.Symbol:
         """Append a local to both functions, or to order 0 alone if it is constant, and return its symbol.
 
         `as_series`: also a constant gets a series. A right-hand side of the linear system gets the terms of lower
@@ -281,14 +281,11 @@ class _Series(Rules):
         self._terms.append((self._title, Statement(target, order_k)))
         pending, self.pending = self.pending, []
         for name, expression in pending:
-            self.define(name, expression)
+            self.define_local(name, expression)
         return symbol
 
     def _sum_lower_orders(self, linear: Linear, row: int) -> sp.Expr:
-        """Return A_1 x_{k-1} + ...
-
-        + A_k x_0 of equation `row` of the linear system, without constant entries of A.
-        """
+        """Return Σ A_j x_{k-j}, j = 1 … k, of equation `row` of the linear system, without constant entries of A."""
         terms = []
         for column, x in linear.unknowns.items():
             entry = linear.entries.get((row, column), linear.entries.get((column, row), ZERO))
@@ -299,7 +296,7 @@ class _Series(Rules):
                 terms.append(self.express_at_order_zero(entry / moving) * product)
         return sp.Add(*terms)
 
-    def _expand_difference(self, value: sp.Expr, symbol: sp.Symbol) -> Lowered | None:
+    def _expand_difference(self, value: sp.Expr, symbol: sp.Symbol) -> OrderPair | None:
         """Return orders 0 and k of the cosine or sine of a difference of angles, by its rate instead of four products.
 
         Return None if the local is not such a function.
@@ -316,7 +313,9 @@ class _Series(Rules):
         """
         if value in self.symbol_by_value:
             return self.symbol_by_value[value]
-        return self.define(self._name_of_function.get(value) or self.make_unique_name(type(value).__name__), value)
+        return self.define_local(
+            self._name_of_function.get(value) or self.make_unique_name(type(value).__name__), value
+        )
 
     def make_series(self, name: str) -> Series:
         """Return both functions without locals that nothing reads, the values that order k reads, and the sums S_k.
@@ -343,7 +342,7 @@ class _Series(Rules):
             for name_ in kept_values
         ]
         values = _prune_lines([*self._values, *storing_lines])
-        arguments_of_values, arguments_of_terms = _make_arguments()
+        arguments_of_values, arguments_of_terms = _make_kernel_arguments()
         values_kernel = Kernel(
             f"{name}_values", _DOC_VALUES, arguments_of_values, _group_sections([*values, ("", Return())]), status=True
         )
@@ -356,7 +355,7 @@ class _Series(Rules):
         )
 
 
-def _make_arguments() -> tuple[tuple[Argument, ...], tuple[Argument, ...]]:
+def _make_kernel_arguments() -> tuple[tuple[Argument, ...], tuple[Argument, ...]]:
     """Return the arguments of the function for order 0 and of that for order k."""
     rates = (make_output_argument("a"), make_output_argument("power"))
     factors = (make_output_argument(LEFT, "Wide"), make_output_argument(RIGHT, "Wide"))
@@ -366,7 +365,7 @@ def _make_arguments() -> tuple[tuple[Argument, ...], tuple[Argument, ...]]:
     return values, (*order, *STATE, PARAMETERS, *lower_orders, *rates, *factors)
 
 
-def _make_factor_stores(products: Sequence[Product]) -> list[Titled]:
+def _make_factor_stores(products: Sequence[Product]) -> list[TitledLine]:
     """Return the titled lines that store the factors of all sums S_k, in rows of WIDE elements, for higher orders."""
 
     def make_coefficient(factor: Factor) -> sp.Expr:
@@ -374,7 +373,7 @@ def _make_factor_stores(products: Sequence[Product]) -> list[Titled]:
         symbol = sp.Symbol(factor.name, real=True)
         return ORDER * symbol if factor.rate else symbol
 
-    title, lines = "factors of the sums of higher orders", list[Titled]()
+    title, lines = "factors of the sums of higher orders", list[TitledLine]()
     for row, start in enumerate(range(0, len(products), WIDE)):
         group = products[start : start + WIDE]
         lines.append((title, StoreRow(LEFT, row, tuple(make_coefficient(product.left) for product in group))))
@@ -382,13 +381,13 @@ def _make_factor_stores(products: Sequence[Product]) -> list[Titled]:
     return lines
 
 
-def _prune_lines(lines: list[Titled]) -> list[Titled]:
+def _prune_lines(lines: list[TitledLine]) -> list[TitledLine]:
     """Return the titled lines without locals that no later line reads."""
     kept_ids = {id(line) for line in remove_unread_lines([line for _, line in lines], set())}
     return [item for item in lines if id(item[1]) in kept_ids]
 
 
-def _group_sections(lines: Iterable[Titled]) -> tuple[Section, ...]:
+def _group_sections(lines: Iterable[TitledLine]) -> tuple[Section, ...]:
     """Return titled lines as sections; successive lines with the same title form one section."""
     sections: list[tuple[str, list[Line]]] = []
     for title, line in lines:

@@ -58,7 +58,7 @@ class StoreRow(Line):
         return self.values
 
 
-Lowered = tuple[sp.Expr, sp.Expr]  # a value at order 0 and at order k, both by names
+OrderPair = tuple[sp.Expr, sp.Expr]  # a value at order 0 and at order k, both by names
 
 
 class Rules(ABC):
@@ -78,7 +78,7 @@ class Rules(ABC):
         self._used_names = used_names
 
     @abstractmethod
-    def define(self, target: str, value: sp.Expr, as_series: bool = False) -> sp.Symbol:
+    def define_local(self, target: str, value: sp.Expr, as_series: bool = False) -> sp.Symbol:
         """Define a local and return its symbol; `as_series`: as a series even if it is constant."""
 
     @abstractmethod
@@ -104,7 +104,7 @@ class Rules(ABC):
         return (
             self.symbol_by_value[value]
             if value in self.symbol_by_value
-            else self.define(self.make_unique_name("part"), value)
+            else self.define_local(self.make_unique_name("part"), value)
         )
 
     def define_series(self, value: sp.Expr) -> sp.Symbol:
@@ -113,12 +113,12 @@ class Rules(ABC):
         A constant gets a new local, with zeros at higher orders.
         """
         return (
-            self.define(self.make_unique_name("still"), value, True)
+            self.define_local(self.make_unique_name("still"), value, True)
             if self.is_constant(value)
             else self.define_value(value)
         )
 
-    def expand_orders(self, value: sp.Expr, symbol_of_value: sp.Symbol | None = None) -> Lowered:
+    def expand_orders(self, value: sp.Expr, symbol_of_value: sp.Symbol | None = None) -> OrderPair:
         """Return a value at order 0 and at order k, both in names of locals.
 
         A constant is 0 at order k, and a symbol is itself at both. A sum is split into its terms; products, powers and
@@ -130,8 +130,10 @@ class Rules(ABC):
         if value.is_Symbol:
             return value, value
         if value.is_Add:
-            lowered = [self.expand_orders(x) for x in value.args]
-            return sp.Add(*(order_zero for order_zero, _ in lowered)), sp.Add(*(order_k for _, order_k in lowered))
+            order_pairs = [self.expand_orders(x) for x in value.args]
+            return sp.Add(*(order_zero for order_zero, _ in order_pairs)), sp.Add(
+                *(order_k for _, order_k in order_pairs)
+            )
         if value.is_Mul or (value.is_Pow and value.exp.is_Integer and value.exp >= 2):
             return self._expand_product(value, symbol_of_value)
         if symbol_of_value is None:
@@ -143,7 +145,7 @@ class Rules(ABC):
             else self._expand_function(value, symbol_of_value)
         )
 
-    def _expand_product(self, value: sp.Expr, symbol_of_value: sp.Symbol | None) -> Lowered:
+    def _expand_product(self, value: sp.Expr, symbol_of_value: sp.Symbol | None) -> OrderPair:
         """Return a product or quotient at orders 0 and k.
 
         It is a constant times a product of two locals, or a quotient of two. Further factors are combined in new locals
@@ -160,8 +162,8 @@ class Rules(ABC):
         )
         if denominators and numerators:
             numerator, denominator = (
-                self._combine_all(numerators),
-                self._combine_all(self._combine_factors([1 / factor for factor in denominators])),
+                self._combine_symbols(numerators),
+                self._combine_symbols(self._combine_factors([1 / factor for factor in denominators])),
             )
             if constant != 1 or symbol_of_value is None:
                 numerators = [self.define_value(numerator / denominator)]
@@ -169,7 +171,9 @@ class Rules(ABC):
                 return numerator / denominator, self.divide_series(numerator, denominator, symbol_of_value)
         elif denominators:
             numerators = [
-                self.define_value(1 / self._combine_all(self._combine_factors([1 / factor for factor in denominators])))
+                self.define_value(
+                    1 / self._combine_symbols(self._combine_factors([1 / factor for factor in denominators]))
+                )
             ]
         if len(numerators) == 1:
             order_zero, order_k = self.expand_orders(numerators[0])
@@ -200,11 +204,11 @@ class Rules(ABC):
             symbols = [self.define_value(symbols[0] * symbols[1]), *symbols[2:]]
         return symbols
 
-    def _combine_all(self, parts: list[sp.Symbol]) -> sp.Symbol:
+    def _combine_symbols(self, parts: list[sp.Symbol]) -> sp.Symbol:
         """Return one symbol for the product of some symbols, defined if there are several."""
         return self.define_value(sp.Mul(*parts))
 
-    def _expand_power(self, value: sp.Expr, symbol_of_value: sp.Symbol) -> Lowered:
+    def _expand_power(self, value: sp.Expr, symbol_of_value: sp.Symbol) -> OrderPair:
         """Return a power at orders 0 and k.
 
         c = a^n follows from a c' = n a' c, a square root from a = c c, and 1/a as a quotient. `symbol_of_value`: the
@@ -228,7 +232,7 @@ class Rules(ABC):
             n * a * make_order_zero_symbol(symbol_of_value) + (n * varying_base - varying_power) * SHARE
         ) * self.get_inverse(a)
 
-    def _expand_function(self, value: sp.Expr, symbol_of_value: sp.Symbol) -> Lowered:
+    def _expand_function(self, value: sp.Expr, symbol_of_value: sp.Symbol) -> OrderPair:
         """Return a function of series at orders 0 and k, by its derivative; atan2 has a rule of its own.
 
         `symbol_of_value`: the symbol of the value. Raise NoTaylorSeries if the derivative is not known.

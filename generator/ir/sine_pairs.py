@@ -23,7 +23,7 @@ _MakeLines = Callable[[Sequence[sp.Symbol], Sequence[Statement], int], tuple[lis
 
 def vectorize_sines(kernel: Kernel) -> Kernel:
     """Return the kernel with cosines and sines computed four angles at a time, as soon as their angles are known."""
-    return _group_functions(kernel, _make_vectors)
+    return _group_sines(kernel, _make_vectors)
 
 
 def call_sines_by_lane(kernel: Kernel) -> Kernel:
@@ -31,10 +31,10 @@ def call_sines_by_lane(kernel: Kernel) -> Kernel:
 
     The same functions as for single runs are used, so that the results have the same bits.
     """
-    return _group_functions(kernel, _make_lane_calls)
+    return _group_sines(kernel, _make_lane_calls)
 
 
-def _group_functions(kernel: Kernel, make_lines: _MakeLines) -> Kernel:
+def _group_sines(kernel: Kernel, make_lines: _MakeLines) -> Kernel:
     """Return the kernel with cosines and sines grouped section by section.
 
     A cosine or sine that an earlier section computes is not computed again (a common subexpression). `make_lines` makes
@@ -44,8 +44,8 @@ def _group_functions(kernel: Kernel, make_lines: _MakeLines) -> Kernel:
     sections: list[Section] = []
     n_groups = 0  # groups, or angles, so far
     for section in kernel.sections:
-        simplified = tuple(_reuse_known(statement, symbol_of_function) for statement in section.statements)
-        new_section, n_groups = _group_section(Section(section.title, simplified), make_lines, n_groups)
+        simplified = tuple(_reuse_known_sines(statement, symbol_of_function) for statement in section.statements)
+        new_section, n_groups = _group_sines_in_section(Section(section.title, simplified), make_lines, n_groups)
         sections.append(new_section)
         for statement in section.statements:
             if _find_angle(statement) is not None and isinstance(statement, Statement) and statement.declared_local:
@@ -55,7 +55,7 @@ def _group_functions(kernel: Kernel, make_lines: _MakeLines) -> Kernel:
     return replace(kernel, sections=tuple(sections))
 
 
-def _reuse_known(line: Line, known_symbols: Mapping[sp.Expr, sp.Symbol]) -> Line:
+def _reuse_known_sines(line: Line, known_symbols: Mapping[sp.Expr, sp.Symbol]) -> Line:
     """Return a line with common subexpressions replaced: cosines and sines that an earlier section computes.
 
     `known_symbols` gives the symbol of the local that holds each of them. Other lines are returned unchanged.
@@ -69,7 +69,7 @@ def _find_angle(statement: Line) -> sp.Symbol | None:
     return value.args[0] if isinstance(value, (sp.cos, sp.sin)) and value.args[0].is_Symbol else None
 
 
-def _group_section(section: Section, make_lines: _MakeLines, n_groups: int) -> tuple[Section, int]:
+def _group_sines_in_section(section: Section, make_lines: _MakeLines, n_groups: int) -> tuple[Section, int]:
     """Return the section with the grouped cosines and sines as early as possible, and the number of groups so far.
 
     The statements that the angles depend on come first, then the groups, then the rest. A section with lines that are

@@ -37,27 +37,27 @@ from gudgeon.generator.ir.statements import (
 from gudgeon.generator.symbols.storage import Place
 
 
-def order_near_readers(reads: Sequence[frozenset[str]], defines: Sequence[str]) -> list[int]:
+def order_near_readers(read_names: Sequence[frozenset[str]], defined_names: Sequence[str]) -> list[int]:
     """Return an order of statements in which each is near those that read it, as a list of indices.
 
-    Statement k reads the names `reads[k]` and defines `defines[k]` ("": a result or a test). Each follows the
-    statements that it reads.
+    Statement k reads the names `read_names[k]` and defines `defined_names[k]` ("": a result or a test). Each follows
+    the statements that it reads.
     """
-    index_by_name = {name: k for k, name in enumerate(defines) if name}
+    index_by_name = {name: k for k, name in enumerate(defined_names) if name}
     dependencies = [
-        {index_by_name[name] for name in names if name in index_by_name} - {k} for k, names in enumerate(reads)
+        {index_by_name[name] for name in names if name in index_by_name} - {k} for k, names in enumerate(read_names)
     ]
-    readers: list[list[int]] = [[] for _ in reads]
+    readers: list[list[int]] = [[] for _ in read_names]
     for k, needed in enumerate(dependencies):
         for operand in needed:
             readers[operand].append(k)
     order: list[int] = []
     n_missing = [len(needed) for needed in dependencies]
-    is_placed = [False] * len(reads)
+    is_placed = [False] * len(read_names)
 
-    def append_with_ready(start: int) -> None:
-        """Append statement `start` to the order, then all statements whose last missing operand it defines."""
-        ready_indices = [start]
+    def append_with_ready_readers(first_index: int) -> None:
+        """Append statement `first_index` to the order, then all statements whose last missing operand it defines."""
+        ready_indices = [first_index]
         while ready_indices:
             k = ready_indices.pop()
             if is_placed[k]:
@@ -81,7 +81,7 @@ def order_near_readers(reads: Sequence[frozenset[str]], defines: Sequence[str]) 
                 continue
             pending.pop()
             if not is_placed[k]:
-                append_with_ready(k)
+                append_with_ready_readers(k)
     return order
 
 
@@ -89,18 +89,18 @@ _MAX_LINES, _MAX_PART_LINES, _MIN_PART_LINES = 850, 250, 60
 
 
 @dataclass(frozen=True)
-class Item:
-    """A line with its section's title; `movable`: it may stand in a part."""
+class TitledLine:
+    """A line with its section's title and the names that it reads; `movable`: it may stand in a part."""
 
     title: str
-    what: Line
+    line: Line
     reads: frozenset[str]  # the array that is written to included
     movable: bool
 
     @property
     def defines(self) -> str:
         """Return the local that the line declares, or ""."""
-        return self.what.declared_local
+        return self.line.declared_local
 
 
 def split_kernel(kernel: Kernel) -> tuple[Kernel, ...]:
@@ -117,40 +117,42 @@ def split_kernel(kernel: Kernel) -> tuple[Kernel, ...]:
         return (kernel,)
     added_arguments = tuple(make_input_argument(name, kind) for name, kind in _find_sine_arrays(kernel).items())
     array_name = _find_unused_name("passed", items)
-    parameter_table = _number_passed_locals(pieces)
+    index_of_passed = _number_passed_locals(pieces)
     splitter = _Splitter(
-        replace(kernel, arguments=(*kernel.arguments, *added_arguments)), parameter_table, array_name, copies
+        replace(kernel, arguments=(*kernel.arguments, *added_arguments)), index_of_passed, array_name, copies
     )
     title = "values that pass between the parts"
-    main_items = [Item(title, Declare(Number.REAL, array_name, (max(len(parameter_table), 1),)), frozenset(), False)]
+    main_items = [
+        TitledLine(title, Declare(Number.REAL, array_name, (max(len(index_of_passed), 1),)), frozenset(), False)
+    ]
     parts: list[Kernel] = []
     stored_names: set[str] = set()
     for k, piece in enumerate(pieces):
         if not _is_part(piece):
             main_items += piece
             continue
-        passed_reads = {name_ for item in piece for name_ in item.reads if name_ in parameter_table}
+        passed_reads = {name_ for item in piece for name_ in item.reads if name_ in index_of_passed}
         defined = {item.defines for item in piece}
         available = {item.defines for item in main_items if item.defines}
         main_items += [
-            splitter.store(name)
-            for name in sorted((passed_reads - defined) & available - stored_names, key=parameter_table.__getitem__)
+            splitter.make_store_line(name)
+            for name in sorted((passed_reads - defined) & available - stored_names, key=index_of_passed.__getitem__)
         ]
         stored_names |= passed_reads & available
         name = f"{kernel.name}_part_{len(parts) + 1}"
         parts.append(splitter.make_part(name, piece))
-        later_reads = {
+        later_read_names = {
             name_ for later in pieces[k + 1 :] if not _is_part(later) for item in later for name_ in item.reads
         }
-        main_items += splitter.call(name, piece, later_reads)
-        stored_names |= defined & set(parameter_table)
-    return (*parts, replace(kernel, sections=_group_sections(_insert_sources(main_items, copies))))
+        main_items += splitter.make_call_lines(name, piece, later_read_names)
+        stored_names |= defined & set(index_of_passed)
+    return (*parts, replace(kernel, sections=_group_sections(_insert_argument_copies(main_items, copies))))
 
 
-def _list_lines(kernel: Kernel) -> tuple[list[Item], dict[str, Item]]:
-    """Return all lines of a kernel in order, except sources, and the sources by name.
+def _list_lines(kernel: Kernel) -> tuple[list[TitledLine], dict[str, TitledLine]]:
+    """Return all lines of a kernel in order, except copies of arguments, and these copies by name.
 
-    A source copies an argument to a local; each part reads the argument again where it needs it. A line after a jump,
+    A copy of an argument is a local; each part makes its own copy where it reads one. A line after a jump,
     or one that reads names known to unmovable lines only, is not movable.
     """
     titled_lines = [(section.title, line) for section in kernel.sections for line in section.statements]
@@ -162,12 +164,14 @@ def _list_lines(kernel: Kernel) -> tuple[list[Item], dict[str, Item]]:
     unmovable_names = {
         name for _, line in titled_lines if not _is_movable_line(line) for name in line.reads | line.writes
     } - known_names
-    items: list[Item] = []
-    copies: dict[str, Item] = {}
+    items: list[TitledLine] = []
+    copies: dict[str, TitledLine] = {}
     is_after_jump = False
     for title, line in titled_lines:
         reads = line.reads | line.writes
-        item = Item(title, line, reads, _is_movable_line(line) and not is_after_jump and not reads & unmovable_names)
+        item = TitledLine(
+            title, line, reads, _is_movable_line(line) and not is_after_jump and not reads & unmovable_names
+        )
         is_after_jump = is_after_jump or isinstance(line, Jump)
         if _find_copied_argument(line) in constant:
             copies[item.defines] = item
@@ -197,14 +201,14 @@ def _find_sine_arrays(kernel: Kernel) -> dict[str, str]:
     return {name: "Four" for line in lines if isinstance(line, Sines) and line.count for name in line.arrays}
 
 
-def _divide_lines(items: Sequence[Item]) -> list[list[Item]]:
+def _divide_lines(items: Sequence[TitledLine]) -> list[list[TitledLine]]:
     """Return the lines in pieces: runs of movable lines in equal pieces, other lines between them.
 
     A piece has at most _MAX_PART_LINES lines; a run shorter than _MIN_PART_LINES becomes unmovable.
     """
     pieces = []
     for movable, group in groupby(items, key=lambda item: item.movable):
-        lines = _order_nearby(list(group))
+        lines = _order_lines(list(group))
         if movable and len(lines) >= _MIN_PART_LINES:
             n_pieces = -(-len(lines) // _MAX_PART_LINES)
             size = -(-len(lines) // n_pieces)
@@ -214,12 +218,12 @@ def _divide_lines(items: Sequence[Item]) -> list[list[Item]]:
     return pieces
 
 
-def _is_part(piece: Sequence[Item]) -> bool:
+def _is_part(piece: Sequence[TitledLine]) -> bool:
     """Return whether a piece of lines becomes a function of its own: its lines are movable."""
     return piece[0].movable
 
 
-def _number_passed_locals(pieces: Sequence[Sequence[Item]]) -> dict[str, int]:
+def _number_passed_locals(pieces: Sequence[Sequence[TitledLine]]) -> dict[str, int]:
     """Return an array index for every local that one piece computes and another reads, in the order of computation.
 
     Pieces that stay in the calling function exchange nothing through the array.
@@ -237,7 +241,7 @@ def _number_passed_locals(pieces: Sequence[Sequence[Item]]) -> dict[str, int]:
     return {name: index for index, name in enumerate(name for name in piece_of_local if name in passed_names)}
 
 
-def _find_unused_name(name: str, items: Sequence[Item]) -> str:
+def _find_unused_name(name: str, items: Sequence[TitledLine]) -> str:
     """Return the name with underscores appended until no line of `items` reads or defines it."""
     used_names = {read_name for item in items for read_name in (*item.reads, item.defines)}
     while name in used_names:
@@ -245,31 +249,31 @@ def _find_unused_name(name: str, items: Sequence[Item]) -> str:
     return name
 
 
-def _order_nearby(items: list[Item]) -> list[Item]:
+def _order_lines(items: list[TitledLine]) -> list[TitledLine]:
     """Return the lines in the order of `order_near_readers`, or unchanged if one reads an array that another writes."""
-    written_arrays = frozenset().union(*(item.what.writes for item in items))
-    if any(written_arrays & item.what.reads for item in items):
+    written_arrays = frozenset().union(*(item.line.writes for item in items))
+    if any(written_arrays & item.line.reads for item in items):
         return items
     return [items[k] for k in order_near_readers([item.reads for item in items], [item.defines for item in items])]
 
 
-def _make_load(name: str, place: Place) -> Item:
+def _make_load(name: str, place: Place) -> TitledLine:
     """Return the line that reads a local from its element of the array of passed values."""
-    return Item("values from the part", Statement(name, place), place.names, False)
+    return TitledLine("values from the part", Statement(name, place), place.names, False)
 
 
-def _insert_sources(items: Sequence[Item], copies: dict[str, Item]) -> list[Item]:
-    """Return the lines of the calling function with the sources that it reads inserted.
+def _insert_argument_copies(items: Sequence[TitledLine], copies: dict[str, TitledLine]) -> list[TitledLine]:
+    """Return the lines of the calling function with the copies of arguments that it reads inserted.
 
-    Arguments are read first of all, arrays after the line that fills them, because the reading line may be in a block
+    Arguments are copied first of all, arrays after the line that fills them, because the reading line may be in a block
     or after a label.
     """
     needed_copies = [item for name, item in copies.items() if any(name in item_.reads for item_ in items)]
-    filled_arrays = {name for item in items for name in _find_filled_arrays(item.what)}
+    filled_arrays = {name for item in items for name in _find_filled_arrays(item.line)}
     result = [item for item in needed_copies if not item.reads & filled_arrays]
     for item in items:
         result.append(item)
-        result += [copy_ for copy_ in needed_copies if copy_.reads & _find_filled_arrays(item.what)]
+        result += [copy_ for copy_ in needed_copies if copy_.reads & _find_filled_arrays(item.line)]
     return result
 
 
@@ -280,65 +284,67 @@ def _find_filled_arrays(line: Line) -> set[str]:
 
 @dataclass(frozen=True)
 class _Splitter:
-    """A kernel with the arguments of its parts, the places of passed values, and the sources."""
+    """A kernel with the arguments of its parts, the array of passed values, and the copies of arguments."""
 
     kernel: Kernel
-    slots: dict[str, int]
-    passed: str
-    sources: dict[str, Item]
+    index_of_passed: dict[str, int]
+    array_name: str
+    argument_copies: dict[str, TitledLine]
 
-    def store(self, name: str) -> Item:
+    def make_store_line(self, name: str) -> TitledLine:
         """Return the line that stores a local in the array of passed values."""
-        statement = Statement(Place(self.passed)[self.slots[name]], Place(name))
-        return Item("values for later parts", statement, frozenset({name}), False)
+        statement = Statement(Place(self.array_name)[self.index_of_passed[name]], Place(name))
+        return TitledLine("values for later parts", statement, frozenset({name}), False)
 
-    def load(self, name: str) -> Item:
+    def make_load_line(self, name: str) -> TitledLine:
         """Return the line that reads a local of an earlier part from the array of passed values."""
-        return _make_load(name, Place(self.passed)[self.slots[name]])
+        return _make_load(name, Place(self.array_name)[self.index_of_passed[name]])
 
-    def make_part(self, name: str, piece: list[Item]) -> Kernel:
+    def make_part(self, name: str, piece: list[TitledLine]) -> Kernel:
         """Return one part as a function.
 
         It reads values of other parts, executes its lines, and stores values for other parts. It returns a status if it
         tests a pivot.
         """
         defined = {item.defines for item in piece}
-        has_test = any(isinstance(item.what, Guard) for item in piece)
-        lines: list[Item] = []
+        has_test = any(isinstance(item.line, Guard) for item in piece)
+        lines: list[TitledLine] = []
         known_names = set(defined)
         for item in piece:
             for name_ in sorted(item.reads - known_names):
-                if name_ in self.sources or name_ in self.slots:
-                    reading_line = self.sources[name_] if name_ in self.sources else self.load(name_)
+                if name_ in self.argument_copies or name_ in self.index_of_passed:
+                    reading_line = (
+                        self.argument_copies[name_] if name_ in self.argument_copies else self.make_load_line(name_)
+                    )
                     lines.append(replace(reading_line, title=item.title))
                     known_names.add(name_)
-            lines.append(replace(item, what=replace(item.what, jumps=False)) if isinstance(item.what, Guard) else item)
-            if item.defines in self.slots:
-                lines.append(replace(self.store(item.defines), title=item.title))
-        end_lines = [Item("", Return(), frozenset(), False)] if has_test else []
+            lines.append(replace(item, line=replace(item.line, jumps=False)) if isinstance(item.line, Guard) else item)
+            if item.defines in self.index_of_passed:
+                lines.append(replace(self.make_store_line(item.defines), title=item.title))
+        end_lines = [TitledLine("", Return(), frozenset(), False)] if has_test else []
         return Kernel(
             name,
             (f"A part of `{self.kernel.name}`, which calls it.",),
-            (*self.kernel.arguments, make_output_argument(self.passed)),
+            (*self.kernel.arguments, make_output_argument(self.array_name)),
             _group_sections([*lines, *end_lines]),
             has_test,
             attribute="noinline",
             names=self.kernel.names,
         )
 
-    def call(self, name: str, piece: list[Item], later_reads: set[str]) -> list[Item]:
+    def make_call_lines(self, name: str, piece: list[TitledLine], later_read_names: set[str]) -> list[TitledLine]:
         """Return the lines of the calling function that call part `name` and read its values.
 
-        `later_reads`: the names that later lines of the calling function read. If the part tests pivots, its status
+        `later_read_names`: names that later lines of the calling function read. If the part tests pivots, its status
         ends the function or jumps.
         """
         arguments = tuple(Place(argument.name) for argument in self.kernel.arguments)
-        call = Call(name, arguments, (Place(self.passed),))
-        tests = [item.what for item in piece if isinstance(item.what, Guard)]
+        call = Call(name, arguments, (Place(self.array_name),))
+        tests = [item.line for item in piece if isinstance(item.line, Guard)]
         loads = [
-            self.load(local)
-            for local in self.slots
-            if local in later_reads and local in {item.defines for item in piece}
+            self.make_load_line(local)
+            for local in self.index_of_passed
+            if local in later_read_names and local in {item.defines for item in piece}
         ]
         lines: list[Line] = [call]
         status_lines: list[Line] = []
@@ -348,13 +354,13 @@ class _Splitter:
             lines, status_lines = [AssignStatus(call, status)], [ReturnIfFailed(status, jumps)]
         title = piece[0].title
         return [
-            *(Item(title, line, frozenset(), False) for line in lines),
+            *(TitledLine(title, line, frozenset(), False) for line in lines),
             *loads,
-            *(Item("values from the part", line, frozenset(), False) for line in status_lines),
+            *(TitledLine("values from the part", line, frozenset(), False) for line in status_lines),
         ]
 
 
-def _group_sections(items: Sequence[Item]) -> tuple[Section, ...]:
+def _group_sections(items: Sequence[TitledLine]) -> tuple[Section, ...]:
     """Return the lines as sections; successive lines with the same title form one section."""
-    grouped = ((title, tuple(item.what for item in group)) for title, group in groupby(items, key=lambda i: i.title))
+    grouped = ((title, tuple(item.line for item in group)) for title, group in groupby(items, key=lambda i: i.title))
     return tuple(Section(title, statements) for title, statements in grouped)

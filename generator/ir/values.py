@@ -45,7 +45,10 @@ class Threshold(float):
 
 @dataclass(frozen=True)
 class Test:
-    """A comparison `value relation bound`, the bound a product, or a flag alone; `size`: of the value's magnitude."""
+    """A comparison `value relation bound`, the bound a product, or a flag alone.
+
+    `compares_magnitude`: the magnitude of the value is compared.
+    """
 
     value: sp.Basic
     relation: str = ""  # ">", "!=", "=="; of ">" NaN fails

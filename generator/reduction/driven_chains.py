@@ -37,7 +37,7 @@ class Direction:
 
     cos: sp.Symbol
     sin: sp.Symbol
-    turns: Mapping[int, sp.Expr]  # by number of the chains' coordinate
+    turns: Mapping[int, sp.Expr]  # by number of the dependent coordinate
 
 
 @dataclass(frozen=True)
@@ -50,26 +50,26 @@ class Chain:
     directions: tuple[Direction, ...] = ()  # once for all kernels
 
 
-def add_directions(chain: Chain, system: System, frames: Iterable[Frame], prescribed: set[str]) -> Chain:
-    """Return the chain with the directions in its closures: C stores their cosines and sines after q.
+def add_directions(driven_loops: Chain, system: System, frames: Iterable[Frame], prescribed_names: set[str]) -> Chain:
+    """Return the driven loops with the directions in their closures: C stores their cosines and sines after q.
 
     Directions that turn only with dependent and prescribed coordinates count, if the closures read them. The places of
-    their symbols are changed. `prescribed`: names of the coordinates that drives prescribe.
+    their symbols are changed. `prescribed_names`: names of the coordinates that drives prescribe.
     """
     symbols = system.model.symbols
     read_symbols = _find_read_symbols(
-        symbols, [x for row in chain.rows for x in (row.phi, row.phi_q_v, row.nu, row.gamma)]
+        symbols, [x for row in driven_loops.rows for x in (row.phi, row.phi_q_v, row.nu, row.gamma)]
     )
-    index_of = {name: k for k, name in enumerate(chain.names)}
+    index_of = {name: k for k, name in enumerate(driven_loops.names)}
     directions: list[Direction] = []
     for frame in frames:
-        if frame.turns and set(frame.turns) <= {*index_of, *prescribed} and {frame.cos, frame.sin} & read_symbols:
-            first_index = len(system.q) + len(chain.names) + 2 * len(directions)
+        if frame.turns and set(frame.turns) <= {*index_of, *prescribed_names} and {frame.cos, frame.sin} & read_symbols:
+            first_index = len(system.q) + len(driven_loops.names) + 2 * len(directions)
             for k, symbol in enumerate((frame.cos, frame.sin)):
                 symbols.info[symbol] = replace(symbols.info[symbol], home=Place("q")[first_index + k])
             turns = {index_of[name]: c for name, c in frame.turns.items() if name in index_of}
             directions.append(Direction(frame.cos, frame.sin, turns))
-    return replace(chain, directions=tuple(directions))
+    return replace(driven_loops, directions=tuple(directions))
 
 
 def _find_read_symbols(symbols: Symbols, expressions: Iterable[sp.Expr]) -> set[sp.Symbol]:
@@ -84,8 +84,8 @@ def _find_read_symbols(symbols: Symbols, expressions: Iterable[sp.Expr]) -> set[
     return result
 
 
-def find_blocks(pattern: Sequence[set[int]], n: int, banned: set[int]) -> list[Block]:
-    """Return the square blocks in solving order, without banned coordinates and with at most MAX_BLOCK_ROWS equations.
+def find_blocks(pattern: Sequence[set[int]], n: int, excluded_coordinates: set[int]) -> list[Block]:
+    """Return the square blocks without excluded coordinates in solving order, of at most MAX_BLOCK_ROWS equations each.
 
     `pattern`: coordinates by equation, for usable equations; `n`: number of coordinates. A coordinate is free if it has
     no equation of its own, or if a free one reaches it. Coordinates of an equation without a coordinate of its own are
@@ -117,7 +117,7 @@ def find_blocks(pattern: Sequence[set[int]], n: int, banned: set[int]) -> list[B
         if (
             len(block_columns) <= MAX_BLOCK_ROWS
             and read_columns <= determined_columns | block_columns
-            and not block_columns & (banned | ambiguous)
+            and not block_columns & (excluded_coordinates | ambiguous)
         ):
             determined_columns |= block_columns
             result.append(
@@ -126,19 +126,19 @@ def find_blocks(pattern: Sequence[set[int]], n: int, banned: set[int]) -> list[B
     return result
 
 
-def find_dependent_coordinates(system: System, excluded: set[str]) -> tuple[list[int], list[int]]:
+def find_dependent_coordinates(system: System, excluded_names: set[str]) -> tuple[list[int], list[int]]:
     """Return the dependent coordinates and their equations by number.
 
-    Equations named in `excluded` determine nothing. Friction that may stick needs a free coordinate. If the drives
+    Equations in `excluded_names` determine nothing. Friction that may stick needs a free coordinate. If the drives
     alone determined its slip, its force would be part of the closures' multipliers, so such a loop is not reduced.
     """
     index_of = {q: k for k, q in enumerate(system.q)}
-    usable = [r for r, row in enumerate(system.rows) if row.name not in excluded]
+    usable = [r for r, row in enumerate(system.rows) if row.name not in excluded_names]
     pattern = [{index_of[q] for q in system.rows[r].phi_q} for r in usable]
     slips = [{index_of[q] for q in friction.jacobian} for friction in system.frictions]
-    banned: set[int] = set()
+    excluded_coordinates: set[int] = set()
     while True:
-        blocks = find_blocks(pattern, len(index_of), banned)
+        blocks = find_blocks(pattern, len(index_of), excluded_coordinates)
         dependent = {c for block in blocks for c in block.columns}
         fixed_slip = {
             c
@@ -148,7 +148,7 @@ def find_dependent_coordinates(system: System, excluded: set[str]) -> tuple[list
         }
         if not fixed_slip:
             return [c for block in blocks for c in block.columns], [usable[r] for block in blocks for r in block.rows]
-        banned |= fixed_slip
+        excluded_coordinates |= fixed_slip
 
 
 S = TypeVar("S", bound=System)
@@ -157,7 +157,7 @@ S = TypeVar("S", bound=System)
 def prescribe_coordinates(
     system: S, names: Sequence[str], columns: Sequence[int], rows: Sequence[int]
 ) -> tuple[S, Chain]:
-    """Return the system with these coordinates as functions of t and without these equations, and the chain.
+    """Return the system with these coordinates as functions of t and without these equations, and the driven loops.
 
     `names` are those of all coordinates; `columns` and `rows`: numbers of the dependent coordinates and of their
     equations. In C the free coordinates come first in q, then the dependent ones; in v their rates, then second and
@@ -179,7 +179,9 @@ def prescribe_coordinates(
             system.applied[k], *(-find_mass_entry(k, c) * x.second for c, x in zip(columns, dependent, strict=True))
         )
 
-    prescribed = tuple(_reduce_given(coordinate, free_index, columns, dependent) for coordinate in system.prescribed)
+    prescribed = tuple(
+        _reduce_prescribed_coordinate(coordinate, free_index, columns, dependent) for coordinate in system.prescribed
+    )
     prescribed += tuple(
         PrescribedCoordinate(
             names[c],
@@ -216,55 +218,57 @@ def prescribe_coordinates(
 
 
 def _set_places(
-    system: System, names: Sequence[str], free: Sequence[int], columns: Sequence[int]
+    system: System, names: Sequence[str], free_indices: Sequence[int], dependent_indices: Sequence[int]
 ) -> tuple[DependentCoordinate, ...]:
     """Set the places of coordinates and rates in C; return the dependent coordinates with their rates.
 
-    Symbols of second and third rates are new. `free`: numbers of the free coordinates; `columns`: those of the
-    dependent ones.
+    Symbols of second and third rates are new. `free_indices`, `dependent_indices`: numbers of the free and of the
+    dependent coordinates.
     """
     symbols = system.model.symbols
     info = symbols.info
 
-    def move(symbol: sp.Symbol, home: Place) -> None:
+    def set_place(symbol: sp.Symbol, place: Place) -> None:
         """Set the place at which C reads a symbol."""
-        info[symbol] = replace(info[symbol], home=home)
+        info[symbol] = replace(info[symbol], home=place)
 
-    for i, k in enumerate((*free, *columns)):
-        move(system.q[k], Place("q")[i])
-        move(system.v[k], Place("v")[i])
+    for i, k in enumerate((*free_indices, *dependent_indices)):
+        set_place(system.q[k], Place("q")[i])
+        set_place(system.v[k], Place("v")[i])
     dependent = []
-    for i, c in enumerate(columns, len(system.q)):
+    for i, c in enumerate(dependent_indices, len(system.q)):
         name = system.q[c].name
         second = symbols.add_symbol(f"{name}_second", Place("v")[i], names[c])
-        third = symbols.add_symbol(f"{name}_third", Place("v")[i + len(columns)], names[c])
+        third = symbols.add_symbol(f"{name}_third", Place("v")[i + len(dependent_indices)], names[c])
         dependent.append(DependentCoordinate(system.q[c], system.v[c], second, third))
     return tuple(dependent)
 
 
-def _reduce_given(
+def _reduce_prescribed_coordinate(
     prescribed: PrescribedCoordinate,
     new_index: Mapping[int, int],
-    columns: Sequence[int],
-    dependent: Sequence[DependentCoordinate],
+    dependent_indices: Sequence[int],
+    dependent_coordinates: Sequence[DependentCoordinate],
 ) -> PrescribedCoordinate:
     """Return a prescribed coordinate with the dependent accelerations in its applied force.
 
-    `new_index`: new number of each free coordinate; `columns`: old numbers of the dependent ones.
+    `new_index`: new number of each free coordinate; `dependent_indices`: old numbers of the dependent ones.
     """
     dependent_forces = (
-        -prescribed.mass[c] * x.second for c, x in zip(columns, dependent, strict=True) if c in prescribed.mass
+        -prescribed.mass[c] * x.second
+        for c, x in zip(dependent_indices, dependent_coordinates, strict=True)
+        if c in prescribed.mass
     )
     free_mass = {new_index[k]: m for k, m in prescribed.mass.items() if k in new_index}
     return replace(prescribed, mass=free_mass, applied=sp.Add(prescribed.applied, *dependent_forces))
 
 
 def _reduce_row(
-    row: Row, rates: Mapping[sp.Symbol, sp.Symbol], second: Mapping[sp.Symbol, sp.Symbol], system: System
+    row: Row, rates: Mapping[sp.Symbol, sp.Symbol], second_rates: Mapping[sp.Symbol, sp.Symbol], system: System
 ) -> Row:
     """Return a constraint equation with Φ_s ṡ = ν − Φ_c ċ and Φ_s s̈ = γ − Φ_c c̈.
 
-    `rates`, `second`: rates of the dependent coordinates.
+    `rates`, `second_rates`: first and second rates of the dependent coordinates, by coordinate.
     """
     rate_of = dict(zip(system.q, system.v, strict=True))
     free_entries = {q: entry for q, entry in row.phi_q.items() if q not in rates}
@@ -274,28 +278,31 @@ def _reduce_row(
         phi_q=free_entries,
         phi_q_v=sp.Add(*(entry * rate_of[q] for q, entry in free_entries.items())),
         nu=sp.Add(row.nu, *(-entry * rates[q] for q, entry in dependent_entries.items())),
-        gamma=sp.Add(row.gamma, *(-entry * second[q] for q, entry in dependent_entries.items())),
+        gamma=sp.Add(row.gamma, *(-entry * second_rates[q] for q, entry in dependent_entries.items())),
     )
 
 
-def _reduce_friction(friction: Friction, second: Mapping[sp.Symbol, sp.Symbol]) -> Friction:
+def _reduce_friction(friction: Friction, second_rates: Mapping[sp.Symbol, sp.Symbol]) -> Friction:
     """Return a friction element with J s̈ = γ − J_c c̈; the slip itself contains the dependent rates."""
-    dependent_terms = (-entry * second[q] for q, entry in friction.jacobian.items() if q in second)
-    free_entries = {q: entry for q, entry in friction.jacobian.items() if q not in second}
+    dependent_terms = (-entry * second_rates[q] for q, entry in friction.jacobian.items() if q in second_rates)
+    free_entries = {q: entry for q, entry in friction.jacobian.items() if q not in second_rates}
     return replace(friction, jacobian=free_entries, gamma=sp.Add(friction.gamma, *dependent_terms))
 
 
 def _reduce_motion(
-    motion: Motion, new_index: Mapping[int, int], columns: Sequence[int], dependent: Sequence[DependentCoordinate]
+    motion: Motion,
+    new_index: Mapping[int, int],
+    dependent_indices: Sequence[int],
+    dependent_coordinates: Sequence[DependentCoordinate],
 ) -> Motion:
     """Return the motion of a body with J of the free coordinates; dependent accelerations are in the bias.
 
     `new_index`: new number of each free coordinate.
     """
-    second = {c: x.second for c, x in zip(columns, dependent, strict=True)}
+    second_rates = {c: x.second for c, x in zip(dependent_indices, dependent_coordinates, strict=True)}
     bias = tuple(
-        sp.Add(own_bias, *(entry * second[k] for k, entry in row_entries.items() if k in second))
-        for row_entries, own_bias in zip(motion.jacobian, motion.bias, strict=True)
+        sp.Add(bias_entry, *(entry * second_rates[k] for k, entry in row_entries.items() if k in second_rates))
+        for row_entries, bias_entry in zip(motion.jacobian, motion.bias, strict=True)
     )
     return Motion(
         tuple({new_index[k]: e for k, e in row_entries.items() if k in new_index} for row_entries in motion.jacobian),

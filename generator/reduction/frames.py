@@ -82,7 +82,7 @@ class Motions:
         """Return the rate of an affine expression."""
         return sp.Add(*(c * self.coordinates[k].v for k, c in affine.items() if k != CONSTANT))
 
-    def find_rules(self, columns: Mapping[str, sp.Expr]) -> dict[sp.Symbol, sp.Expr]:
+    def find_derivative_rules(self, columns: Mapping[str, sp.Expr]) -> dict[sp.Symbol, sp.Expr]:
         """Return the derivatives of a quantity by unknown coordinates and by t, from its columns ∂/∂z by coordinate.
 
         The derivative by t is through the prescribed coordinates; it is absent if it is 0.
@@ -97,7 +97,7 @@ class Motions:
                 time_derivative += column * coordinate.v
         return rules | ({self.t: time_derivative} if time_derivative != 0 else {})
 
-    def find_rate_rules(self, columns: Mapping[str, sp.Expr]) -> dict[sp.Symbol, sp.Expr]:
+    def find_rate_derivative_rules(self, columns: Mapping[str, sp.Expr]) -> dict[sp.Symbol, sp.Expr]:
         """Return the derivatives of a rate Σ column · ż by unknown coordinates, their rates and t.
 
         `columns`: ∂/∂z of the quantity, which depend on the motion themselves.
@@ -113,7 +113,7 @@ class Motions:
     def define_value(self, base_name: str, value: sp.Expr, columns: Mapping[str, sp.Expr]) -> sp.Symbol:
         """Return a new symbol for `value`, with derivatives by its columns; `base_name`: base of its name."""
         symbol = self.symbols.add_definition(base_name, value)
-        self.symbols.rules[symbol] = self.find_rules(columns)
+        self.symbols.rules[symbol] = self.find_derivative_rules(columns)
         return symbol
 
     def define_rate(self, base_name: str, value: sp.Expr, columns: Mapping[str, sp.Expr]) -> sp.Symbol:
@@ -122,7 +122,7 @@ class Motions:
         `base_name`: base of its name.
         """
         symbol = self.symbols.add_definition(base_name, value)
-        self.symbols.rules[symbol] = self.find_rate_rules(columns)
+        self.symbols.rules[symbol] = self.find_rate_derivative_rules(columns)
         return symbol
 
     def make_frame(self, name: str, affine: Affine) -> Frame:
@@ -139,8 +139,8 @@ class Motions:
         cos = self.symbols.add_definition(f"cos_theta_{name}", sp.cos(theta), None, f"cos of {name}.theta")
         sin = self.symbols.add_definition(f"sin_theta_{name}", sp.sin(theta), None, f"sin of {name}.theta")
         frame = Frame(name, theta, omega, cos, sin, turns)
-        self.symbols.rules[cos] = self.find_rules({k: -c * sin for k, c in turns.items()})
-        self.symbols.rules[sin] = self.find_rules({k: c * cos for k, c in turns.items()})
+        self.symbols.rules[cos] = self.find_derivative_rules({k: -c * sin for k, c in turns.items()})
+        self.symbols.rules[sin] = self.find_derivative_rules({k: c * cos for k, c in turns.items()})
         return frame
 
     def rotate_vector(self, frame: Frame, w: Pair, base_name: str) -> Pair:
@@ -160,8 +160,8 @@ class Motions:
         if (frame.name, x, y) not in self._arms:
             a_x = self.symbols.add_definition(f"{base_name}_x", frame.cos * x - frame.sin * y, None, "A(theta) s, x")
             a_y = self.symbols.add_definition(f"{base_name}_y", frame.sin * x + frame.cos * y, None, "A(theta) s, y")
-            self.symbols.rules[a_x] = self.find_rules({k: -c * a_y for k, c in frame.turns.items()})
-            self.symbols.rules[a_y] = self.find_rules({k: c * a_x for k, c in frame.turns.items()})
+            self.symbols.rules[a_x] = self.find_derivative_rules({k: -c * a_y for k, c in frame.turns.items()})
+            self.symbols.rules[a_y] = self.find_derivative_rules({k: c * a_x for k, c in frame.turns.items()})
             self._arms[frame.name, x, y] = a_x, a_y
         return self._arms[frame.name, x, y]
 

@@ -29,21 +29,21 @@ GROUND_FRAME = Frame(GROUND, ZERO, ZERO, ONE, ZERO, {})
 
 @dataclass(frozen=True)
 class TreePoint(PointFrame):
-    """A point with its terms, relative to the body that carries it; `place` is (x, y), `speed` (ẋ, ẏ)."""
+    """A point with its terms, relative to the body that carries it; `position_xy` is (x, y), `speed` is (ẋ, ẏ)."""
 
     terms: Terms
-    place: Pair
+    position_xy: Pair
     speed: Pair
 
     @property
     def x(self) -> sp.Expr:
         """Return the x coordinate in the ground frame."""
-        return self.place[0]
+        return self.position_xy[0]
 
     @property
     def y(self) -> sp.Expr:
         """Return the y coordinate in the ground frame."""
-        return self.place[1]
+        return self.position_xy[1]
 
     @property
     def velocity(self) -> Pair:
@@ -54,7 +54,7 @@ class TreePoint(PointFrame):
     def columns(self) -> Mapping[str, Pair]:
         """Return ∂(x, y)/∂z by coordinate, computed once."""
         geometry: TreeGeometry = self.geometry  # type: ignore[assignment]
-        return geometry.columns(self.terms)
+        return geometry.compute_jacobian_columns(self.terms)
 
     @property
     def turns(self) -> Mapping[str, sp.Expr]:
@@ -70,14 +70,14 @@ class TreePoint(PointFrame):
         geometry: TreeGeometry = self.geometry  # type: ignore[assignment]
         rate = geometry.motions.coordinates
         speed = [sp.Add(*(c[i] * rate[k].v for k, c in self.columns.items())) for i in range(2)]
-        return replace(self, place=geometry.position(self.terms), speed=(speed[0], speed[1]))
+        return replace(self, position_xy=geometry.compute_position(self.terms), speed=(speed[0], speed[1]))
 
 
 class TreeGeometry(Geometry):
     """Makes the symbols of bodies and points from a tree, for functions that also take a `Geometry`."""
 
     def __init__(self, model: Model, tree: Tree, symbols: Symbols, parameter_table: ParameterTable) -> None:
-        """Begin with the frame of the ground; `place` adds the coordinates and bodies.
+        """Begin with the frame of the ground; `place_bodies` adds the coordinates and bodies.
 
         `tree`: the spanning tree; `symbols`, `parameter_table`: tables for new symbols and derived parameters.
         """
@@ -175,7 +175,7 @@ class TreeGeometry(Geometry):
 
     def _make_sliding_base(self, base: TreePoint, body: str, slide: str, w: Pair) -> TreePoint:
         """Return the base point moved by a slide along an axis w, which is fixed in a body's frame."""
-        frame, value, rate = self.frame_of[body], self.value(slide), self.rate(slide)
+        frame, value, rate = self.frame_of[body], self.get_slide_value(slide), self.get_slide_rate(slide)
         u_x, u_y = self.motions.rotate_vector(frame, w, f"axis_{slide}")
         terms = self._add_terms(base.terms, {(frame.name, slide): w}, slide)
         position = base.x + value * u_x, base.y + value * u_y
@@ -185,39 +185,39 @@ class TreeGeometry(Geometry):
         )
         return TreePoint(self, None, (ZERO, ZERO), terms, position, speed)
 
-    def value(self, slide: str) -> sp.Expr:
+    def get_slide_value(self, slide: str) -> sp.Expr:
         """Return the value of a slide; 1 for a term without one."""
         return self.motions.compute_value(self.slides[slide]) if slide else ONE
 
-    def rate(self, slide: str) -> sp.Expr:
+    def get_slide_rate(self, slide: str) -> sp.Expr:
         """Return the rate of a slide; 0 for a term without one."""
         return self.motions.compute_rate(self.slides[slide]) if slide else ZERO
 
-    def _add_terms(self, terms: Terms, added: Terms, base_name: str) -> Terms:
+    def _add_terms(self, terms: Terms, added_terms: Terms, base_name: str) -> Terms:
         """Return the sum of terms; those with the same frame and slide are added.
 
         `base_name`: base of the names of derived parameters.
         """
         result = dict(terms)
-        for key, w in added.items():
+        for key, w in added_terms.items():
             if key in result:
                 w = self.motions.derive_vector(f"{base_name}_and", (result[key][0] + w[0], result[key][1] + w[1]))
             result[key] = w
         return {key: w for key, w in result.items() if w != (ZERO, ZERO)}
 
-    def position(self, terms: Terms) -> Pair:
+    def compute_position(self, terms: Terms) -> Pair:
         """Return the position (x, y) = Σ value A(θ) w of terms."""
         x, y = ZERO, ZERO
         for (frame, slide), w in terms.items():
             a_x, a_y = self.motions.rotate_vector(self.frames[frame], w, f"arm_{frame}")
-            x, y = x + self.value(slide) * a_x, y + self.value(slide) * a_y
+            x, y = x + self.get_slide_value(slide) * a_x, y + self.get_slide_value(slide) * a_y
         return x, y
 
-    def columns(self, terms: Terms) -> dict[str, Pair]:
+    def compute_jacobian_columns(self, terms: Terms) -> dict[str, Pair]:
         """Return ∂r/∂z of a sum of terms, as pairs (x, y) by coordinate, prescribed ones included."""
         result: dict[str, Pair] = {}
         for (name, slide), w in terms.items():
-            frame, value = self.frames[name], self.value(slide)
+            frame, value = self.frames[name], self.get_slide_value(slide)
             a_x, a_y = self.motions.rotate_vector(frame, w, f"arm_{name}")
             along = self.find_slide_rates(slide)
             for k in dict.fromkeys((*frame.turns, *along)):
@@ -232,7 +232,10 @@ class TreeGeometry(Geometry):
         for (name, slide), w in terms.items():
             frame = self.frames[name]
             a_x, a_y = self.motions.rotate_vector(frame, w, f"arm_{name}")
-            radial, tangential = -(frame.omega**2) * self.value(slide), 2 * frame.omega * self.rate(slide)
+            radial, tangential = (
+                -(frame.omega**2) * self.get_slide_value(slide),
+                2 * frame.omega * self.get_slide_rate(slide),
+            )
             x, y = x + radial * a_x - tangential * a_y, y + radial * a_y + tangential * a_x
         return x, y
 
@@ -251,20 +254,20 @@ class TreeGeometry(Geometry):
         w = self.motions.derive_vector(f"{base_name}_span", (local[0] - own_base[0], local[1] - own_base[1]))
         a_x, a_y = self.motions.rotate_vector(frame, w, f"span_{base_name}")
         terms = self._add_terms(base.terms, {(frame.name, ""): w} if w != (ZERO, ZERO) else {}, base_name)
-        columns, define_symbol = self.columns(terms), self.motions.define_value
+        columns, define_symbol = self.compute_jacobian_columns(terms), self.motions.define_value
         values = [base.x + a_x, base.y + a_y]
         rates = [base.velocity[0] - frame.omega * a_y, base.velocity[1] + frame.omega * a_x]
         for i in range(2):
             point_columns = {k: c[i] for k, c in columns.items() if c[i] != 0}
-            if not self.is_short(values[i]):
+            if not self.is_simple(values[i]):
                 values[i] = define_symbol(names[i], values[i], point_columns)
-            if not self.is_short(rates[i]):
+            if not self.is_simple(rates[i]):
                 rates[i] = self.motions.define_rate(names[2 + i], rates[i], point_columns)
         arm = self.rotate_vector(self.bodies[body], vector, f"arm_{base_name}") if body in self.bodies else (ZERO, ZERO)
         position, speed = (values[0], values[1]), (rates[0], rates[1])
         return TreePoint(self, self.bodies.get(body), arm, terms, position, speed)
 
-    def is_short(self, value: sp.Expr) -> bool:
+    def is_simple(self, value: sp.Expr) -> bool:
         """Return whether a value is a symbol, its negative, or a number, which needs no local."""
         return bool(value.is_Symbol or (-value).is_Symbol or value.is_Number)
 
@@ -280,15 +283,15 @@ class TreeGeometry(Geometry):
         theta, omega = frame.theta + self._offset[body], frame.omega
 
         def make_symbol(
-            base_name: str, value: sp.Expr, columns: Mapping[str, sp.Expr], rate: bool = False
+            base_name: str, value: sp.Expr, columns: Mapping[str, sp.Expr], is_rate: bool = False
         ) -> sp.Symbol:
             """Return a value unchanged if it is a symbol, else a new symbol for it, with derivatives by its columns."""
-            define_symbol = motions.define_rate if rate else motions.define_value
+            define_symbol = motions.define_rate if is_rate else motions.define_value
             return value if value.is_Symbol else define_symbol(base_name, value, columns)
 
         x, y = (
             make_symbol(f"{body}_{axis}", component, {k: w[i] for k, w in com.columns.items()})
-            for i, (axis, component) in enumerate(zip("xy", com.place, strict=True))
+            for i, (axis, component) in enumerate(zip("xy", com.position_xy, strict=True))
         )
         vx, vy = (
             make_symbol(f"{body}_v{axis}", component, {k: w[i] for k, w in com.columns.items()}, True)

@@ -69,18 +69,18 @@ class Inertia:
             define, name = self.symbols.add_definition, f"{second.name}_less_{first.name}"
             cos = define(f"cos_{name}", first.cos * second.cos + first.sin * second.sin)
             sin = define(f"sin_{name}", first.cos * second.sin - first.sin * second.cos)
-            self._set_rules(cos, sin, first, second)
+            self._set_derivative_rules(cos, sin, first, second)
             self._angle_differences[first.name, second.name] = cos, sin
         return self._angle_differences[first.name, second.name]
 
-    def _set_rules(self, cos: sp.Symbol, sin: sp.Symbol, first: Frame, second: Frame) -> None:
+    def _set_derivative_rules(self, cos: sp.Symbol, sin: sp.Symbol, first: Frame, second: Frame) -> None:
         """Set the derivatives of a cosine and sine of ψ, the angle from the `first` to the `second` frame.
 
         d cos = −sin dψ and d sin = cos dψ. P and Q have the same rules.
         """
         turns = {k: second.turns.get(k, ZERO) - first.turns.get(k, ZERO) for k in {**first.turns, **second.turns}}
-        self.symbols.rules[cos] = self.motions.find_rules({k: -c * sin for k, c in turns.items()})
-        self.symbols.rules[sin] = self.motions.find_rules({k: c * cos for k, c in turns.items()})
+        self.symbols.rules[cos] = self.motions.find_derivative_rules({k: -c * sin for k, c in turns.items()})
+        self.symbols.rules[sin] = self.motions.find_derivative_rules({k: c * cos for k, c in turns.items()})
 
     def find_products(self, T: Term, U: Term) -> Pair:
         """Return P_TU and Q_TU of two terms, from a cache; (0, 0) for terms that no body has together.
@@ -109,7 +109,7 @@ class Inertia:
                     self._define_if_variable(f"{letter}_{name}", value) for letter, value in (("dot", P), ("cross", Q))
                 )
                 if P.is_Symbol and Q.is_Symbol:
-                    self._set_rules(P, Q, first, second)
+                    self._set_derivative_rules(P, Q, first, second)
             self._products[T, U] = P, Q
         return self._products[T, U]
 
@@ -117,12 +117,12 @@ class Inertia:
         """Return a number unchanged, else a new symbol for the value; `base_name`: base of its name."""
         return value if value.is_Number else self.symbols.add_definition(base_name, value)
 
-    def _find_columns(self, T: Term) -> dict[str, Pair]:
+    def _find_jacobian_columns(self, T: Term) -> dict[str, Pair]:
         """Return ∂r_T/∂z = (turn ẑ + slide) A w as pairs (turn, slide) by coordinate."""
         frame, along, value = (
             self.geometry.frames[T[0]],
             self.geometry.find_slide_rates(T[1]),
-            self.geometry.value(T[1]),
+            self.geometry.get_slide_value(T[1]),
         )
         names = dict.fromkeys((*frame.turns, *along))
         return {k: (frame.turns.get(k, ZERO) * value, along.get(k, ZERO)) for k in names}
@@ -139,8 +139,8 @@ class Inertia:
         sums: dict[tuple[str, str], sp.Expr] = {}
         for T, U in self._iterate_term_pairs():
             P, Q = self.find_products(T, U)
-            for k, (turn_T, slide_T) in self._find_columns(T).items():
-                for j, (turn_U, slide_U) in self._find_columns(U).items():
+            for k, (turn_T, slide_T) in self._find_jacobian_columns(T).items():
+                for j, (turn_U, slide_U) in self._find_jacobian_columns(U).items():
                     entry = turn_T * turn_U * P + turn_T * slide_U * Q - slide_T * turn_U * Q + slide_T * slide_U * P
                     sums[k, j] = sums.get((k, j), ZERO) + entry
         for body in self.geometry.bodies.values():
@@ -177,9 +177,13 @@ class Inertia:
         h: dict[str, sp.Expr] = {}
         for T, U in self._iterate_term_pairs():
             P, Q = self.find_products(T, U)
-            frame, value, rate = self.geometry.frames[U[0]], self.geometry.value(U[1]), self.geometry.rate(U[1])
+            frame, value, rate = (
+                self.geometry.frames[U[0]],
+                self.geometry.get_slide_value(U[1]),
+                self.geometry.get_slide_rate(U[1]),
+            )
             radial, tangential = -(frame.omega**2) * value, 2 * frame.omega * rate
-            for k, (turn, slide) in self._find_columns(T).items():
+            for k, (turn, slide) in self._find_jacobian_columns(T).items():
                 term = turn * radial * Q + turn * tangential * P + slide * radial * P - slide * tangential * Q
                 h[k] = h.get(k, ZERO) + term
         return {k: self.hoist_constants(f"spin_{k}", value) for k, value in h.items()}
@@ -193,6 +197,6 @@ class Inertia:
             alpha = self.parameter_table.derive(f"weight_{name}_along", sp.expand(m_x * g_x + m_y * g_y), "weight")
             beta = self.parameter_table.derive(f"weight_{name}_across", sp.expand(m_x * g_y - m_y * g_x), "weight")
             P, Q = alpha * frame.cos + beta * frame.sin, beta * frame.cos - alpha * frame.sin
-            for k, (turn, slide) in self._find_columns(T).items():
+            for k, (turn, slide) in self._find_jacobian_columns(T).items():
                 sums[k] = sums.get(k, ZERO) + turn * Q + slide * P
         return {k: self.hoist_constants(f"weight_{k}", value) for k, value in sums.items() if value != 0}

@@ -28,7 +28,7 @@ from gudgeon.generator.reduction.driven_chains import (
 from gudgeon.generator.reduction.frames import CONSTANT, ONE, ZERO, Affine, Coordinate, Motions, substitute_coordinate
 from gudgeon.generator.reduction.geometry import TreeGeometry, TreePoint
 from gudgeon.generator.reduction.inertia import Inertia
-from gudgeon.generator.reduction.tree import Tree, choose_tree, stays_constraint
+from gudgeon.generator.reduction.tree import Tree, choose_tree, is_impulsive_drive
 
 
 @dataclass(frozen=True)
@@ -123,7 +123,7 @@ def reduce_model(model: Model) -> TreeSystem:
     slides: dict[str, Affine] = {}
     sliding: tuple[str, ...] = ()
     while True:
-        geometry, constraints = _place_bodies(model, tree, slides)
+        geometry, constraints = _make_tree_geometry(model, tree, slides)
         rows = _derive_closures(model, tree, constraints)
         elimination = _find_determined_slide(model, geometry, constraints, rows)
         if elimination is None:
@@ -144,21 +144,21 @@ def _eliminate_driven_loops(model: Model, system: TreeSystem) -> TreeSystem:
     """
     if model.degrees_of_freedom <= 0 or not system.rows:
         return system
-    excluded = {row.name for row in system.rows if stays_constraint(model, row)}
+    excluded = {row.name for row in system.rows if is_impulsive_drive(model, row)}
     columns, rows = find_dependent_coordinates(system, excluded)
     if not columns:
         return system
     free = tuple(name for k, name in enumerate(system.unknowns) if k not in columns)
-    reduced, chain = prescribe_coordinates(system, system.unknowns, columns, rows)
+    reduced, driven_loops = prescribe_coordinates(system, system.unknowns, columns, rows)
     geometry: TreeGeometry = reduced.model.geometry  # type: ignore[assignment]
     prescribed_names = {
         name for name, coordinate in geometry.motions.coordinates.items() if coordinate.acceleration is not None
     }
-    chain = add_directions(chain, reduced, geometry.frames.values(), prescribed_names)
-    return replace(reduced, unknowns=free, chain=chain)
+    driven_loops = add_directions(driven_loops, reduced, geometry.frames.values(), prescribed_names)
+    return replace(reduced, unknowns=free, chain=driven_loops)
 
 
-def _place_bodies(model: Model, tree: Tree, slides: Mapping[str, Affine]) -> tuple[TreeGeometry, TreeConstraints]:
+def _make_tree_geometry(model: Model, tree: Tree, slides: Mapping[str, Affine]) -> tuple[TreeGeometry, TreeConstraints]:
     """Return the geometry of a tree, with new symbols, coordinates and bodies, and its constraints.
 
     `slides`: slides that are functions of other coordinates.
@@ -180,7 +180,7 @@ def _place_bodies(model: Model, tree: Tree, slides: Mapping[str, Affine]) -> tup
 def _derive_closures(model: Model, tree: Tree, constraints: TreeConstraints) -> tuple[Row, ...]:
     """Return the constraint equations that the tree does not satisfy by itself, in the order of the model.
 
-    Pairs that hubs need in addition follow.
+    Pairs that shared points need in addition follow.
     """
     mechanism = model.scene.mechanism
     closure_names = [row.name for row in model.rows if row.name not in tree.rows]
@@ -192,8 +192,8 @@ def _derive_closures(model: Model, tree: Tree, constraints: TreeConstraints) -> 
     for drive in mechanism.drives.values():
         if drive.name in owners:
             row_by_name |= {row.name: row for row in constraints.drive_rows(drive)}
-    hub_rows = [row for joint in tree.closing_pairs for row in constraints.joint_rows(joint)]
-    return (*(row_by_name[name] for name in closure_names), *hub_rows)
+    shared_point_rows = [row for joint in tree.closing_pairs for row in constraints.joint_rows(joint)]
+    return (*(row_by_name[name] for name in closure_names), *shared_point_rows)
 
 
 def _find_determined_slide(
@@ -208,7 +208,7 @@ def _find_determined_slide(
     drives |= {value: name for name, (value, *_) in constraints.drive_angles.items()}
     is_constant = geometry.parameter_table.is_constant
     for row in rows:
-        if stays_constraint(model, row):
+        if is_impulsive_drive(model, row):
             continue
         if not row.phi_q or not all(names[q] in geometry.slides and is_constant(c) for q, c in row.phi_q.items()):
             continue

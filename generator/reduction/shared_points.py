@@ -39,16 +39,16 @@ class Hub:
         """Return the names of the equations of a pair that make its points coincide."""
         return [f"{joint.name}.{row}" for row in joint_types()[joint.kind].carries]
 
-    def find_closing_pairs(self, tree: Iterable[Joint], cost: Callable[[Joint], int]) -> list[Joint]:
+    def find_closing_pairs(self, tree_joints: Iterable[Joint], compute_cost: Callable[[Joint], int]) -> list[Joint]:
         """Return the cheapest pairs that connect the points which the tree leaves unconnected (Kruskal's algorithm).
 
-        `tree`: joints of the tree; `cost` returns the cost of a pair.
+        `tree_joints`: joints of the tree; `compute_cost` returns the cost of a pair.
         """
         groups = {point: {point} for point in self.points}
         result = []
-        names = {joint.name for joint in tree}
+        names = {joint.name for joint in tree_joints}
         tree_pairs = [joint for joint in self.pairs if joint.name in names]
-        for joint in [*tree_pairs, *sorted(self.pairs, key=cost)]:
+        for joint in [*tree_pairs, *sorted(self.pairs, key=compute_cost)]:
             first_group, second_group = (groups[point] for point in find_end_points(joint))
             if first_group is second_group:
                 continue
@@ -59,17 +59,17 @@ class Hub:
             first_group |= second_group
         return result
 
-    def find_multiplier_signs(self, spanning: Sequence[Joint], joint: Joint) -> dict[str, int]:
+    def find_multiplier_signs(self, spanning_pairs: Sequence[Joint], joint: Joint) -> dict[str, int]:
         """Return the multiplier of a pair as a sum of those of the file's joints: sign by joint.
 
-        They are the joints that cross the cut which removing the pair from `spanning` makes. `joint`: the pair;
-        `spanning`: the pairs that connect all points.
+        They are the joints that cross the cut which removing the pair from `spanning_pairs` makes. `joint`: the pair;
+        `spanning_pairs`: the pairs that connect all points.
         """
         connected = {find_end_points(joint)[0]}
         has_grown = True
         while has_grown:
             has_grown = False
-            for first, second in (find_end_points(other) for other in spanning if other is not joint):
+            for first, second in (find_end_points(other) for other in spanning_pairs if other is not joint):
                 if (first in connected) != (second in connected):
                     connected |= {first, second}
                     has_grown = True
@@ -82,7 +82,7 @@ class Hub:
 
 
 def find_hubs(joints: Iterable[Joint]) -> list[Hub]:
-    """Return the hubs: points of three or more bodies with as many joints as a tree needs.
+    """Return the shared points: points of three or more bodies with as many joints as a tree needs.
 
     Only joints that hold points together count, and at least one must be a pivot.
     """
@@ -93,13 +93,13 @@ def find_hubs(joints: Iterable[Joint]) -> list[Hub]:
             merged = [*first_group, *(j for j in second_group if j not in first_group), joint]
             for point in {p for j in merged for p in find_end_points(j)}:
                 groups[point] = merged
-    hubs = []
+    shared_points = []
     for group in {tuple(j.name for j in group): group for group in groups.values()}.values():
         points = frozenset(p for joint in group for p in find_end_points(joint))
         pivots = [j for j in group if joint_types()[j.kind].is_pivot]
         if pivots and len(points) == len(group) + 1 >= 3:
-            hubs.append(Hub(points, tuple(group), tuple(_make_pairs(group, pivots[0]))))
-    return hubs
+            shared_points.append(Hub(points, tuple(group), tuple(_make_pairs(group, pivots[0]))))
+    return shared_points
 
 
 def _make_pairs(group: Sequence[Joint], template: Joint) -> list[Joint]:

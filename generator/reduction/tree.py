@@ -88,20 +88,19 @@ class Estimate:
     """Estimated operations of a tree's right-hand side, counted from which coordinates are coupled."""
 
     def __init__(
-        self, model: Model, angles: Mapping[str, Affine], used_rows: frozenset[str], hubs: Sequence[Hub]
+        self, model: Model, angles: Mapping[str, Affine], used_rows: frozenset[str], shared_points: Sequence[Hub]
     ) -> None:
         """Prepare the estimate for a model.
 
-        `angles`: those of the bodies in free ones; `used_rows`: equations that the angles satisfy already; `hubs`:
-        shared points.
+        `angles`: those of the bodies in free ones; `used_rows`: equations that the angles satisfy already.
         """
-        self.model, self.hubs = model, hubs
+        self.model, self.shared_points = model, shared_points
         self._light: dict[tuple[str, str], bool] = {}  # by body and joint
         self.costs: dict[frozenset[tuple[str, str]], int] = {}  # by the joint that places each body
         body_of = {q: body.name for body in model.bodies for q in body.q}
         self.angles = angles
         self.turns = {body_name: frozenset(k for k in affine if k in angles) for body_name, affine in angles.items()}
-        satisfied = used_rows.union(*(hub.rows for hub in hubs))
+        satisfied = used_rows.union(*(shared_point.rows for shared_point in shared_points))
         self.rows = [(r.name, sorted({body_of[q] for q in r.phi_q})) for r in model.rows if r.name not in satisfied]
 
     def __call__(self, links: tuple[Link, ...]) -> int:
@@ -165,7 +164,7 @@ class Estimate:
         return self._light[key]
 
     def find_closing_pairs(self, links: tuple[Link, ...]) -> list[Joint]:
-        """Return the pairs of bodies that the hubs need in addition to those of the tree."""
+        """Return the pairs of bodies that the shared points need in addition to those of the tree."""
         paths: dict[str, list[Link]] = {}
         for link in links:
             paths[link.body] = [*paths.get(link.parent, []), link]
@@ -175,7 +174,11 @@ class Estimate:
             return len(self._find_moving_coordinates(paths, [joint.first.body, joint.second.body]))
 
         tree_joints = [link.joint for link in links if link.joint]
-        return [joint for hub in self.hubs for joint in hub.find_closing_pairs(tree_joints, count_coordinates)]
+        return [
+            joint
+            for shared_point in self.shared_points
+            for joint in shared_point.find_closing_pairs(tree_joints, count_coordinates)
+        ]
 
     def _find_moving_coordinates(self, paths: Mapping[str, list[Link]], bodies: Sequence[str]) -> set[str]:
         """Return the coordinates in an equation between bodies; those of their common path do not count.
@@ -204,8 +207,8 @@ class Tree:
     angles: Mapping[str, Affine]
     free: tuple[str, ...]  # bodies whose angles are coordinates
     links: tuple[Link, ...]
-    rows: frozenset[str]  # equations that angles and links satisfy by themselves, or that hubs replace
-    closing_pairs: tuple[Joint, ...]  # pairs of bodies at a hub that the tree does not connect
+    rows: frozenset[str]  # equations that angles and links satisfy by themselves, or that shared points replace
+    closing_pairs: tuple[Joint, ...]  # pairs of bodies at a shared point that the tree does not connect
     hubs: tuple[Hub, ...]
     solved: Mapping[str, str]  # equations used for angles, each with the body whose angle it gives
     costs: tuple[int, ...]  # estimated operations of the trees tried, the first one grown breadth first
@@ -216,20 +219,20 @@ class Tree:
         A closure that is an equation of the file itself gives {row: 1}.
         """
         name, _, component = row.rpartition(".")
-        for hub in self.hubs:
+        for shared_point in self.hubs:
             for joint in self.closing_pairs:
-                if joint in hub.pairs and joint.name == name:
-                    spanning = [link.joint for link in self.links if link.joint in hub.pairs]
-                    spanning += [pair for pair in self.closing_pairs if pair in hub.pairs]
-                    signs = hub.find_multiplier_signs([j for j in spanning if j is not None], joint)
+                if joint in shared_point.pairs and joint.name == name:
+                    spanning = [link.joint for link in self.links if link.joint in shared_point.pairs]
+                    spanning += [pair for pair in self.closing_pairs if pair in shared_point.pairs]
+                    signs = shared_point.find_multiplier_signs([j for j in spanning if j is not None], joint)
                     return {f"{owner}.{component}": sign for owner, sign in signs.items()}
         return {row: 1}
 
 
-def stays_constraint(model: Model, row: Row) -> bool:
-    """Return whether an equation is a drive whose rate jumps in a scene with degrees of freedom.
+def is_impulsive_drive(model: Model, row: Row) -> bool:
+    """Return whether an equation is that of a drive whose rate jumps in a scene with degrees of freedom.
 
-    It stays a constraint equation, since the jump is an impulse on it.
+    It remains a constraint equation, since the jump causes an impulse.
     """
     return row.kind == "drive" and model.degrees_of_freedom > 0 and rate_jumps(model.scene.mechanism.drives[row.name])
 
@@ -267,7 +270,7 @@ def _express_linear_angles(model: Model, row: Row, angles: Mapping[str, Affine])
     if not all(q in body_of and model.parameter_table.is_constant(coefficient) for q, coefficient in row.phi_q.items()):
         return None
     drives = {value: name for name, (value, *_) in model.constraints.drive_angles.items()}
-    if stays_constraint(model, row):
+    if is_impulsive_drive(model, row):
         return None
     remainder = sp.expand(row.phi - sum(coefficient * q for q, coefficient in row.phi_q.items()))
     coefficients: dict[str, sp.Expr] = {}
@@ -292,18 +295,18 @@ def choose_tree(model: Model) -> Tree:
     used_rows = frozenset(solved)
     free = tuple(body_name for body_name in angles if angles[body_name] == {body_name: 1})
     edges = _find_edges(model, angles)
-    hubs = find_hubs(edges)
-    hub_joint_names = {joint.name for hub in hubs for joint in hub.joints}
-    edges = [joint for joint in edges if joint.name not in hub_joint_names] + [
-        joint for hub in hubs for joint in hub.pairs
+    shared_points = find_hubs(edges)
+    shared_joint_names = {joint.name for shared_point in shared_points for joint in shared_point.joints}
+    edges = [joint for joint in edges if joint.name not in shared_joint_names] + [
+        joint for shared_point in shared_points for joint in shared_point.pairs
     ]
-    estimate = Estimate(model, angles, used_rows, hubs)
+    estimate = Estimate(model, angles, used_rows, shared_points)
     best = min((_grow_tree(model, edges, edges, depth) for depth in _MAX_DEPTHS), key=estimate)
     if len(free) <= _MAX_COORDINATES_FOR_EXCHANGE and best == _grow_tree(model, edges, edges, None):
         best = _improve_by_exchange(model, edges, best, estimate)
-    rows = used_rows.union(*(link.rows for link in best), *(hub.rows for hub in hubs))
+    rows = used_rows.union(*(link.rows for link in best), *(shared_point.rows for shared_point in shared_points))
     closing = tuple(estimate.find_closing_pairs(best))
-    return Tree(angles, free, best, rows, closing, tuple(hubs), solved, tuple(estimate.costs.values()))
+    return Tree(angles, free, best, rows, closing, tuple(shared_points), solved, tuple(estimate.costs.values()))
 
 
 def _find_edges(model: Model, angles: Mapping[str, Affine]) -> list[Joint]:
@@ -329,14 +332,16 @@ def _find_edges(model: Model, angles: Mapping[str, Affine]) -> list[Joint]:
     return list(filter(can_position, model.scene.mechanism.joints.values()))
 
 
-def _grow_tree(model: Model, edges: Sequence[Joint], selected: Sequence[Joint], depth: int | None) -> tuple[Link, ...]:
+def _grow_tree(
+    model: Model, edges: Sequence[Joint], selected_joints: Sequence[Joint], max_depth: int | None
+) -> tuple[Link, ...]:
     """Return a tree, grown breadth first from the ground along some joints, as links with parents first.
 
-    `selected`: the joints that may be used. Bodies that no joint reaches move freely; with a `depth`, longer chains are
-    cut.
+    `selected_joints`: the joints that may be used. Bodies that no joint reaches move freely; with a `max_depth`, longer
+    chains are cut.
     """
     joints_of_body: dict[str, list[Joint]] = {name: [] for name in (GROUND, *model.geometry.bodies)}
-    names = {joint.name for joint in selected}
+    names = {joint.name for joint in selected_joints}
     for joint in edges:
         if joint.name in names:
             joints_of_body[joint.first.body].append(joint)
@@ -354,7 +359,7 @@ def _grow_tree(model: Model, edges: Sequence[Joint], selected: Sequence[Joint], 
         body = pending.pop(0)
         for joint in joints_of_body[body]:
             neighbour = joint.second.body if joint.first.body == body else joint.first.body
-            if neighbour not in depth_of_body and (depth is None or depth_of_body[body] < depth):
+            if neighbour not in depth_of_body and (max_depth is None or depth_of_body[body] < max_depth):
                 links.append(Link(neighbour, body, joint))
                 depth_of_body[neighbour] = depth_of_body[body] + 1
                 pending.append(neighbour)

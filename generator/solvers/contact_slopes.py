@@ -47,7 +47,7 @@ def find_input_variables(clearance: Clearance) -> tuple[sp.Symbol, ...]:
     return CONTOUR_INPUTS if clearance.contour else INPUTS
 
 
-def _make_arguments(clearance: Clearance) -> tuple[Argument, ...]:
+def _make_kernel_arguments(clearance: Clearance) -> tuple[Argument, ...]:
     """Return the arguments of the C function of the derivatives of one part of a joint's force."""
     input_arguments = (Argument(symbol.name) for symbol in find_input_variables(clearance))
     output = make_output_argument("out", "ContourSlopes" if clearance.contour else "PinSlopes")
@@ -65,7 +65,7 @@ class _DerivativeBuilder:
         self.model, self.clearance, self.part = model, clearance, part
         rate_names = "de_n, across" if clearance.contour else "deltadot, de_t"
         further_names = ", depth and slope of the contour" * bool(clearance.contour)
-        self.build = KernelBuilder(
+        self.builder = KernelBuilder(
             model.symbols,
             f"{part}_slopes_{clearance.label}_",
             [
@@ -76,17 +76,17 @@ class _DerivativeBuilder:
         )
         self.states = tuple(sp.Symbol(f"state_{k}", real=True) for k in range(model.law_states))
         self.inputs = (*find_input_variables(clearance), *self.states)
-        self.tangents = Tangents(model.symbols, self.build, self.inputs, clearance.name, share_powers=True)
+        self.tangents = Tangents(model.symbols, self.builder, self.inputs, clearance.name, share_powers=True)
 
     def begin_section(self, title: str) -> None:
         """Begin a section of statements with a title."""
-        self.build.begin_section(title)
+        self.builder.begin_section(title)
 
-    def step(self, step: Step) -> None:
+    def append_step(self, step: Step) -> None:
         """Append an equation symbol = value of contact_steps.py, and its tangent."""
         value = read_parameters_at_places(self.model, step.value)
         value_on_branch = self.tangents.share_powers_of(self.tangents.hold_branches(value))
-        self.build.append_line(Statement(step.symbol.name, value_on_branch))
+        self.builder.append_line(Statement(step.symbol.name, value_on_branch))
         self.tangents.store_tangent(step.symbol, self.tangents.compute_gradient(value, step.symbol))
 
     def append_law(self, equations: LawEquations, arguments: Sequence[sp.Symbol]) -> dict[str, sp.Symbol]:
@@ -94,49 +94,49 @@ class _DerivativeBuilder:
 
         `arguments`: the symbols that are the variables of the law, whose tangents must be known.
         """
-        law_tangents = self.tangents.make_for_variables(dict(zip(equations.variables, arguments, strict=True)))
+        law_tangents = self.tangents.make_tangents_for_variables(dict(zip(equations.variables, arguments, strict=True)))
         results = {}
         for name, equation in equations.steps.items():
             symbol, value = (
                 sp.Symbol(name, real=True),
                 hoist_reciprocals(self.model.parameter_table, sp.sympify(equation)),
             )
-            self.build.append_line(Statement(name, law_tangents.share_powers_of(law_tangents.hold_branches(value))))
+            self.builder.append_line(Statement(name, law_tangents.share_powers_of(law_tangents.hold_branches(value))))
             law_tangents.store_tangent(symbol, law_tangents.compute_gradient(value, symbol))
             if name in equations.results:
                 results[name] = symbol
                 self.tangents.store_tangent(symbol, self.tangents.apply_chain_rule(law_tangents.get_tangent(symbol)))
         return results
 
-    def finish(self, values: Sequence[sp.Expr]) -> Kernel:
+    def finish_kernel(self, values: Sequence[sp.Expr]) -> Kernel:
         """Append the results and their derivatives by the inputs, and return the function.
 
         The results are (F along n, F along t, M_i, M_j), then the rates of inner states; missing ones are 0.
         """
         self.begin_section("results")
         for row, value in enumerate([*values, *[ZERO] * (4 + len(self.states) - len(values))]):
-            self.build.append_store(Place("out")["value"][row], value)
+            self.builder.append_store(Place("out")["value"][row], value)
             slopes: Tangent = self.tangents.compute_gradient(value)
             for column, base in enumerate(self.inputs):
-                self.build.append_store(Place("out")["slope"][row][column], slopes.get(base, ZERO))
-        return self.build.build_kernel(_make_arguments(self.clearance), inline=True, prune=True)
+                self.builder.append_store(Place("out")["slope"][row][column], slopes.get(base, ZERO))
+        return self.builder.build_kernel(_make_kernel_arguments(self.clearance), inline=True, prune=True)
 
 
 def make_film_derivative_kernel(model: Model, clearance: Clearance, film: LawEquations) -> Kernel:
     """Return the C function of the film's force and moments and of their derivatives by the inputs."""
-    slopes = _DerivativeBuilder(model, clearance, "film")
-    slopes.begin_section("eccentricity ratio and effective squeeze velocity")
+    derivative_builder = _DerivativeBuilder(model, clearance, "film")
+    derivative_builder.begin_section("eccentricity ratio and effective squeeze velocity")
     for step in contact.make_film_input_equations(clearance, film):
-        slopes.step(step)
-    slopes.begin_section("film")
-    results = slopes.append_law(film, (contact.epsilon, contact.w_n, contact.w_t))
-    slopes.begin_section("moments")
-    slopes.step(Step(contact.make_part_symbol(contact.F_along_t, "film"), results["F_t"]))
+        derivative_builder.append_step(step)
+    derivative_builder.begin_section("film")
+    results = derivative_builder.append_law(film, (contact.epsilon, contact.w_n, contact.w_t))
+    derivative_builder.begin_section("moments")
+    derivative_builder.append_step(Step(contact.make_part_symbol(contact.F_along_t, "film"), results["F_t"]))
     moments = contact.make_film_moment_equations(film)
     for step in moments:
-        slopes.step(step)
+        derivative_builder.append_step(step)
     tangential = contact.make_part_symbol(contact.F_along_t, "film")
-    return slopes.finish([results["F_r"], tangential, *(step.symbol for step in moments)])
+    return derivative_builder.finish_kernel([results["F_r"], tangential, *(step.symbol for step in moments)])
 
 
 def make_dry_derivative_kernel(model: Model, clearance: Clearance, normal: LawEquations) -> Kernel:
@@ -145,52 +145,52 @@ def make_dry_derivative_kernel(model: Model, clearance: Clearance, normal: LawEq
     It is defined at δ < 0 too, with zero force, since samples before a separation lie there. While the contact is open,
     the ratio of velocities is 1 with derivative 0.
     """
-    slopes = _DerivativeBuilder(model, clearance, "dry")
-    build, tangents = slopes.build, slopes.tangents
-    slopes.begin_section("penetration, ratio of velocities, slip")
+    derivative_builder = _DerivativeBuilder(model, clearance, "dry")
+    builder, tangents = derivative_builder.builder, derivative_builder.tangents
+    derivative_builder.begin_section("penetration, ratio of velocities, slip")
     for step in (
         contact.make_contour_gap_equations(clearance)
         if clearance.contour
         else [contact.make_penetration_equation(clearance)]
     ):
-        slopes.step(step)
-    build.append_line(Statement(contact.depth.name, sp.Max(contact.delta, 0)))
-    depth_slope = build.append_local("depth_by_e", Conditional(_IS_PENETRATING, sp.Integer(1), ZERO))
+        derivative_builder.append_step(step)
+    builder.append_line(Statement(contact.depth.name, sp.Max(contact.delta, 0)))
+    depth_slope = builder.append_local("depth_by_e", Conditional(_IS_PENETRATING, sp.Integer(1), ZERO))
     tangents.store_tangent(
         contact.depth,
         {base: derivative * depth_slope for base, derivative in tangents.get_tangent(contact.delta).items()},
     )
     ratio = UNCLIPPED if clearance.clip_ratio else contact.ratio
-    build.append_line(Statement(ratio.name, Conditional(_IS_CLOSED, contact.deltadot / _STORED_SPEED, sp.Integer(1))))
-    ratio_slope = build.append_local("ratio_by_deltadot", Conditional(_IS_CLOSED, 1 / _STORED_SPEED, ZERO))
+    builder.append_line(Statement(ratio.name, Conditional(_IS_CLOSED, contact.deltadot / _STORED_SPEED, sp.Integer(1))))
+    ratio_slope = builder.append_local("ratio_by_deltadot", Conditional(_IS_CLOSED, 1 / _STORED_SPEED, ZERO))
     tangents.store_tangent(
         ratio, {base: ratio_slope * rate for base, rate in tangents.get_tangent(contact.deltadot).items()}
     )
     for step in contact.make_lever_arm_equations(clearance):
-        slopes.step(replace_stored_speed(step))
-    slopes.begin_section("contact")
+        derivative_builder.append_step(replace_stored_speed(step))
+    derivative_builder.begin_section("contact")
     further_variables = [
         _FORCE if clearance.rigid else sp.Symbol(name, real=True) for name in normal.further_variables
     ]  # inputs as well
-    F_n = slopes.append_law(normal, (contact.depth, contact.ratio, *further_variables))["F_n"]
+    F_n = derivative_builder.append_law(normal, (contact.depth, contact.ratio, *further_variables))["F_n"]
     tangential = contact.make_part_symbol(contact.F_along_t, "dry")
     for step in contact.make_contour_normal_force(clearance):
-        slopes.step(step)
+        derivative_builder.append_step(step)
     normal_force = contact.F_N if clearance.contour else F_n
     friction_results: dict[str, sp.Symbol] = {}
     if clearance.friction is not None:
-        states = [build.append_local("bent", PlaceSymbol(CONTACT["state"][k])) for k in range(len(clearance.states))]
-        for state, base in zip(states, slopes.states, strict=False):
+        states = [builder.append_local("bent", PlaceSymbol(CONTACT["state"][k])) for k in range(len(clearance.states))]
+        for state, base in zip(states, derivative_builder.states, strict=False):
             tangents.store_tangent(state, {base: sp.Integer(1)})
-        friction_results = slopes.append_law(clearance.friction, (normal_force, contact.v_t, *states))
-    slopes.step(Step(tangential, friction_results.pop("F_t", ZERO)))
+        friction_results = derivative_builder.append_law(clearance.friction, (normal_force, contact.v_t, *states))
+    derivative_builder.append_step(Step(tangential, friction_results.pop("F_t", ZERO)))
     moments = contact.make_dry_moment_equations(clearance)
     for step in moments:
-        slopes.step(step)
+        derivative_builder.append_step(step)
     forces = (-F_n, tangential)
     if clearance.contour:
         forces = contact.resolve_contour_force(F_n, tangential)
-    return slopes.finish([*forces, *(step.symbol for step in moments), *friction_results.values()])
+    return derivative_builder.finish_kernel([*forces, *(step.symbol for step in moments), *friction_results.values()])
 
 
 def replace_stored_speed(step: Step) -> Step:
@@ -212,28 +212,28 @@ def make_fraction_derivative_kernel(model: Model, clearance: Clearance) -> Kerne
 
     A law of mixed lubrication may define the fraction; it is read at depth max(δ, 0) then.
     """
-    build = KernelBuilder(
+    builder = KernelBuilder(
         model.symbols,
         f"share_slope_{clearance.label}_",
         [
             "Fraction of the dry contact in the blend of film and contact, and its derivative by e.",
         ],
     )
-    tangents = Tangents(model.symbols, build, (contact.delta,), clearance.name)
-    build.begin_section("share")
+    tangents = Tangents(model.symbols, builder, (contact.delta,), clearance.name)
+    builder.begin_section("share")
     if clearance.mixed is not None:
-        build.append_line(DEPTH_STATEMENT)
+        builder.append_line(DEPTH_STATEMENT)
         tangents.store_tangent(
             contact.depth,
-            {contact.delta: build.append_local("depth_by_delta", Conditional(_IS_PENETRATING, sp.Integer(1), ZERO))},
+            {contact.delta: builder.append_local("depth_by_delta", Conditional(_IS_PENETRATING, sp.Integer(1), ZERO))},
         )
     *abbreviations, fraction = contact.make_blend_equations(clearance, closed=True)
     for step in abbreviations:
         value = read_parameters_at_places(model, step.value)
-        build.append_line(Statement(step.symbol.name, tangents.hold_branches(value)))
+        builder.append_line(Statement(step.symbol.name, tangents.hold_branches(value)))
         tangents.store_tangent(step.symbol, tangents.compute_gradient(value, step.symbol))
     value = read_parameters_at_places(model, fraction.value)
-    build.append_store(Place("out")[0], tangents.hold_branches(value))
-    build.append_store(Place("out")[1], tangents.compute_gradient(value).get(contact.delta, ZERO))
+    builder.append_store(Place("out")[0], tangents.hold_branches(value))
+    builder.append_store(Place("out")[1], tangents.compute_gradient(value).get(contact.delta, ZERO))
     arguments = (Argument(contact.delta.name), PARAMETERS, *BRANCHES, make_output_argument("out"))
-    return build.build_kernel(arguments, inline=True)
+    return builder.build_kernel(arguments, inline=True)

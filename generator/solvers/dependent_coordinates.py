@@ -28,20 +28,22 @@ class DependentCoordinates:
     depends on a coordinate that is placed after its own.
     """
 
-    def __init__(self, system: System, rows: Sequence[Row], avoided: frozenset[tuple[str, str]] = frozenset()) -> None:
+    def __init__(
+        self, system: System, rows: Sequence[Row], avoided_pairs: frozenset[tuple[str, str]] = frozenset()
+    ) -> None:
         """Place all bodies in an order in which each follows from equations of placed ones.
 
-        `rows`: the equations; `avoided` pairs (body, joint) are used only if nothing else places the body.
+        `rows`: the equations; `avoided_pairs`: pairs (body, joint) that are used only if nothing else places the body.
         """
         self.model: Model = system.model
-        self.rows, self._avoided = rows, avoided
-        place = {q: k for k, q in enumerate(system.q)}
-        self._entries = [{place[q]: entry for q, entry in row.phi_q.items()} for row in rows]
+        self.rows, self._avoided_pairs = rows, avoided_pairs
+        index_of_coordinate = {q: k for k, q in enumerate(system.q)}
+        self._entries = [{index_of_coordinate[q]: entry for q, entry in row.phi_q.items()} for row in rows]
         self._constant_coordinates = [self._find_constant_coordinates(entries) for entries in self._entries]
         self.groups: list[tuple[tuple[int, ...], int]] = []
         self._placed: set[int] = set()
         self._used_rows: set[int] = set()
-        while self._place_pairs() or self._place_by_line() or self._place_freely():
+        while self._place_single_coordinates() or self._place_body_on_line() or self._place_free_body():
             pass
 
     def _find_constant_coordinates(self, entries: dict[int, sp.Expr]) -> set[int]:
@@ -58,8 +60,8 @@ class DependentCoordinates:
         """Return the coordinates with a constant entry in equation r that are not placed yet."""
         return self._constant_coordinates[r] - self._placed
 
-    def _place_pairs(self) -> bool:
-        """Place a coordinate by each equation that leaves only that one open; return whether there was any.
+    def _place_single_coordinates(self) -> bool:
+        """Place a coordinate by each equation in which only that one is not placed yet; return whether there was any.
 
         Only the best of the candidates are used.
         """
@@ -70,20 +72,20 @@ class DependentCoordinates:
         ]
         for k, r in self._select_candidates(candidates):
             if k not in self._placed:
-                self._record_placing((k,), r)
+                self._record_group((k,), r)
         return bool(candidates)
 
-    def _place_by_line(self) -> bool:
+    def _place_body_on_line(self) -> bool:
         """Place x and y of a body by the first unused equation that contains both; return whether any was placed."""
         for r, entries in enumerate(self._entries):
             places = sorted(k for k in entries if k % 3 < 2 and k not in self._placed)
             if r not in self._used_rows and len(places) == 2 and places[0] // 3 == places[1] // 3:
-                self._record_placing(tuple(places), r)
+                self._record_group(tuple(places), r)
                 return True
         return False
 
-    def _place_freely(self) -> bool:
-        """Mark a body as placed that no equation ties to placed ones; return whether there was any.
+    def _place_free_body(self) -> bool:
+        """Mark a body as placed that no equation connects with placed ones; return whether there was any.
 
         It is the first body of an equation that is not placed yet; x and y are marked together.
         """
@@ -96,7 +98,7 @@ class DependentCoordinates:
             self._placed |= _add_sibling_coordinate(first_open)
         return first_open is not None
 
-    def _record_placing(self, coordinates: tuple[int, ...], r: int) -> None:
+    def _record_group(self, coordinates: tuple[int, ...], r: int) -> None:
         """Record coordinates as placed by equation r.
 
         The group is appended, and the coordinates and the equation are marked as used.
@@ -118,7 +120,8 @@ class DependentCoordinates:
         }
         names = [body.name for body in self.model.bodies]
         rank = {
-            (k, r): ((names[k // 3], self.rows[r].owner) in self._avoided, not is_complete[k, r]) for k, r in candidates
+            (k, r): ((names[k // 3], self.rows[r].owner) in self._avoided_pairs, not is_complete[k, r])
+            for k, r in candidates
         }
         best = [pair for pair in candidates if rank[pair] == min(rank.values())]
         only_avoided = bool(best) and rank[best[0]][0]  # with one body that is placed others may be placed by it
@@ -147,18 +150,18 @@ class DependentCoordinates:
         return {(body, joint.name) for body, joint in free_ends if self.model.is_light(body, joint)}
 
 
-def place_bodies(system: System, rows: Sequence[Row]) -> DependentCoordinates:
-    """Return the order of placing in which bodies are placed by joints about which they have inertia, if possible.
+def order_dependent_coordinates(system: System, rows: Sequence[Row]) -> DependentCoordinates:
+    """Return the order in which bodies are placed, if possible by joints about which they have inertia.
 
     The order is determined again with light ends avoided, until no new ones are found.
     """
-    avoided: set[tuple[str, str]] = set()
+    avoided_pairs: set[tuple[str, str]] = set()
     while True:
-        placing = DependentCoordinates(system, rows, frozenset(avoided))
-        light_ends = placing.find_light_ends()
-        if light_ends <= avoided:
-            return placing
-        avoided |= light_ends
+        dependent_coordinates = DependentCoordinates(system, rows, frozenset(avoided_pairs))
+        light_ends = dependent_coordinates.find_light_ends()
+        if light_ends <= avoided_pairs:
+            return dependent_coordinates
+        avoided_pairs |= light_ends
 
 
 class FirstPivots:
@@ -174,7 +177,7 @@ class FirstPivots:
 
         `rows`: the constraint equations, which are nodes after the coordinates.
         """
-        groups = [] if system.in_tree else place_bodies(system, rows).groups
+        groups = [] if system.in_tree else order_dependent_coordinates(system, rows).groups
         n = len(system.q)
         self.partner = {coordinates[0]: n + r for coordinates, r in reversed(groups) if len(coordinates) == 1}
         self.order = [

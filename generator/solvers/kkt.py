@@ -25,7 +25,7 @@ from gudgeon.generator.solvers.pivots import (
     VANISHING,
     ZERO,
     Factor,
-    append_unless_simple,
+    append_local_unless_simple,
     find_row_pairs,
     make_pivot_guard,
 )
@@ -112,7 +112,7 @@ class KKT:
 
     def factorize(
         self,
-        build: KernelBuilder,
+        builder: KernelBuilder,
         jumps: bool = False,
         threshold: Threshold = SINGULAR,
         pair_threshold: Threshold = VANISHING,
@@ -123,7 +123,7 @@ class KKT:
         pivots, else it returns the pivot's number, from 1. `pair_threshold`: the same threshold for both equations of a
         joint together.
         """
-        build.begin_section(FACTORS)
+        builder.begin_section(FACTORS)
         L: Entries = {}
         W: Entries = {}  # entries before the division by their pivot
         inverse: dict[int, dict[int, sp.Expr]] = {}
@@ -133,7 +133,7 @@ class KKT:
         n_rows = 0
         for block in self.blocks:
             inverse |= self._invert_block(
-                build, block, earlier_columns, (L, W), (jumps, n_rows), (threshold, pair_threshold)
+                builder, block, earlier_columns, (L, W), (jumps, n_rows), (threshold, pair_threshold)
             )
             n_rows += sum(k >= self.n for k in block)
             later_nodes = [i for i in self.elimination.structure[block[-1]]]
@@ -142,42 +142,42 @@ class KKT:
                     common_columns = [j for j in earlier_columns[k] if (i, j) in L]
                     value = self.entries.get((i, k), self.entries.get((k, i), ZERO))
                     value -= sum((L[i, j] * W[k, j] for j in common_columns), ZERO)
-                    W[i, k] = append_unless_simple(build, f"w_{self.names[i]}__{self.names[k]}", value)
+                    W[i, k] = append_local_unless_simple(builder, f"w_{self.names[i]}__{self.names[k]}", value)
                 for k in block:
                     value = sum((W[i, j] * entry for j, entry in inverse[k].items()), ZERO)
-                    L[i, k] = append_unless_simple(build, f"l_{self.names[i]}__{self.names[k]}", value)
+                    L[i, k] = append_local_unless_simple(builder, f"l_{self.names[i]}__{self.names[k]}", value)
             for i in later_nodes:
                 earlier_columns[i] += block
         return Factor(L, inverse)
 
     def _invert_block(
         self,
-        build: KernelBuilder,
+        builder: KernelBuilder,
         block: Sequence[int],
         earlier_columns: Mapping[int, Sequence[int]],
         factors: tuple[Entries, Entries],
-        failing: tuple[bool, int],
+        on_failure: tuple[bool, int],
         thresholds: tuple[Threshold, Threshold],
     ) -> dict[int, dict[int, sp.Expr]]:
         """Return D⁻¹ of a block by node, and append its statements.
 
         `earlier_columns`: columns with an entry in each row; `factors`: L and W so far, W before the division by the
-        pivots. `failing`: whether a vanishing pivot jumps, and the number of equations before the block. `thresholds`:
-        those of one and of two equations.
+        pivots. `on_failure`: whether a vanishing pivot jumps, and the number of equations before the block.
+        `thresholds`: those of one and of two equations.
         """
-        (L, W), (jumps, count) = factors, failing
+        (L, W), (jumps, count) = factors, on_failure
         if block[0] in self.first_pivots.partner:
-            return self._invert_coordinate_with_row(build, block, earlier_columns, L, W)
+            return self._invert_coordinate_with_row(builder, block, earlier_columns, L, W)
         if len(block) == 2:
-            return self._invert_pair(build, block, earlier_columns, factors, failing, thresholds)
+            return self._invert_pair(builder, block, earlier_columns, factors, on_failure, thresholds)
         (k,) = block
         if k < self.n:
-            return {k: {k: self._invert_coordinate_pivot(build, k, earlier_columns[k], L, W, jumps)}}
-        return {k: {k: self._invert_row_pivot(build, k, earlier_columns[k], L, W, (jumps, count + 1), thresholds[0])}}
+            return {k: {k: self._invert_coordinate_pivot(builder, k, earlier_columns[k], L, W, jumps)}}
+        return {k: {k: self._invert_row_pivot(builder, k, earlier_columns[k], L, W, (jumps, count + 1), thresholds[0])}}
 
     def _invert_coordinate_with_row(
         self,
-        build: KernelBuilder,
+        builder: KernelBuilder,
         block: Sequence[int],
         earlier_columns: Mapping[int, Sequence[int]],
         L: Mapping[tuple[int, int], sp.Expr],
@@ -195,7 +195,7 @@ class KKT:
             else self.system.model.parameter_table.derive(f"inverse_{self.names[row]}", 1 / entry)
         )
         mass = self.system.mass[k, k] - sum((L[k, j] * W[k, j] for j in earlier_columns[k]), ZERO)
-        mass = append_unless_simple(build, f"inertia_{self.names[k]}", mass)
+        mass = append_local_unless_simple(builder, f"inertia_{self.names[k]}", mass)
         return {
             k: {row: inverse_entry},
             row: {k: inverse_entry, row: -mass if is_unit(entry) else -mass * inverse_entry**2},
@@ -203,11 +203,11 @@ class KKT:
 
     def _invert_pair(
         self,
-        build: KernelBuilder,
+        builder: KernelBuilder,
         block: Sequence[int],
         earlier_columns: Mapping[int, Sequence[int]],
         factors: tuple[Entries, Entries],
-        failing: tuple[bool, int],
+        on_failure: tuple[bool, int],
         thresholds: tuple[Threshold, Threshold],
     ) -> dict[int, dict[int, sp.Expr]]:
         """Return the inverse of a 2 × 2 block by its determinant, with tests; for equations, D is negative.
@@ -223,7 +223,7 @@ class KKT:
             for k in block
         }
 
-        def compute_rest(i: int, k: int, is_included: Callable[[int], bool]) -> sp.Expr:
+        def compute_remainder(i: int, k: int, is_included: Callable[[int], bool]) -> sp.Expr:
             """Return the rest of entry (i, k) after elimination of some earlier columns.
 
             `is_included(j)` selects them.
@@ -232,44 +232,49 @@ class KKT:
             return eliminated if is_row_pair else mass[i, k] - eliminated
 
         name = [self.names[k] for k in block]
-        scale_values = [compute_rest(k, k, lambda j: j < self.n) for k in block] if is_row_pair else []
-        scale = [build.append_local(f"scale_{name[i]}", value) for i, value in enumerate(scale_values)]
+        scale_values = [compute_remainder(k, k, lambda j: j < self.n) for k in block] if is_row_pair else []
+        scale = [builder.append_local(f"scale_{name[i]}", value) for i, value in enumerate(scale_values)]
         size = [
-            self._compute_row_size(build, k, pivot_values) for k, pivot_values in zip(block, scale, strict=is_row_pair)
+            self._compute_row_size(builder, k, pivot_values)
+            for k, pivot_values in zip(block, scale, strict=is_row_pair)
         ]
-        pivots = [compute_rest(k, k, lambda j: j >= self.n or not is_row_pair) for k in block]
+        pivots = [compute_remainder(k, k, lambda j: j >= self.n or not is_row_pair) for k in block]
         values = (
             [pivot_values + is_included for pivot_values, is_included in zip(scale, pivots, strict=True)]
             if is_row_pair
             else pivots
         )
-        pivot_values = [append_unless_simple(build, f"pivot_{name[i]}", value) for i, value in enumerate(values)]
-        cross_entry = append_unless_simple(
-            build, f"pivot_{name[0]}__{name[1]}", compute_rest(second, first, lambda j: True)
+        pivot_values = [
+            append_local_unless_simple(builder, f"pivot_{name[i]}", value) for i, value in enumerate(values)
+        ]
+        cross_entry = append_local_unless_simple(
+            builder, f"pivot_{name[0]}__{name[1]}", compute_remainder(second, first, lambda j: True)
         )
-        determinant = build.append_local(
+        determinant = builder.append_local(
             f"determinant_{name[0]}__{name[1]}", pivot_values[0] * pivot_values[1] - cross_entry**2
         )
         if is_row_pair:
             is_early = any(i < self.n for i in self.elimination.structure[second])
             threshold = max(thresholds[0], EARLY) if is_early else thresholds[0]
-            build.append_line(make_pivot_guard(failing, 1, pivot_values[0], threshold, size[0]))
-            build.append_line(make_pivot_guard(failing, 2, determinant, threshold, size[1], pivot_values[0]))
-            self._test_joint_pivots(build, block, scale, (pivot_values[0], determinant), (*failing, thresholds[1]))
-        elif failing[0]:
-            self._test_light_pivot(build, first, pivot_values[0])
-            self._test_light_pivot(build, second, determinant, pivot_values[0])
-        inverse = build.append_local(f"inverse_{name[0]}__{name[1]}", (-1 if is_row_pair else 1) / determinant)
+            builder.append_line(make_pivot_guard(on_failure, 1, pivot_values[0], threshold, size[0]))
+            builder.append_line(make_pivot_guard(on_failure, 2, determinant, threshold, size[1], pivot_values[0]))
+            self._append_joint_pivot_tests(
+                builder, block, scale, (pivot_values[0], determinant), (*on_failure, thresholds[1])
+            )
+        elif on_failure[0]:
+            self._append_light_pivot_test(builder, first, pivot_values[0])
+            self._append_light_pivot_test(builder, second, determinant, pivot_values[0])
+        inverse = builder.append_local(f"inverse_{name[0]}__{name[1]}", (-1 if is_row_pair else 1) / determinant)
         inverse_first, inverse_second = (
-            build.append_local(f"inverse_pivot_{name[i]}", pivot_values[1 - i] * inverse) for i in range(2)
+            builder.append_local(f"inverse_pivot_{name[i]}", pivot_values[1 - i] * inverse) for i in range(2)
         )
-        inverse_cross = build.append_local(f"inverse_cross_{name[0]}__{name[1]}", -cross_entry * inverse)
+        inverse_cross = builder.append_local(f"inverse_cross_{name[0]}__{name[1]}", -cross_entry * inverse)
         return {
             first: {first: inverse_first, second: inverse_cross},
             second: {first: inverse_cross, second: inverse_second},
         }
 
-    def _compute_row_size(self, build: KernelBuilder, k: int, scale: sp.Symbol) -> sp.Symbol:
+    def _compute_row_size(self, builder: KernelBuilder, k: int, scale: sp.Symbol) -> sp.Symbol:
         """Return the size with which the pivot of equation k is compared.
 
         `scale` is the size before this call. It is returned unchanged in tree coordinates, for the equations of the
@@ -293,15 +298,15 @@ class KKT:
             mobility = self.system.model.parameter_table.derive(
                 f"mobility_{self.names[k]}", mobility, "1/m of the bodies of a row"
             )
-        return build.append_local(f"size_{self.names[k]}", scale + mobility) if mobility != 0 else scale
+        return builder.append_local(f"size_{self.names[k]}", scale + mobility) if mobility != 0 else scale
 
-    def _test_joint_pivots(
+    def _append_joint_pivot_tests(
         self,
-        build: KernelBuilder,
+        builder: KernelBuilder,
         block: Sequence[int],
         scale: Sequence[sp.Symbol],
         pivots: tuple[sp.Expr, sp.Expr],
-        failing: tuple[bool, int, Threshold],
+        on_failure: tuple[bool, int, Threshold],
     ) -> None:
         """Append tests of the pivots of a joint's x and y against the sum of their sizes; only in tree coordinates.
 
@@ -311,14 +316,14 @@ class KKT:
         first_row, second_row = (self.rows[k - self.n] for k in block)
         if not self.system.in_tree or first_row.owner != second_row.owner or first_row.unit != second_row.unit:
             return
-        size = build.append_local(f"size_{self.names[block[0]]}", scale[0] + scale[1])
-        *failed, threshold = failing
-        build.append_line(make_pivot_guard(failed, 1, pivots[0], threshold, size))
-        build.append_line(make_pivot_guard(failed, 2, pivots[1], threshold, size, pivots[0]))
+        size = builder.append_local(f"size_{self.names[block[0]]}", scale[0] + scale[1])
+        *failed, threshold = on_failure
+        builder.append_line(make_pivot_guard(failed, 1, pivots[0], threshold, size))
+        builder.append_line(make_pivot_guard(failed, 2, pivots[1], threshold, size, pivots[0]))
 
     def _invert_coordinate_pivot(
         self,
-        build: KernelBuilder,
+        builder: KernelBuilder,
         k: int,
         earlier_columns: Sequence[int],
         L: Mapping[tuple[int, int], sp.Expr],
@@ -334,75 +339,77 @@ class KKT:
         mass = self.system.mass[k, k]
         if jumps and k in self.turning_inertias:
             value = mass - sum((L[k, j] * W[k, j] for j in earlier_columns), ZERO)
-            pivot = append_unless_simple(build, f"pivot_{self.names[k]}", value)
-            self._test_light_pivot(build, k, pivot)
+            pivot = append_local_unless_simple(builder, f"pivot_{self.names[k]}", value)
+            self._append_light_pivot_test(builder, k, pivot)
             constant = self.system.model.parameter_table.is_constant(mass)
             if earlier_columns or not constant or self.system.model.parameter_table.compute_default(mass) <= 0.0:
-                return build.append_local(f"inverse_pivot_{self.names[k]}", 1 / pivot)
+                return builder.append_local(f"inverse_pivot_{self.names[k]}", 1 / pivot)
         if not earlier_columns and self.system.model.parameter_table.is_constant(mass):
             inverse: sp.Expr = self.system.model.parameter_table.derive(
-                f"inverse_{self._name_mass(mass, k)}", 1 / mass, "1/M"
+                f"inverse_{self._make_mass_name(mass, k)}", 1 / mass, "1/M"
             )
             return inverse
         value = mass - sum((L[k, j] * W[k, j] for j in earlier_columns), sp.Integer(0))
-        return build.append_local(f"inverse_pivot_{self.names[k]}", 1 / value)
+        return builder.append_local(f"inverse_pivot_{self.names[k]}", 1 / value)
 
-    def _test_light_pivot(self, build: KernelBuilder, k: int, pivot: sp.Expr, *earlier_pivots: sp.Expr) -> None:
+    def _append_light_pivot_test(
+        self, builder: KernelBuilder, k: int, pivot: sp.Expr, *earlier_pivots: sp.Expr
+    ) -> None:
         """Append a jump for an angle of which elimination leaves nearly no inertia; nothing for other coordinates.
 
         `pivot` is its own pivot times those in `earlier_pivots`.
         """
         if k in self.turning_inertias:
             status = len(self.rows) + len(self.frictions) + 1 + list(self.turning_inertias).index(k)
-            build.append_line(
+            builder.append_line(
                 Guard(Test(pivot, ">", (LIGHT_PIVOT, self.turning_inertias[k], *earlier_pivots)), status, True)
             )
 
-    def _name_mass(self, mass: sp.Expr, k: int) -> str:
+    def _make_mass_name(self, mass: sp.Expr, k: int) -> str:
         """Return the name of the mass of node k for derived parameters."""
         return mass.name if isinstance(mass, sp.Symbol) else f"mass_{self.names[k]}"
 
     def _invert_row_pivot(
         self,
-        build: KernelBuilder,
+        builder: KernelBuilder,
         k: int,
         earlier_columns: Sequence[int],
         L: Mapping[tuple[int, int], sp.Expr],
         W: Mapping[tuple[int, int], sp.Expr],
-        failing: tuple[bool, int],
+        on_failure: tuple[bool, int],
         threshold: Threshold,
     ) -> sp.Expr:
         """Return 1/D of an equation after a test of its pivot −D, which must exceed `threshold` times the row's size.
 
-        −D is the sum of L W over the columns that are eliminated before it. A NaN fails the test too. `failing`:
+        −D is the sum of L W over the columns that are eliminated before it. A NaN fails the test too. `on_failure`:
         whether failure jumps, and the pivot's number. The equation of a friction element is tested only while it
         sticks; if it slips, 0 is returned, so that its multiplier is zero.
         """
         name = self.names[k]
         eliminated = sum((L[k, j] * W[k, j] for j in earlier_columns if j < self.n), sp.Integer(0))
-        scale = build.append_local(f"scale_{name}", eliminated)
+        scale = builder.append_local(f"scale_{name}", eliminated)
         pivot: sp.Expr = scale
         earlier_rows = [j for j in earlier_columns if j >= self.n]
         if earlier_rows:
             value = scale + sum((L[k, j] * W[k, j] for j in earlier_rows), sp.Integer(0))
-            pivot = build.append_local(f"pivot_{name}", value)
-        test, (jumps, status) = Test(pivot, ">", (threshold, self._compute_row_size(build, k, scale))), failing
+            pivot = builder.append_local(f"pivot_{name}", value)
+        test, (jumps, status) = Test(pivot, ">", (threshold, self._compute_row_size(builder, k, scale))), on_failure
         if k < self.first_friction:
-            build.append_line(Guard(test, status, jumps))
-            return -build.append_local(f"inverse_pivot_{name}", 1 / pivot)
+            builder.append_line(Guard(test, status, jumps))
+            return -builder.append_local(f"inverse_pivot_{name}", 1 / pivot)
         stick = self.stick_symbols[k]  # a row that slips is switched off: its multiplier is zero
         is_sticking = Test(stick, "!=", (0.0,))
-        build.append_line(Guard(test, status, jumps, is_sticking))
-        return -build.append_local(f"inverse_pivot_{name}", Conditional(is_sticking, 1 / pivot, ZERO))
+        builder.append_line(Guard(test, status, jumps, is_sticking))
+        return -builder.append_local(f"inverse_pivot_{name}", Conditional(is_sticking, 1 / pivot, ZERO))
 
     def solve(
-        self, build: KernelBuilder, factor: Factor, b: Mapping[int, sp.Expr], prefix: str = ""
+        self, builder: KernelBuilder, factor: Factor, b: Mapping[int, sp.Expr], prefix: str = ""
     ) -> dict[int, sp.Expr]:
         """Append the forward and backward substitution; return the solution by node.
 
         `b`: the right-hand side by node, absent ones zero; `prefix` begins the names of the locals.
         """
-        build.begin_section("forward substitution")
+        builder.begin_section("forward substitution")
         columns: dict[int, list[int]] = {k: [] for k in self.elimination.order}
         for i, k in factor.L:
             columns[i].append(k)
@@ -411,12 +418,12 @@ class KKT:
             value = b.get(k, sp.Integer(0)) - sum(
                 (factor.L[k, j] * z[j] for j in columns[k] if z[j] != 0), sp.Integer(0)
             )
-            z[k] = append_unless_simple(build, f"{prefix}z_{self.names[k]}", value)
-        build.begin_section("backward substitution")
+            z[k] = append_local_unless_simple(builder, f"{prefix}z_{self.names[k]}", value)
+        builder.begin_section("backward substitution")
         x: dict[int, sp.Expr] = {}
         for k in reversed(self.elimination.order):
             value = sum((z[j] * entry for j, entry in factor.inverse[k].items()), ZERO)
             value -= sum((factor.L[i, k] * x[i] for i in self.elimination.structure[k] if (i, k) in factor.L), ZERO)
             kind = "acceleration" if k < self.n else "lambda"
-            x[k] = build.append_local(f"{prefix}{kind}_{self.names[k]}", value)
+            x[k] = builder.append_local(f"{prefix}{kind}_{self.names[k]}", value)
         return x

@@ -54,12 +54,12 @@ class LinearizedParts:
 class Linearization:
     """Prints common statements (contacts, tangents) into a function and returns the parts in its symbols."""
 
-    def __init__(self, system: System, build: KernelBuilder) -> None:
+    def __init__(self, system: System, builder: KernelBuilder) -> None:
         """Begin with new symbols for the accelerations, multipliers and inner states, which are held constant.
 
-        `build`: the function to which statements are appended.
+        `builder`: the function to which statements are appended.
         """
-        self.system, self.model, self.build = system, system.model, build
+        self.system, self.model, self.builder = system, system.model, builder
         self.symbols: Symbols = system.model.symbols
         self.n, self.m = len(system.q), len(system.rows)
         self.t = system.model.t
@@ -70,7 +70,7 @@ class Linearization:
             for i, c in enumerate(self.model.clearances)
             for k, state in enumerate(c.states)
         }
-        self.tangents = Tangents(self.symbols, build, (*system.q, *system.v, *self.z, self.t))
+        self.tangents = Tangents(self.symbols, builder, (*system.q, *system.v, *self.z, self.t))
         for dependent in system.dependent:  # functions of t
             for symbol, rate in (
                 (dependent.q, dependent.rate),
@@ -87,7 +87,7 @@ class Linearization:
         self.rates: list[sp.Expr] = []  # of the inner states
         self.powers: list[sp.Expr] = [ZERO] * N_WORK
 
-    def derive(self) -> LinearizedParts:
+    def derive_parts(self) -> LinearizedParts:
         """Append all statements and return the non-zero parts of the linearization.
 
         Called once.
@@ -104,38 +104,38 @@ class Linearization:
         for prescribed in self.system.prescribed:
             drive_force = sp.Add(*(m * self.a[k] for k, m in prescribed.mass.items())) - prescribed.applied
             self.powers[0] += prescribed.rate * (drive_force - prescribed_forces.get(prescribed.name, ZERO))
-        self._add_rows()
-        self._add_frictions(residual)
-        self._add_coordinates(residual)
+        self._add_constraint_equations()
+        self._add_friction_equations(residual)
+        self._add_motion_equations(residual)
         for state_index, rate in zip(self.z.values(), self.rates, strict=True):
             self._add_derivatives(self.n + self.m + len(self.system.frictions) + state_index, -rate, 1)
         self._add_powers()
         return self.parts
 
-    def _make_held_symbol(self, base_name: str, home: Place) -> sp.Symbol:
+    def _make_held_symbol(self, base_name: str, place: Place) -> sp.Symbol:
         """Return a new symbol that is read at a place and held constant in derivatives."""
-        return self.symbols.add_symbol(base_name.replace(".", "_"), home)
+        return self.symbols.add_symbol(base_name.replace(".", "_"), place)
 
     def _append_clearance(self, index: int, clearance: Clearance) -> list[PointLoad]:
         """Append the call of a joint's derivatives; return its loads as symbols whose tangents are known.
 
         The rates of its inner states and its power are recorded. `index`: number of the joint with play.
         """
-        name, build, out = clearance.label, self.build, RHS["clearance"][index]
-        build.begin_section(f"clearance {clearance.kind} {clearance.name}")
+        name, builder, out = clearance.label, self.builder, RHS["clearance"][index]
+        builder.begin_section(f"clearance {clearance.kind} {clearance.name}")
         eccentricity = [
-            build.append_local(f"e_{name}_{axis}", component)
+            builder.append_local(f"e_{name}_{axis}", component)
             for axis, component in zip("xy", clearance.eccentricity, strict=True)
         ]
         eccentricity_rate = [
-            build.append_local(f"edot_{name}_{axis}", component)
+            builder.append_local(f"edot_{name}_{axis}", component)
             for axis, component in zip("xy", clearance.eccentricity_rate, strict=True)
         ]
         inputs = (*clearance.eccentricity, *clearance.eccentricity_rate, clearance.first.omega, clearance.second.omega)
         inputs += clearance.further_arguments
         slopes = self.symbols.make_unique_name(f"change_{name}")
-        build.append_line(Declare(Number.REAL, slopes, (4 + self.states, len(inputs) + self.states)))
-        build.append_line(
+        builder.append_line(Declare(Number.REAL, slopes, (4 + self.states, len(inputs) + self.states)))
+        builder.append_line(
             Call(
                 f"tangent_{name}_",
                 (*eccentricity, *eccentricity_rate, *inputs[4:], *make_contact_arguments(index)),
@@ -159,11 +159,12 @@ class Linearization:
             result_name: out[result_name] for result_name in ("Fx", "Fy", "moment_first", "moment_second")
         }
         results |= {f"state_rate_{k}": out["state_rate"][k] for k in range(len(states))}
-        for i, (result_name, home) in enumerate(results.items()):
-            symbol = self._make_held_symbol(f"{name}_{result_name}", home)
+        for i, (result_name, place) in enumerate(results.items()):
+            symbol = self._make_held_symbol(f"{name}_{result_name}", place)
             places = {k: Place(slopes)[i][j] for j, k in enumerate(derivative_names) if input_tangents[j]}
             derivatives = [
-                build.append_local(f"{symbol.name}_by_{k}", derivative_place) for k, derivative_place in places.items()
+                builder.append_local(f"{symbol.name}_by_{k}", derivative_place)
+                for k, derivative_place in places.items()
             ]
             derivative_iterator = iter(derivatives)
             tangent_by_derivative = {next(derivative_iterator): tangent for tangent in input_tangents if tangent}
@@ -177,15 +178,15 @@ class Linearization:
         self.powers[2] += clearance.compute_power(values[:2], clearance.eccentricity_rate, moments)
         return clearance.list_point_loads(values[:2], moments)
 
-    def _add_rows(self) -> None:
+    def _add_constraint_equations(self) -> None:
         """Add Φ_q, V = R2_v − 2α Φ_q, Q = R2_q − β² Φ_q and R2_t of the constraint equations to the parts."""
         if self.system.rows:
-            self.build.begin_section("constraints")
+            self.builder.begin_section("constraints")
         two_alpha, beta_squared = self._derive_gains()
         for index, row in enumerate(self.system.rows):
             node = self.n + index
             self._add_jacobian(node, row.phi_q)
-            self._add_derivatives(node, row.gamma, -1, v_only=True)
+            self._add_derivatives(node, row.gamma, -1, velocities_only=True)
             residual = sum((entry * self.a[self.q[q]] for q, entry in row.phi_q.items()), -row.gamma)
             phi_dot = row.phi_q_v - row.nu
             derivative_by_q = self._select_entries(self.tangents.compute_gradient(residual), self.q)
@@ -210,16 +211,16 @@ class Linearization:
         """Add the entries of an equation's Jacobian to the parts; `node`: number of the equation."""
         self.parts.phi_q |= {(node, self.q[q]): entry for q, entry in jacobian.items()}
 
-    def _add_derivatives(self, node: int, value: sp.Expr, sign: int, v_only: bool = False) -> None:
+    def _add_derivatives(self, node: int, value: sp.Expr, sign: int, velocities_only: bool = False) -> None:
         """Add `sign` times the derivatives of one residual to the parts by v, q, z and t.
 
-        With `v_only` only those by v are added. `node`: number of the equation.
+        With `velocities_only` only those by v are added. `node`: number of the equation.
         """
         tangent = self.tangents.compute_gradient(value)
         for part, index_of in ((self.parts.by_v, self.v), (self.parts.by_q, self.q), (self.parts.by_z, self.z)):
-            if index_of is self.v or not v_only:
+            if index_of is self.v or not velocities_only:
                 part |= {(node, k): sign * entry for k, entry in self._select_entries(tangent, index_of).items()}
-        if not v_only and self.t in tangent:
+        if not velocities_only and self.t in tangent:
             self.parts.by_t[node] = sign * tangent[self.t]
 
     @staticmethod
@@ -227,21 +228,21 @@ class Linearization:
         """Return the entries of a tangent by the numbers of the symbols in `index_of`; others are left out."""
         return {index_of[symbol]: value for symbol, value in tangent.items() if symbol in index_of}
 
-    def _add_frictions(self, residual: list[sp.Expr]) -> None:
+    def _add_friction_equations(self, residual: list[sp.Expr]) -> None:
         """Add the equations of stick, the forces of slip and their power to the parts; the mode is held constant.
 
         `residual`, by coordinate, gets the difference between the present and the kinetic force, in place.
         """
         if self.system.frictions:
-            self.build.begin_section("friction: slip, or stick as a constraint equation")
+            self.builder.begin_section("friction: slip, or stick as a constraint equation")
         two_alpha = stick_gain(self.model) if self.system.frictions else ZERO
         for index, friction in enumerate(self.system.frictions):
-            node, name, build = self.n + self.m + index, friction.name, self.build
-            stick, sign = append_friction_mode(build, name, index)
+            node, name, builder = self.n + self.m + index, friction.name, self.builder
+            stick, sign = append_friction_mode(builder, name, index)
             held_force_value = Conditional(
                 Test(stick, "!=", (0.0,)), PlaceSymbol(RHS["friction"][index]["force"]), ZERO
             )
-            force = build.append_local(f"held_force_{name}", held_force_value)
+            force = builder.append_local(f"held_force_{name}", held_force_value)
             self.sticks.append(stick)
             self._add_jacobian(node, friction.jacobian)
             kinetic = friction.slip.kinetic_at(friction.slip.v)
@@ -272,12 +273,12 @@ class Linearization:
                 self.powers[0] -= prescribed_velocity * force
                 self.parts.power_row[0, node] = self.parts.power_row.get((0, node), ZERO) + stick * prescribed_velocity
 
-    def _add_coordinates(self, residual: list[sp.Expr]) -> None:
+    def _add_motion_equations(self, residual: list[sp.Expr]) -> None:
         """Add M, R1_q, R1_v and R1_t of the equations of motion to the parts.
 
         `residual`, by coordinate, is completed in place.
         """
-        self.build.begin_section("coordinates")
+        self.builder.begin_section("coordinates")
         for (i, j), value in self.system.mass.items():
             for k, column in sorted({(i, j), (j, i)}):
                 self.parts.mass[k, column] = value
@@ -292,7 +293,7 @@ class Linearization:
         """Add the derivatives of the powers to the parts; nothing if all powers are 0."""
         if not any(self.powers):
             return
-        self.build.begin_section("powers")
+        self.builder.begin_section("powers")
         for index, power in enumerate(self.powers):
             tangent = self.tangents.compute_gradient(power)
             self.parts.power_q |= {(index, k): value for k, value in self._select_entries(tangent, self.q).items()}

@@ -83,7 +83,7 @@ class Newton:
 
         Afterwards `self.parts` is in symbols that read them there, and `self.sticks` and `self.tables` are set.
         """
-        build = self._begin_function(
+        builder = self._begin_function(
             "linearize",
             [
                 "The equations of motion linearized at a state, with the accelerations and multipliers that belong "
@@ -91,13 +91,13 @@ class Newton:
                 "non-zeros of M, Phi_q, and of the derivatives of both equations and of the powers by q, v, t.",
             ],
         )
-        work = Linearization(self.system, build)
-        parts = work.derive()
-        build.begin_section("results")
-        self.parts = self._store_parts(build, parts, work.tangents)
-        self.sticks = [self.values.store_value(build, stick, f"is_{stick.name}") for stick in work.sticks]
-        self.tables = self._make_tables(build)
-        build.append_store(self.linearization_argument[PARAMETERS.name], Place(PARAMETERS.name))
+        linearization = Linearization(self.system, builder)
+        parts = linearization.derive_parts()
+        builder.begin_section("results")
+        self.parts = self._store_parts(builder, parts, linearization.tangents)
+        self.sticks = [self.values.store_value(builder, stick, f"is_{stick.name}") for stick in linearization.sticks]
+        self.tables = self._make_tables(builder)
+        builder.append_store(self.linearization_argument[PARAMETERS.name], Place(PARAMETERS.name))
         arguments = (
             *STATE,
             DISCRETE,
@@ -106,9 +106,9 @@ class Newton:
             make_input_argument(RHS.name, RHS.type),
             self._make_written_linearization(),
         )
-        return declare_branches(build.build_kernel(arguments, owner="", prune=True))
+        return declare_branches(builder.build_kernel(arguments, owner="", prune=True))
 
-    def _store_parts(self, build: KernelBuilder, parts: LinearizedParts, tangents: Tangents) -> LinearizedParts:
+    def _store_parts(self, builder: KernelBuilder, parts: LinearizedParts, tangents: Tangents) -> LinearizedParts:
         """Return the parts with each value stored once in the pool, up to its sign.
 
         `tangents` stores shared denominators and powers.
@@ -116,7 +116,7 @@ class Newton:
 
         def store_value(value: sp.Expr, name: str) -> sp.Expr:
             """Return the symbol of a value that is stored in the pool; `name`: base of its name."""
-            return self.values.store_value(build, tangents.share_powers_of(value), name)
+            return self.values.store_value(builder, tangents.share_powers_of(value), name)
 
         def store_part(
             prefix: str,
@@ -146,13 +146,16 @@ class Newton:
             {w: store_value(x, f"power_t_{w}") for w, x in parts.power_t.items()},
         )
 
-    def _make_tables(self, build: KernelBuilder) -> dict[str, list[tuple[int, int, int, int]]]:
+    def _make_tables(self, builder: KernelBuilder) -> dict[str, list[tuple[int, int, int, int]]]:
         """Return the entries of each part in `lin->value`: (row, column, index, sign); columns are those of y."""
         parts, n, z = self.parts, self.n, 2 * self.n + N_WORK
 
-        def make_table(part: Mapping[Pair, sp.Expr], first: int = 0) -> list[tuple[int, int, int, int]]:
+        def make_table(part: Mapping[Pair, sp.Expr], first_column: int = 0) -> list[tuple[int, int, int, int]]:
             """Return (row, column, index, sign) of the entries of one part."""
-            return [(i, first + k, *self.values.find_index_and_sign(build, value)) for (i, k), value in part.items()]
+            return [
+                (i, first_column + k, *self.values.find_index_and_sign(builder, value))
+                for (i, k), value in part.items()
+            ]
 
         return {
             "phi_q": make_table(parts.phi_q),
@@ -163,34 +166,34 @@ class Newton:
             "power_t": make_table({(w, 0): value for w, value in parts.power_t.items()}),
         }
 
-    def _make_matrix_entries(self, build: KernelBuilder) -> dict[Pair, sp.Expr]:
+    def _make_matrix_entries(self, builder: KernelBuilder) -> dict[Pair, sp.Expr]:
         """Return the entries of Newton's matrix by (row, column), of both triangles.
 
         Numbers and symbols stay, other entries become locals.
         """
         parts = self.parts
-        self._append_scales(build, {self._find_scale(node) for node, _ in {**parts.by_v, **parts.by_q}})
+        self._append_scales(builder, {self._find_scale(node) for node, _ in {**parts.by_v, **parts.by_q}})
         first = self.first_state
-        build.begin_section("matrix")
+        builder.begin_section("matrix")
         entries: dict[Pair, sp.Expr] = dict(parts.mass)
         for node, k in sorted({*parts.by_v, *parts.by_q, *parts.phi_q}):
             index = node, k
             coefficient = parts.by_v.get(index, ZERO) + ETA * parts.by_q.get(index, ZERO)
             value = parts.mass.get(index, ZERO) if node < self.n else parts.phi_q.get(index, ZERO)
-            entries[index] = self._name_entry(build, index, value + self._find_scale(node) * coefficient)
+            entries[index] = self._name_entry(builder, index, value + self._find_scale(node) * coefficient)
         entries |= {(k, k): sp.Integer(1) for k in range(first, self.nodes)}
         for (node, state), derivative in parts.by_z.items():
             index = node, first + state
-            entries[index] = self._name_entry(build, index, sp.Integer(node == index[1]) + ETA * derivative)
+            entries[index] = self._name_entry(builder, index, sp.Integer(node == index[1]) + ETA * derivative)
         return entries | {(k, node): value for (node, k), value in parts.phi_q.items()}
 
-    def _name_entry(self, build: KernelBuilder, index: Pair, value: sp.Expr) -> sp.Expr:
+    def _name_entry(self, builder: KernelBuilder, index: Pair, value: sp.Expr) -> sp.Expr:
         """Return an entry of the matrix unchanged if it is simple, else as a named local.
 
         `index`: its row and column.
         """
         name = f"n_{self.names[index[0]]}__{self.names[index[1]]}"
-        return value if is_simple(value) else build.append_local(name, value)
+        return value if is_simple(value) else builder.append_local(name, value)
 
     def _find_scale(self, node: int) -> sp.Symbol:
         """Return the factor η or η/κ by which the change of an equation is multiplied.
@@ -201,16 +204,16 @@ class Newton:
             return ETA
         return ETA_ROW if node < self.n + self.m else ETA_STICK
 
-    def _append_scales(self, build: KernelBuilder, scales: Collection[sp.Symbol]) -> None:
+    def _append_scales(self, builder: KernelBuilder, scales: Collection[sp.Symbol]) -> None:
         """Append η/κ of constraints and of sticks to the function, if they are among the `scales` that it reads."""
         alpha, beta = self.model.baumgarte
         derive = self.model.parameter_table.derive
         two_alpha, beta_squared = derive("two_alpha", 2 * alpha), derive("beta_squared", beta**2)
-        build.begin_section("eta/kappa")
+        builder.begin_section("eta/kappa")
         if ETA_ROW in scales:
-            build.append_line(Statement(ETA_ROW.name, ETA / (1 + ETA * (two_alpha + ETA * beta_squared))))
+            builder.append_line(Statement(ETA_ROW.name, ETA / (1 + ETA * (two_alpha + ETA * beta_squared))))
         if ETA_STICK in scales:
-            build.append_line(Statement(ETA_STICK.name, ETA / (1 + ETA * stick_gain(self.model))))
+            builder.append_line(Statement(ETA_STICK.name, ETA / (1 + ETA * stick_gain(self.model))))
 
     def _make_factor_kernel(self) -> Kernel:
         """Return the function of L U of the matrix, L with unit diagonal.
@@ -220,14 +223,14 @@ class Newton:
         """
         states = range(self.first_state, self.nodes)
         note = ", inner states" if states else ""
-        build = self._begin_function(
+        builder = self._begin_function(
             "newton_factor",
             [
                 "L U of Newton's matrix at eta = h gamma (0: the KKT matrix), L with unit diagonal. Returns 0, or the",
                 f"number of the node (coordinates, rows, sticks{note}; from 1) whose pivot vanished or is not finite.",
             ],
         )
-        entries = self._make_matrix_entries(build)
+        entries = self._make_matrix_entries(builder)
         pattern = [
             {j for j in range(self.nodes) if j != i and ((i, j) in entries or (j, i) in entries)}
             for i in range(self.nodes)
@@ -239,24 +242,24 @@ class Newton:
             first=(*states, *self.first.order),
             partner=self.first.partner,
         )
-        build.begin_section("L U")
-        factors = Factors(self, build, entries)
+        builder.begin_section("L U")
+        factors = Factors(self, builder, entries)
         for k in self.elimination.order:
-            factors.eliminate(k, self.elimination.structure[k])
+            factors.eliminate_node(k, self.elimination.structure[k])
         self.lower, self.upper, self.inverse = factors.lower, factors.upper, factors.inverse
-        build.append_line(Return())
-        return self._finish_function(build, (Argument("eta"), self._make_written_linearization()), status=True)
+        builder.append_line(Return())
+        return self._finish_function(builder, (Argument("eta"), self._make_written_linearization()), status=True)
 
     def _make_written_linearization(self) -> Argument:
         """Return the argument `linearization_argument` as one that the function writes."""
         return replace(self.linearization_argument, access=Access.WRITTEN)
 
-    def _finish_function(self, build: KernelBuilder, arguments: Sequence[Argument], status: bool = False) -> Kernel:
+    def _finish_function(self, builder: KernelBuilder, arguments: Sequence[Argument], status: bool = False) -> Kernel:
         """Return the built function, without locals that nothing reads.
 
         It reads the parameters of the run through `linearization_argument` if it needs them.
         """
-        kernel = build.build_kernel(arguments, status, prune=True)
+        kernel = builder.build_kernel(arguments, status, prune=True)
         parameter_section = Section("numbers of the run", (DeclareParameters(),))
         reads_parameters = any(PARAMETERS.name in s.reads for section in kernel.sections for s in section.statements)
         return replace(kernel, sections=(parameter_section, *kernel.sections)) if reads_parameters else kernel
@@ -266,10 +269,10 @@ class Newton:
 
         Nodes are coordinates, then equations, frictions and inner states.
         """
-        build = self._begin_function(
+        builder = self._begin_function(
             "newton_substitute", ["x (all nodes) holds b and becomes the solution of N x = b."]
         )
-        build.begin_section("forward")
+        builder.begin_section("forward")
         order = self.elimination.order
         x: dict[int, sp.Symbol] = {}
         earlier_columns: dict[int, list[int]] = {k: [] for k in order}
@@ -278,33 +281,34 @@ class Newton:
         for k in order:
             i = self.equation.get(k, k)
             value = PlaceSymbol(Place("x")[i]) - sp.Add(*(self.lower[i, j] * x[j] for j in earlier_columns[i]))
-            x[k] = build.append_local(f"b_{self.names[k]}", value)
-        build.begin_section("backward")
+            x[k] = builder.append_local(f"b_{self.names[k]}", value)
+        builder.begin_section("backward")
         for k in reversed(order):
             value = x[k] - sp.Add(*(self.upper[k, j] * x[j] for j in self.elimination.structure[k]))
-            x[k] = build.append_local(f"x_{self.names[k]}", value * self.inverse[k])
-            build.append_store(Place("x")[k], x[k])
-        return self._finish_function(build, (self.linearization_argument, make_output_argument("x")))
+            x[k] = builder.append_local(f"x_{self.names[k]}", value * self.inverse[k])
+            builder.append_store(Place("x")[k], x[k])
+        return self._finish_function(builder, (self.linearization_argument, make_output_argument("x")))
 
     def _make_solve_kernel(self) -> Kernel:
         """Return the function that computes u from r, both (2n + works + inner states), for a factor s of f_t."""
         n, parts = self.n, self.parts
         states = range(self.first_state, self.nodes)
-        build = self._begin_function(
+        builder = self._begin_function(
             "newton_solve",
             [
                 "(1/eta - J) u = r + s f_t with the factors of newton_factor at the same eta; r, u: q, v, works"
                 f"{', inner states' if states else ''}.",
             ],
         )
-        self._append_scales(build, {self._find_scale(node) for node in range(self.nodes)})
-        build.begin_section("right-hand side")
-        build.append_line(Declare(Number.REAL, "x", (self.nodes,)))
+        self._append_scales(builder, {self._find_scale(node) for node in range(self.nodes)})
+        builder.begin_section("right-hand side")
+        builder.append_line(Declare(Number.REAL, "x", (self.nodes,)))
         beta_squared = self.model.parameter_table.derive("beta_squared", self.model.baumgarte[1] ** 2)
         r_q, r_v = ([PlaceSymbol(Place("r")[first + k]) for k in range(n)] for first in (0, n))
         coordinates = sorted({k for node, k in parts.phi_q if node < n + self.m})
         shifted = {
-            k: build.append_local(f"shifted_{self.names[k]}", r_v[k] - ETA * beta_squared * r_q[k]) for k in coordinates
+            k: builder.append_local(f"shifted_{self.names[k]}", r_v[k] - ETA * beta_squared * r_q[k])
+            for k in coordinates
         }
         b: list[list[sp.Expr]] = [[] for _ in range(self.nodes)]
         for (i, k), value in parts.mass.items():
@@ -318,16 +322,16 @@ class Newton:
         for i in range(self.first_state, self.nodes):
             b[i].append(PlaceSymbol(Place("r")[self._find_state_index(i)]))
         for i, terms in enumerate(b):
-            build.append_store(Place("x")[i], self._find_scale(i) * sp.Add(*terms))
-        build.append_line(Call("newton_substitute", (Place(LINEARIZATION),), (Place("x"),)))
-        build.begin_section("solution")
+            builder.append_store(Place("x")[i], self._find_scale(i) * sp.Add(*terms))
+        builder.append_line(Call("newton_substitute", (Place(LINEARIZATION),), (Place("x"),)))
+        builder.begin_section("solution")
         for k in range(n):
-            build.append_store(Place("u")[k], ETA * (r_q[k] + PlaceSymbol(Place("x")[k])))
-            build.append_store(Place("u")[n + k], PlaceSymbol(Place("x")[k]))
+            builder.append_store(Place("u")[k], ETA * (r_q[k] + PlaceSymbol(Place("x")[k])))
+            builder.append_store(Place("u")[n + k], PlaceSymbol(Place("x")[k]))
         for i in range(self.first_state, self.nodes):
-            build.append_store(Place("u")[self._find_state_index(i)], PlaceSymbol(Place("x")[i]))
+            builder.append_store(Place("u")[self._find_state_index(i)], PlaceSymbol(Place("x")[i]))
         for w in range(N_WORK):
-            build.append_store(Place("u")[2 * n + w], self._compute_work_change(w))
+            builder.append_store(Place("u")[2 * n + w], self._compute_work_change(w))
         arguments = (
             self.linearization_argument,
             Argument("eta"),
@@ -335,7 +339,7 @@ class Newton:
             make_input_argument("r"),
             make_output_argument("u"),
         )
-        return self._finish_function(build, arguments)
+        return self._finish_function(builder, arguments)
 
     def _find_state_index(self, state: int) -> int:
         """Return the index in y of the node of an inner state."""
@@ -372,15 +376,15 @@ ETA, ETA_ROW, ETA_STICK = (sp.Symbol(name, real=True) for name in ("eta", "eta_r
 class Factors:
     """L, U and inverse pivots of Newton's matrix, printed column by column."""
 
-    def __init__(self, newton: Newton, build: KernelBuilder, entries: Mapping[Pair, sp.Expr]) -> None:
+    def __init__(self, newton: Newton, builder: KernelBuilder, entries: Mapping[Pair, sp.Expr]) -> None:
         """Begin without pivots; `entries` are those of the matrix by (row, column)."""
-        self.newton, self.build, self.entries = newton, build, entries
+        self.newton, self.builder, self.entries = newton, builder, entries
         self.lower: dict[Pair, sp.Expr] = {}  # (later equation, earlier unknown)
         self.upper: dict[Pair, sp.Expr] = {}  # (earlier unknown, later unknown)
         self.inverse: dict[int, sp.Expr] = {}
         self._earlier_pivots: dict[int, list[int]] = {k: [] for k in range(newton.nodes)}
 
-    def eliminate(self, k: int, later_nodes: Sequence[int]) -> None:
+    def eliminate_node(self, k: int, later_nodes: Sequence[int]) -> None:
         """Append pivot k, its column of L and its row of U; `later_nodes`: the nodes in them."""
         self.inverse[k] = self._invert_pivot(k)
         names, equation = self.newton.names, self.newton.equation.get(k, k)
@@ -409,13 +413,13 @@ class Factors:
         The rest of an equation is compared with its value if it were independent of the others. Constant entries,
         missing inner states and masses need no test; at slip a friction's multiplier is 0.
         """
-        newton, build, name = self.newton, self.build, self.newton.names[k]
+        newton, builder, name = self.newton, self.builder, self.newton.names[k]
         entry = self.entries.get((newton.equation.get(k, k), k), ZERO)
         if k in newton.equation:
             return (
                 entry
                 if is_unit(entry)
-                else newton.factors.store_local(build, build.append_local(f"inverse_pivot_{name}", 1 / entry))
+                else newton.factors.store_local(builder, builder.append_local(f"inverse_pivot_{name}", 1 / entry))
             )
         if entry.is_Number and entry == 1:  # an inner state that this joint does not have
             return entry
@@ -428,19 +432,19 @@ class Factors:
             if j < newton.n or j in newton.equation or j >= states or k < newton.n or k >= states
         ]
         row_pivots = [j for j in self._earlier_pivots[k] if j not in independent_pivots]
-        scale = build.append_local(f"scale_{name}", entry - self._sum_products(k, k, independent_pivots))
+        scale = builder.append_local(f"scale_{name}", entry - self._sum_products(k, k, independent_pivots))
         pivot = (
-            build.append_local(f"pivot_{name}", scale - self._sum_products(k, k, row_pivots)) if row_pivots else scale
+            builder.append_local(f"pivot_{name}", scale - self._sum_products(k, k, row_pivots)) if row_pivots else scale
         )
         size = entry if k < newton.n or k >= states else scale
         stick = newton.sticks[k - newton.n - newton.m] if newton.n + newton.m <= k < states else None
         is_sticking = Test(stick, "!=", (0.0,)) if stick is not None else None
-        build.append_line(
+        builder.append_line(
             Guard(Test(pivot, ">", (SINGULAR, Size(size)), compares_magnitude=True), k + 1, condition=is_sticking)
         )
         # a row that slips is switched off: its multiplier is zero
         value = 1 / pivot if is_sticking is None else Conditional(is_sticking, 1 / pivot, ZERO)
-        return newton.factors.store_local(build, build.append_local(f"inverse_pivot_{name}", value))
+        return newton.factors.store_local(builder, builder.append_local(f"inverse_pivot_{name}", value))
 
     def _store_factor(self, name: str, value: sp.Expr) -> sp.Expr:
         """Return a factor as a value that other functions may read.
@@ -453,5 +457,5 @@ class Factors:
             ETA_STICK,
         }  # not what every call is given
         return self.newton.factors.store_local(
-            self.build, value if is_stored_elsewhere else self.build.append_local(name, value)
+            self.builder, value if is_stored_elsewhere else self.builder.append_local(name, value)
         )

@@ -48,27 +48,29 @@ class Factor:
     inverse: Mapping[int, Mapping[int, sp.Expr]]
 
 
-def append_friction_mode(build: KernelBuilder, name: str, index: int) -> tuple[sp.Symbol, sp.Symbol]:
+def append_friction_mode(builder: KernelBuilder, name: str, index: int) -> tuple[sp.Symbol, sp.Symbol]:
     """Return two locals for a friction element's mode: 1 at stick and 0 else; the sign of the slip (0: none).
 
     `index`: number of the element, whose discrete state the function reads.
     """
     mode_place = DISCRETE["mode"][index]
-    mode = build.append_local(f"mode_{name}", mode_place, "0 stick, 1 or -1 the sign of the slip, 2 held")
-    stick = build.append_local(f"stick_{name}", Conditional(Test(mode, "==", (0.0,)), sp.Integer(1), ZERO))
-    return stick, build.append_local(
+    mode = builder.append_local(f"mode_{name}", mode_place, "0 stick, 1 or -1 the sign of the slip, 2 held")
+    stick = builder.append_local(f"stick_{name}", Conditional(Test(mode, "==", (0.0,)), sp.Integer(1), ZERO))
+    return stick, builder.append_local(
         f"sign_{name}", Conditional(Test(mode, ">", (1.0,), compares_magnitude=True), ZERO, mode)
     )
 
 
-def make_pivot_guard(failing: Sequence[int], position: int, value: sp.Expr, *bound: sp.Expr | float) -> Guard:
-    """Return the test that a pivot of a block is above the bound, a product.
+def make_pivot_guard(
+    on_failure: Sequence[int], pivot_number: int, value: sp.Expr, *bound_factors: sp.Expr | float
+) -> Guard:
+    """Return the test that a pivot of a block is above a bound.
 
-    `failing`: whether failure jumps, and the number of equations before the block; `position`: 1 or 2, which pivot of
-    the block.
+    `on_failure`: whether failure jumps, and the number of equations before the block. `pivot_number`: number of the
+    pivot in the block, 1 or 2. The bound is the product of `bound_factors`.
     """
-    jumps, count = failing
-    return Guard(Test(value, ">", bound), count + position, bool(jumps))
+    jumps, count = on_failure
+    return Guard(Test(value, ">", bound_factors), count + pivot_number, bool(jumps))
 
 
 def is_simple(value: sp.Expr) -> bool:
@@ -76,9 +78,9 @@ def is_simple(value: sp.Expr) -> bool:
     return bool(value.is_Number or value.is_Symbol or (-value).is_Symbol)
 
 
-def append_unless_simple(build: KernelBuilder, name: str, value: sp.Expr) -> sp.Expr:
+def append_local_unless_simple(builder: KernelBuilder, name: str, value: sp.Expr) -> sp.Expr:
     """Return the value, as a new local of that name unless it is simple."""
-    return value if is_simple(value) else build.append_local(name, value)
+    return value if is_simple(value) else builder.append_local(name, value)
 
 
 def find_row_pairs(rows: Sequence[Row], n: int, pattern: Sequence[frozenset[int]]) -> dict[int, int]:

@@ -43,7 +43,7 @@ class Elimination:
 
 def choose_elimination(
     pattern: Pattern,
-    coordinates: int,
+    n_coordinates: int,
     last: int | None = None,
     pairs: Mapping[int, int] = NO_PAIRS,
     first: Sequence[int] = (),
@@ -51,7 +51,7 @@ def choose_elimination(
 ) -> Elimination:
     """Return the cheapest of a few greedy elimination orders.
 
-    Nodes below `coordinates` are coordinates, the others equations; nodes from `last` on come after all others.
+    Nodes below `n_coordinates` are coordinates, the others equations; nodes from `last` on come after all others.
     Equations in `pairs` (each with its partner, in the same coordinates) may be eliminated once two of their
     coordinates are. Their 2 × 2 pivot then vanishes where two links are in line, so that the caller must test it. Nodes
     in `first` come before all others, in their order. A node with a `partner`, an equation with a constant entry in it,
@@ -59,7 +59,7 @@ def choose_elimination(
     """
     if first:
         orders = (
-            _eliminate_in_order(first, pattern, coordinates, last, pairs, partner, eager) for eager in (False, True)
+            _eliminate_in_order(first, pattern, n_coordinates, last, pairs, partner, eager) for eager in (False, True)
         )
         return min(orders if partner else [next(orders)], key=lambda elimination: elimination.cost)
     end = len(pattern) if last is None else last
@@ -76,7 +76,7 @@ def choose_elimination(
 
     def compute_bodies_first_key(graph: Sequence[set[int]], node: int, depth: int) -> tuple[int, ...]:
         """Return the key of least fill-in with all coordinates before equations."""
-        return (node >= end, node >= coordinates, *compute_fill_key(graph, node, depth))
+        return (node >= end, node >= n_coordinates, *compute_fill_key(graph, node, depth))
 
     def compute_untouched_key(graph: Sequence[set[int]], node: int, depth: int) -> tuple[int, ...]:
         """Return the key of least fill-in with nodes that no elimination has changed first."""
@@ -100,7 +100,7 @@ def choose_elimination(
         compute_early_key,
     )
     candidates = [
-        _eliminate_greedily(pattern, coordinates, key, equation_pairs)
+        _eliminate_greedily(pattern, n_coordinates, key, equation_pairs)
         for equation_pairs in (NO_PAIRS, pairs)[: 1 + bool(pairs)]
         for key in keys
     ]
@@ -110,7 +110,7 @@ def choose_elimination(
 def _eliminate_in_order(
     first: Sequence[int],
     pattern: Pattern,
-    coordinates: int,
+    n_coordinates: int,
     last: int | None,
     pairs: Mapping[int, int],
     partner: Mapping[int, int],
@@ -123,14 +123,14 @@ def _eliminate_in_order(
     """
     graph = [set(neighbours) for neighbours in pattern]
     columns = dict[int, set[int]]()
-    remaining_rows, products = {*partner.values(), *(node for node in first if coordinates <= node < len(pattern))}, 0
+    remaining_rows, products = {*partner.values(), *(node for node in first if n_coordinates <= node < len(pattern))}, 0
     for node in first:
         products += _eliminate_node(node, partner.get(node), graph, columns)
         remaining_rows -= {node, partner.get(node)}
-        ready_coordinates = sorted(columns[node]) if eager and (node in partner or node >= coordinates) else ()
+        ready_coordinates = sorted(columns[node]) if eager and (node in partner or node >= n_coordinates) else ()
         for candidate in ready_coordinates:
             if (
-                candidate < coordinates
+                candidate < n_coordinates
                 and candidate not in partner
                 and candidate not in columns
                 and not graph[candidate] & remaining_rows
@@ -140,7 +140,7 @@ def _eliminate_in_order(
     index_of = {node: candidate for candidate, node in enumerate(remaining)}
     remaining_elimination = choose_elimination(
         tuple(frozenset(index_of[candidate] for candidate in graph[node]) for node in remaining),
-        sum(node < coordinates for node in remaining),
+        sum(node < n_coordinates for node in remaining),
         None if last is None else sum(node < last for node in remaining),
         {
             index_of[r]: index_of[partner_row]
@@ -182,7 +182,7 @@ def _eliminate_node(node: int, partner: int | None, graph: Sequence[set[int]], c
 
 def _eliminate_greedily(
     pattern: Pattern,
-    coordinates: int,
+    n_coordinates: int,
     key: Callable[[Sequence[set[int]], int, int], tuple[int, ...]],
     pairs: Mapping[int, int],
 ) -> Elimination:
@@ -193,7 +193,7 @@ def _eliminate_greedily(
     """
     graph = [set(neighbours) for neighbours in pattern]
     n_missing = [
-        sum(neighbours < coordinates for neighbours in pattern[equation]) if equation >= coordinates else 0
+        sum(neighbours < n_coordinates for neighbours in pattern[equation]) if equation >= n_coordinates else 0
         for equation in range(len(pattern))
     ]
     for equation in pairs:
@@ -219,12 +219,12 @@ def _eliminate_greedily(
         for neighbour in neighbours:
             graph[neighbour].discard(node)
             adds_division = (
-                node >= coordinates and pairs.get(node) not in remaining or node < coordinates and depths[node] > 0
+                node >= n_coordinates and pairs.get(node) not in remaining or node < n_coordinates and depths[node] > 0
             )
             depths[neighbour] = max(depths[neighbour], depths[node] + adds_division)
             graph[neighbour] |= neighbours - {neighbour}
             changed_nodes |= graph[neighbour]
-            if neighbour >= coordinates and node < coordinates and neighbour in pattern[node]:
+            if neighbour >= n_coordinates and node < n_coordinates and neighbour in pattern[node]:
                 n_missing[neighbour] -= 1
         for neighbour in changed_nodes & remaining:
             if keys.get(neighbour) == _FIRST_KEY:
@@ -235,10 +235,10 @@ def _eliminate_greedily(
     position = {node: k for k, node in enumerate(order)}
     structure = {node: tuple(sorted(columns[node], key=position.__getitem__)) for node in order}
     products = sum(len(c) * (len(c) + 3) // 2 for c in columns.values())
-    return Elimination(tuple(order), structure, products, _compute_division_depth(order, structure, coordinates))
+    return Elimination(tuple(order), structure, products, _compute_division_depth(order, structure, n_coordinates))
 
 
-def _compute_division_depth(order: Sequence[int], structure: Mapping[int, tuple[int, ...]], coordinates: int) -> int:
+def _compute_division_depth(order: Sequence[int], structure: Mapping[int, tuple[int, ...]], n_coordinates: int) -> int:
     """Return the length of the longest chain of divisions that wait for each other.
 
     Pivots that elimination does not change are computed beforehand; two that form a block count as one.
@@ -247,7 +247,7 @@ def _compute_division_depth(order: Sequence[int], structure: Mapping[int, tuple[
     depths = dict.fromkeys(order, 0)
     pair_node = -1
     for position, k in enumerate(order):
-        adds_division = k != pair_node and (k >= coordinates or k in changed_nodes)
+        adds_division = k != pair_node and (k >= n_coordinates or k in changed_nodes)
         next_node = order[position + 1] if position + 1 < len(order) else -1
         pair_node = next_node if adds_division and structure[k] == (next_node, *structure.get(next_node, ())) else -1
         depths[k] += adds_division
@@ -271,21 +271,21 @@ def match_rows(pattern: Sequence[set[int]]) -> dict[int, int]:
     """
     row_of_unknown: dict[int, int] = {}
 
-    def find_unknown(row: int, tried: set[int]) -> bool:
+    def assign_unknown(row: int, visited_unknowns: set[int]) -> bool:
         """Return whether the equation gets an unknown, after moving other equations if necessary.
 
-        `tried` collects unknowns that have been visited.
+        `visited_unknowns` collects unknowns that have been visited.
         """
         for column in sorted(pattern[row]):
-            if column not in tried:
-                tried.add(column)
-                if column not in row_of_unknown or find_unknown(row_of_unknown[column], tried):
+            if column not in visited_unknowns:
+                visited_unknowns.add(column)
+                if column not in row_of_unknown or assign_unknown(row_of_unknown[column], visited_unknowns):
                     row_of_unknown[column] = row
                     return True
         return False
 
     for row in range(len(pattern)):
-        find_unknown(row, set())
+        assign_unknown(row, set())
     return row_of_unknown
 
 

@@ -43,11 +43,11 @@ class Solver:
 class SquareRows:
     """Prints the solution of Φ_q x = r for a system's equations in its coordinates, if it `is_solvable`."""
 
-    def __init__(self, system: System, slides: Sequence[bool]) -> None:
-        """Find the blocks of the system's equations; `slides`: whether each coordinate is a length, not an angle."""
+    def __init__(self, system: System, is_slide: Sequence[bool]) -> None:
+        """Find the blocks of the system's equations; `is_slide`: whether each coordinate is a length, not an angle."""
         rows, q = system.rows, system.q
         coordinate_index = {symbol: k for k, symbol in enumerate(q)}
-        self._symbols, self._q, self._slides = system.model.symbols, tuple(q), slides
+        self._symbols, self._q, self._is_slide = system.model.symbols, tuple(q), is_slide
         self.names = [row.name.replace(".", "_").replace("=", "_") for row in rows]
         self.unknowns = [symbol.name for symbol in q]
         self.entries: list[Mapping[int, sp.Expr]] = [
@@ -65,79 +65,79 @@ class SquareRows:
         """Return the number of equations of the largest block; more than two need engine/scene/block.c."""
         return max((len(block.rows) for block in self.blocks or ()), default=0)
 
-    def factorize(self, build: KernelBuilder) -> list[Solver]:
+    def factorize(self, builder: KernelBuilder) -> list[Solver]:
         """Append the factorization of all blocks and return their solvers.
 
         The printed function returns the number, from 1, of an equation of the block that is singular.
         """
-        build.begin_section("blocks of constraint equations that are solved one after the other")
+        builder.begin_section("blocks of constraint equations that are solved one after the other")
         solvers = []
         for block in self.blocks or ():
             size = min(len(block.rows), 3)
             solvers.append(
-                (self._factorize_single, self._factorize_pair, self._factorize_dense)[size - 1](build, block)
+                (self._factorize_single, self._factorize_pair, self._factorize_dense)[size - 1](builder, block)
             )
         return solvers
 
-    def _factorize_single(self, build: KernelBuilder, block: Block) -> Solver:
+    def _factorize_single(self, builder: KernelBuilder, block: Block) -> Solver:
         """Return the solver of a block of one equation, with a test of its pivot unless that is a number."""
         (row,), (column,) = block.rows, block.columns
         pivot = self.entries[row][column]
         if pivot.is_Number:
             return Solver(block, 1 / pivot)
-        pivot_local = build.append_local(f"pivot_{self.names[row]}", pivot)
-        build.append_line(
+        pivot_local = builder.append_local(f"pivot_{self.names[row]}", pivot)
+        builder.append_line(
             Guard(
                 Test(
                     pivot_local,
                     ">",
-                    (SHARE, self._compute_entry_bound(build, row, column, block)),
+                    (SHARE, self._compute_entry_bound(builder, row, column, block)),
                     compares_magnitude=True,
                 ),
                 row + 1,
             )
         )
-        return Solver(block, build.append_local(f"inverse_{self.names[row]}", 1 / pivot_local))
+        return Solver(block, builder.append_local(f"inverse_{self.names[row]}", 1 / pivot_local))
 
-    def _factorize_pair(self, build: KernelBuilder, block: Block) -> Solver:
+    def _factorize_pair(self, builder: KernelBuilder, block: Block) -> Solver:
         """Return the solver of a block of two equations by Cramer's rule, with a test of its determinant.
 
         The determinant is compared with its largest value for any direction of the arms.
         """
         name = f"{self.names[block.rows[0]]}__{self.names[block.rows[1]]}"
         (a, b), (c, d) = self._extract_block(block)
-        determinant = build.append_local(f"determinant_{name}", a * d - b * c)
-        (A, B), (C, D) = ([self._compute_entry_bound(build, r, k, block) for k in block.columns] for r in block.rows)
-        bound = build.append_local(f"bound_{name}", A * D + B * C)
-        build.append_line(Guard(Test(determinant, ">", (SHARE, bound), compares_magnitude=True), block.rows[1] + 1))
-        return Solver(block, build.append_local(f"inverse_{name}", 1 / determinant))
+        determinant = builder.append_local(f"determinant_{name}", a * d - b * c)
+        (A, B), (C, D) = ([self._compute_entry_bound(builder, r, k, block) for k in block.columns] for r in block.rows)
+        bound = builder.append_local(f"bound_{name}", A * D + B * C)
+        builder.append_line(Guard(Test(determinant, ">", (SHARE, bound), compares_magnitude=True), block.rows[1] + 1))
+        return Solver(block, builder.append_local(f"inverse_{name}", 1 / determinant))
 
-    def _compute_entry_bound(self, build: KernelBuilder, row: int, column: int, block: Block) -> sp.Expr:
+    def _compute_entry_bound(self, builder: KernelBuilder, row: int, column: int, block: Block) -> sp.Expr:
         """Return the largest value of an entry for any direction of its arms, within a factor of two.
 
         For an angle it is |c| + |dc/dθ|, for a slide the sum of |c| over the block's slides: units are not mixed. A
         longer expression becomes a local.
         """
         entries = self.entries[row]
-        if self._slides[column]:
-            magnitude = sp.Add(*(sp.Abs(entries.get(k, ZERO)) for k in block.columns if self._slides[k]))
+        if self._is_slide[column]:
+            magnitude = sp.Add(*(sp.Abs(entries.get(k, ZERO)) for k in block.columns if self._is_slide[k]))
         else:
             entry = entries.get(column, ZERO)
             magnitude = sp.Abs(entry) + sp.Abs(self._symbols.differentiate(entry, self._q[column]))
         if magnitude.is_Number:
             return magnitude
-        return build.append_local(f"size_{self.names[row]}__{self.unknowns[column]}", magnitude.replace(sp.Abs, Size))
+        return builder.append_local(f"size_{self.names[row]}__{self.unknowns[column]}", magnitude.replace(sp.Abs, Size))
 
-    def _factorize_dense(self, build: KernelBuilder, block: Block) -> Solver:
+    def _factorize_dense(self, builder: KernelBuilder, block: Block) -> Solver:
         """Return the solver of a larger block, which the engine factorizes at run time with pivoting."""
         n, name = len(block.rows), self._symbols.make_unique_name(f"block_{self.names[block.rows[0]]}")
         values, order = f"{name}_values", f"{name}_order"
-        build.append_line(Declare(Number.REAL, values, (n * n,)))
-        build.append_line(Declare(Number.INTEGER, order, (n,)))
+        builder.append_line(Declare(Number.REAL, values, (n * n,)))
+        builder.append_line(Declare(Number.INTEGER, order, (n,)))
         for k, value in enumerate(value for row in self._extract_block(block) for value in row):
-            build.append_store(Place(values)[k], value)
+            builder.append_store(Place(values)[k], value)
         factorization = Call("factor_block", (sp.Integer(n),), (Place(values), Place(order)))
-        build.append_line(Guard(factorization, block.rows[0] + 1))
+        builder.append_line(Guard(factorization, block.rows[0] + 1))
         return Solver(block, name=name)
 
     def _extract_block(self, block: Block) -> list[list[sp.Expr]]:
@@ -145,7 +145,7 @@ class SquareRows:
         return [[self.entries[r].get(c, ZERO) for c in block.columns] for r in block.rows]
 
     def solve(
-        self, build: KernelBuilder, solvers: Sequence[Solver], rhs: Sequence[sp.Expr], prefix: str
+        self, builder: KernelBuilder, solvers: Sequence[Solver], rhs: Sequence[sp.Expr], prefix: str
     ) -> list[sp.Expr]:
         """Append the solution x for one right-hand side and return it by coordinate.
 
@@ -159,17 +159,17 @@ class SquareRows:
             ]
             if len(block_rhs) > 1:
                 block_rhs = [
-                    build.append_local(f"{prefix}_rest_{self.names[r]}", value)
+                    builder.append_local(f"{prefix}_rest_{self.names[r]}", value)
                     if len(value.free_symbols) > 1
                     else value
                     for r, value in zip(block.rows, block_rhs, strict=True)
                 ]
-            for k, value in zip(block.columns, self._solve_block(build, solver, block_rhs, prefix), strict=True):
-                x[k] = build.append_local(f"{prefix}_{self.unknowns[k]}", value)
+            for k, value in zip(block.columns, self._solve_block(builder, solver, block_rhs, prefix), strict=True):
+                x[k] = builder.append_local(f"{prefix}_{self.unknowns[k]}", value)
         return [x[k] for k in range(len(self.unknowns))]
 
     def _solve_block(
-        self, build: KernelBuilder, solver: Solver, rhs: Sequence[sp.Expr], prefix: str
+        self, builder: KernelBuilder, solver: Solver, rhs: Sequence[sp.Expr], prefix: str
     ) -> Sequence[sp.Expr | Place]:
         """Return the solution of one block for its right-hand side `rhs`, one value for each of its equations."""
         if len(rhs) == 1:
@@ -178,9 +178,9 @@ class SquareRows:
             (a, b), (c, d) = self._extract_block(solver.block)
             return [(d * rhs[0] - b * rhs[1]) * solver.inverse, (a * rhs[1] - c * rhs[0]) * solver.inverse]
         name, n = self._symbols.make_unique_name(f"{solver.name}_{prefix}"), len(rhs)
-        build.append_line(Declare(Number.REAL, name, (n,)))
+        builder.append_line(Declare(Number.REAL, name, (n,)))
         for k, value in enumerate(rhs):
-            build.append_store(Place(name)[k], value)
+            builder.append_store(Place(name)[k], value)
         arguments = (sp.Integer(n), Place(f"{solver.name}_values"), Place(f"{solver.name}_order"))
-        build.append_line(Call("solve_block", arguments, (Place(name),)))
+        builder.append_line(Call("solve_block", arguments, (Place(name),)))
         return [Place(name)[k] for k in range(n)]

@@ -87,7 +87,7 @@ def make_curve_name(name: str) -> str:
     return f"CURVE_{name}_"
 
 
-_MAX_CONTOUR_ORDER = 2  # derivatives of a contour: the third jumps from slot to slot
+_MAX_CONTOUR_ORDER = 2  # derivatives of a contour: the third jumps from one interval to the next
 
 
 class ContourOf(sp.Function):
@@ -123,9 +123,9 @@ class ContourOf(sp.Function):
         )
 
 
-def make_contour_expression(table: str, count: int, order: int, angle: sp.Expr) -> sp.Expr:
+def make_contour_expression(table: str, n_depths: int, order: int, angle: sp.Expr) -> sp.Expr:
     """Return the k-th derivative (`order`) by the angle of a bearing's contour at an angle.
 
-    `table`: the array of Parameters that holds its depths in m; `count`: their number.
+    `table`: the array of Parameters that holds its depths in m; `n_depths`: their number.
     """
-    return ContourOf(Str(table), sp.Integer(count), sp.Integer(order), angle)
+    return ContourOf(Str(table), sp.Integer(n_depths), sp.Integer(order), angle)

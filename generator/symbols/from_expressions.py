@@ -27,21 +27,21 @@ def find_classes(predicate: Callable[[Function], bool]) -> tuple[Any, ...]:
     return tuple(class_ for class_, function in CLASSES.items() if predicate(function))
 
 
-def smooth_step(t: sp.Expr, start: sp.Expr, duration: sp.Expr) -> sp.Expr:
+def make_smooth_step(t: sp.Expr, start: sp.Expr, duration: sp.Expr) -> sp.Expr:
     """Return the step that is 0 before `start`, 1 after `start + duration`, and 10s³ − 15s⁴ + 6s⁵ between them."""
-    s = ramp(t, start, duration)
+    s = make_ramp(t, start, duration)
     return s**3 * (10 + s * (6 * s - 15))
 
 
-def ramp(t: sp.Expr, start: sp.Expr, duration: sp.Expr) -> sp.Expr:
+def make_ramp(t: sp.Expr, start: sp.Expr, duration: sp.Expr) -> sp.Expr:
     """Return the ramp that is 0 before `start`, 1 after `start + duration`, and linear between them."""
     return sp.Max(0, sp.Min(1, (t - start) / duration))
 
 
-def where(left: sp.Expr, right: sp.Expr, then: sp.Expr, otherwise: sp.Expr) -> sp.Expr:
-    """Return a conditional branch: `then` where left < right, else `otherwise`.
+def make_conditional(left: sp.Expr, right: sp.Expr, then: sp.Expr, otherwise: sp.Expr) -> sp.Expr:
+    """Return a conditional branch: `then` where left < right, else `otherwise`; the function `where` of files.
 
-    If both are equal, no branch is made.
+    If both values are equal, one of them is returned.
     """
     return then if then == otherwise else Pick(sp.sign(left - right), otherwise, then)
 
@@ -68,20 +68,20 @@ def _make_exact(expression: sp.Expr) -> sp.Expr:
 _BUILDERS: dict[str, Callable[..., sp.Expr]] = {
     **{function.name: kind for kind, function in CLASSES.items()},
     "exp": make_exponential,
-    "smooth_step": smooth_step,
-    "ramp": ramp,
-    "where": where,
+    "smooth_step": make_smooth_step,
+    "ramp": make_ramp,
+    "where": make_conditional,
     "mod": ModOf,
 }
 
 
-def convert_to_sympy(expr: Expr, symbol_of: Callable[[str], sp.Expr]) -> sp.Expr:
+def convert_to_sympy(expr: Expr, find_symbol: Callable[[str], sp.Expr]) -> sp.Expr:
     """Return a parsed expression `expr` as a SymPy expression.
 
-    `symbol_of(path)` returns the SymPy expression of a name. A number stays the binary64 value that the user wrote;
+    `find_symbol(path)` returns the SymPy expression of a name. A number stays the binary64 value that the user wrote;
     integers stay exact, so that they fold.
     """
-    return _Converter(symbol_of).value(expr)
+    return _Converter(find_symbol).convert_node(expr)
 
 
 def convert_derivative(derivative: str, x: sp.Expr, f: sp.Expr) -> sp.Expr:
@@ -95,18 +95,18 @@ def convert_derivative(derivative: str, x: sp.Expr, f: sp.Expr) -> sp.Expr:
 class _Converter:
     """Converter of one expression tree to SymPy, each part once."""
 
-    def __init__(self, symbol_of: Callable[[str], sp.Expr]) -> None:
+    def __init__(self, find_symbol: Callable[[str], sp.Expr]) -> None:
         """Begin with the resolver of names."""
-        self._symbol_of = symbol_of
+        self._find_symbol = find_symbol
         self._expression_by_id: dict[int, sp.Expr] = {}  # by the part's id
 
-    def value(self, expr: Expr) -> sp.Expr:
+    def convert_node(self, expr: Expr) -> sp.Expr:
         """Return the SymPy expression of a node of the tree, from a cache if it has been converted."""
         if id(expr) not in self._expression_by_id:
-            self._expression_by_id[id(expr)] = self._convert(expr)
+            self._expression_by_id[id(expr)] = self._convert_uncached(expr)
         return self._expression_by_id[id(expr)]
 
-    def _convert(self, expr: Expr) -> sp.Expr:
+    def _convert_uncached(self, expr: Expr) -> sp.Expr:
         """Convert one node of the tree to SymPy, without reading the cache.
 
         Floats of integer value below 1e15 become integers, and names what the resolver returns for them. Operands are
@@ -116,28 +116,28 @@ class _Converter:
             case Number(value=value):
                 return sp.Integer(int(value)) if value == int(value) and abs(value) < 1e15 else sp.Float(value, 17)
             case Name(path=path):
-                return self._symbol_of(path)
+                return self._find_symbol(path)
             case Unary(operand=operand):
-                return -self.value(operand)
+                return -self.convert_node(operand)
             case Call(function="sqrt", arguments=(argument_,)):
                 return apply_unexpanded(
-                    lambda a: self._make_power_without_squares(a, _HALF, argument_), self.value(argument_)
+                    lambda a: self._make_power_without_squares(a, _HALF, argument_), self.convert_node(argument_)
                 )
             case Call(function="hypot", arguments=sides):
                 return apply_unexpanded(
                     lambda a, b: self._make_power_without_squares(
                         _make_unexpanded_square(a) + _make_unexpanded_square(b), _HALF, *sides
                     ),
-                    *map(self.value, sides),
+                    *map(self.convert_node, sides),
                 )
             case CurveCall(arguments=(argument,), curve=curve):
-                return apply_unexpanded(lambda x: make_curve_expression(curve, x), self.value(argument))
+                return apply_unexpanded(lambda x: make_curve_expression(curve, x), self.convert_node(argument))
             case Call(function=function, arguments=arguments):
-                return apply_unexpanded(_BUILDERS[function], *map(self.value, arguments))
+                return apply_unexpanded(_BUILDERS[function], *map(self.convert_node, arguments))
             case Binary(operator="**", left=left, right=right):
-                return self._convert_power(left, self.value(left), self.value(right))
+                return self._convert_power(left, self.convert_node(left), self.convert_node(right))
             case Binary(operator=operator, left=left, right=right):
-                return _apply_operator(operator, self.value(left), self.value(right))
+                return _apply_operator(operator, self.convert_node(left), self.convert_node(right))
 
     def _convert_power(self, left: Expr, a: sp.Expr, b: sp.Expr) -> sp.Expr:
         """Return the power a**b of two converted operands; `left` is the unconverted base.
@@ -174,12 +174,12 @@ class _Converter:
             case Unary(operand=operand):
                 return -self._convert_with_decimals(operand)
             case Binary(operator="**", left=left, right=right):
-                exponent, base = self.value(right), self._convert_with_decimals(left)
+                exponent, base = self.convert_node(right), self._convert_with_decimals(left)
                 if exponent.is_Integer and 1 < exponent <= DEGREE and exponent * _count_bits(base) < _MAX_BITS:
                     return base**exponent
             case Binary(operator=operator, left=left, right=right):
                 return _apply_operator(operator, self._convert_with_decimals(left), self._convert_with_decimals(right))
-        return convert_to_decimal(self.value(expr))
+        return convert_to_decimal(self.convert_node(expr))
 
 
 def _count_bits(expression: sp.Expr) -> int:
@@ -241,13 +241,13 @@ def _compute_numeric_power(a: sp.Expr, b: sp.Expr) -> sp.Expr:
     return sp.Integer(int(value)) if abs(value) < 1e15 and value == int(value) else sp.Float(value, 17)
 
 
-def convert_quantity_to_sympy(quantity: Quantity, symbol_of: Callable[[str], sp.Expr]) -> sp.Expr:
+def convert_quantity_to_sympy(quantity: Quantity, find_symbol: Callable[[str], sp.Expr]) -> sp.Expr:
     """Return the expression of a quantity of the file in t, parameters and motion.
 
-    `symbol_of(path)` returns the SymPy expression of a name. Raise BadValueError if the expression contains an
+    `find_symbol(path)` returns the SymPy expression of a name. Raise BadValueError if the expression contains an
     infinite, undefined or imaginary constant.
     """
-    value = convert_to_sympy(quantity.value, symbol_of)
+    value = convert_to_sympy(quantity.value, find_symbol)
     if value.has(sp.zoo, sp.nan, sp.oo, -sp.oo, sp.I):
         message, hint = f"{quantity.address} is finite for no motion", "expected a number: is there a division by zero?"
         raise BadValueError(message, quantity.where, hint)

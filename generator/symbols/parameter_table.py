@@ -67,7 +67,7 @@ class ParameterTable(Freezable):
         self._derived_by: dict[sp.Expr, sp.Symbol] = {}
         self._parameters, self._instead = scene.parameters, scene.chosen_properties
         for name in scene.parameters:
-            self._get_or_add_parameter(name)
+            self._get_or_add_named_parameter(name)
 
     def copy_for_symbols(self, symbols: Symbols) -> ParameterTable:
         """Return a copy of the table that adds new symbols to another symbol table, `symbols`.
@@ -86,7 +86,7 @@ class ParameterTable(Freezable):
         info = self.symbols.info
         return all(s in info and info[s].is_parameter for s in expression.free_symbols)
 
-    def _get_or_add_parameter(self, name: str) -> sp.Symbol:
+    def _get_or_add_named_parameter(self, name: str) -> sp.Symbol:
         """Return the symbol of an entry of the section `parameters`.
 
         The entry is added if necessary, after all entries on which it depends.
@@ -104,13 +104,13 @@ class ParameterTable(Freezable):
                 continue
             last_name = pending.pop()
             if f"parameters.{last_name}" not in self.entries:
-                self._add(f"parameters.{last_name}", last_name, quantity)
+                self._add_parameter(f"parameters.{last_name}", last_name, quantity)
         return self.entries[f"parameters.{name}"].symbol
 
-    def _add(self, address: str, base_name: str, quantity: Quantity, home: Place = OWN_FIELD) -> sp.Symbol:
+    def _add_parameter(self, address: str, base_name: str, quantity: Quantity, place: Place = OWN_FIELD) -> sp.Symbol:
         """Add a parameter with an address and the expression of a quantity; return its symbol.
 
-        `base_name`: base of the symbol's name; `home`: its place in Parameters. Its default is the value of the
+        `base_name`: base of the symbol's name; `place`: its place in Parameters. Its default is the value of the
         expression with all defaults. Parameters in the expression are added first; a quantity without names has its
         number as value.
         """
@@ -118,7 +118,7 @@ class ParameterTable(Freezable):
 
         def find_symbol(path: str) -> sp.Expr:
             """Return the SymPy expression of a name in the quantity's expression: a named part of it or a parameter."""
-            return self.get_or_add(parts[path]) if path in parts else self._get_or_add_parameter(path)
+            return self.get_or_add(parts[path]) if path in parts else self._get_or_add_named_parameter(path)
 
         def find_default(path: str) -> float:
             """Return the default value of a name in the quantity's expression."""
@@ -129,7 +129,7 @@ class ParameterTable(Freezable):
         value = sp.Float(default, 17) if default_expression is None else default_expression
         is_short = "." not in base_name and not address.startswith("parameters.")  # gravity.y is not y
         field_base_name = address if is_short else ""
-        symbol = self.symbols.add_symbol(base_name, home, address, field_base_name=field_base_name)
+        symbol = self.symbols.add_symbol(base_name, place, address, field_base_name=field_base_name)
         self.entries[address] = ParameterEntry(symbol, address, value, default, quantity.dimension, (), quantity.value)
         return symbol
 
@@ -143,7 +143,7 @@ class ParameterTable(Freezable):
             return sp.Integer(0)
         if quantity.address not in self.entries:
             _, _, short_address = quantity.address.partition(".")
-            self._add(quantity.address, short_address or quantity.address, quantity)
+            self._add_parameter(quantity.address, short_address or quantity.address, quantity)
         self.symbols.add_shared_parameter(self.entries[quantity.address].symbol)
         return self.entries[quantity.address].symbol
 
@@ -156,7 +156,7 @@ class ParameterTable(Freezable):
         if not name:
             name = self.symbols.make_unique_name(base_name)
             self.tables[name] = [
-                self._add(quantity.address, f"{name}_{k}", quantity, Place(PARAMETERS)[name][k])
+                self._add_parameter(quantity.address, f"{name}_{k}", quantity, Place(PARAMETERS)[name][k])
                 for k, quantity in enumerate(quantities)
             ]
         for symbol in self.tables[name]:

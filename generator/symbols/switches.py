@@ -77,9 +77,9 @@ class BranchOf(sp.Function):
 
 
 class Pick(sp.Function):
-    """Pick(side, a, b): b if the branch `signs` is below zero, else a.
+    """Pick(branch, a, b): b if the branch is below zero, else a.
 
-    `signs` is not negated, so that all branches agree at zero.
+    The branch is not negated, so that all values agree at zero.
     """
 
     nargs = 3
@@ -105,16 +105,18 @@ class Pick(sp.Function):
         return da if da == db else Pick(branch, da, db)
 
 
-def select_extreme(arguments: Sequence[sp.Expr], branch_of: Callable[[sp.Expr], sp.Expr], is_maximum: bool) -> sp.Expr:
+def select_extreme(
+    arguments: Sequence[sp.Expr], find_branch: Callable[[sp.Expr], sp.Expr], is_maximum: bool
+) -> sp.Expr:
     """Return the maximum (`is_maximum`) or minimum of some expressions as nested `Pick`.
 
-    `branch_of(g)` returns the branch of a switching function g, a difference of two of them. The order does not depend
-    on that of the arguments.
+    `find_branch(g)` returns the branch of a switching function g, a difference of two of them. The result does not
+    depend on the order of the arguments.
     """
     ordered = sorted(arguments, key=lambda a: (a.is_Number, str(a)))
     extreme = ordered[0]
     for argument in ordered[1:]:
-        extreme = Pick(branch_of(extreme - argument if is_maximum else argument - extreme), extreme, argument)
+        extreme = Pick(find_branch(extreme - argument if is_maximum else argument - extreme), extreme, argument)
     return extreme
 
 
@@ -228,7 +230,7 @@ class Switches(Freezable):
         return None
 
     def get_or_add_switch(self, owner: str, g: sp.Expr) -> tuple[Switch, int]:
-        """Return the switch of a switching function g, and 1 or −1 as `known_switch` does.
+        """Return the switch of a switching function g, and 1, or −1 if it is stored for −g.
 
         A new switch is added if there is none; a frozen table raises AssertionError.
         """

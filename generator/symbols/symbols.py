@@ -61,8 +61,8 @@ class Symbols(Freezable):
         self.rules: dict[sp.Symbol, dict[sp.Symbol, sp.Expr]] = {}
         self.switches = Switches()
         self._names: set[str] = set()
-        self._shared_table: Symbols | None = None  # who else has the members of Parameters
-        self._base_of_numbered_name: dict[str, str] = {}  # names that others had before: what was wanted
+        self._shared_table: Symbols | None = None  # the other table of the same library
+        self._base_of_numbered_name: dict[str, str] = {}  # base of each name that got a number
 
     def freeze(self) -> None:
         """Make these tables and the switches read only; a later request for a new name raises AssertionError."""
@@ -114,7 +114,8 @@ class Symbols(Freezable):
     def find_shorter_names(self, used_names: Collection[str]) -> dict[Key, Key]:
         """Return shorter names for names that carry a number: without the number, or with the smallest unused one.
 
-        `used_names`: all names in the function. Names that stay are left out of the result.
+        `used_names`: all names in the function. The result maps each old name to its new one; names that stay are left
+        out.
         """
         locals_ = [name for name in used_names if not ((home := self._find_place(name)) and home.is_parameter)]
         numbered_names = sorted(
@@ -156,7 +157,7 @@ class Symbols(Freezable):
         """
         shared_table = self._shared_table if home and home.is_parameter else None
         name, field_name = (
-            self._make_unique_in_both(text, shared_table) if text else "" for text in (base_name, field_base_name)
+            self._make_name_for_both_tables(text, shared_table) if text else "" for text in (base_name, field_base_name)
         )
         symbol = sp.Symbol(name, real=True)
         home = Place(PARAMETERS)[field_name or name] if home == OWN_FIELD else home
@@ -165,7 +166,7 @@ class Symbols(Freezable):
             shared_table.info[symbol] = self.info[symbol]
         return symbol
 
-    def _make_unique_in_both(self, base_name: str, shared_table: Symbols | None) -> str:
+    def _make_name_for_both_tables(self, base_name: str, shared_table: Symbols | None) -> str:
         """Return an unused name made from `base_name` that the table `shared_table` does not contain either.
 
         The name is added there too. `shared_table` may be None.

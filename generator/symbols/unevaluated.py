@@ -61,15 +61,15 @@ class Share(Whole):
     """The quotient v′/v, whose derivative stays together too: SymPy would form v², which may overflow."""
 
 
-def apply_unexpanded(make: Callable[..., sp.Expr], *operands: sp.Expr) -> sp.Expr:
-    """Return `make(*operands)`, with the operands as `Whole` if SymPy would expand them to extreme numbers.
+def apply_unexpanded(operation: Callable[..., sp.Expr], *operands: sp.Expr) -> sp.Expr:
+    """Return `operation(*operands)`, with the operands as `Whole` if SymPy would expand them to extreme numbers.
 
     Operands that are numbers are never wrapped.
     """
-    result = make(*operands)
+    result = operation(*operands)
     if all(operand.is_number for operand in operands) or not _has_new_extremes(result, operands):
         return result
-    return make(*(operand if operand.is_number else Whole(operand) for operand in operands))
+    return operation(*(operand if operand.is_number else Whole(operand) for operand in operands))
 
 
 def _has_new_extremes(result: sp.Expr, operands: tuple[sp.Expr, ...]) -> bool:

@@ -25,12 +25,12 @@ class Body:
     inertia: float | None = None
     com: Point | None = None
 
-    def compute_position(self, first: str, second: str, distance: float, angle: float) -> Point:
+    def compute_position(self, first_point: str, second_point: str, distance: float, angle: float) -> Point:
         """Return the position at `distance` from the first point, at `angle` (rad) from the direction to the second.
 
         Both points are of this body; positions are in its own frame.
         """
-        (x_first, y_first), (x_second, y_second) = self.local[first], self.local[second]
+        (x_first, y_first), (x_second, y_second) = self.local[first_point], self.local[second_point]
         direction = math.atan2(y_second - y_first, x_second - x_first) + angle
         return x_first + distance * math.cos(direction), y_first + distance * math.sin(direction)
 
@@ -77,7 +77,7 @@ class Linkage:
     notes: list[str] = field(default_factory=list)
     holders: dict[str, list[Body]] = field(
         default_factory=dict
-    )  # bodies of each point; written by `add` and `add_point`
+    )  # bodies of each point; written by `add_body` and `add_point`
 
     def add_body(self, body: Body) -> Body:
         """Add a body, and return it.
@@ -105,16 +105,18 @@ class Linkage:
         candidates = min((self.holders.get(point, []) for point in points), key=len)
         return next((body for body in candidates if all(point in body.local for point in points)), None)
 
-    def find_or_add_bar(self, first: str, second: str, length: float) -> Body | None:
+    def find_or_add_bar(self, first_point: str, second_point: str, length: float) -> Body | None:
         """Return the first body that contains both points, or else add a bar of this length and return it.
 
         Returns None if both are points of the ground.
         """
-        if first in self.ground and second in self.ground:
+        if first_point in self.ground and second_point in self.ground:
             return None
-        if body := self.find_body(first, second):
+        if body := self.find_body(first_point, second_point):
             return body
-        return self.add_body(Body(f"{first}_{second}", {first: (0.0, 0.0), second: (length, 0.0)}))
+        return self.add_body(
+            Body(f"{first_point}_{second_point}", {first_point: (0.0, 0.0), second_point: (length, 0.0)})
+        )
 
     def points(self) -> Iterator[str]:
         """Yield the name of every point once."""

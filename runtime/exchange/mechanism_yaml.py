@@ -24,34 +24,34 @@ name: {name}
 """
 
 
-class _Names:
+class _UniqueNames:
     """Unique names that a mechanism file allows, for things of certain kinds."""
 
     def __init__(self, *kinds: str) -> None:
         """Create an empty set of names; kinds: see `check_name`."""
-        self.kinds, self.found = kinds, dict[Hashable, str]()
-        self.used, self.tried = set[str](), dict[str, int]()
+        self.kinds, self.name_by_key = kinds, dict[Hashable, str]()
+        self.used_names, self.last_number = set[str](), dict[str, int]()
 
-    def of(self, key: Hashable, suggestion: str) -> str:
+    def get_unique_name(self, key: Hashable, suggestion: str) -> str:
         """Return a unique valid name for a thing, as similar to `suggestion` as the format allows.
 
         The same key gives the same name. Names are shortened, and a number is added to a used one.
         """
-        if key not in self.found:
+        if key not in self.name_by_key:
             ascii_name = unicodedata.normalize("NFKD", suggestion[: 10 * MAX_WISH]).encode("ascii", "ignore").decode()
             valid_name = re.sub(r"[\W_]+", "_", ascii_name)[:MAX_WISH].strip("_")
-            if not self._is_legal(valid_name):
+            if not self._is_valid_name(valid_name):
                 valid_name = f"x_{valid_name}".rstrip("_")
-            unused_name, number = valid_name, self.tried.get(valid_name, 1)
-            while unused_name in self.used or not self._is_legal(unused_name):
+            unused_name, number = valid_name, self.last_number.get(valid_name, 1)
+            while unused_name in self.used_names or not self._is_valid_name(unused_name):
                 number += 1
                 unused_name = f"{valid_name}_{number}"
-            self.tried[valid_name] = number
-            self.used.add(unused_name)
-            self.found[key] = unused_name
-        return self.found[key]
+            self.last_number[valid_name] = number
+            self.used_names.add(unused_name)
+            self.name_by_key[key] = unused_name
+        return self.name_by_key[key]
 
-    def _is_legal(self, name: str) -> bool:
+    def _is_valid_name(self, name: str) -> bool:
         """Return whether the format allows the name for all kinds of this set."""
         try:
             for kind in self.kinds:
@@ -67,30 +67,31 @@ class _Writer:
     def __init__(self, linkage: Linkage) -> None:
         """Reserve the names of all bodies and drives."""
         self.linkage, self.unit = linkage, linkage.unit
-        self.points, self.names = _Names("point"), _Names(*KINDS)
+        self.points, self.names = _UniqueNames("point"), _UniqueNames(*KINDS)
         self.shapes = {id(body): _convert_to_bar_axes(body) for body in linkage.bodies}
         for body in linkage.bodies:
-            self.named(body)
-        self.rates = [self.names.of(("rate", k), "omega") for k in range(len(linkage.drives))]
+            self.get_body_name(body)
+        self.rates = [self.names.get_unique_name(("rate", k), "omega") for k in range(len(linkage.drives))]
 
-    def named(self, body: Body) -> str:
+    def get_body_name(self, body: Body) -> str:
         """Return the name of a body."""
-        return self.names.of(id(body), body.name)
+        return self.names.get_unique_name(id(body), body.name)
 
-    def point(self, point: str) -> str:
+    def get_point_name(self, point: str) -> str:
         """Return the name of a point."""
-        return self.points.of(point, point)
+        return self.points.get_unique_name(point, point)
 
-    def length(self, x: float) -> str:
+    def format_length(self, x: float) -> str:
         """Return a length with its unit as text."""
         return f"{_format_number(x)} {self.unit}"
 
-    def place(self, body: Body, point: str) -> str:
+    def format_point_reference(self, body: Body, point: str) -> str:
         """Return how a joint refers to a point of a body: "rod.head"; the first two points are tail and head."""
         names_of_ends = dict(zip(islice(body.local, 2), ENDS, strict=True))
-        return f"{self.named(body)}.{names_of_ends[point] if point in names_of_ends else self.point(point)}"
+        point_name = names_of_ends[point] if point in names_of_ends else self.get_point_name(point)
+        return f"{self.get_body_name(body)}.{point_name}"
 
-    def body(self, body: Body) -> str:
+    def format_body(self, body: Body) -> str:
         """Return the line of a body: length, mass, inertia, centre of mass, points.
 
         Without a mass it is a bar of LINE_MASS. A moment of inertia that is not known is that of a slender bar.
@@ -101,15 +102,22 @@ class _Writer:
         if inertia is None and com is not None:  # "auto" is that of a bar whose centre of mass is in its middle
             inertia = mass * (length * _convert_unit_to_metres(self.unit)) ** 2 / 12.0
         inertia_text = "auto" if inertia is None else f"{_format_number(inertia)} kg*m^2"
-        entries = [f"length: {self.length(length)}", f"mass: {_format_number(mass)} kg", f"inertia: {inertia_text}"]
+        entries = [
+            f"length: {self.format_length(length)}",
+            f"mass: {_format_number(mass)} kg",
+            f"inertia: {inertia_text}",
+        ]
         if com is not None:
-            entries.append(f"com: [{self.length(com[0])}, {self.length(com[1])}]")
+            entries.append(f"com: [{self.format_length(com[0])}, {self.format_length(com[1])}]")
         if points:
-            point_entries = (f"{self.point(p)}: [{self.length(x)}, {self.length(y)}]" for p, (x, y) in points.items())
+            point_entries = (
+                f"{self.get_point_name(p)}: [{self.format_length(x)}, {self.format_length(y)}]"
+                for p, (x, y) in points.items()
+            )
             entries.append(f"points: {{{', '.join(point_entries)}}}")
-        return f"  {self.named(body)}: {{{', '.join(entries)}}}"
+        return f"  {self.get_body_name(body)}: {{{', '.join(entries)}}}"
 
-    def joints(self) -> list[str]:
+    def format_joints(self) -> list[str]:
         """Return the lines of all joints.
 
         A revolute joint connects the first body of a point, or the ground, with every other body of the point. Points
@@ -117,28 +125,34 @@ class _Writer:
         """
         lines = []
         for point in self.linkage.points():
-            holders = [self.place(body, point) for body in self.linkage.holders.get(point, [])]
+            holders = [self.format_point_reference(body, point) for body in self.linkage.holders.get(point, [])]
             if point in self.linkage.ground:
-                holders.insert(0, f"ground.{self.point(point)}")
+                holders.insert(0, f"ground.{self.get_point_name(point)}")
             for index, other_end in enumerate(holders[1:]):
-                name = self.names.of(("joint", point, index), point if index == 0 else f"{point}_{index + 1}")
+                name = self.names.get_unique_name(
+                    ("joint", point, index), point if index == 0 else f"{point}_{index + 1}"
+                )
                 lines.append(f"  {name}: {{revolute: [{holders[0]}, {other_end}]}}")
         for index, line in enumerate(self.linkage.lines):
             body, carrier = self.linkage.find_body(line.point), line.body
             if body is None:
                 raise InputError(f"joint {line.point}: it keeps to a line, and no link holds it")
-            line_point = self.place(carrier, line.through) if carrier else f"ground.{self.point(line.through)}"
+            line_point = (
+                self.format_point_reference(carrier, line.through)
+                if carrier
+                else f"ground.{self.get_point_name(line.through)}"
+            )
             x, y = _convert_direction(carrier, line.direction) if carrier else line.direction
             length = math.hypot(x, y)
             if not length > 0.0:
                 raise InputError(f"joint {line.point}: the line to which it keeps has no direction")
             direction = f"[{_format_number(x / length)}, {_format_number(y / length)}]"
-            points = f"[{self.place(body, line.point)}, {line_point}]"
-            name = self.names.of(("line", index), f"{line.point}_slot")
+            points = f"[{self.format_point_reference(body, line.point)}, {line_point}]"
+            name = self.names.get_unique_name(("line", index), f"{line.point}_slot")
             lines.append(f"  {name}: {{point_on_line: {points}, direction: {direction}}}")
         return lines
 
-    def angle(self, body: Body | None) -> float | None:
+    def compute_initial_angle(self, body: Body | None) -> float | None:
         """Return the initial angle of a bar in rad; 0 for the ground (None), None if a position is unknown."""
         if body is None:
             return 0.0
@@ -148,7 +162,7 @@ class _Writer:
         (x_tail, y_tail), (x_head, y_head) = ends  # type: ignore[misc]
         return math.atan2(y_head - y_tail, x_head - x_tail)
 
-    def text(self) -> str:
+    def format_text(self) -> str:
         """Return the whole text of the mechanism file.
 
         Comments at its head list what was assumed: masses, units and the notes of the linkage.
@@ -160,7 +174,7 @@ class _Writer:
         if not linkage.measured:
             notes.append("it has no units: lengths are taken for metres")
         comments = "".join(f"# {note[0].upper()}{note[1:]}.\n" for note in map(_format_comment, notes))
-        name = _Names("mechanism").of("", linkage.name)
+        name = _UniqueNames("mechanism").get_unique_name("", linkage.name)
         texts = [HEAD.format(title=_format_comment(linkage.name), notes=comments, name=name)]
         if linkage.gravity is not None:
             texts.append(
@@ -170,10 +184,13 @@ class _Writer:
             names_and_drives = zip(self.rates, linkage.drives, strict=True)
             rates = (f"  {name}: {_format_number(drive.rate)} 1/s" for name, drive in names_and_drives)
             texts += ["\nparameters:\n", *(f"{line}\n" for line in rates)]
-        texts += ["\nbodies:\n", *(f"{self.body(body)}\n" for body in linkage.bodies)]
-        joints = self.joints()
+        texts += ["\nbodies:\n", *(f"{self.format_body(body)}\n" for body in linkage.bodies)]
+        joints = self.format_joints()
         if ground := self._list_ground_points():
-            point_entries = (f"{self.point(point)}: [{self.length(x)}, {self.length(y)}]" for point, (x, y) in ground)
+            point_entries = (
+                f"{self.get_point_name(point)}: [{self.format_length(x)}, {self.format_length(y)}]"
+                for point, (x, y) in ground
+            )
             texts += [f"\nground: {{{', '.join(point_entries)}}}\n"]
         if joints:
             texts += ["\njoints:\n", *(f"{line}\n" for line in joints)]
@@ -190,17 +207,17 @@ class _Writer:
         """
         lines, driven_ids = [], set[int]()
         for k, (rate, drive) in enumerate(zip(self.rates, self.linkage.drives, strict=True)):
-            name, other_body = self.named(drive.body), drive.relative_to
-            target = f"[{name}, {self.named(other_body)}]" if other_body else name
+            name, other_body = self.get_body_name(drive.body), drive.relative_to
+            target = f"[{name}, {self.get_body_name(other_body)}]" if other_body else name
             if not other_body:
                 driven_ids.add(id(drive.body))
-            motor = self.names.of(("drive", k), f"{name}_motor")
+            motor = self.names.get_unique_name(("drive", k), f"{name}_motor")
             lines.append(f"  {motor}: {{angle: {target}, value: {self._format_drive_expression(drive, rate)}}}\n")
         lines = ["\ndrives:\n", *lines] if lines else []
         guesses = [
-            f"{self.named(body)}.theta: {_format_number(math.degrees(angle))} deg"
+            f"{self.get_body_name(body)}.theta: {_format_number(math.degrees(angle))} deg"
             for body in self.linkage.bodies
-            if id(body) not in driven_ids and (angle := self.angle(body)) is not None
+            if id(body) not in driven_ids and (angle := self.compute_initial_angle(body)) is not None
         ]
         return [*lines, *([f"\nstart:\n  guess: {{{', '.join(guesses)}}}\n"] if guesses else [])]
 
@@ -210,7 +227,7 @@ class _Writer:
         `rate` is the name of the parameter. The start angle is moved into the arc by whole turns; raises InputError if
         it lies outside.
         """
-        ends = self.angle(drive.body), self.angle(drive.relative_to)
+        ends = self.compute_initial_angle(drive.body), self.compute_initial_angle(drive.relative_to)
         start_angle = 0.0 if None in ends else ends[0] - ends[1]  # type: ignore[operator]
         if drive.arc is None:
             return f"{_format_number(math.degrees(start_angle))} deg + {rate} * t"
@@ -232,7 +249,7 @@ def write_mechanism_text(linkage: Linkage) -> str:
     """Return the YAML text of a linkage. Raises InputError for a linkage without bodies."""
     if not linkage.bodies:
         raise InputError("nothing in it moves: it has no link of two joints")
-    return _Writer(linkage).text()
+    return _Writer(linkage).format_text()
 
 
 def _convert_to_bar_axes(body: Body) -> tuple[float, dict[str, Point], Point | None]:

@@ -60,13 +60,13 @@ def find_address(text: str) -> str | None:
     return None
 
 
-def read_pmks(address: str, name: str = "pmks") -> Linkage:
-    """Return the linkage of a link of PMKS+; address: the text after the question mark.
+def read_pmks(query: str, name: str = "pmks") -> Linkage:
+    """Return the linkage of a link of PMKS+; `query`: the text after the question mark.
 
     Inches become metres, since gudgeon has no inches. Assumptions are among the notes. Raises InputError for text that
     PMKS+ does not write.
     """
-    sections = address.split(".")
+    sections = query.split(".")
     if len(sections) < 5:
         raise InputError("the link of PMKS+ has too few parts", hint="copy the whole link that Share gives")
     flags, _, integer_settings, unit_settings = sections[:4]
@@ -145,8 +145,8 @@ def _decode_decimal(text: str) -> float:
     return _decode_integer(text) / 1000.0
 
 
-def _read_joint(linkage: Linkage, text: str, joints: SpecialJoints, scale: float) -> None:
-    """Read the part of a joint and add it to the linkage; a slider or an input is also added to `joints`.
+def _read_joint(linkage: Linkage, text: str, special_joints: SpecialJoints, scale: float) -> None:
+    """Read the part of a joint and add it to the linkage; a slider or an input is also added to `special_joints`.
 
     Its cells: flags and id, name (not in old links), x, y, direction (rad) of a slider. `scale` converts positions.
     Raises InputError.
@@ -161,14 +161,14 @@ def _read_joint(linkage: Linkage, text: str, joints: SpecialJoints, scale: float
         x, y, angle = map(_decode_decimal, cells[2:])
     except InputError as error:
         raise InputError(f"joint {name}: {error.message}", hint=error.hint) from error
-    place_joint(linkage, name, (scale * x, scale * y), bool(flags & GROUNDED))
+    add_joint(linkage, name, (scale * x, scale * y), bool(flags & GROUNDED))
     if flags & PRISMATIC:
-        joints.sliders[name] = angle
+        special_joints.sliders[name] = angle
     if flags & INPUT:
-        joints.inputs.append(name)
+        special_joints.inputs.append(name)
 
 
-def place_joint(linkage: Linkage, name: str, position: Point, is_grounded: bool) -> None:
+def add_joint(linkage: Linkage, name: str, position: Point, is_grounded: bool) -> None:
     """Add a joint at a position, to the ground too if `is_grounded`.
 
     Raises InputError if the name is used.
@@ -195,7 +195,7 @@ class _Link:
 
 
 def _read_link(text: str) -> _Link:
-    """Return the values of a link from its part of the address.
+    """Return the values of a link from its part of the query.
 
     Its cells: whether it is a root, kind, id, name (not in old links), mass, moment of inertia, centre of mass, colour,
     joints, an empty cell, the links that are welded to form it. Raises InputError.
@@ -219,12 +219,12 @@ def _is_colour(text: str) -> bool:
     return len(text) in (3, 6) and all(digit in "0123456789abcdefABCDEF" for digit in text)
 
 
-def _read_links(linkage: Linkage, texts: Sequence[str], driven_joints: SpecialJoints, scale: float) -> None:
+def _read_links(linkage: Linkage, link_texts: Sequence[str], special_joints: SpecialJoints, scale: float) -> None:
     """Read the parts of all links and add the bodies and pistons of the root links.
 
     A link without mass gets that of its welded parts. Raises InputError.
     """
-    links = [_read_link(text) for text in texts]
+    links = [_read_link(text) for text in link_texts]
     by_name = {link.name: link for link in links}
     roots = [link for link in links if link.is_root]
     if len({link.name for link in roots}) < len(roots):
@@ -233,12 +233,12 @@ def _read_links(linkage: Linkage, texts: Sequence[str], driven_joints: SpecialJo
     for link in roots:
         check_joints_exist(linkage, link.name, link.joints)
         if link.kind == PISTON:
-            _add_piston(linkage, link, driven_joints)
+            _add_piston(linkage, link, special_joints)
             continue
         if link.parts and not link.mass:
             _combine_welded_parts(link, [by_name[part] for part in link.parts if part in by_name])
         com = scale * link.com[0], scale * link.com[1]
-        add_link(linkage, link.name, link.joints, link.mass, link.inertia, com, driven_joints)
+        add_link(linkage, link.name, link.joints, link.mass, link.inertia, com, special_joints)
 
 
 def check_joints_exist(linkage: Linkage, name: str, joints: Sequence[str]) -> None:
@@ -259,8 +259,8 @@ def add_link(
 ) -> None:
     """Add a body at the positions of its joints, driven joints first.
 
-    A mass or moment of inertia of 0 counts as not specified; then a note is added. Raises InputError for negative or
-    huge values.
+    A mass or moment of inertia of 0 counts as not specified; `com` is ignored without a mass. A note is added if only
+    the moment of inertia is 0. Raises InputError for negative or huge values.
     """
     for quantity, value in (("mass", mass), ("moment of inertia", inertia)):
         if not 0.0 <= value <= MAX_NUMBER:
@@ -275,7 +275,8 @@ def add_link(
 def _combine_welded_parts(link: _Link, parts: Sequence[_Link]) -> None:
     """Set mass, centre of mass and moment of inertia of a link to those of its welded parts.
 
-    Nothing changes if the parts have no mass; the moment of inertia only if all parts have one.
+    The link is changed in place. If the parts have no mass, only its mass is set, to 0; its moment of inertia is set
+    only if all parts have one.
     """
     link.mass = sum(part.mass for part in parts)
     if not link.mass:
@@ -290,7 +291,8 @@ def _combine_welded_parts(link: _Link, parts: Sequence[_Link]) -> None:
 def add_input_drives(linkage: Linkage, special_joints: SpecialJoints, rate: float) -> None:
     """Add a drive for each driven joint: links against the ground, or two links against each other.
 
-    `rate` is in rad/s. Raises InputError for driven sliders, other joints, and a link that two inputs drive.
+    `rate` is in rad/s. A note is added for two links. Raises InputError for driven sliders, other joints, and a link
+    that two inputs drive.
     """
     for joint in special_joints.inputs:
         bodies, is_grounded = linkage.holders.get(joint, []), joint in linkage.ground
@@ -335,23 +337,23 @@ def _add_piston(linkage: Linkage, link: _Link, special_joints: SpecialJoints) ->
     linkage.notes.append(f"the mass of piston {link.name} is left out: its pin runs in a slot")
 
 
-def read_old_pmks(address: str, name: str = "pmks") -> Linkage:
-    """Return the linkage of a link from before April 2023; address: the text after the question mark.
+def read_old_pmks(query: str, name: str = "pmks") -> Linkage:
+    """Return the linkage of a link from before April 2023; `query`: the text after the question mark.
 
     Raises InputError, with a hint how to share the linkage anew, for text that such links do not contain.
     """
     try:
-        return _read_old_link(address, name)
+        return _read_old_link(query, name)
     except InputError as error:
         raise InputError(error.message, hint=error.hint or REMEDY) from error
 
 
-def _read_old_link(address: str, name: str) -> Linkage:
+def _read_old_link(query: str, name: str) -> Linkage:
     """Return the linkage of a link from before April 2023: settings, joints, links, and the drives of its inputs.
 
     Raises InputError for text that such links do not contain.
     """
-    parts = dict(part.split("=", 1) for part in address.split("&") if "=" in part)
+    parts = dict(part.split("=", 1) for part in query.split("&") if "=" in part)
     settings = [cell.strip() for cell in parts.get("s", "").split(",")]
     if len(settings) < 4 or settings[3].lower() not in UNITS:
         raise InputError(f"its settings are {parts.get('s', '')!r}, expected a speed, a direction, gravity and a unit")
@@ -377,8 +379,8 @@ def _read_old_link(address: str, name: str) -> Linkage:
     return linkage
 
 
-def _read_old_joint(linkage: Linkage, line: str, joints: SpecialJoints, scale: float) -> None:
-    """Read the line of a joint and add it to the linkage; a driven one is also added to `joints`.
+def _read_old_joint(linkage: Linkage, line: str, special_joints: SpecialJoints, scale: float) -> None:
+    """Read the line of a joint and add it to the linkage; a driven one is also added to `special_joints`.
 
     Its cells: id, x, y, links, kind, whether it is grounded, angle, friction, whether it is driven. From 2022 on: id,
     x, y, links, kind and whether it is grounded in one cell, whether it is driven. Raises InputError.
@@ -396,9 +398,9 @@ def _read_old_joint(linkage: Linkage, line: str, joints: SpecialJoints, scale: f
     if grounded_flag not in ("t", "f") or driven_flag not in ("t", "f"):
         raise InputError(f"joint {name}: expected t or f for whether it is grounded and driven")
     x, y = (_read_number(cells[k], f"joint {name}") for k in (1, 2))
-    place_joint(linkage, name, (scale * x, scale * y), grounded_flag == "t")
+    add_joint(linkage, name, (scale * x, scale * y), grounded_flag == "t")
     if driven_flag == "t":
-        joints.inputs.append(name)
+        special_joints.inputs.append(name)
 
 
 def _read_number(text: str, owner: str) -> float:

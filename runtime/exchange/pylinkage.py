@@ -22,19 +22,19 @@ _ARC = ("arc_start", "arc_end")
 Entry = Mapping[str, Any]
 
 
-def read_pylinkage(data: Any) -> Linkage:
+def read_pylinkage(parsed_json: Any) -> Linkage:
     """Return the linkage of parsed JSON, either a Linkage or a Mechanism of pylinkage.
 
     The types of the joints decide which. Raises InputError for data that pylinkage does not write.
     """
-    joints = data.get("joints") if isinstance(data, dict) else None
+    joints = parsed_json.get("joints") if isinstance(parsed_json, dict) else None
     if not isinstance(joints, list) or not joints or not all(isinstance(joint, dict) for joint in joints):
         raise InputError("no joints in it", hint="save a Linkage or a Mechanism of pylinkage as JSON")
-    linkage = Linkage(str(data.get("name") or "linkage")[:200])
+    linkage = Linkage(str(parsed_json.get("name") or "linkage")[:200])
     if any(str(joint.get("type")) in OLD for joint in joints):
         _read_joints(linkage, joints)
     else:
-        _read_links(linkage, joints, data.get("links"))
+        _read_links(linkage, joints, parsed_json.get("links"))
     return linkage
 
 
@@ -130,17 +130,17 @@ class _GroundPoints:
 
     def __init__(self, linkage: Linkage, joint_names: Container[str]) -> None:
         """Create an empty set; `joint_names` are the names of the file's joints, which ground points must not have."""
-        self.linkage, self.used, self.names = linkage, joint_names, dict[Point, str]()
+        self.linkage, self.joint_names, self.name_by_position = linkage, joint_names, dict[Point, str]()
 
-    def name(self, position: Point) -> str:
+    def get_or_add_name(self, position: Point) -> str:
         """Return the name of the ground point at a position; a new point is added to the linkage."""
-        if position not in self.names:
-            name = f"O{len(self.names) + 1}"
-            while name in self.used:
+        if position not in self.name_by_position:
+            name = f"O{len(self.name_by_position) + 1}"
+            while name in self.joint_names:
                 name += "_"
-            self.names[position] = name
+            self.name_by_position[position] = name
             self.linkage.ground[name] = self.linkage.positions[name] = position
-        return self.names[position]
+        return self.name_by_position[position]
 
 
 def _find_parent(ground_points: _GroundPoints, joint_name: str, joint: Entry, key: str) -> str | None:
@@ -154,7 +154,7 @@ def _find_parent(ground_points: _GroundPoints, joint_name: str, joint: Entry, ke
     owner = f"joint {joint_name}: {key}"
     if not parent.get("inline"):
         return _read_name({**parent, "type": key}, "ref", f"parent of joint {joint_name}")
-    return ground_points.name((_read_number(parent, "x", owner), _read_number(parent, "y", owner)))
+    return ground_points.get_or_add_name((_read_number(parent, "x", owner), _read_number(parent, "y", owner)))
 
 
 def _add_joint(linkage: Linkage, name: str, joint: Entry, parents: Sequence[str | None]) -> None:
@@ -216,19 +216,21 @@ def _add_fixed_point(linkage: Linkage, name: str, parents: Sequence[str | None],
         )
 
 
-def _add_line(linkage: Linkage, name: str, first: str, second: str) -> None:
-    """Constrain the point `name` to the line through two others, which the ground or a body contains.
+def _add_line(linkage: Linkage, point_name: str, first_point: str, second_point: str) -> None:
+    """Constrain the point `point_name` to the line through two others, which the ground or a body contains.
 
     Raises InputError if no body contains both.
     """
-    if first in linkage.ground and second in linkage.ground:
+    if first_point in linkage.ground and second_point in linkage.ground:
         points, body = linkage.ground, None
-    elif body := linkage.find_body(first, second):
+    elif body := linkage.find_body(first_point, second_point):
         points = body.local
     else:
-        raise InputError(f"joint {name}: its line leads through {first} and {second}, which no body holds")
-    (x_first, y_first), (x_second, y_second) = points[first], points[second]
-    linkage.lines.append(Line(name, first, body, (x_second - x_first, y_second - y_first)))
+        raise InputError(
+            f"joint {point_name}: its line leads through {first_point} and {second_point}, which no body holds"
+        )
+    (x_first, y_first), (x_second, y_second) = points[first_point], points[second_point]
+    linkage.lines.append(Line(point_name, first_point, body, (x_second - x_first, y_second - y_first)))
 
 
 def _read_links(linkage: Linkage, joints: Sequence[Entry], links: Any) -> None:
@@ -251,7 +253,7 @@ def _read_links(linkage: Linkage, joints: Sequence[Entry], links: Any) -> None:
     trackers = [joint for joint in joints if joint.get("type") == "tracker"]
     for joint in joints:
         if joint.get("type") != "tracker":
-            _place_joint(linkage, joint, fixed_joints)
+            _add_joint_at_position(linkage, joint, fixed_joints)
     tracker_names = {_read_name(joint, "id", "joint") for joint in trackers}
     for name, link in named_links:
         if link.get("type") != "ground":
@@ -267,7 +269,7 @@ def _read_links(linkage: Linkage, joints: Sequence[Entry], links: Any) -> None:
         )
 
 
-def _place_joint(linkage: Linkage, joint: Entry, fixed_joints: set[str]) -> None:
+def _add_joint_at_position(linkage: Linkage, joint: Entry, fixed_joints: set[str]) -> None:
     """Add a joint at its position, also to the ground if it is fixed; for a prismatic joint also its line.
 
     Raises InputError for a repeated name, and without a position or direction.

@@ -27,10 +27,10 @@ def read_linkage(file: str | os.PathLike[str]) -> Linkage:
     except UnicodeDecodeError as error:
         raise InputError(f"{file} is no text", hint=f"expected {KNOWN}") from error
     try:
-        address = None if text.lstrip()[:1] in ("{", "[") else find_address(text)
-        if address is None:
+        query = None if text.lstrip()[:1] in ("{", "[") else find_address(text)
+        if query is None:
             return read_pylinkage(_parse_json(text))
-        return (read_old_pmks if address.startswith(BEGIN) else read_pmks)(address, Path(file).stem)
+        return (read_old_pmks if query.startswith(BEGIN) else read_pmks)(query, Path(file).stem)
     except InputError as error:
         raise InputError(f"{os.fspath(file)}: {error.message}", hint=error.hint) from error
 
