@@ -15,12 +15,12 @@ enum { N_SIDE_NODES = TREE ? 5 : 6, N_WIDE_PASSES = 2, N_NARROW_PASSES = 4 };
 #define WIDE_TOL 1e-10
 
 /*
- * Project state y in place onto the closures by Newton steps, and compute its rates dy and outputs rhs there. max_move:
- * largest allowed sum of the steps, rad. Return 0 or a status; LOST if the projection is longer or does not converge in
- * six steps.
+ * Project state y in place onto the closures by Newton steps, and compute its rates dy and outputs rhs there.
+ * max_step_sum: largest allowed sum of the steps, rad. Return 0 or a status; LOST if the projection is longer or does
+ * not converge in six steps.
  */
-static int project_and_evaluate(
-    double t, double *y, DiscreteState *discrete, const Parameters *p, double max_move, double *dy, RhsOutputs *rhs)
+static int project_and_evaluate_state(
+    double t, double *y, DiscreteState *discrete, const Parameters *p, double max_step_sum, double *dy, RhsOutputs *rhs)
 {
     double moved = 0.0, before = INFINITY;
     for (int pass = 0; pass < 6; pass++) {
@@ -34,7 +34,7 @@ static int project_and_evaluate(
             step = is_angle[k] ? max_of(step, fabs(dq[k])) : step;
         }
         moved += step;
-        if (!(moved <= max_move))
+        if (!(moved <= max_step_sum))
             return LOST;
         if (residual < 1e-15 || (residual < 1e-12 && residual > 0.5 * before))
             return evaluate_rhs(t, y, discrete, p, dy, rhs);
@@ -49,48 +49,48 @@ typedef struct {
 } ContinuedMotion;
 
 /*
- * Add the contribution of a node, a regular state y with its rates and multipliers, to the interpolated motion `sum`.
- * k: distance of the node from the singular position in nodes, 1 ... N_SIDE_NODES. The last node does not count for the
- * lower degree.
+ * Add the contribution of a node, a regular state y with its rates and multipliers, to
+ * `interpolated_motion`. node_distance: distance of the node from the singular position in nodes, 1 ... N_SIDE_NODES.
+ * The last node does not count for the lower degree.
  */
 static void add_interpolation_node(
-    int k, const double *y, const double *dy, const RhsOutputs *rhs, ContinuedMotion *sum)
+    int node_distance, const double *y, const double *dy, const RhsOutputs *rhs, ContinuedMotion *interpolated_motion)
 {
-    const double weight = compute_lagrange_weight(N_SIDE_NODES, k),
-                 lower = k < N_SIDE_NODES ? compute_lagrange_weight(N_SIDE_NODES - 1, k) : 0.0;
+    const double weight = compute_lagrange_weight(N_SIDE_NODES, node_distance),
+                 lower = node_distance < N_SIDE_NODES ? compute_lagrange_weight(N_SIDE_NODES - 1, node_distance) : 0.0;
     for (int i = 0; i < 2 * N_X; i++)
-        sum->y[i] += weight * y[i];
+        interpolated_motion->y[i] += weight * y[i];
     for (int i = 0; i < N_Y; i++)
-        sum->dy[i] += weight * dy[i];
+        interpolated_motion->dy[i] += weight * dy[i];
     for (int i = 0; i < N_X; i++)
-        sum->lower[i] += lower * dy[N_X + i];
+        interpolated_motion->lower[i] += lower * dy[N_X + i];
     for (int i = 0; i < N_LOOPS; i++)
-        sum->lambda[i] += weight * rhs->lambda[i];
+        interpolated_motion->lambda[i] += weight * rhs->lambda[i];
 }
 
 /*
  * Return whether the interpolated accelerations of the last two degrees agree within `tolerance` times their size.
  * Lengths and angles are compared separately; y: the state, whose squared angular rates count as accelerations.
  */
-static int has_converged(const double *y, const ContinuedMotion *sum, double tolerance)
+static int has_interpolation_converged(const double *y, const ContinuedMotion *interpolated_motion, double tolerance)
 {
     double most[2] = {0.0, 0.0}, difference[2] = {0.0, 0.0};
     for (int k = 0; k < N_X; k++) {
         const int kind = is_angle[k];
-        const double a = sum->dy[N_X + k], v = y[N_X + k];
+        const double a = interpolated_motion->dy[N_X + k], v = y[N_X + k];
         most[kind] = max_of(most[kind], fabs(a) + (kind ? v * v : 0.0));
-        difference[kind] = max_of(difference[kind], fabs(a - sum->lower[k]));
+        difference[kind] = max_of(difference[kind], fabs(a - interpolated_motion->lower[k]));
     }
     return difference[0] <= tolerance * most[0] && difference[1] <= tolerance * most[1];
 }
 
 /*
- * Interpolate the motion at state y near a singular position from regular states on both sides; the result is in `sum`.
- * The states are on the linkage's path through y, at distances that are increased until the polynomials agree. Return
- * whether they do; 0 also if nothing rotates or the run is cancelled.
+ * Interpolate the motion at state y near a singular position from regular states on both sides; the result is in
+ * `interpolated_motion`. The states are on the linkage's path through y, at distances that are increased until the
+ * polynomials agree. Return whether they do; 0 also if nothing rotates or the run is cancelled.
  */
 static int continue_motion(
-    double t, const double *y, const DiscreteState *discrete, const Parameters *p, ContinuedMotion *sum)
+    double t, const double *y, const DiscreteState *discrete, const Parameters *p, ContinuedMotion *interpolated_motion)
 {
     double fastest = 0.0;
     for (int k = 0; k < N_X; k++)
@@ -100,7 +100,7 @@ static int continue_motion(
     for (int pass = -N_WIDE_PASSES; pass < N_NARROW_PASSES; pass++) {
         const double turn = pass < 0 ? WIDE_TURN * ldexp(1.0, -N_WIDE_PASSES - pass) : NODE_TURN * ldexp(1.0, pass);
         int status = discrete->token && poll_cancellation(discrete->token) ? STOPPED : 0;
-        *sum = (ContinuedMotion){0};
+        *interpolated_motion = (ContinuedMotion){0};
         for (int k = 1; k <= N_SIDE_NODES && !status; k++)
             for (int branch = -1; branch <= 1 && !status; branch += 2) {
                 const double h = branch * k * turn / fastest;
@@ -109,10 +109,11 @@ static int continue_motion(
                 RhsOutputs rhs;
                 for (int i = 0; i < N_Y; i++)
                     projected[i] = y[i] + (i < N_X ? h * y[N_X + i] : 0.0);
-                status = project_and_evaluate(t + (N_DRIVES ? h : 0.0), projected, &now, p, 0.5 * k * turn, dy, &rhs);
-                add_interpolation_node(k, projected, dy, &rhs, sum);
+                status = project_and_evaluate_state(t + (N_DRIVES ? h : 0.0), projected, &now, p, 0.5 * k * turn, dy,
+                    &rhs);
+                add_interpolation_node(k, projected, dy, &rhs, interpolated_motion);
             }
-        if (!status && has_converged(y, sum, pass < 0 ? WIDE_TOL : CONTINUATION_TOL))
+        if (!status && has_interpolation_converged(y, interpolated_motion, pass < 0 ? WIDE_TOL : CONTINUATION_TOL))
             return 1;
         if (status == STOPPED)
             return 0;
@@ -121,7 +122,7 @@ static int continue_motion(
 }
 
 /* Return a copy of a discrete state in which pivots need only be large enough for a division. */
-static DiscreteState copy_with_usual_pivot_limits(const DiscreteState *discrete)
+static DiscreteState copy_state_with_usual_pivot_limits(const DiscreteState *discrete)
 {
     DiscreteState now = *discrete;
     now.least = NEARLY_SINGULAR;
@@ -154,7 +155,7 @@ int motion(double t, const double *y, DiscreteState *discrete, const Parameters 
     if (discrete->singular_policy == SINGULAR_PROJECT || discrete->singular_policy == SINGULAR_PROJECT_OR_IGNORE) {
         double projected[N_Y];
         memcpy(projected, y, sizeof projected);
-        if (!project_and_evaluate(t, projected, discrete, p, MAX_CLOSING_MOVE, dy, rhs)) {
+        if (!project_and_evaluate_state(t, projected, discrete, p, MAX_CLOSING_MOVE, dy, rhs)) {
             for (int k = 0; k < N_X; k++)
                 dy[k] = y[N_X + k];
             return 0;
@@ -169,7 +170,7 @@ int motion(double t, const double *y, DiscreteState *discrete, const Parameters 
         return copy_continued_motion(y, &at, dy, rhs);
     if (discrete->singular_policy == SINGULAR_PROJECT)
         return NEAR;
-    DiscreteState now = copy_with_usual_pivot_limits(discrete);
+    DiscreteState now = copy_state_with_usual_pivot_limits(discrete);
     return evaluate_rhs(t, y, &now, p, dy, rhs);
 }
 
@@ -190,7 +191,7 @@ int compute_correction(double t, const double *y, DiscreteState *discrete, const
     ContinuedMotion at;
     DiscreteState now = *discrete;
     if (evaluate_rhs(t, y, &now, p, dy, &rhs) != NEAR || !continue_motion(t, y, discrete, p, &at)) {
-        now = copy_with_usual_pivot_limits(discrete);
+        now = copy_state_with_usual_pivot_limits(discrete);
         return solve_correction(t, y, &now, p, dq, dv, residual);
     }
     for (int k = 0; k < N_X; k++) {

@@ -63,47 +63,50 @@ static inline void store_driven_loops(double t, const TreeState *tree, Chain *lo
 /*
  * Copy stored coordinates and two rates of the driven loops to `tree`; third rates are computed where they are needed.
  */
-static void restore_driven_loops(const Chain *start, TreeState *tree)
+static void restore_driven_loops(const Chain *stored_loops, TreeState *tree)
 {
     for (int k = 0; k < N_LED; k++)
-        tree->q[N_X + k] = start->q[k];
+        tree->q[N_X + k] = stored_loops->q[k];
     for (int k = 0; k < 2 * N_CHAIN; k++)
-        tree->v[N_X + k] = start->v[k];
+        tree->v[N_X + k] = stored_loops->v[k];
 }
 
 /*
- * Return the largest difference of the driven loops' positions at b from their Euler-Maclaurin integral from a, h (s)
- * earlier. In rad; lengths are divided by the size of the mechanism.
+ * Return the largest difference of the driven loops' positions in tree_after from their Euler-Maclaurin integral from
+ * loops_before, h (s) earlier. In rad; lengths are divided by the size of the mechanism.
  */
-static double compute_loop_position_error(double h, const Chain *a, const TreeState *b, const Parameters *p)
+static double compute_loop_position_error(double h, const Chain *loops_before, const TreeState *tree_after,
+    const Parameters *p)
 {
-    const double *q = b->q + N_X, *rate = b->v + N_X, *second = rate + N_CHAIN;
+    const double *q = tree_after->q + N_X, *rate = tree_after->v + N_X, *second = rate + N_CHAIN;
     double most = 0.0;
     for (int k = 0; k < N_CHAIN; k++) {
-        const double distance = 0.5 * h * (a->v[k] + rate[k] + (1.0 / 6.0) * h * (a->v[N_CHAIN + k] - second[k]));
-        most = max_of(most, chain_share(p, k) * fabs(q[k] - a->q[k] - distance));
+        const double distance = 0.5 * h * (loops_before->v[k] + rate[k]
+            + (1.0 / 6.0) * h * (loops_before->v[N_CHAIN + k] - second[k]));
+        most = max_of(most, chain_share(p, k) * fabs(q[k] - loops_before->q[k] - distance));
     }
     return most;
 }
 
 /*
- * Solve the driven loops at time t, with two rates, from their state `start` at a near time. Return 0, or the number of
- * a closure if they cannot be solved or the branch is not certain. The branch is certain if the move is short and the
- * positions agree with the integral of the rates.
+ * Solve the driven loops at time t, with two rates, from their state `loops_before` at a near time. Return 0, or the
+ * number of a closure if they cannot be solved or the branch is not certain. The branch is certain if the move is short
+ * and the positions agree with the integral of the rates.
  */
-static int advance_driven_loops(double t, const Chain *start, const DiscreteState *discrete, const Parameters *p,
-    TreeState *tree)
+static int advance_driven_loops(double t, const Chain *loops_before, const DiscreteState *discrete,
+    const Parameters *p, TreeState *tree)
 {
-    const double h = t - start->t, *rate = start->v, *second = rate + N_CHAIN, *third = second + N_CHAIN;
+    const double h = t - loops_before->t, *rate = loops_before->v, *second = rate + N_CHAIN, *third = second + N_CHAIN;
     double step_sum;
     for (int k = 0; k < N_CHAIN; k++)
-        tree->q[N_X + k] = start->q[k] + h * (rate[k] + 0.5 * h * (second[k] + (1.0 / 3.0) * h * third[k]));
+        tree->q[N_X + k] = loops_before->q[k] + h * (rate[k] + 0.5 * h * (second[k] + (1.0 / 3.0) * h * third[k]));
     int status = solve_loop_closures(t, tree->q, discrete, p, &step_sum);
     if (!status)
         status = chain_rates(t, tree->q, discrete, p, tree->v);
     if (status)
         return status;
-    return step_sum <= MAX_LOOP_MOVE && compute_loop_position_error(h, start, tree, p) <= LOOP_POSITION_TOL ? 0 : 1;
+    return step_sum <= MAX_LOOP_MOVE
+        && compute_loop_position_error(h, loops_before, tree, p) <= LOOP_POSITION_TOL ? 0 : 1;
 }
 
 /*

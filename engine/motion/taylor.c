@@ -9,17 +9,17 @@ typedef double SeriesRow __attribute__((vector_size(REGISTER)));
 #include "../scalar_simd/series.h"
 
 /*
- * Compute the coefficients c[k], k = 0 ... order, of the Taylor series of the integrated state at time t, where it is
- * y. Return 0 or the number of the pivot that vanished; then only c[0] is valid.
+ * Compute coefficients[k], k = 0 ... order, of the Taylor series of the integrated state at time t, where it is y.
+ * Return 0 or the number of the pivot that vanished; then only coefficients[0] is valid.
  */
-int taylor_series(double t, const double *y, const Parameters *p, int order, double (*c)[TAYLOR_Y])
+int taylor_series(double t, const double *y, const Parameters *p, int order, double (*coefficients)[TAYLOR_Y])
 {
     SeriesRow (*const factors)[TAYLOR_ORDERS][SERIES_ROWS] = get_series_factors();
     TaylorValues at;
     for (int i = 0; i < N_Y; i++)
-        c[0][i] = y[i];
-    const int status = taylor_values(t, y, y + N_X, p, &at, c[1] + N_X, c[1] + 2 * N_X);
+        coefficients[0][i] = y[i];
+    const int status = taylor_values(t, y, y + N_X, p, &at, coefficients[1] + N_X, coefficients[1] + 2 * N_X);
     if (!status)
-        compute_series_orders(p, &at, order, c, factors[0], factors[1]);
+        compute_series_orders(p, &at, order, coefficients, factors[0], factors[1]);
     return status;
 }

@@ -47,14 +47,14 @@ static double get_audit_tolerance(const Integrator *run) { return has_tolerance(
 static double get_mechanism_size(const Integrator *run) { return run->audit.size; }
 
 /*
- * Replace the record of a check by a violation if its multiple value/limit exceeds the recorded one. A NaN counts as
+ * Replace the record of a check by a violation if value/max_value exceeds the recorded multiple. A NaN counts as
  * infinite. A multiple of zero is stored without time and index. A multiple above AUDIT_FAILS sets audit->status to
  * AUDITED. t: time in s; index: as in record_check().
  */
-static void record_largest_violation(Audit *audit, int check, double value, double limit, double t, int index)
+static void record_largest_violation(Audit *audit, int check, double value, double max_value, double t, int index)
 {
     AuditRecord *record = &audit->record[check];
-    const double multiple = value / max_of(limit, 1e-300);
+    const double multiple = value / max_of(max_value, 1e-300);
     if (!(multiple > record->worst) && multiple == multiple)
         return;
     *record = (AuditRecord){multiple == multiple ? multiple : INFINITY, t, index};
@@ -65,14 +65,14 @@ static void record_largest_violation(Audit *audit, int check, double value, doub
 }
 
 /*
- * Record the value of a check (CHECK_...) with its limit at time t (s), if the ratio value/limit is the largest so far.
- * index: number of the joint, constraint equation, body coordinate, switching function or event; -1: none. A ratio
+ * Record the value of a check (CHECK_...) at time t (s) with its limit max_value, if value/max_value is the largest so
+ * far. index: number of the joint, constraint equation, body coordinate, switching function or event; -1: none. A ratio
  * above AUDIT_FAILS sets the status AUDITED.
  */
-static void record_check(Audit *audit, int check, double value, double limit, double t, int index)
+static void record_check(Audit *audit, int check, double value, double max_value, double t, int index)
 {
-    if (!(value <= audit->record[check].worst * limit))
-        record_largest_violation(audit, check, value, limit, t, index);
+    if (!(value <= audit->record[check].worst * max_value))
+        record_largest_violation(audit, check, value, max_value, t, index);
 }
 
 /*
@@ -165,12 +165,12 @@ static double compute_neighbouring_states(const Integrator *run, double t, const
 /*
  * Return whether the accelerations `a` (N_Q) of a state are too sensitive to be compared. Reasons: the motion is
  * continued past a singular position; random changes of positions within rounding, and of the time where drives
- * determine loops, change `a` by 0.1 `fraction` of `scale`; the perturbed accelerations cannot be computed. Called only
- * after a difference of accelerations exceeds its limit.
+ * determine loops, change `a` by 0.1 `relative_difference` of `acceleration_scale`; the perturbed accelerations cannot
+ * be computed. Called only after a difference of accelerations exceeds its limit.
  */
 static int is_comparison_ill_conditioned(Integrator *run, double t, const double *y, const double *a,
-    const double *scale,
-    double fraction, const Parameters *p)
+    const double *acceleration_scale,
+    double relative_difference, const Parameters *p)
 {
     double state[N_Y], absolute_state[N_S], a_perturbed[N_Q], rate[N_Y], force;
     DiscreteState discrete = run->discrete;
@@ -186,7 +186,7 @@ static int is_comparison_ill_conditioned(Integrator *run, double t, const double
     if (compute_absolute_accelerations(t_perturbed, absolute_state, &run->discrete, p, a_perturbed, &force))
         return 1;
     for (int k = 0; k < N_Q; k++)
-        if (!(fabs(a_perturbed[k] - a[k]) < 0.1 * fraction * scale[k]))
+        if (!(fabs(a_perturbed[k] - a[k]) < 0.1 * relative_difference * acceleration_scale[k]))
             return 1;
     return 0;
 }

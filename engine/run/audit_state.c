@@ -2,17 +2,17 @@
 
 /*
  * Check a user-defined event at the end of a step. Report an infinite violation if a zero in the step is not recorded,
- * or if rounding around zero is recorded as AUDIT_WRONG successive events. n_before: number of events in the list
- * before the step. Resets the marks of the step. Called by audit_state() for each user-defined event.
+ * or if rounding around zero is recorded as AUDIT_WRONG successive events. n_events_before: number of events in the
+ * list before the step. Resets the marks of the step. Called by audit_state() for each user-defined event.
  */
-static void check_user_event(Integrator *run, int event, int n_before)
+static void check_user_event(Integrator *run, int event, int n_events_before)
 {
     Audit *audit = &run->audit;
     const double value_before = audit->event_before[event], value_now = run->rhs.event[event];
     const int is_end_event = audit->ended == event && fabs(value_before) > AUDIT_NOISE * audit->event_scale[event]
         && fabs(value_now) < AUDIT_ZERO * fabs(value_before) && event_direction[event] * value_before <= 0.0;
     int is_recorded = 0;
-    for (int k = n_before; k < run->events.n; k++)
+    for (int k = n_events_before; k < run->events.n; k++)
         is_recorded |= run->events.number[k] == event;
     record_check(audit, CHECK_event, 0.0, 1.0, run->t, event);
     if ((is_end_event || audit->crossed[event]) && !is_recorded)
@@ -58,10 +58,10 @@ static void check_branches_at_step_end(Integrator *run, const Parameters *p)
 
 /*
  * Check the end of an accepted step: residuals, gaps, driven loops, forces of open joints, branches, user-defined
- * events. n_before: number of events in the list before the step. Return 0, also if the audit is off, or AUDITED if a
- * check has failed.
+ * events. n_events_before: number of events in the list before the step. Return 0, also if the audit is off, or AUDITED
+ * if a check has failed.
  */
-static int audit_state(Integrator *run, int n_before, const Parameters *p)
+static int audit_state(Integrator *run, int n_events_before, const Parameters *p)
 {
     Audit *audit = &run->audit;
     if (!audit->level)
@@ -79,7 +79,7 @@ static int audit_state(Integrator *run, int n_before, const Parameters *p)
         check_branches_at_step_end(run, p);
     }
     for (int i = 0; i < N_USER_EVENTS; i++)
-        check_user_event(run, i, n_before);
+        check_user_event(run, i, n_events_before);
     audit->ended = -1;
     return audit->status;
 }
@@ -99,10 +99,10 @@ static void start_audit(Integrator *run, int level, double size)
  * Copy the record of each check (N_CHECKS) for Python: its largest multiple of the limit (< 0: not checked), the time
  * (s), and the index of the joint, equation or event there (-1: none). Called when a run of a batch ends.
  */
-static void report_audit(const Integrator *run, double *multiple, double *t, int *index)
+static void report_audit(const Integrator *run, double *multiples, double *t, int *index)
 {
     for (int k = 0; k < N_CHECKS; k++) {
-        multiple[k] = run->audit.record[k].worst;
+        multiples[k] = run->audit.record[k].worst;
         t[k] = run->audit.record[k].t;
         index[k] = run->audit.record[k].where;
     }

@@ -45,19 +45,19 @@ int poll_cancellation(Cancellation *token)
 }
 
 /*
- * Initialize a cancellation token that calls `ask(caller)` every `interval` seconds. A nonzero return value of `ask`
- * requests a stop. ask NULL: never.
+ * Initialize a cancellation token that calls is_stop_requested(context) every `poll_interval` seconds. A nonzero return
+ * value requests a stop. is_stop_requested NULL: never.
  */
-void start_polling(Cancellation *token, int (*ask)(void *), void *caller, double interval)
+void start_polling(Cancellation *token, int (*is_stop_requested)(void *), void *context, double poll_interval)
 {
-    *token = (Cancellation){.ask = ask, .caller = caller, .every = interval};
+    *token = (Cancellation){.ask = is_stop_requested, .caller = context, .every = poll_interval};
 }
 
 /*
  * Return the estimated number of steps left until t_end (s), if each MONITOR_STEPS steps gain as much time as the last
  * ones.
  */
-static double count_remaining_steps(const ProgressMonitor *monitor, double t, double t_end)
+static double estimate_remaining_steps(const ProgressMonitor *monitor, double t, double t_end)
 {
     return (t_end - t) / monitor->gain * MONITOR_STEPS;
 }
@@ -67,7 +67,7 @@ static double count_remaining_steps(const ProgressMonitor *monitor, double t, do
  * when the number of steps has doubled. That doubling gained no more time than the one DOUBLINGS before, and the
  * extrapolated number of steps exceeds MAX_STEPS_LEFT. Updates the monitor.
  */
-static int is_growing_exponentially(ProgressMonitor *monitor, double t, double t_end)
+static int is_step_count_exponential(ProgressMonitor *monitor, double t, double t_end)
 {
     Doubling *doubling = &monitor->doubling;
     const double gain = t - doubling->t, steps = (double)monitor->steps, gain_before = doubling->gain[0];
@@ -92,7 +92,7 @@ static int is_growing_exponentially(ProgressMonitor *monitor, double t, double t
 int has_stalled(ProgressMonitor *monitor, double t, double t_end)
 {
     const long n_before = monitor->steps++;
-    if (is_growing_exponentially(monitor, t, t_end)) {
+    if (is_step_count_exponential(monitor, t, t_end)) {
         monitor->crawls = GROWTH_DOUBLINGS;
         return 1;
     }
@@ -103,7 +103,7 @@ int has_stalled(ProgressMonitor *monitor, double t, double t_end)
     monitor->t = t;
     if (monitor->steps == 1)
         return 0;
-    const double steps_left = count_remaining_steps(monitor, t, t_end);
+    const double steps_left = estimate_remaining_steps(monitor, t, t_end);
     monitor->crawls =
         steps_left > MAX_STEPS_LEFT_SLOW && monitor->gain * (double)monitor->good < MIN_GAIN_RATIO * monitor->sum;
     if (steps_left > MAX_STEPS_LEFT || monitor->crawls) {

@@ -23,7 +23,7 @@ typedef struct {
 } ProgressMonitor;
 
 double read_clock(void);
-void start_polling(Cancellation *token, int (*ask)(void *), void *caller, double every);
+void start_polling(Cancellation *token, int (*is_stop_requested)(void *), void *context, double poll_interval);
 int has_stalled(ProgressMonitor *monitor, double t, double t_end);
 long count_steps_before_check(const ProgressMonitor *monitor);
 

@@ -148,12 +148,12 @@ static int update_branches_just_after(Integrator *run, double t_after, int cross
 
 /*
  * Return whether the second rate of a drive is unbounded next to the present time, as that of (t - t0)^1.5 is at t0. At
- * fixed coordinates, accelerations then change far more from here to `distance` (s, negative: before) than from there
- * to twice as far. Return 0 if an evaluation fails. Called at jumps of drives in runs with steps of fixed length.
+ * fixed coordinates, accelerations then change far more from here to `time_offset` (s, negative: before) than from
+ * there to twice as far. Return 0 if an evaluation fails. Called at jumps of drives in runs with steps of fixed length.
  */
-static int is_drive_rate_unbounded(Integrator *run, double distance, const Parameters *p)
+static int is_drive_rate_unbounded(Integrator *run, double time_offset, const Parameters *p)
 {
-    const double offset[3] = {1e-5 * distance, distance, 2.0 * distance};
+    const double offset[3] = {1e-5 * time_offset, time_offset, 2.0 * time_offset};
     DiscreteState unfrozen = run->discrete;
     double dy[3][N_Y], largest = 0.0;
     RhsOutputs rhs;

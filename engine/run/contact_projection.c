@@ -1,12 +1,12 @@
 /* Projection of closed contacts of rigid surfaces onto the gap zero, delta = 0. */
 /*
  * Project positions onto delta = -gap and velocities of closed contacts onto deltadot = 0, by at most three Newton
- * steps. contacts: lists the joints, its operator is overwritten; gap: distance of each listed contact, m. The change
+ * steps. contacts: lists the joints, its operator is overwritten; gaps: distance of each listed contact, m. The change
  * of the state y is the smallest in the norm of the mass matrix. Friction is switched off. Return 0 or the status of
  * the motion. Called after impacts and when states of the dense output are projected.
  */
 static int project_contacts(
-    Integrator *run, double t, double *y, const Parameters *p, Delassus *contacts, const double *gap)
+    Integrator *run, double t, double *y, const Parameters *p, Delassus *contacts, const double *gaps)
 {
     unsigned char closed[N_RIGID];
     DiscreteState discrete = run->discrete;
@@ -27,7 +27,7 @@ static int project_contacts(
             return status;
         for (int k = 0; k < contacts->n; k++) {
             const Clearance *joint = &rhs.clearance[contacts->joint[k]];
-            depth[k] = joint->delta + gap[k];
+            depth[k] = joint->delta + gaps[k];
             rate[k] = closed[k] ? joint->deltadot : 0.0;
             largest_ratio = max_of(largest_ratio, fabs(depth[k]) / radial_clearance(p, contacts->joint[k]));
         }

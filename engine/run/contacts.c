@@ -65,15 +65,15 @@ static int append_contact(Integrator *run, const Impact *contact)
 }
 
 /*
- * Append an impact of rigid surfaces to the list, and count an onset if its joint was open (`is_onset`). With `merge`,
- * the impulse is added to the last row of the same joint at this time instead, if there is one. Return 0, or CHATTERING
- * if the list is full. Called for each contact of an impact.
+ * Append an impact of rigid surfaces to the list, and count an onset if its joint was open (`is_onset`). With
+ * `may_merge`, the impulse is added to the last row of the same joint at this time instead, if there is one. Return 0,
+ * or CHATTERING if the list is full. Called for each contact of an impact.
  */
-static inline int append_impact(Integrator *run, const Impact *impact, int merge, int is_onset)
+static inline int append_impact(Integrator *run, const Impact *impact, int may_merge, int is_onset)
 {
     Impact *list = run->contacts.impacts;
     run->contacts.onsets += is_onset;
-    for (int k = run->contacts.n_impacts - 1; k >= 0 && merge && list[k].t_on == run->t; k--)
+    for (int k = run->contacts.n_impacts - 1; k >= 0 && may_merge && list[k].t_on == run->t; k--)
         if (list[k].joint == impact->joint && list[k].t_off == run->t) {
             list[k].F_peak += impact->F_peak;
             return 0;

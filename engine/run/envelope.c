@@ -17,8 +17,8 @@ static void extend_force_envelope(Integrator *run, int joint, double t, double F
 }
 
 /*
- * Store the eccentricity of a joint's journal at time t (s) in the current row of the envelope, if its magnitude is the
- * largest of that row.
+ * Store the eccentricity of a joint's journal at time t (s) in the current row of the envelope. Nothing happens unless
+ * its magnitude is the largest of that row.
  */
 static void extend_path_envelope(Integrator *run, int joint, double t, const Clearance *clearance)
 {
@@ -49,14 +49,14 @@ static void begin_envelope_row(Integrator *run)
 }
 
 /*
- * Merge two successive rows of the envelope into `merged`, which may be one of them: extremes of both, end position and
- * time of the second.
+ * Merge two successive rows of the envelope into `merged_row`, which may be one of them: extremes of both, end position
+ * and time of the second.
  */
-static void merge_envelope_rows(EnvelopeRow *merged, const EnvelopeRow *first, const EnvelopeRow *second)
+static void merge_envelope_rows(EnvelopeRow *merged_row, const EnvelopeRow *first_row, const EnvelopeRow *second_row)
 {
-    EnvelopeRow result = *second;
+    EnvelopeRow result = *second_row;
     for (int i = 0; i < N_CLEARANCES; i++) {
-        const double *from = first->joint[i];
+        const double *from = first_row->joint[i];
         double *columns = result.joint[i];
         if (from[ENVELOPE_F_low] <= columns[ENVELOPE_F_low]) {
             columns[ENVELOPE_F_low] = from[ENVELOPE_F_low];
@@ -73,7 +73,7 @@ static void merge_envelope_rows(EnvelopeRow *merged, const EnvelopeRow *first, c
             columns[ENVELOPE_t_out] = from[ENVELOPE_t_out];
         }
     }
-    *merged = result;
+    *merged_row = result;
 }
 
 /*

@@ -26,7 +26,7 @@ static double evaluate_friction_event_function(const DiscreteState *discrete, co
  * vanishes is already held by a drive or another sticking element: it becomes MODE_HELD, without force, and the
  * evaluation is repeated. Return 0 or a status.
  */
-static int evaluate_rates_with_modes(Integrator *run, const Parameters *p)
+static int evaluate_rates_with_friction_modes(Integrator *run, const Parameters *p)
 {
     int status = evaluate_run_rhs(run, run->t, run->y, p, run->dy, &run->rhs);
     for (int i = 0; i < N_FRICTIONS && status > N_LOOPS && status <= N_LOOPS + N_FRICTIONS; i++) {
@@ -47,7 +47,7 @@ static int remove_slips_at_rest(Integrator *run, const Parameters *p)
     for (int i = 0; i < N_FRICTIONS; i++)
         if (run->discrete.mode[i] != MODE_HELD && fabs(run->rhs.friction[i].v) <= AT_REST)
             run->discrete.mode[i] = 0.0;
-    const int status = evaluate_rates_with_modes(run, p);
+    const int status = evaluate_rates_with_friction_modes(run, p);
     if (!status)
         (void)remove_slip_residuals(run, run->t, run->y, &run->rhs, p);
     run->discrete = discrete;
@@ -60,7 +60,7 @@ static int remove_slips_at_rest(Integrator *run, const Parameters *p)
  * held, the held one slips instead, so that its force acts first. Called in each pass of iterate_friction_modes() after
  * the right-hand side.
  */
-static int correct_worst_mode(Integrator *run)
+static int correct_worst_friction_mode(Integrator *run)
 {
     int element = -1, held_element = -1;
     double largest = 1e-9, mode = 0.0;
@@ -98,8 +98,8 @@ static int iterate_friction_modes(Integrator *run, const Parameters *p)
         if (run->discrete.mode[i] == MODE_HELD && fabs(run->rhs.friction[i].v) <= AT_REST)
             run->discrete.mode[i] = 0.0;
     for (int i = 0; i < MAX_TRIES; i++) {
-        const int status = evaluate_rates_with_modes(run, p);
-        if (status || !correct_worst_mode(run))
+        const int status = evaluate_rates_with_friction_modes(run, p);
+        if (status || !correct_worst_friction_mode(run))
             return status;
     }
     return CHATTERING;

@@ -88,11 +88,11 @@ static void apply_impulses(Integrator *run, const Delassus *impact, const double
 /*
  * Resolve one joint impact of all rigid contacts that touch: those that approach, and those that rest. Rebounds slower
  * than the threshold v_0 are set to zero. Friction acts only between these surfaces (run/frictional_impact.c).
- * is_limit: resolve the limit of a sequence of impacts, in which every touching joint has restitution 0. pass: number
- * of previous impacts at this time. *energy: sum of impulse times approach speed in J, 0 if no joint approaches. Return
- * a status.
+ * is_limit: resolve the limit of a sequence of impacts, in which every touching joint has restitution 0.
+ * n_impacts_before: number of previous impacts at this time. *energy: sum of impulse times approach speed in J, 0 if no
+ * joint approaches. Return a status.
  */
-static int resolve_impact(Integrator *run, const Parameters *p, int pass, int is_limit, double *energy)
+static int resolve_impact(Integrator *run, const Parameters *p, int n_impacts_before, int is_limit, double *energy)
 {
     Delassus impact = {0};
     FrictionImpulses friction;
@@ -134,7 +134,7 @@ static int resolve_impact(Integrator *run, const Parameters *p, int pass, int is
             : 0.0; /* 0: a resting contact */
         const Impact listed = {run->t, run->t, u, impulse[k], run->t, i};
         if (impulse[k] > 0.0)
-            status = append_impact(run, &listed, pass >= LISTED_PASSES, !known_state.contact[i].closed);
+            status = append_impact(run, &listed, n_impacts_before >= LISTED_PASSES, !known_state.contact[i].closed);
         *energy += impulse[k] * u;
     }
     return status ? status : update_modes_after_impact(run, p);

@@ -5,9 +5,10 @@
 #define FILM_FORCE_TOL 5e2 /* times rtol: relative accuracy of film forces when the iteration of stages ends */
 
 /*
- * Update the history of beginnings before a step is tried: at a new step the present beginning becomes the previous
- * one. A repeated attempt leaves the beginnings unchanged. Also set the distance of both, the accuracy of film forces,
- * and whether the motion continues smoothly, so that initial guesses can be extrapolated (run->newton.continues).
+ * Update the stored beginnings of steps before a step is tried: at a new step the present beginning becomes the
+ * previous one. A repeated attempt leaves them unchanged. Also set the distance of both beginnings, the accuracy of
+ * film forces, and whether the motion continues smoothly, so that initial guesses can be extrapolated
+ * (run->newton.continues).
  */
 static inline void update_iteration_history(Integrator *run)
 {

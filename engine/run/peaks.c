@@ -10,8 +10,8 @@ enum { MAX_PARABOLAS = 20, MIN_INNER_STAGES = 2 /* with fewer stages inside, the
 #define MAX_PEAK_TOL 1e-5
 
 /*
- * Record the force F (N) of a joint at time t (s) in the envelope, if there is one, and in the peaks of the run and of
- * the lasting contact.
+ * Record the force F (N) of a joint at time t (s) in the envelope, and in the peaks of the run and of the lasting
+ * contact. Without an envelope only the peaks are updated.
  */
 static void record_force(Integrator *run, int joint, double t, double F)
 {
@@ -153,7 +153,8 @@ static void find_rigid_peak(
         const double slope = 0.5 * (now.end.f - from.f), bend = from.f - 2.0 * now.middle.f + now.end.f;
         const double top = bend < 0.0 && fabs(slope) < -bend ? now.middle.f - 0.5 * slope * slope / bend
             : max_of(from.f, now.end.f);
-        const int is_clear = !(top + now.error > largest_known) && !may_oscillate_between(step, from.s, now.end.s, p);
+        const int is_clear = !(top + now.error > largest_known)
+            && !may_oscillate_between(step, from.s, now.end.s, p);
         if (is_clear || n > MAX_BISECTIONS || samples > MAX_FORCE_SAMPLES) {
             from = now.end;
             n--;
@@ -171,8 +172,8 @@ static void find_rigid_peak(
 #endif
 
 /*
- * Return the position in (0, 1) of the maximum of the cubic with the values value_0, value_1 and slopes slope_0 > 0 >
- * slope_1 at both ends, per unit interval. *height: the value of the cubic there.
+ * Return the position in (0, 1) of the maximum of a cubic, given by values and slopes at both ends. Slopes are per unit
+ * interval, slope_0 > 0 > slope_1. *height: the value of the cubic at the maximum.
  */
 static double find_cubic_maximum(double value_0, double slope_0, double value_1, double slope_1, double *height)
 {
@@ -265,8 +266,8 @@ static int determine_force_trends(Integrator *run, const Step *step, double frac
 }
 
 /*
- * Return whether the force of a joint may exceed both end values (N) inside a step up to `fraction`, by the parabola
- * through both ends and the first stage beyond. Return 1 if there is no such stage.
+ * Return whether the force of a joint may exceed both end values (N) inside a step up to `fraction`. The parabola
+ * through both ends and the first stage after `fraction` decides. Return 1 if there is no such stage.
  */
 static int may_have_inner_maximum(const Step *step, double fraction, int joint, double force_begin, double force_end)
 {
@@ -308,7 +309,7 @@ static double find_largest_inner_force(Integrator *run, Step *step, double fract
 /*
  * Return whether a contact law ceases to push at the end of a step: with the contact held closed, its force would pull.
  */
-static int has_tension_at_end(double before, double after) { return after < 1e-6 * before; }
+static int has_tension_at_end(double force_before, double force_after) { return force_after < 1e-6 * force_before; }
 
 /*
  * Find the peaks of forces and eccentricities of all joints inside an accepted step up to `fraction`, and record them.

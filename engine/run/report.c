@@ -13,22 +13,22 @@ void gudgeon_run_sample(const void *integrator, const double *p, double *y, doub
 
 /*
  * Report the progress of a run that no longer advances. time_gained: time in s that the last MONITOR_STEPS steps
- * gained. steps: that number, and whether these steps are far shorter than earlier ones. ended (N_STEP_ENDS): how many
- * steps each kind of event ended since the last check. Called when a run of a batch ends.
+ * gained. steps: that number, and whether these steps are far shorter than earlier ones. ended_steps (N_STEP_ENDS): how
+ * many steps each kind of event ended since the last check. Called when a run of a batch ends.
  */
-static void report_progress(const Integrator *run, double *time_gained, long *steps, long *ended)
+static void report_progress(const Integrator *run, double *time_gained, long *steps, long *ended_steps)
 {
     *time_gained = run->progress.monitor.gain;
     steps[0] = MONITOR_STEPS;
     steps[1] = run->progress.monitor.crawls;
     for (int k = 0; k < N_STEP_ENDS; k++)
-        ended[k] = 0;
+        ended_steps[k] = 0;
     for (int k = 0; k < N_EVENT_FUNCTIONS; k++) {
         const int switch_index = k - N_CLEARANCES, friction = switch_index - N_SWITCHES;
         const int user_event = friction - N_FRICTIONS;
         const int end = user_event >= 0 ? END_EVENT : friction >= 0 ? END_FRICTION
             : switch_index >= 0 ? END_SWITCH : END_CONTACT;
-        ended[end] += run->progress.ended[k];
+        ended_steps[end] += run->progress.ended[k];
     }
 }
 
@@ -46,8 +46,8 @@ int gudgeon_run_listed(const void *integrator)
 }
 
 /*
- * Report the time t (s) of a run, its counts (Count), its largest residuals and restitution ratios (Residual), and
- * largest force, its time and largest eccentricity of each joint with play in `peaks` (Peak).
+ * Report the time t (s) of a run, its counts (Count), and its largest residuals and restitution ratios (Residual).
+ * peaks (Peak): of each joint with play the largest force, its time, and the largest eccentricity.
  */
 void gudgeon_run_report(const void *integrator, double *t, long *counts, double *residuals, double *peaks)
 {

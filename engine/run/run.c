@@ -52,7 +52,7 @@ static int evaluate_run_rhs(
  * Return whether the penetration of any joint at the present state exceeds the range of validity of its contact laws, a
  * tenth of the radius.
  */
-static int is_outside_model(const Integrator *run, const Parameters *p)
+static int is_outside_contact_laws(const Integrator *run, const Parameters *p)
 {
     for (int i = 0; i < N_CLEARANCES; i++)
         if (run->rhs.clearance[i].delta > deepest(p, i))
@@ -79,7 +79,7 @@ static int record_accepted_state(Integrator *run, const Parameters *p)
         update_joint_peaks(run, i);
     if (run->envelope.rows)
         extend_envelope(run);
-    return !isfinite(sum) ? NOT_FINITE : is_outside_model(run, p) ? OUTSIDE : 0;
+    return !isfinite(sum) ? NOT_FINITE : is_outside_contact_laws(run, p) ? OUTSIDE : 0;
 }
 
 /*
@@ -117,10 +117,10 @@ static void freeze_branches(Integrator *run)
 }
 
 /*
- * Update the branches of all active switching functions at (t, y) until they agree with their signs, in at most six
- * passes, and evaluate the right-hand side there into dy and rhs. fixed_switch keeps its branch, -1: none. A function
- * that becomes active may have held the other branch, on which its value may be NaN. Return the status of the last
- * evaluation.
+ * Update the branches of all active switching functions at (t, y) and evaluate the right-hand side there into dy and
+ * rhs. Both are repeated until branches agree with the signs of the functions, at most six times. fixed_switch keeps
+ * its branch, -1: none. A function that becomes active may have held the other branch, on which its value may be NaN.
+ * Return the status of the last evaluation.
  */
 static int update_branches_at(
     Integrator *run, double t, const double *y, double *dy, RhsOutputs *rhs, int fixed_switch, const Parameters *p)

@@ -6,8 +6,8 @@
 #define MAX_RESIDUAL_SLIP 2e-9 /* m/s: slip up to which the beginning of stick is located */
 
 /*
- * Return the change of the rate of a slip when its friction force reverses (mode 1 to -1), in m/s^2, and set dy (N_Y)
- * to the change of all rates. Return 0 if an evaluation fails. The mode is restored. Used to compute the impulse that
+ * Return the change of the rate of a slip, in m/s^2, when its friction force reverses (mode 1 to -1). dy (N_Y): set to
+ * the change of all rates. Return 0 if an evaluation fails. The mode is restored. Used to compute the impulse that
  * stops a slip.
  */
 static double compute_slip_response(Integrator *run, double t, const double *y, int element, const Parameters *p,

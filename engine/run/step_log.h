@@ -36,12 +36,12 @@ static inline void count_mode_change(Integrator *run) { run->counts.switches++; 
 static inline void set_phi_dot_max(Integrator *run, double phi_dot) { run->residuals.phi_dot_max = phi_dot; }
 
 /*
- * Count the event function that ended a step (-1: none). no_advance: whether it ended the step at its beginning; such
- * successive steps are counted as well.
+ * Count the event function that ended a step (-1: none). is_at_beginning: whether it ended the step at its beginning;
+ * such successive steps are counted as well.
  */
-static inline void record_step_end(Integrator *run, int event, int no_advance)
+static inline void record_step_end(Integrator *run, int event, int is_at_beginning)
 {
-    run->progress.no_advance = no_advance ? run->progress.no_advance + 1 : 0;
+    run->progress.no_advance = is_at_beginning ? run->progress.no_advance + 1 : 0;
     run->progress.ended[event < 0 ? N_EVENT_FUNCTIONS : event]++;
 }
 

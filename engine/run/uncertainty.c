@@ -129,15 +129,15 @@ static void estimate_watched_errors(
 
 /*
  * Estimate how much rounding, constraint residuals and residual slips of the state y at time t (s) change each watched
- * function: change (N_WATCHED). A value below its uncertainty has no sign. Called when a value near zero must be
+ * function: uncertainty (N_WATCHED). A value below its uncertainty has no sign. Called when a value near zero must be
  * distinguished from rounding.
  */
-static void estimate_uncertainty(Integrator *run, double t, const double *y, const Parameters *p, double *change)
+static void estimate_uncertainty(Integrator *run, double t, const double *y, const Parameters *p, double *uncertainty)
 {
     double error[2 * N_X + 1];
     estimate_state_errors(run, t, y, p, error);
     add_residual_slips(run, t, y, p, error);
-    estimate_watched_errors(run, t, y, error, p, change);
+    estimate_watched_errors(run, t, y, error, p, uncertainty);
 }
 
 /*
@@ -171,8 +171,8 @@ static inline void evaluate_resolved_events(
 
 /* Do nothing: the scene has no watched functions. */
 static inline void estimate_uncertainty(const Integrator *run, double t, const double *y, const Parameters *p,
-    double *change)
+    double *uncertainty)
 {
-    (void)run, (void)t, (void)y, (void)p, (void)change;
+    (void)run, (void)t, (void)y, (void)p, (void)uncertainty;
 }
 #endif

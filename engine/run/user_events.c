@@ -153,7 +153,7 @@ static double compute_coincidence_time(const Integrator *run, double fixed_step)
  * that is divided anywhere is therefore recorded once. Branches of switching functions are updated to those just after
  * the present time. Return a status.
  */
-static int compute_event_signs_after(Integrator *run, double fixed_step, const Parameters *p, signed char *signs)
+static int compute_event_signs_just_after(Integrator *run, double fixed_step, const Parameters *p, signed char *signs)
 {
     const double h = compute_coincidence_time(run, fixed_step);
     double error[N_WATCHED], value_later[N_USER_EVENTS];
@@ -187,7 +187,7 @@ static int record_events_at_end(Integrator *run, double fixed_step, const Parame
 {
     const DiscreteState discrete_before = run->discrete;
     signed char sign[N_USER_EVENTS];
-    const int failed = compute_event_signs_after(run, fixed_step, p, sign);
+    const int failed = compute_event_signs_just_after(run, fixed_step, p, sign);
     int status = 0;
     run->discrete = discrete_before;
     for (int i = 0; i < N_USER_EVENTS && !failed; i++)
@@ -206,7 +206,7 @@ static int initialize_event_signs(Integrator *run, double fixed_step, const Para
 {
     signed char sign[N_USER_EVENTS];
     const DiscreteState discrete_before = run->discrete;
-    const int status = compute_event_signs_after(run, fixed_step, p, sign);
+    const int status = compute_event_signs_just_after(run, fixed_step, p, sign);
     if (fixed_step > 0.0)
         run->discrete = discrete_before;
     for (int i = 0; i < N_USER_EVENTS && !status; i++)

@@ -51,9 +51,9 @@ void compute_velocity_residuals(double t, const double *q, const double *v, doub
 }
 
 /*
- * Return whether the first or second rate of a drive jumps, or is unbounded, at time t (s), by its values just before,
- * at and just after t. q, v: coordinates and velocities of all bodies. Used where an audit or a start must not rely on
- * rates at t.
+ * Return whether the first or second rate of a drive jumps, or is unbounded, at time t (s). Its values just before, at
+ * and just after t are compared. q, v: coordinates and velocities of all bodies. Used where an audit or a start must
+ * not rely on rates at t.
  */
 int has_drive_jump(double t, const double *q, const double *v, const Parameters *p)
 {
@@ -78,7 +78,7 @@ int has_drive_jump(double t, const double *q, const double *v, const Parameters 
 #define LEAST_POWER 1e-250
 
 /*
- * Audit n samples (runtime/simulation/audit.py). off (n, 4), each relative to the largest term:
+ * Audit n samples (runtime/simulation/audit.py). relative_errors (n, 4), each relative to the largest term:
  *   0: v M a + lambda (Phi_q v - nu) + dV/dt - sum of powers;
  *   1: drive torques times rates - power of the drives;
  *   2: Phi, relative to `size` (m);
@@ -86,12 +86,12 @@ int has_drive_jump(double t, const double *q, const double *v, const Parameters 
  * dV/dt and Phi_q v are differences along v. A sample at a jump of a drive has zeros.
  */
 void gudgeon_audit_samples(long n, const double *t, const double *q, const double *v, const double *discrete,
-    const double *parameters, double size, double *off)
+    const double *parameters, double size, double *relative_errors)
 {
     const Parameters *p = (const Parameters *)parameters;
     double m[N_Q];
     mass_matrix(p, m);
-    for (long i = 0; i < n; i++, q += N_Q, v += N_Q, discrete += N_DISCRETE, off += 4) {
+    for (long i = 0; i < n; i++, q += N_Q, v += N_Q, discrete += N_DISCRETE, relative_errors += 4) {
         DiscreteState now = {0};
         RhsOutputs rhs;
         double y[N_S] = {0.0}, dy[N_S], near[2][N_Q], stored[3][2], phi[AT_LEAST_ONE(N_ALL_ROWS)], rate = 0.0;
@@ -99,7 +99,7 @@ void gudgeon_audit_samples(long n, const double *t, const double *q, const doubl
         double series[AT_LEAST_ONE(N_SERIES)];
         double nu[AT_LEAST_ONE(N_ALL_ROWS)], missed[AT_LEAST_ONE(N_ALL_ROWS)];
         double force[2] = {0.0, 0.0}, fast[2] = {0.0, 0.0}, far[2] = {0.0, 0.0};
-        off[0] = off[1] = off[2] = off[3] = 0.0;
+        relative_errors[0] = relative_errors[1] = relative_errors[2] = relative_errors[3] = 0.0;
         for (int k = 0; k < N_Q; k++) {
             y[k] = q[k];
             y[N_Q + k] = v[k];
@@ -147,14 +147,14 @@ void gudgeon_audit_samples(long n, const double *t, const double *q, const doubl
             const double unit = length ? size : 1.0, most = length ? far[0] + size * far[1] : far[1];
             const double speed = max_of(length ? max_of(fast[0], size * fast[1]) : max_of(fast[1], fast[0] / size),
                 fabs(nu[row])) + 1e9 * DBL_EPSILON * most / between;
-            off[2] = max_of(off[2], fabs(phi[row]) / (unit + most));
+            relative_errors[2] = max_of(relative_errors[2], fabs(phi[row]) / (unit + most));
             if (speed > 0.0)
-                off[3] = max_of(off[3], fabs(missed[row]) / speed);
+                relative_errors[3] = max_of(relative_errors[3], fabs(missed[row]) / speed);
             const double lost = rhs.lambda[r] * missed[row]; /* power of the velocity error, as by rounding */
             sum += lost;
             terms += fabs(lost) + 1e-2 * fabs(rhs.lambda[r]) * speed; /* missed is known to 1e-8 of speed */
         }
-        off[0] = fabs(sum) / terms;
-        off[1] = fabs(driven - rhs.power[0]) / largest;
+        relative_errors[0] = fabs(sum) / terms;
+        relative_errors[1] = fabs(driven - rhs.power[0]) / largest;
     }
 }

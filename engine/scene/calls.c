@@ -79,22 +79,23 @@ void read_discrete_state(const double *sample, DiscreteState *discrete)
 }
 
 /*
- * Compute the parameters p from the values that are specified, in SI units: given[k] where is_given[k] is 1, defaults
- * where it is 0.
+ * Compute the parameters p from the values that are specified, in SI units: given_values[k] where is_given[k] is 1,
+ * defaults where it is 0.
  */
-void gudgeon_prepare(const double *given, const unsigned char *is_given, double *p)
+void gudgeon_prepare(const double *given_values, const unsigned char *is_given, double *p)
 {
-    prepare(given, is_given, (Parameters *)p);
+    prepare(given_values, is_given, (Parameters *)p);
 }
 
 /*
- * Compute the parameters p of n_runs runs; each has a row of n_given values in `given`, and in `is_given` whether each
- * is specified.
+ * Compute the parameters p of n_runs runs; each has a row of n_values values in `given_values`, and in `is_given`
+ * whether each is specified.
  */
-void gudgeon_prepare_runs(long n_runs, long n_given, const double *given, const unsigned char *is_given, double *p)
+void gudgeon_prepare_runs(long n_runs, long n_values, const double *given_values, const unsigned char *is_given,
+    double *p)
 {
     for (long i = 0; i < n_runs; i++)
-        prepare(given + i * n_given, is_given + i * n_given, (Parameters *)p + i);
+        prepare(given_values + i * n_values, is_given + i * n_values, (Parameters *)p + i);
 }
 
 /* Compute the diagonal of the mass matrix, m[N_Q]. */
@@ -127,9 +128,9 @@ void gudgeon_gamma(double t, const double *q, const double *v, const double *p, 
 }
 
 /* Compute the values of a start from the parameters: guesses of coordinates, set coordinates, and set rates. */
-void gudgeon_start_values(const double *p, double *guess, double *set, double *rates)
+void gudgeon_start_values(const double *p, double *guesses, double *set_coordinates, double *rates)
 {
-    start_values((const Parameters *)p, guess, set, rates);
+    start_values((const Parameters *)p, guesses, set_coordinates, rates);
 }
 
 /*

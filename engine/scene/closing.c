@@ -85,9 +85,9 @@ static double compute_squared_distance(const StartWorkspace *workspace, const do
 }
 
 /* Return whether a norm of residuals is rounding only. */
-static int are_residuals_rounding(const StartWorkspace *workspace, double norm)
+static int are_residuals_rounding(const StartWorkspace *workspace, double residual_norm)
 {
-    return norm < 1e-10 + CLOSING_ROUNDING * workspace->radius / workspace->size;
+    return residual_norm < 1e-10 + CLOSING_ROUNDING * workspace->radius / workspace->size;
 }
 
 /*
@@ -95,7 +95,7 @@ static int are_residuals_rounding(const StartWorkspace *workspace, double norm)
  * fraction_left: the fraction of the residuals that the last step left; the following steps are smaller by as much.
  * Slow convergence decides nothing: 0.
  */
-static int is_no_nearer(const StartWorkspace *workspace, const double *q, double fraction_left)
+static int is_not_nearer_to_guess(const StartWorkspace *workspace, const double *q, double fraction_left)
 {
     double step_squared = 0.0, distance_squared = 0.0;
     for (int k = 0; k < N_Q; k++) {
@@ -152,7 +152,7 @@ OPTIMIZE_SIZE static int solve_closure(StartWorkspace *workspace, double t, cons
         }
         for (int k = 0; k < N_Q; k++)
             q[k] = q_trial[k];
-        if (fraction == 1.0 && is_no_nearer(workspace, q, norm_trial / norm))
+        if (fraction == 1.0 && is_not_nearer_to_guess(workspace, q, norm_trial / norm))
             return 1;
         is_reused = norm_trial < MAX_REUSE_NORM && (norm_trial < 0.1 * norm || norm_trial < rounding);
         norm = norm_trial;

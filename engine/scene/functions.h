@@ -100,7 +100,8 @@ static inline double compute_power(double x, double y)
         return y == 0.5 ? sqrt(x) : three_halves(x, sqrt(x));
     if (is_normal(x) && fabs(y) < 0x1p60) {
         double log_error;
-        const double log_x = log_in_parts(x, &log_error), x_high = upper_half(log_x), y_high = upper_half(y);
+        const double log_x = log_in_parts(x, &log_error);
+        const double x_high = upper_half(log_x), y_high = upper_half(y);
         const double high = y_high * x_high;
         if (fabs(high) < 690.0)
             return exp_of_parts(high, (y - y_high) * x_high + y * (log_x - x_high + log_error));

@@ -37,30 +37,32 @@ static int compute_residual_column(const Linear *linearization, int column, cons
 
 /*
  * Compute a column of the Jacobian of the state equation (N_Y entries) from x, the change of accelerations, multipliers
- * and rates of inner states. stride: distance of successive entries in `out`; column N_Y: the derivative by t.
+ * and rates of inner states. stride: distance of successive values; column N_Y: the derivative by t.
  */
-static void compute_jacobian_column(const Linear *linearization, int column, const double *x, double *out, long stride)
+static void compute_jacobian_column(const Linear *linearization, int column, const double *x,
+    double *column_values, long stride)
 {
     for (int k = 0; k < N_X; k++) {
-        out[k * stride] = column == N_X + k ? 1.0 : 0.0;
-        out[(N_X + k) * stride] = x[k];
+        column_values[k * stride] = column == N_X + k ? 1.0 : 0.0;
+        column_values[(N_X + k) * stride] = x[k];
     }
     for (int work = 0; work < N_WORK; work++)
-        out[(2 * N_X + work) * stride] = 0.0;
+        column_values[(2 * N_X + work) * stride] = 0.0;
     for (int k = 0; k < N_STATES; k++)
-        out[(FIRST_STATE + k) * stride] = x[N_NODES - N_STATES + k];
+        column_values[(FIRST_STATE + k) * stride] = x[N_NODES - N_STATES + k];
     for (int i = 0; i < N_POWER_ROW; i++) {
         const LinearEntry *entry = &power_row_entries[i];
-        out[(2 * N_X + entry->row) * stride] += entry->sign * linearization->value[entry->value] * x[entry->column];
+        column_values[(2 * N_X + entry->row) * stride] += entry->sign * linearization->value[entry->value]
+            * x[entry->column];
     }
     for (int i = 0; i < N_POWER; i++) {
         const LinearEntry *entry = &power_entries[i];
         if (entry->column == column)
-            out[(2 * N_X + entry->row) * stride] += entry->sign * linearization->value[entry->value];
+            column_values[(2 * N_X + entry->row) * stride] += entry->sign * linearization->value[entry->value];
     }
     for (int i = 0; i < N_POWER_T && column == N_Y; i++) {
         const LinearEntry *entry = &power_t_entries[i];
-        out[(2 * N_X + entry->row) * stride] += entry->sign * linearization->value[entry->value];
+        column_values[(2 * N_X + entry->row) * stride] += entry->sign * linearization->value[entry->value];
     }
 }
 
@@ -68,8 +70,8 @@ static void compute_jacobian_column(const Linear *linearization, int column, con
  * Linearize the equations of motion at a state and factorize Newton's matrix for eta. discrete: discrete state as in a
  * sample. Return 0, the number of a vanished pivot of dynamics(), or -1 - the node of newton_factor().
  */
-static int linearize_and_factorize(double t, const double *y, const double *discrete, const Parameters *p, double eta,
-    Linear *linearization)
+static int linearize_and_factorize_equations(double t, const double *y, const double *discrete, const Parameters *p,
+    double eta, Linear *linearization)
 {
     DiscreteState discrete_state = {0};
     RhsOutputs rhs;
@@ -93,7 +95,7 @@ int gudgeon_jacobian(double t, const double *y, const double *discrete, const do
 {
     Linear linearization;
     const double gain[2] = {baumgarte_beta_squared((const Parameters *)p), baumgarte_two_alpha((const Parameters *)p)};
-    const int status = linearize_and_factorize(t, y, discrete, (const Parameters *)p, 0.0, &linearization);
+    const int status = linearize_and_factorize_equations(t, y, discrete, (const Parameters *)p, 0.0, &linearization);
     if (status)
         return status;
     for (int column = 0; column <= N_Y; column++) {
@@ -113,7 +115,7 @@ int gudgeon_newton(double t, const double *y, const double *discrete, const doub
     const double *r, double *u)
 {
     Linear linearization;
-    const int status = linearize_and_factorize(t, y, discrete, (const Parameters *)p, eta, &linearization);
+    const int status = linearize_and_factorize_equations(t, y, discrete, (const Parameters *)p, eta, &linearization);
     if (status)
         return status;
     newton_solve(&linearization, eta, s, r, u);

@@ -34,8 +34,8 @@ static inline int all_finite(const double *x, int n)
 static inline int same_number(double x, double y) { return x == y && !signbit(x) == !signbit(y); }
 
 /*
- * Return the distance, s, below which a sample coincides with the end t of a step of length h: both are sums of rounded
- * numbers.
+ * Return the distance, s, below which a sample coincides with the end t of a step of length h: both contain rounding
+ * errors.
  */
 static inline double rounded(double t, double h) { return 8.0 * DBL_EPSILON * fabs(t) + 1e-12 * h; }
 

@@ -55,7 +55,8 @@ static inline PARTS_OF PARTS_NAMED(log_in_parts)(PARTS_OF x, PARTS_OF *error)
     const PARTS_BITS x_bits = PARTS_NAMED(bits_of)(x), bits = x_bits - 0x3fe6100000000000u;
     const PARTS_OF c = PARTS_ENTRY(log_table, bits >> 45, 0), less = PARTS_ENTRY(log_table, bits >> 45, 1);
     const PARTS_OF least = PARTS_ENTRY(log_table, bits >> 45, 2), k = PARTS_POWER(bits);
-    const PARTS_OF z = PARTS_NAMED(of_bits)(x_bits - (bits & 0xfff0000000000000u)), z_high = PARTS_NAMED(upper_half)(z);
+    const PARTS_OF z = PARTS_NAMED(of_bits)(x_bits - (bits & 0xfff0000000000000u));
+    const PARTS_OF z_high = PARTS_NAMED(upper_half)(z);
     const PARTS_OF r_high = z_high * c - 1.0, r_low = (z - z_high) * c, r = r_high + r_low;
     const PARTS_OF r_rest = r_high - r + r_low;
     const PARTS_OF sum = k * 0x1.62e42fefa38p-1 + less, near = sum + r;
@@ -78,7 +79,8 @@ static inline PARTS_OF PARTS_NAMED(exp_of_parts)(PARTS_OF x, PARTS_OF error)
     const PARTS_OF shifted = x * 0x1.71547652b82fep7 + shift, k = shifted - shift;
     const PARTS_OF r = x - k * 0x1.62e42fefcp-8 + k * 0x1.c610ca86c3899p-44 + error, square = r * r;
     const PARTS_BITS whole = PARTS_NAMED(bits_of)(shifted), ahead = whole >> 7 << 52;
-    const PARTS_OF power = PARTS_NAMED(of_bits)(PARTS_NAMED(bits_of)(PARTS_ENTRY(exp_table, whole, 0)) + ahead);
+    const PARTS_BITS table_bits = PARTS_NAMED(bits_of)(PARTS_ENTRY(exp_table, whole, 0));
+    const PARTS_OF power = PARTS_NAMED(of_bits)(table_bits + ahead);
     const PARTS_OF less = PARTS_ENTRY(exp_table, whole, 1) + r + square * (0.5 + r * (1.0 / 6.0))
         + square * square * (1.0 / 24.0 + r * (1.0 / 120.0));
     return power + power * less;

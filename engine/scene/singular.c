@@ -135,7 +135,7 @@ static int select_independent_rows(Workspace *workspace, double min_square)
  * Compute the norm that replaces the mass matrix where masses or moments of inertia are small: its square roots, the
  * fraction of M in it, and in workspace->light whether any is small. Called by initialize_workspace().
  */
-static void compute_norm(Workspace *workspace)
+static void compute_mass_norm(Workspace *workspace)
 {
     double heaviest = 0.0;
     for (int k = 0; k < N_Q; k++)
@@ -171,7 +171,7 @@ static void initialize_workspace(Workspace *workspace, double t, const double *q
     *workspace = (Workspace){0};
     mass_matrix(p, workspace->root);
     jacobian(t, q, p, &workspace->all[0][0]);
-    compute_norm(workspace);
+    compute_mass_norm(workspace);
     for (int k = 0; k < N_Q; k++) {
         workspace->force[k] = force[k] / workspace->root[k];
         workspace->y[k] = workspace->light ? 0.0 : workspace->force[k];
@@ -272,7 +272,7 @@ static int add_free_motion(Workspace *workspace, int rank)
  * min_square; others have lambda = 0. Return 1 if the others agree to `tolerance`, 0 if not or if M is singular, or
  * STOPPED on cancellation.
  */
-static int solve_independent(Workspace *workspace, double min_square, double tolerance, double *lambda)
+static int solve_independent_equations(Workspace *workspace, double min_square, double tolerance, double *lambda)
 {
     const int rank = select_independent_rows(workspace, min_square);
     if (rank < 0)
@@ -323,7 +323,7 @@ int solve_dependent(double t, const double *q, const Parameters *p, const double
     for (int pass = 0; workspace && status && pass < 2; pass++) {
         initialize_workspace(workspace, t, q, p, force, rhs);
         workspace->cancellation = discrete->token;
-        status = solve_independent(workspace, min_squares[pass], tolerances[pass], lambda);
+        status = solve_independent_equations(workspace, min_squares[pass], tolerances[pass], lambda);
         if (status == STOPPED)
             break;
         if (!status) {

@@ -76,7 +76,7 @@ static int initialize_guess(StartWorkspace *workspace, double t, const Parameter
  * Return the largest change of a guessed angle or position from the guess to q, relative to the limit (1) beyond which
  * the search in Python decides.
  */
-static double compute_relative_change(const StartWorkspace *workspace, const double *q)
+static double compute_change_from_guess(const StartWorkspace *workspace, const double *q)
 {
     double largest = 0.0, change[N_Q] = {0.0};
     for (int i = 0; i < N_GUESS; i++)
@@ -91,12 +91,12 @@ static double compute_relative_change(const StartWorkspace *workspace, const dou
 }
 
 /* Return whether all positions in q are within 1000 times workspace->radius (m): the iteration has not diverged. */
-static int is_bounded(const StartWorkspace *workspace, const double *q)
+static int are_positions_bounded(const StartWorkspace *workspace, const double *q)
 {
-    int is_bounded = 1;
+    int are_positions_bounded = 1;
     for (int k = 0; k < N_Q; k++)
-        is_bounded &= k % 3 == 2 || fabs(q[k]) < 1e3 * workspace->radius;
-    return is_bounded;
+        are_positions_bounded &= k % 3 == 2 || fabs(q[k]) < 1e3 * workspace->radius;
+    return are_positions_bounded;
 }
 
 /*
@@ -121,7 +121,7 @@ static int remove_full_turns(StartWorkspace *workspace, double t, const Paramete
  */
 static void select_nearest_start(StartWorkspace *workspace, double t, const Parameters *p, double *q)
 {
-    if (compute_relative_change(workspace, q) < MIRRORED)
+    if (compute_change_from_guess(workspace, q) < MIRRORED)
         return;
     for (int k = 0; k < N_Q; k++) {
         workspace->first_solution[k] = q[k];
@@ -137,7 +137,7 @@ static void select_nearest_start(StartWorkspace *workspace, double t, const Para
             workspace->trial[set_place[i]] = workspace->set[i];
         if (solve_independent_angles(workspace, t, p, workspace->trial)
             || solve_closure(workspace, t, p, workspace->trial)
-            || !is_bounded(workspace, workspace->trial)
+            || !are_positions_bounded(workspace, workspace->trial)
             || remove_full_turns(workspace, t, p, workspace->trial)
                 || !(compute_squared_distance(workspace, workspace->trial) < workspace->nearest))
             continue;
@@ -225,10 +225,10 @@ int compute_start(
     workspace->size = size;
     workspace->cancellation = cancellation;
     int status = initialize_guess(workspace, t, p, q) || solve_closure(workspace, t, p, q);
-    if (!status && compute_relative_change(workspace, q) < 1.0)
+    if (!status && compute_change_from_guess(workspace, q) < 1.0)
         select_nearest_start(workspace, t, p, q);
-    status = status || !(compute_relative_change(workspace, q) < 1.0)
-        || !is_bounded(workspace, q); /* another branch may be nearer */
+    status = status || !(compute_change_from_guess(workspace, q) < 1.0)
+        || !are_positions_bounded(workspace, q); /* another branch may be nearer */
     status = status || compute_start_velocities(workspace, t, p, q, v);
     compute_start_residuals(workspace, t, q, p);
     *residual = 0.0;

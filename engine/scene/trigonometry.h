@@ -40,7 +40,7 @@ static inline void sines_and_cosines(const Four *angles, Four *sine, Four *cosin
 typedef double Four[4];
 
 /* Compute sine and cosine of an angle (rad); large angles use the C library. */
-static void sine_and_cosine(double angle, double *sine, double *cosine)
+static void compute_sine_and_cosine(double angle, double *sine, double *cosine)
 {
 #define SINES_OF double
 #define SINES_BITS uint64_t
@@ -61,7 +61,7 @@ static void sine_and_cosine(double angle, double *sine, double *cosine)
 static void sines_and_cosines(const Four *angles, Four *sine, Four *cosine)
 {
     for (int k = 0; k < 4; k++)
-        sine_and_cosine((*angles)[k], &(*sine)[k], &(*cosine)[k]);
+        compute_sine_and_cosine((*angles)[k], &(*sine)[k], &(*cosine)[k]);
 }
 #endif
 

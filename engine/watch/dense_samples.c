@@ -13,9 +13,9 @@ static void sample_dense_output(Integrator *run, double t, const double *y, cons
 
 /*
  * Return whether an event function may have a zero in the step: its smallest sample at ends and stages is less than the
- * range of its samples. *range: that range, largest minus smallest.
+ * range of its samples. *value_range: that range, largest minus smallest.
  */
-static int may_have_zero(const Integrator *run, const Step *step, int event, double *range)
+static int may_have_zero(const Integrator *run, const Step *step, int event, double *value_range)
 {
     const double start = event_function(&run->discrete, &run->rhs, event),
                  end = event_function(&run->discrete, &step->rhs, event);
@@ -25,15 +25,17 @@ static int may_have_zero(const Integrator *run, const Step *step, int event, dou
         smallest = min_of(smallest, read_stage(stages, i));
         largest = max_of(largest, read_stage(stages, i));
     }
-    *range = largest - smallest;
-    return smallest < *range;
+    *value_range = largest - smallest;
+    return smallest < *value_range;
 }
 
 /*
  * Estimate by how much each watched function changes if every coordinate and velocity changes by one error tolerance:
- * change (N_WATCHED). Smaller values cannot be resolved. Called by is_unresolved() for the allowed error of samples.
+ * uncertainty (N_WATCHED). Smaller values cannot be resolved. Called by is_unresolved() for the allowed error of
+ * samples.
  */
-static void estimate_event_function_uncertainty(Integrator *run, const Step *step, const Parameters *p, double *change)
+static void estimate_event_function_uncertainty(Integrator *run, const Step *step, const Parameters *p,
+    double *uncertainty)
 {
     double y[N_Y];
     RhsOutputs rhs;
@@ -41,17 +43,17 @@ static void estimate_event_function_uncertainty(Integrator *run, const Step *ste
         y[k] = run->y[k] + (k < 2 * N_X ? 1.0 / run->norm.weight[k] : 0.0);
     sample_dense_output(run, step->t, y, p, &rhs);
     for (int i = 0; i < N_WATCHED; i++)
-        change[i] = fabs(
+        uncertainty[i] = fabs(
             event_function(&run->discrete, &rhs, watched[i]) - event_function(&run->discrete, &run->rhs, watched[i]));
 }
 
 /*
- * Estimate the interpolation error at an end of a row of samples f[0], f[stride], ..., f[n stride], from their
- * difference of order 4 at most. Return 0 for n = 0.
+ * Estimate the interpolation error at an end of a row of n_intervals + 1 samples f[0], f[stride], ..., from
+ * their difference of order 4 at most. Return 0 for n_intervals = 0.
  */
-static double estimate_end_error(const double *f, int stride, int n)
+static double estimate_end_error(const double *f, int stride, int n_intervals)
 {
-    const int order = n < 4 ? n : 4;
+    const int order = n_intervals < 4 ? n_intervals : 4;
     double difference[5] = {0.0};
     for (int k = 0; k <= order; k++)
         difference[k] = f[k * stride];
@@ -62,31 +64,33 @@ static double estimate_end_error(const double *f, int stride, int n)
 }
 
 /*
- * Return the largest difference between the samples f (N_SAMPLES + 1) and cubics through every second sample. Stencils
- * across the interval after sample `jump` are left out, because the function may jump there, and the errors at its ends
- * are added; N_SAMPLES: no jump.
+ * Return the largest difference between `samples` (N_SAMPLES + 1) and cubics through every second sample. Stencils
+ * across the interval after sample `jump_index` are left out, because the function may jump there, and the errors at
+ * its ends are added; N_SAMPLES: no jump.
  */
-static double compute_interpolation_error(const double *f, int jump)
+static double compute_interpolation_error(const double *samples, int jump_index)
 {
     double largest = 0.0;
     for (int j = 3; j + 3 <= N_SAMPLES; j += 2)
-        if (j + 3 <= jump || j - 3 > jump)
-            largest = max_of(largest, fabs(f[j] - (9.0 * (f[j - 1] + f[j + 1]) - f[j - 3] - f[j + 3]) / 16.0));
-    if (jump >= N_SAMPLES)
+        if (j + 3 <= jump_index || j - 3 > jump_index)
+            largest = max_of(largest, fabs(samples[j]
+                - (9.0 * (samples[j - 1] + samples[j + 1]) - samples[j - 3] - samples[j + 3]) / 16.0));
+    if (jump_index >= N_SAMPLES)
         return largest;
-    return max_of(largest, max_of(estimate_end_error(f + jump, -1, jump),
-        estimate_end_error(f + jump + 1, 1, N_SAMPLES - jump - 1)));
+    return max_of(largest, max_of(estimate_end_error(samples + jump_index, -1, jump_index),
+        estimate_end_error(samples + jump_index + 1, 1, N_SAMPLES - jump_index - 1)));
 }
 
 /*
- * Return the interpolation error of the samples f (N_SAMPLES + 1) of a step, for the position of one jump of value or
- * slope that makes it smallest. A shorter step would not reduce that jump. Errors below `sufficient` end the search.
+ * Return the interpolation error of `samples` (N_SAMPLES + 1) of a step, for the position of one jump of value or
+ * slope that makes it smallest. A shorter step would not reduce that jump. Errors below `sufficient_error` end the
+ * search.
  */
-static double compute_resolution_error(const double *f, double sufficient)
+static double compute_resolution_error(const double *samples, double sufficient_error)
 {
-    double smallest = compute_interpolation_error(f, N_SAMPLES);
-    for (int jump = 0; jump < N_SAMPLES && smallest > sufficient; jump++)
-        smallest = min_of(smallest, compute_interpolation_error(f, jump));
+    double smallest = compute_interpolation_error(samples, N_SAMPLES);
+    for (int jump = 0; jump < N_SAMPLES && smallest > sufficient_error; jump++)
+        smallest = min_of(smallest, compute_interpolation_error(samples, jump));
     return smallest;
 }
 

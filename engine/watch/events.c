@@ -69,7 +69,7 @@ static int ignore_harmless_switches(Integrator *run, Step *step, const Parameter
  * Return whether event function number `event` is not searched for a zero: that of a switching point that is suppressed
  * or that this step passes.
  */
-static int is_ignored(const Integrator *run, const Step *step, int event)
+static int is_event_ignored(const Integrator *run, const Step *step, int event)
 {
     const int switch_index = event - N_CLEARANCES;
     return switch_index >= 0 && switch_index < N_SWITCHES
@@ -145,7 +145,7 @@ static int is_above_uncertainty(Integrator *run, double t, const double *y, cons
  * for event functions that are not watched (watched: switching points and user events), and if the state cannot be
  * evaluated.
  */
-static int is_resolved_at(Integrator *run, const Step *step, double fraction, int event, const Parameters *p)
+static int is_event_resolved_at(Integrator *run, const Step *step, double fraction, int event, const Parameters *p)
 {
     double y[N_Y], dy[N_Y];
     RhsOutputs rhs;
@@ -154,34 +154,35 @@ static int is_resolved_at(Integrator *run, const Step *step, double fraction, in
 }
 
 /*
- * Return the fraction of the first event before the event found at the fraction `first`, and update *event to its
- * number. Event functions that no stage shows negative are evaluated there; negative ones above their uncertainty are
- * located, which is repeated at the new fraction. If there is none, return `first`. Called after the first event of a
- * step is located.
+ * Return the fraction of the first event before the event found at `first_fraction`, and update *event to
+ * its number. Event functions that no stage shows negative are evaluated there; negative ones above their uncertainty
+ * are located, which is repeated at the new fraction. If there is none, return `first_fraction`. Called after the first
+ * event of a step is located.
  */
-static double find_earlier_event(Integrator *run, const Step *step, double first, const Parameters *p, int *event)
+static double find_earlier_event(Integrator *run, const Step *step, double first_fraction, const Parameters *p,
+    int *event)
 {
-    for (int pass = 0; pass < N_EVENT_FUNCTIONS && first > 0.0; pass++) {
-        const int sample = get_dense_sample(run, step, first, *event, p);
+    for (int pass = 0; pass < N_EVENT_FUNCTIONS && first_fraction > 0.0; pass++) {
+        const int sample = get_dense_sample(run, step, first_fraction, *event, p);
         int earlier = -1;
         for (int k = 0; k < N_EVENT_FUNCTIONS && sample >= 0; k++)
-            if (run->roots.samples.event_function[sample][k] < 0.0 && k != *event && !is_ignored(run, step, k)
+            if (run->roots.samples.event_function[sample][k] < 0.0 && k != *event && !is_event_ignored(run, step, k)
                 && !isfinite(get_bracket_begin(run, step, k).slope)
                     && event_function(&run->discrete, &run->rhs, k) >= 0.0
-                && is_resolved_at(run, step, first, k, p))
+                && is_event_resolved_at(run, step, first_fraction, k, p))
                 earlier = k;
         if (earlier < 0)
-            return first;
-        const Sample high = evaluate_bracket_point(run, step, first, earlier, p);
+            return first_fraction;
+        const Sample high = evaluate_bracket_point(run, step, first_fraction, earlier, p);
         const Bracket of = build_stage_bracket(step, earlier, get_bracket_begin(run, step, earlier), high);
         const double s = locate_event_in_step(run, step, earlier, of,
             estimate_zero(&of, count_interpolation_points(run, earlier)), p);
-        if (!(s < first))
-            return first;
-        first = s;
+        if (!(s < first_fraction))
+            return first_fraction;
+        first_fraction = s;
         *event = earlier;
     }
-    return first;
+    return first_fraction;
 }
 
 /* An event function k that may end the step: the bracket of its zero and two estimates of its location. */
@@ -247,7 +248,8 @@ static double find_first_crossing(Integrator *run, Step *step, const Parameters 
             && !(step->lowest[k] < 0.0) && !(at_end[k] < 0.0);
         Candidate candidate;
         int i = n;
-        if (is_clear || is_ignored(run, step, k) || !has_event_candidate(run, step, k, p, max_fraction, &candidate))
+        if (is_clear || is_event_ignored(run, step, k)
+            || !has_event_candidate(run, step, k, p, max_fraction, &candidate))
             continue;
         for (n++; i > 0 && candidates[i - 1].about > candidate.about; i--)
             candidates[i] = candidates[i - 1];
@@ -289,7 +291,7 @@ static double find_first_event_of_long_step(Integrator *run, Step *step, double 
     for (int k = 0; k < N_EVENT_FUNCTIONS && !is_unbounded_function; k++)
         is_unbounded_function = watched_as[k] < 0 && !isfinite(get_bracket_begin(run, step, k).slope)
             && !is_contact_force_function(run, k)
-            && event_function(&run->discrete, &run->rhs, k) >= 0.0 && !is_ignored(run, step, k)
+            && event_function(&run->discrete, &run->rhs, k) >= 0.0 && !is_event_ignored(run, step, k)
             && (step->method->stiff || !is_clear_of_zero(run, step, k, 0.0, p));
     if (!is_unbounded_function || compute_dense_output(run, p, step))
         return fraction;

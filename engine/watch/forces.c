@@ -56,7 +56,7 @@ static double compute_slip_tolerance(Integrator *run, int element, const Paramet
  * that leaves rest it is the rounding or the error of the step, m/s; for all other functions 0. Used as the allowance
  * of has_force_zero().
  */
-static double compute_velocity_rounding(Integrator *run, int event, const Parameters *p)
+static double compute_initial_allowance(Integrator *run, int event, const Parameters *p)
 {
 #if N_FRICTIONS
     const int i = event - N_CLEARANCES - N_SWITCHES;
@@ -186,12 +186,13 @@ static int is_clear_of_zero(const Integrator *run, Step *step, int event, double
         if (!(min_of(samples[i - 1].f, samples[i].f) - (monotone ? 0.0 : 0.125 * deviation) > -allowance))
             return 0;
     }
-    return (!(allowance > 0.0) || samples[n - 1].f >= -AT_REST) && !may_oscillate_between_stages(step, samples, n, p);
+    return (!(allowance > 0.0) || samples[n - 1].f >= -AT_REST)
+        && !may_oscillate_between_stages(step, samples, n, p);
 }
 
 /*
- * Return the value at a fraction of the step of the parabola through the samples at the begin, the middle and the end
- * of a part.
+ * Return the value at a fraction of the step of the parabola through three samples, at the ends and the middle of a
+ * part.
  */
 static double evaluate_parabola(Sample begin, Sample middle, Sample end, double fraction)
 {
@@ -201,13 +202,13 @@ static double evaluate_parabola(Sample begin, Sample middle, Sample end, double 
 
 /*
  * Return the minimum, between begin and end of a part, of the parabola through the samples there and in the middle.
- * *steepest: its largest slope there, per fraction of the step.
+ * *steepest_slope: its largest slope there, per fraction of the step.
  */
-static double find_parabola_minimum(Sample begin, Sample middle, Sample end, double *steepest)
+static double find_parabola_minimum(Sample begin, Sample middle, Sample end, double *steepest_slope)
 {
     const double slope = 0.5 * (end.f - begin.f), bend = begin.f - 2.0 * middle.f + end.f, x = -slope / bend;
     const double least = min_of(begin.f, min_of(middle.f, end.f));
-    *steepest = 2.0 * (slope + fabs(bend)) / (end.s - begin.s);
+    *steepest_slope = 2.0 * (slope + fabs(bend)) / (end.s - begin.s);
     return bend > 0.0 && fabs(x) < 1.0 ? min_of(least, middle.f + 0.5 * slope * x) : least;
 }
 
@@ -235,7 +236,7 @@ static double estimate_error_of_halves(Sample begin, SampledPart part, Sample le
 static int has_force_zero(Integrator *run, Step *step, int event, const Parameters *p, Sample *low, Sample *high)
 {
     const double min_width = 4.0 * compute_event_time_tolerance(run, step);
-    double allowance = compute_velocity_rounding(run, event, p);
+    double allowance = compute_initial_allowance(run, event, p);
     SampledPart parts[MAX_BISECTIONS + 1];
     Sample from = get_bracket_begin(run, step, event);
     double largest = fabs(from.f);

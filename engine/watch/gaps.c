@@ -2,9 +2,9 @@
  * Search for contacts in a step: the first zero of a joint's gap or penetration, with a proof that none precedes it.
  * The event function is the gap of an open contact, or the penetration of a closed one.
  *
- * classify_by_stages() decides most steps. The second derivative is bounded by BEND_SAFETY times the largest value that
- * the rates of neighbouring stages show. The dense output differs from the stages by DENSE_ERROR tolerances at most.
- * Otherwise find_first_gap_zero() bisects the dense output. On each part the event function is the cubic Hermite
+ * classify_gap_by_stages() decides most steps. The second derivative is bounded by BEND_SAFETY times the largest value
+ * that the rates of neighbouring stages show. The dense output differs from the stages by DENSE_ERROR tolerances at
+ * most. Otherwise find_first_gap_zero() bisects the dense output. On each part the event function is the cubic Hermite
  * polynomial of both ends within an error. That error is the one measured in the middle of the part before the
  * bisection; in theory its halves have a sixteenth of it.
  *
@@ -45,8 +45,8 @@ static Sample evaluate_gap_function(
 }
 
 /*
- * Collect samples of the event function of a contact at the beginning of a step, at its inner stages in the order of
- * their nodes, and at its end. samples: values with slopes. Return their number, at most N_STAGES + 2.
+ * Collect samples of the event function of a contact along a step: at its beginning, inner stages and end. samples:
+ * values with slopes, in the order of the nodes. Return their number, at most N_STAGES + 2.
  */
 static int collect_gap_samples(const Integrator *run, const Step *step, int joint, const Parameters *p,
     Sample *samples)
@@ -85,10 +85,10 @@ static double compute_dense_output_error(const Integrator *run, int joint, const
 }
 
 /*
- * Return whether the event function of a contact is so far from zero at beginning, stages and end that its observed
- * rates cannot reach zero between them. This test is the cheapest and decides most steps.
+ * Return whether the gap function of a contact cannot reach zero between its samples at beginning, stages and end. It
+ * is then too far from zero for its observed rates. This test is the cheapest and decides most steps.
  */
-static int is_far_from_zero(const Integrator *run, const Step *step, int joint, const Parameters *p)
+static int is_gap_far_from_zero(const Integrator *run, const Step *step, int joint, const Parameters *p)
 {
     const double rate_begin = run->rhs.clearance[joint].deltadot, rate_end = step->rhs.clearance[joint].deltadot;
     const double slowest = min_of(step->rate[joint][0], min_of(rate_begin, rate_end)),
@@ -101,25 +101,25 @@ static int is_far_from_zero(const Integrator *run, const Step *step, int joint, 
 }
 
 /*
- * Return whether a function with |f''| <= B (max_second_derivative) is at least `bound` between neighbouring samples a
- * and b, w apart. It is at least min(f_a, f_b) - B w^2/8. It is also at least max(f_a + f'_a x - B x^2/2, f_b - f'_b (w
- * - x) - B (w - x)^2/2), which is least where both parabolas meet.
+ * Return whether a function with |f''| <= B (max_second_derivative) is at least `lower_bound` between neighbouring
+ * samples a and b, w apart. It is at least min(f_a, f_b) - B w^2/8. It is also at least max(f_a + f'_a x - B x^2/2, f_b
+ * - f'_b (w - x) - B (w - x)^2/2), which is least where both parabolas meet.
  */
-static int is_above_parabolas(Sample a, Sample b, double max_second_derivative, double bound)
+static int is_above_parabolas(Sample a, Sample b, double max_second_derivative, double lower_bound)
 {
     const double width = b.s - a.s, max_change = max_second_derivative * width;
-    if (min_of(a.f, b.f) - 0.125 * max_change * width >= bound)
+    if (min_of(a.f, b.f) - 0.125 * max_change * width >= lower_bound)
         return 1;
     const double x = (a.f - b.f + (b.slope + 0.5 * max_change) * width) / (b.slope - a.slope + max_change);
-    return x >= 0.0 && x <= width && a.f + x * (a.slope - 0.5 * max_second_derivative * x) >= bound;
+    return x >= 0.0 && x <= width && a.f + x * (a.slope - 0.5 * max_second_derivative * x) >= lower_bound;
 }
 
 /*
  * Classify the event function of a contact in a step by its stages: NO_ZERO (no zero), ONE_ZERO (one zero, at which it
  * decreases) or UNKNOWN. *first_negative: the node of the first stage at which it is negative by more than the error of
- * the dense output, else 1. Called if is_far_from_zero() does not decide.
+ * the dense output, else 1. Called if is_gap_far_from_zero() does not decide.
  */
-static int classify_by_stages(const Integrator *run, const Step *step, int joint, const Parameters *p,
+static int classify_gap_by_stages(const Integrator *run, const Step *step, int joint, const Parameters *p,
     double *first_negative)
 {
     Sample samples[N_STAGES + 2];
@@ -161,17 +161,17 @@ static double find_cubic_minimum(double f, double r, double c, double d)
 }
 
 /*
- * Classify an event function between samples a and b with slopes: NO_ZERO (no value below `bound`), ONE_ZERO (one zero,
- * at which it decreases) or UNKNOWN. It differs from their cubic by 16 error u^2 (1 - u)^2 at most, as the error of
- * Hermite's cubic does, and its rate by 3.1 error. Called for each part of the dense output that is bisected.
+ * Classify an event function between samples a and b with slopes: NO_ZERO (no value below `lower_bound`), ONE_ZERO (one
+ * zero, at which it decreases) or UNKNOWN. It differs from their cubic by 16 error u^2 (1 - u)^2 at most, as the error
+ * of Hermite's cubic does, and its rate by 3.1 error. Called for each part of the dense output that is bisected.
  */
-static int classify_by_cubic(Sample a, Sample b, double error, double bound)
+static int classify_gap_by_cubic(Sample a, Sample b, double error, double lower_bound)
 {
     const double width = b.s - a.s, slope_a = width * a.slope, slope_b = width * b.slope, rise = b.f - a.f;
     const double c = 3.0 * rise - 2.0 * slope_a - slope_b, d = slope_a + slope_b - 2.0 * rise, deviation = 16.0 * error;
-    const int is_positive_at_end = b.f >= (b.s < 1.0 || b.slope > 0.0 ? bound : 0.0);
-    if (is_positive_at_end && find_cubic_minimum(a.f, slope_a, c - deviation, d) >= bound
-        && find_cubic_minimum(b.f, -slope_b, c + 3.0 * d - deviation, -d) >= bound)
+    const int is_positive_at_end = b.f >= (b.s < 1.0 || b.slope > 0.0 ? lower_bound : 0.0);
+    if (is_positive_at_end && find_cubic_minimum(a.f, slope_a, c - deviation, d) >= lower_bound
+        && find_cubic_minimum(b.f, -slope_b, c + 3.0 * d - deviation, -d) >= lower_bound)
         return NO_ZERO;
     double steepest = max_of(slope_a, slope_b);
     if (d < 0.0 && c > 0.0 && c < -3.0 * d)
@@ -218,7 +218,7 @@ static int find_first_gap_zero(
     for (int n_samples = 0; n_parts > 0 && begin.s < max_fraction;) {
         const PartOfStep part = parts[n_parts - 1];
         const double width = part.end.s - begin.s;
-        int result = begin.f >= bound ? classify_by_cubic(begin, part.end, part.error, bound) : ONE_ZERO;
+        int result = begin.f >= bound ? classify_gap_by_cubic(begin, part.end, part.error, bound) : ONE_ZERO;
         if (result == UNKNOWN) {
             const Sample middle = width > min_width && n_parts <= MAX_BISECTIONS && n_samples++ < MAX_SAMPLES
                 ? evaluate_gap_point(run, step, begin.s + 0.5 * width, joint, p) : (Sample){0.0, NAN, NAN};
@@ -252,8 +252,8 @@ static int has_gap_zero(Integrator *run, Step *step, int joint, const Parameters
     Sample *high)
 {
     double first_negative = 1.0;
-    int result = is_far_from_zero(run, step, joint, p) ? NO_ZERO
-        : classify_by_stages(run, step, joint, p, &first_negative);
+    int result = is_gap_far_from_zero(run, step, joint, p) ? NO_ZERO
+        : classify_gap_by_stages(run, step, joint, p, &first_negative);
     *low = get_bracket_begin(run, step, joint);
     *high = get_bracket_end(run, step, joint);
     if (result == UNKNOWN)

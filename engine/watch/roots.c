@@ -313,9 +313,9 @@ static int evaluate_event_function(void *context, double fraction, Sample *sampl
 }
 
 /*
- * Return the first fraction of the step at which an event function is found negative, to its tolerance, from its
- * bracket and a guess of the zero. That sample and its state are stored. Called for each event function whose bracket
- * is known.
+ * Locate the first zero of an event function in a step, from its bracket and a guess, and return its fraction of the
+ * step. The function is negative there, within the tolerance of the zero. That sample and its state are stored. Called
+ * for each event function whose bracket is known.
  */
 static double locate_event_in_step(Integrator *run, const Step *step, int event, Bracket bracket, double guess,
     const Parameters *p)

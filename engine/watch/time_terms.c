@@ -5,8 +5,8 @@
  */
 
 /*
- * Compute bounds (N_TERMS) of all terms of time alone over the fractions `begin` to `end` of the interval of length h
- * (s) from t (s) on.
+ * Compute bounds (N_TERMS) of all terms of time alone over a part of an interval. begin, end: fractions of the interval
+ * of length h (s) from t (s) on.
  */
 static void bound_time_terms(double t, double h, double begin, double end, const Parameters *p, Range *bounds)
 {
@@ -14,34 +14,34 @@ static void bound_time_terms(double t, double h, double begin, double end, const
 }
 
 #if N_PULSES
-enum { MAX_NODES = 16, GAP_PARTS = 64, MAX_HARMLESS_CHECKS = 4 };
+enum { MAX_NODES = 16, MAX_INTERVAL_PARTS = 64, MAX_HARMLESS_CHECKS = 4 };
 #define MAX_UNSEEN_CHANGE 0.25 /* of a term's range at the nodes: allowed excess between them */
 
-/* Return whether the step is accurate at a fraction of it. sure: a term certainly changes there. */
-typedef int AccuracyTest(void *context, double fraction, int sure);
+/* Return whether the step is accurate at a fraction of it. is_certain: a term certainly changes there. */
+typedef int AccuracyTest(void *context, double fraction, int is_certain);
 
 /* A part of an interval between nodes; the excess of terms by their bounds, and the certain one in its middle. */
 typedef struct {
     double from, to, most, surely;
-} GapPart;
+} IntervalPart;
 
 /*
- * Return the part [begin, end], fractions of an interval, with the largest excess of a term over its values at both
- * ends of the interval between two nodes. term_low, term_high: terms at these ends; slack: allowed excess of each term.
- * The excess is bounded, and certain in the middle of the part. Called for each part that find_undersampled_fraction()
- * bisects.
+ * Return the part [begin, end] of an interval with the largest excess of a term over its values at two nodes. begin,
+ * end: fractions of the interval of length h (s) from t (s) on; term_low, term_high: terms at the nodes;
+ * allowed_excess: of each term. The excess is bounded, and certain in the middle of the part. Called for each part that
+ * find_undersampled_fraction() bisects.
  */
-static GapPart build_gap_part(double t, double h, double begin, double end, const Range *term_low,
+static IntervalPart build_interval_part(double t, double h, double begin, double end, const Range *term_low,
     const Range *term_high,
-    const double *slack, const Parameters *p)
+    const double *allowed_excess, const Parameters *p)
 {
-    GapPart part = {begin, end, 0.0, 0.0};
+    IntervalPart part = {begin, end, 0.0, 0.0};
     Range bound[N_TERMS], middle[N_TERMS];
     bound_time_terms(t, h, begin, end, p, bound);
     bound_time_terms(t, h, 0.5 * (begin + end), 0.5 * (begin + end), p, middle);
     for (int k = 0; k < N_PULSES; k++) {
-        const double lower = min_of(term_low[k].lo, term_high[k].lo) - slack[k],
-            upper = max_of(term_low[k].lo, term_high[k].lo) + slack[k];
+        const double lower = min_of(term_low[k].lo, term_high[k].lo) - allowed_excess[k],
+            upper = max_of(term_low[k].lo, term_high[k].lo) + allowed_excess[k];
         const double excess = max_of(bound[k].hi - upper, lower - bound[k].lo);
         if (excess > part.most) {
             part.most = excess;
@@ -52,10 +52,10 @@ static GapPart build_gap_part(double t, double h, double begin, double end, cons
 }
 
 /*
- * Return whether every term of time that may be a pulse is monotone over the fractions `begin` to `end` of the interval
- * of length h (s) from t (s) on, by bounds of its slope.
+ * Return whether every term of time that may be a pulse is monotone over a part of an interval. begin, end: fractions
+ * of the interval of length h (s) from t (s) on. Bounds of the slopes decide.
  */
-static int is_monotone(double t, double h, double begin, double end, const Parameters *p)
+static int are_terms_monotone(double t, double h, double begin, double end, const Parameters *p)
 {
     Range bound[N_TERMS];
     int monotone = 1;
@@ -66,27 +66,27 @@ static int is_monotone(double t, double h, double begin, double end, const Param
 }
 
 /*
- * Return a fraction between the neighbouring nodes `begin` and `end` at which a term of time acts although it is at
- * rest at both, and the step is not accurate; 0: none. The part with the largest excess is bisected first.
- * is_accurate(context, ...) is called at most MAX_HARMLESS_CHECKS times. term_low, term_high: terms at both nodes;
- * slack: allowed excess of each.
+ * Return a fraction between two neighbouring nodes at which a term of time acts and the step is not accurate; 0: none.
+ * begin, end: the nodes, at which the term is at rest; term_low, term_high: terms there; allowed_excess: of each term.
+ * The part with the largest excess is bisected first. is_accurate(context, ...) is called at most MAX_HARMLESS_CHECKS
+ * times.
  */
 static double find_undersampled_fraction(double t, double h, double begin, double end, const Range *term_low,
     const Range *term_high,
-    const double *slack, AccuracyTest *is_accurate, void *context, const Parameters *p)
+    const double *allowed_excess, AccuracyTest *is_accurate, void *context, const Parameters *p)
 {
-    GapPart parts[GAP_PARTS + 1];
+    IntervalPart parts[MAX_INTERVAL_PARTS + 1];
     int n = 0, n_checks = 0;
-    if (!is_monotone(t, h, begin, end, p))
-        parts[n++] = build_gap_part(t, h, begin, end, term_low, term_high, slack, p);
+    if (!are_terms_monotone(t, h, begin, end, p))
+        parts[n++] = build_interval_part(t, h, begin, end, term_low, term_high, allowed_excess, p);
     while (n > 0) {
         int k = 0;
         for (int i = 1; i < n; i++)
             k = parts[i].most > parts[k].most ? i : k;
-        const GapPart part = parts[k];
+        const IntervalPart part = parts[k];
         const double middle = 0.5 * (part.from + part.to);
         const int is_known =
-            part.surely >= 0.5 * part.most || n == GAP_PARTS || !(part.from < middle && middle < part.to);
+            part.surely >= 0.5 * part.most || n == MAX_INTERVAL_PARTS || !(part.from < middle && middle < part.to);
         if (!(part.most > 0.0) || n_checks == MAX_HARMLESS_CHECKS)
             return 0.0;
         if (is_known && !is_accurate(context, middle, part.surely >= 0.5 * part.most))
@@ -95,26 +95,26 @@ static double find_undersampled_fraction(double t, double h, double begin, doubl
         if (is_known) {
             parts[k] = parts[--n];
         } else {
-            parts[k] = build_gap_part(t, h, part.from, middle, term_low, term_high, slack, p);
-            parts[n++] = build_gap_part(t, h, middle, part.to, term_low, term_high, slack, p);
+            parts[k] = build_interval_part(t, h, part.from, middle, term_low, term_high, allowed_excess, p);
+            parts[n++] = build_interval_part(t, h, middle, part.to, term_low, term_high, allowed_excess, p);
         }
     }
     return 0.0;
 }
 
 /*
- * Return the first fraction of the interval of length h (s) from t (s) on at which a term of time acts between its n
- * nodes (0 to 1) without showing at them, and the step is not accurate there; 0: none. is_accurate(context, fraction,
- * sure) decides the accuracy. Monotone terms show at both ends, so that 0 is returned at once. Called for steps of
- * integrators and of kinematic analyses.
+ * Return the first fraction of an interval at which a term of time acts unseen and the step is not accurate; 0: none.
+ * The interval has the length h (s) from t (s) on; node: its n nodes (0 to 1), at which the term does not show.
+ * is_accurate(context, fraction, is_certain) decides the accuracy. Monotone terms show at both ends, so that 0 is
+ * returned at once. Called for steps of integrators and of kinematic analyses.
  */
 static double find_undersampled_term(double t, double h, const double *node, int n, AccuracyTest *is_accurate,
     void *context,
     const Parameters *p)
 {
     Range term_at[MAX_NODES][N_TERMS];
-    double slack[N_PULSES], fraction = 0.0;
-    if (is_monotone(t, h, 0.0, 1.0, p))
+    double allowed_excess[N_PULSES], fraction = 0.0;
+    if (are_terms_monotone(t, h, 0.0, 1.0, p))
         return 0.0; /* its change shows at both ends */
     for (int i = 0; i < n; i++)
         bound_time_terms(t, h, node[i], node[i], p, term_at[i]);
@@ -124,12 +124,12 @@ static double find_undersampled_term(double t, double h, const double *node, int
             lower = min_of(lower, term_at[i][k].lo);
             upper = max_of(upper, term_at[i][k].lo);
         }
-        slack[k] = MAX_UNSEEN_CHANGE * (upper - lower);
+        allowed_excess[k] = MAX_UNSEEN_CHANGE * (upper - lower);
     }
     for (int i = 1; i < n && fraction == 0.0; i++)
         fraction =
-            find_undersampled_fraction(t, h, node[i - 1], node[i], term_at[i - 1], term_at[i], slack, is_accurate,
-                context, p);
+            find_undersampled_fraction(t, h, node[i - 1], node[i], term_at[i - 1], term_at[i], allowed_excess,
+                is_accurate, context, p);
     return fraction;
 }
 #endif

@@ -108,9 +108,9 @@ static void evaluate_event_functions_at(Integrator *run, const Step *step, doubl
 
 #if WATCHES_STATE
 /*
- * Expand the dense output y0 + s (d0 + (1 - s) (d1 + s (d2 + ...))), the form of all methods, into powers of the
- * fraction s of the step, for coordinates and velocities. polynomial: coefficients, degree, time and length of the
- * step. Called once for each step that is searched.
+ * Expand the dense output of a step into powers of the fraction s of the step, for coordinates and velocities. All
+ * methods have the form y0 + s (d0 + (1 - s) (d1 + s (d2 + ...))). polynomial: coefficients, degree, time and length of
+ * the step. Called once for each step that is searched.
  */
 static void expand_dense_output(const Integrator *run, const Step *step, DensePolynomial *polynomial)
 {
@@ -264,7 +264,8 @@ static int classify_event_functions(void *context, double begin, double end, int
  * the range of the stages, extended by a quarter; they decide most steps. Functions that are held at zero count as not
  * negative. Called by bracket_first_zeros() before the dense output is bounded.
  */
-static int is_clear_by_stages(Integrator *run, const Step *step, EventUncertainties *uncertainties, const Parameters *p)
+static int is_clear_of_zeros_by_stages(Integrator *run, const Step *step, EventUncertainties *uncertainties,
+    const Parameters *p)
 {
     Range bounds[N_WATCHED], y[2 * N_X + 1] = { {0} };
     const Range t = {step->t, step->t + step->h, -INFINITY, INFINITY, 0};
@@ -298,7 +299,7 @@ static void bracket_first_zeros(Integrator *run, Step *step, const Parameters *p
     for (int i = 0; i < N_WATCHED; i++)
         step->from[i] = step->to[i] = 0.0;
 #if WATCHES_STATE
-    if ((!step->method->stiff && is_clear_by_stages(run, step, &search.uncertain, p))
+    if ((!step->method->stiff && is_clear_of_zeros_by_stages(run, step, &search.uncertain, p))
         || compute_dense_output(run, p, step))
         return;
     expand_dense_output(run, step, &search.powers);

@@ -85,13 +85,13 @@ static inline double find_zero_by_inverse_interpolation(const Sample *samples, i
  * third sample is finite and far enough from both ends, use the polynomial of degree 4 that has its value as well.
  * Newton's method with bisection.
  */
-static inline double find_hermite_zero(Sample low, Sample high, Sample third)
+static inline double find_hermite_zero(Sample low, Sample high, Sample third_sample)
 {
     const double w = high.s - low.s, a = low.f, b = high.f - a, slope_low = w * low.slope, slope_high = w * high.slope;
     const double c = 3.0 * b - 2.0 * slope_low - slope_high, d = slope_low + slope_high - 2.0 * b,
-        x = (third.s - low.s) / w, v = (1.0 - x) * x;
-    const double difference = third.f - (a + x * (slope_low + x * (c + x * d))); /* than the cubic there */
-    const double e = isfinite(third.f) && fabs(v) > MIN_THIRD_DISTANCE ? difference / (v * v) : 0.0;
+        x = (third_sample.s - low.s) / w, v = (1.0 - x) * x;
+    const double difference = third_sample.f - (a + x * (slope_low + x * (c + x * d))); /* than the cubic there */
+    const double e = isfinite(third_sample.f) && fabs(v) > MIN_THIRD_DISTANCE ? difference / (v * v) : 0.0;
     double left = 0.0, right = 1.0, u = -a / b;
     for (int i = 0; i < 60 && right - left > DBL_EPSILON; i++) {
         const double back = 1.0 - u, bend = u * back;
@@ -134,7 +134,7 @@ static inline double clamp_to_bracket(double guess, const Bracket *bracket)
  * The slope of the function is estimated as the steepest one from there to the known samples. 0 if the tolerance allows
  * no distance.
  */
-static inline double compute_distance_beyond(const Bracket *bracket, const ZeroTolerance *tolerance, double guess)
+static inline double compute_allowed_overshoot(const Bracket *bracket, const ZeroTolerance *tolerance, double guess)
 {
     const double location = clamp_to_bracket(guess, bracket);
     double steepest = 0.0;
@@ -158,7 +158,7 @@ static inline int locate_zero(EvaluateEventFunction *evaluate, void *context, co
     for (int i = 0;; i++) {
         const double low = bracket->at[0].s, high = bracket->at[1].s;
         double s = i ? estimate_zero(bracket, n_points) : guess;
-        const double distance = compute_distance_beyond(bracket, tolerance, s),
+        const double distance = compute_allowed_overshoot(bracket, tolerance, s),
             min_distance = max_of(distance, tolerance->width);
         if (!(high - low > min_distance))
             return 0;
@@ -237,16 +237,19 @@ static inline int classify_zero(Range bounds, double value_begin, double value_e
 
 /*
  * Return whether a lower bound over a fraction `width` of an interval is negative only because interval arithmetic
- * overestimates. It is if the bound has narrowed with the part, as for a function without a zero. whole_lower: the
- * lower bound over the whole interval. Parts longer than NARROWING_WIDTH return 0.
+ * overestimates. It is if the bound has narrowed with the part, as for a function without a zero. whole_lower_bound:
+ * the lower bound over the whole interval. Parts longer than NARROWING_WIDTH return 0.
  */
-static inline int is_narrowing(double lower, double width, double whole_lower)
+static inline int is_narrowing(double lower_bound, double width, double whole_lower_bound)
 {
-    return width <= NARROWING_WIDTH && lower >= 4.0 * width * whole_lower;
+    return width <= NARROWING_WIDTH && lower_bound >= 4.0 * width * whole_lower_bound;
 }
 
 /* Return whether a change of sign is a pole: the function is larger at it than POLE_DISTANCE tolerances further on. */
-static inline int is_near_pole(double here, double further) { return isinf(here) || fabs(here) > 2.0 * fabs(further); }
+static inline int is_near_pole(double value_at_change, double value_beyond)
+{
+    return isinf(value_at_change) || fabs(value_at_change) > 2.0 * fabs(value_beyond);
+}
 
 /*
  * Return whether a user-defined event function has crossed zero to `value` in a direction that counts as an event.

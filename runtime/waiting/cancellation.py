@@ -24,18 +24,18 @@ EVERY = 0.05  # s between two polls
 # callbacks by the id of cffi's interface, which is stored too, so that ids stay unique
 _functions: dict[int, tuple[Any, Any]] = {}
 Result = TypeVar("Result")
-Teller = Callable[[str], AbstractContextManager[None]]  # what is done → context around it
+Reporter = Callable[[str], AbstractContextManager[None]]  # what is done → context around it
 
-_teller: ContextVar[Teller | None] = ContextVar("teller", default=None)
+_reporter: ContextVar[Reporter | None] = ContextVar("reporter", default=None)
 
 
 class CancellationPoll:
-    """Poll for cancellation while C runs: C calls `poll`, whose exception is stored until `check` raises it in
+    """Poll for cancellation while C runs: C calls `poll`, whose exception is stored until `raise_stored` raises it in
     Python.
     """
 
-    def __init__(self, compiled: CompiledModel, look: Callable[[], object]) -> None:
-        self.poll = look
+    def __init__(self, compiled: CompiledModel, poll: Callable[[], object]) -> None:
+        self.poll = poll
         self.raised: BaseException | None = None
         self.function = _get_callback(compiled)
         self.handle = compiled.ffi.new_handle(self)
@@ -64,46 +64,46 @@ class CancellationPoll:
 
 
 def _get_callback(compiled: CompiledModel) -> Any:
-    """Return the callback from C to `Asker.poll_from_c`, created once per cffi interface and cached.
+    """Return the callback from C to `CancellationPoll.poll_from_c`, created once per cffi interface and cached.
 
-    An exception of a signal handler outside `poll_from_c` is stored in the Asker, and stops the run too.
+    An exception of a signal handler outside `poll_from_c` is stored in the CancellationPoll, and stops the run too.
     """
     ffi = compiled.ffi
     if id(ffi) not in _functions:
 
         def store_error(kind: object, error: BaseException | None, trace: TracebackType | None) -> None:
-            """Store an exception that a signal handler raised just before or after `poll_from_c` in its Asker."""
-            whom = trace.tb_frame.f_locals.get("whom") if trace else None
-            if whom is not None and error is not None:
-                ffi.from_handle(whom).raised = error
+            """Store an exception that a signal handler raised just before or after `poll_from_c`."""
+            handle = trace.tb_frame.f_locals.get("handle") if trace else None
+            if handle is not None and error is not None:
+                ffi.from_handle(handle).raised = error
 
-        requested = ffi.callback(
-            "int(void *)", lambda whom: ffi.from_handle(whom).poll_from_c(), error=1, onerror=store_error
+        callback = ffi.callback(
+            "int(void *)", lambda handle: ffi.from_handle(handle).poll_from_c(), error=1, onerror=store_error
         )
-        _functions[id(ffi)] = ffi, requested
+        _functions[id(ffi)] = ffi, callback
     return _functions[id(ffi)][1]
 
 
-def run_interruptible(work: Callable[[], Result]) -> Result:
-    """Call `work` in another thread, and return its result or raise its exception, so that Ctrl-C is raised at once.
+def run_interruptible(function: Callable[[], Result]) -> Result:
+    """Call `function` in another thread and return its result, or raise its exception; Ctrl-C is raised at once.
 
     After Ctrl-C the thread ends on its own; a process that ends meanwhile waits for it. Thread.join is not used: if a
-    signal interrupts it, its lock may stay locked. `work` must hold no resources but memory.
+    signal interrupts it, its lock may stay locked. `function` must hold no resources but memory.
     """
     results: list[Result] = []
     errors: list[BaseException] = []
     gate = threading.Lock()
     gate.acquire()
 
-    def call() -> None:
-        """Call `work`, and store its result or exception."""
+    def call_function() -> None:
+        """Call `function`, and store its result or exception."""
         try:
-            results.append(work())
+            results.append(function())
         except BaseException as error:
             errors.append(error)
         gate.release()
 
-    threading.Thread(target=call).start()
+    threading.Thread(target=call_function).start()
     while not (results or errors):
         gate.acquire(timeout=0.05)
     if errors:
@@ -113,15 +113,15 @@ def run_interruptible(work: Callable[[], Result]) -> Result:
 
 def report_work(text: str) -> AbstractContextManager[None]:
     """Return a context for work that takes a while; it shows `text` by the reporter of this thread, if there is one."""
-    teller = _teller.get()
-    return teller(text) if teller else nullcontext()
+    reporter = _reporter.get()
+    return reporter(text) if reporter else nullcontext()
 
 
 @contextmanager
-def set_reporter(teller: Teller) -> Iterator[None]:
+def set_reporter(reporter: Reporter) -> Iterator[None]:
     """Set the reporter of this thread, which `report_work` calls with a text, within the with block."""
-    token = _teller.set(teller)
+    token = _reporter.set(reporter)
     try:
         yield
     finally:
-        _teller.reset(token)
+        _reporter.reset(token)

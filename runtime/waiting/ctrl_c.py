@@ -15,13 +15,13 @@ from typing import Any
 
 # signals that end a program
 ENDING = tuple(getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name))
-PATIENCE = 1.0  # s after a first Ctrl-C, after which another one is raised at once
+MIN_REPEAT_INTERVAL_S = 1.0  # s after a first Ctrl-C, after which another one is raised at once
 INTERRUPTED = 130  # exit code of an interrupted program
 _whole: list[bool] = []  # not empty if the process is the command `gudgeon` only
 
 
 class DelayedCtrlC:
-    """Delay SIGINT within a with block until `take`, which calls the handler that was installed before."""
+    """Delay SIGINT within a with block until `raise_delayed`, which calls the handler that was installed before."""
 
     def __init__(self) -> None:
         self.since, self.frame = 0.0, None  # s, when Ctrl-C came; 0: none waits
@@ -33,7 +33,7 @@ class DelayedCtrlC:
             handler = signal.getsignal(signal.SIGINT)
             if callable(handler):
                 self._handler = handler
-                signal.signal(signal.SIGINT, self._record)
+                signal.signal(signal.SIGINT, self._record_interrupt)
         return self
 
     def __exit__(self, *_: object) -> None:
@@ -41,13 +41,13 @@ class DelayedCtrlC:
         if self._handler is not None:
             signal.signal(signal.SIGINT, self._handler)
 
-    def _record(self, number: int, frame: FrameType | None) -> None:
-        """Record a Ctrl-C; call the former handler for a second one that comes more than PATIENCE seconds later."""
+    def _record_interrupt(self, signal_number: int, frame: FrameType | None) -> None:
+        """Record a Ctrl-C; call the former handler for another one more than MIN_REPEAT_INTERVAL_S after the first."""
         now = monotonic()
         if not self.since:
             self.since = now
-        elif now - self.since > PATIENCE and self._handler is not None:
-            self._handler(number, frame)
+        elif now - self.since > MIN_REPEAT_INTERVAL_S and self._handler is not None:
+            self._handler(signal_number, frame)
 
     def raise_delayed(self) -> None:
         """Call the former handler if a Ctrl-C is recorded, and forget it; the handler usually raises
@@ -79,7 +79,7 @@ class EndingSignals:
         for number in ENDING:
             if signal.getsignal(number) is signal.SIG_DFL:
                 self._replaced.append(number)
-                signal.signal(number, self._interrupt)
+                signal.signal(number, self._raise_interrupt)
 
     def __exit__(self, *_: object) -> None:
         """Restore the default handlers, and raise the first signal that came, which ends the process."""
@@ -88,9 +88,9 @@ class EndingSignals:
         for number in self._ended[:1]:
             signal.raise_signal(number)
 
-    def _interrupt(self, number: int, _: FrameType | None) -> None:
+    def _raise_interrupt(self, signal_number: int, _: FrameType | None) -> None:
         """Record a signal and raise SIGINT in its place."""
-        self._ended.append(number)
+        self._ended.append(signal_number)
         signal.raise_signal(signal.SIGINT)
 
 

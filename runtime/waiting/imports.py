@@ -17,29 +17,29 @@ RUNTIME = ("numpy", "gudgeon.simulation.simulation")
 READER = ("numpy", "ruamel.yaml", "gudgeon.generator.reader.read")
 GENERATOR = ("numpy", "mpmath", "sympy", "jinja2", "ruamel.yaml", "gudgeon.generator.pipeline")
 CFFI = ("cffi", "pycparser", "cffi.cparser")
-LOOK = 0.05  # s between two checks for signals
+CHECK_INTERVAL_S = 0.05  # s between two checks for signals
 SPARSE = ("numpy", "scipy.sparse", "scipy.sparse.linalg")
 _frozen = False  # whether other code froze objects; counting them takes ten milliseconds
 
 
-def import_completely(*names: str) -> None:
+def import_completely(*module_names: str) -> None:
     """Import modules completely in another thread; return at once if they are imported already.
 
     Ctrl-C is raised meanwhile, but leaves no module half imported. An error of the import is raised here.
     """
-    if all(map(_is_imported, names)):
+    if all(map(_is_imported, module_names)):
         return
-    failed: list[BaseException] = []
+    errors: list[BaseException] = []
     done = threading.Event()
-    threading.Thread(target=_import_modules, args=(names, failed, done), name="imports", daemon=True).start()
-    while not done.wait(LOOK):  # a signal may wake the other thread and not this one
+    threading.Thread(target=_import_modules, args=(module_names, errors, done), name="imports", daemon=True).start()
+    while not done.wait(CHECK_INTERVAL_S):  # a signal may wake the other thread and not this one
         pass
-    if failed:
-        raise failed[0]
+    if errors:
+        raise errors[0]
 
 
-def _import_modules(names: tuple[str, ...], failed: list[BaseException], done: threading.Event) -> None:
-    """Import modules in this thread; append an exception to `failed`, and set `done` at the end."""
+def _import_modules(names: tuple[str, ...], errors: list[BaseException], finished: threading.Event) -> None:
+    """Import modules in this thread; append an exception to `errors`, and set `finished` at the end."""
     try:
         with (
             pause_garbage_collector()
@@ -47,9 +47,9 @@ def _import_modules(names: tuple[str, ...], failed: list[BaseException], done: t
             for name in names:
                 import_module(name)
     except BaseException as error:
-        failed.append(error)
+        errors.append(error)
     finally:
-        done.set()
+        finished.set()
 
 
 def _is_imported(name: str) -> bool:

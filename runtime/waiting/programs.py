@@ -17,33 +17,33 @@ if TYPE_CHECKING:
     import subprocess
 
 # function that returns whether waiting shall end
-_given_up: ContextVar[Callable[[], bool] | None] = ContextVar("whether nobody waits any more", default=None)
+_is_cancelled: ContextVar[Callable[[], bool] | None] = ContextVar("whether waiting is cancelled", default=None)
 
 
 @contextmanager
-def set_wait_condition(given_up: Callable[[], bool]) -> Iterator[None]:
-    """Let `Programs.wait` in this thread raise KeyboardInterrupt once `given_up()` is true, within the with block.
+def set_wait_condition(is_cancelled: Callable[[], bool]) -> Iterator[None]:
+    """Let `Programs.wait` in this thread raise KeyboardInterrupt once `is_cancelled()` is true, within the with block.
 
-    Python raises no signals in other threads than the main one; the thread that received Ctrl-C tells them.
+    Python raises no signals in other threads than the main one; the thread that received Ctrl-C sets the condition.
     """
-    token = _given_up.set(given_up)
+    token = _is_cancelled.set(is_cancelled)
     try:
         yield
     finally:
-        _given_up.reset(token)
+        _is_cancelled.reset(token)
 
 
 class Programs:
     """Run programs within a with block; those still running at its end are killed."""
 
     def __init__(self) -> None:
-        self._begun: list[subprocess.Popen[str]] = []
+        self._processes: list[subprocess.Popen[str]] = []
 
     def __enter__(self) -> Programs:
         """Return the context."""
         return self
 
-    def start(self, line: list[str], folder: Path | None, environment: dict[str, str]) -> subprocess.Popen[str]:
+    def start(self, command: list[str], folder: Path | None, environment: dict[str, str]) -> subprocess.Popen[str]:
         """Start a program in a folder (None: the current one) and return its process. Raise OSError if it cannot be
         run.
 
@@ -53,7 +53,7 @@ class Programs:
 
         with DelayedCtrlC() as ctrl_c:  # not between the start of a process and the note of it
             process = subprocess.Popen(
-                line,
+                command,
                 cwd=folder,
                 env=environment,
                 stdin=subprocess.DEVNULL,
@@ -63,7 +63,7 @@ class Programs:
                 errors="replace",
                 start_new_session=True,
             )
-            self._begun.append(process)
+            self._processes.append(process)
         ctrl_c.raise_delayed()
         return process
 
@@ -75,21 +75,21 @@ class Programs:
         import subprocess
 
         message: tuple[str, str] | None = None
-        given_up = _given_up.get()
+        is_cancelled = _is_cancelled.get()
         with DelayedCtrlC() as ctrl_c:
             while message is None:
                 try:
                     message = process.communicate(timeout=EVERY)
                 except subprocess.TimeoutExpired:
                     ctrl_c.raise_delayed()
-                    if given_up and given_up():
+                    if is_cancelled and is_cancelled():
                         raise KeyboardInterrupt from None
         ctrl_c.raise_delayed()  # one that came as the program ended
         return message
 
-    def stop(self, *given_up: subprocess.Popen[str]) -> None:
+    def stop(self, *processes: subprocess.Popen[str]) -> None:
         """Kill those of these programs that are still running, with their child processes, and wait for their ends."""
-        left = [process for process in given_up if process.returncode is None]
+        left = [process for process in processes if process.returncode is None]
         for process in left:
             try:
                 os.killpg(process.pid, signal.SIGKILL)
@@ -100,4 +100,4 @@ class Programs:
 
     def __exit__(self, *_: object) -> None:
         """Kill the programs that are still running."""
-        self.stop(*self._begun)
+        self.stop(*self._processes)

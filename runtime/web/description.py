@@ -42,7 +42,7 @@ NOT_SEEN = "jumps of drives that their form does not show are looked for in Pyth
 def build_description(compiled: CompiledModel, drift_step: float | None = None) -> str:
     """Return the JSON of a scene, with the start at the file's values if a page cannot find it.
 
-    seen_step (s): step of rk4 for scenes without degrees of freedom, at which constraints drift visibly.
+    drift_step (s): step of rk4 for scenes without degrees of freedom, at which constraints drift visibly.
     """
     source = compiled.source
     parameter_indices = {parameter.address: k for k, parameter in enumerate(source.slots)}

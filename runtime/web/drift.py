@@ -69,19 +69,25 @@ def compute_drift_step(run: Result) -> float:
     return min(period, float(run.t[-1] - run.t[0])) / STEPS
 
 
-def explain_missing_drift(simulation: Simulation, run: Result, size: int, max_size: int) -> dict[str, str] | None:
+def explain_missing_drift(
+    simulation: Simulation, run: Result, module_size: int, max_module_size: int
+) -> dict[str, str] | None:
     """Return {note, code} of a scene, which explain why constraints do not drift on its page.
 
-    None if the page has a formulation in which they drift. run: at the file's values. size: bytes of the scene's
-    module. max_size: bytes of a module next to which a second one fits.
+    None if the page has a formulation in which they drift. run: at the file's values. module_size: bytes of the
+    scene's module. max_module_size: bytes of a module next to which a second one fits.
     """
     replacements = dict[str, str]()
     if simulation.source.methods == (KINEMATIC,):
         note, code = SOLVED + (EVENTS if simulation.source.events else KEPT), INTEGRATED
         replacements = _format_step_and_gains(run)
-    elif simulation.source.formulation == "reduced" and size > max_size:
+    elif simulation.source.formulation == "reduced" and module_size > max_module_size:
         note, code = (
-            HELD.format(size=round(size / 1e3), most=round(max_size / 1e3), loaded=format_load_arguments(simulation)),
+            HELD.format(
+                size=round(module_size / 1e3),
+                most=round(max_module_size / 1e3),
+                loaded=format_load_arguments(simulation),
+            ),
             RUN,
         )
     else:

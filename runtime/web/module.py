@@ -92,7 +92,7 @@ def compile_simulator(source: KernelSource, *, cache: Cache | None = None) -> by
         str(compiler),
         "cc",
         *FLAGS,
-        *_export_options(source),
+        *_list_export_options(source),
         *build_include_flags(),
         source.main,
         str(UNIT),
@@ -124,7 +124,7 @@ def _find_zig() -> Path:
         ) from error
 
 
-def _export_options(source: KernelSource) -> list[str]:
+def _list_export_options(source: KernelSource) -> list[str]:
     """Return the linker options that export those functions which simulator.js calls and the scene has."""
     declared_functions = set(re.findall(r"\bgudgeon_(\w+)\(", select_declarations(source)))
     needed_functions = CALLED + (DRIVEN if source.methods == (KINEMATIC,) else ())

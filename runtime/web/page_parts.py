@@ -36,14 +36,14 @@ NO_SIMULATOR = (
 
 
 def build_running_parts(simulation: Simulation, scenes: Mapping[str, str]) -> Parts:
-    """Return the HTML parts of a scene's interactive page: style, visible frame, scripts; see `page.parts`.
+    """Return the HTML parts of a scene's interactive page: style, visible frame, scripts.
 
     `scenes` are pages of other scenes by name. Without the compiler the page has one recorded run, and a warning is
     issued.
     """
     run = _run_scene(simulation)
     rig = build_rig(run)
-    contents, note = build_panel(simulation, run, rig) | _compute_drawing_scales(rig) | {"scenes": dict(scenes)}, ""
+    contents, note = build_panel(simulation, run, rig) | _describe_drawing(rig) | {"scenes": dict(scenes)}, ""
     elements = pack_element(DESCRIPTION, build_description(simulation.compiled, drift.compute_drift_step(run)).encode())
     try:
         module = pack_module(simulation.compiled)
@@ -66,14 +66,14 @@ def build_running_parts(simulation: Simulation, scenes: Mapping[str, str]) -> Pa
     return Parts(f"<style>\n{build_style_sheet(*list_styles(rig))}</style>", frame, scripts)
 
 
-def _pack_modules(simulation: Simulation, module: str) -> str:
-    """Return hidden elements of the simulator; for a small one of the reduced formulation also that of the full one."""
+def _pack_modules(simulation: Simulation, module_element: str) -> str:
+    """Return the hidden HTML element of the module; for a small reduced formulation also those of the full one."""
     is_reduced = simulation.source.formulation == "reduced" and simulation.source.methods != (KINEMATIC,)
-    if not is_reduced or len(module) > MAX_MODULE_BYTES:
-        return module
+    if not is_reduced or len(module_element) > MAX_MODULE_BYTES:
+        return module_element
     full_model = simulation.full.compiled
     return (
-        module
+        module_element
         + pack_element(f"{DESCRIPTION}-full", build_description(full_model).encode())
         + pack_module(full_model, "-full")
     )
@@ -94,8 +94,11 @@ def _run_scene(simulation: Simulation) -> Result:
         return error.partial
 
 
-def _compute_drawing_scales(rig: Rig) -> dict[str, Any]:
-    """Return {looks: CSS classes of the shapes, pixels: pixels per metre on a wide and on a narrow screen}."""
+def _describe_drawing(rig: Rig) -> dict[str, Any]:
+    """Return the JSON data of the drawing: {looks, pixels}.
+
+    looks: CSS classes of the shapes. pixels: pixels per metre on a wide and on a narrow screen.
+    """
     pixels_per_metre = []
     for inches in (WIDE, NARROW):
         figure_size, sketch = compute_figure_size(rig.sketch, inches), replace(rig.sketch, labels=())

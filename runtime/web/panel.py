@@ -28,7 +28,7 @@ from gudgeon.web.style_sheet import make_css_class
 WIDE, NARROW = 7.0, 3.6  # inches of a drawing on wide and narrow screens; names are placed for both
 SHOWN_AT = 24  # number of postures from which the drawing is made
 MORE = ("reaction", "reaction head", "path")  # roles that exist on pages only
-KEPT, MOST = 400, 60  # samples and series of a recorded run
+MAX_SAMPLES, MAX_SERIES = 400, 60  # samples and series of a recorded run
 
 
 def build_rig(run: Result) -> Rig:
@@ -148,14 +148,14 @@ def _iterate_names(rig: Rig) -> Iterator[list[Any]]:
         ]
 
 
-def _compute_name_offsets(sketch: Sketch, inches: float) -> dict[str, tuple[float, float]]:
-    """Return the offsets of names from their parts in pixels, y up, by part, for a figure width in inches.
+def _compute_name_offsets(sketch: Sketch, width_in_inches: float) -> dict[str, tuple[float, float]]:
+    """Return the offsets of names from their parts in pixels, y up, by part.
 
-    matplotlib places the names; a name without room is left out.
+    width_in_inches: of the figure. matplotlib places the names; a name without room is left out.
     """
     from matplotlib.figure import Figure
 
-    figure = Figure(figsize=compute_figure_size(sketch, inches), dpi=PIXELS)
+    figure = Figure(figsize=compute_figure_size(sketch, width_in_inches), dpi=PIXELS)
     ax = figure.add_axes((0.0, 0.0, 1.0, 1.0))
     draw_sketch(ax, sketch)
     figure.draw_without_rendering()
@@ -164,13 +164,16 @@ def _compute_name_offsets(sketch: Sketch, inches: float) -> dict[str, tuple[floa
 
 
 def pack_run(run: Result, first_names: list[str]) -> dict[str, Any]:
-    """Return a run for a page without simulator: at most KEPT samples of at most MOST series, as packed float32.
+    """Return a run for a page without simulator, as packed float32.
 
-    The series `first_names` come first, then forces and eccentricities. The result can be written as JSON.
+    It has at most MAX_SAMPLES samples of at most MAX_SERIES series: those of `first_names` first, then forces and
+    eccentricities. The result can be written as JSON.
     """
-    sample_indices = np.unique(np.linspace(0, len(run.t) - 1, KEPT).round().astype(int))
+    sample_indices = np.unique(np.linspace(0, len(run.t) - 1, MAX_SAMPLES).round().astype(int))
     drawn_series = [name for name in run.names if name.endswith((".Fx", ".Fy", ".ex", ".ey"))]
-    names = list(dict.fromkeys(name for name in [*first_names, *drawn_series, *run.names] if name in run.names))[:MOST]
+    names = list(dict.fromkeys(name for name in [*first_names, *drawn_series, *run.names] if name in run.names))[
+        :MAX_SERIES
+    ]
     table = np.column_stack(
         [
             run.t[sample_indices],

@@ -60,10 +60,10 @@ def build_parameter_sections(simulation: Simulation, p: Array) -> list[dict[str,
         section, _, name = parameter.address.partition(".")
         entry: dict[str, Any] = {"k": k, "name": name or section}
         if not parameter.words:
-            unit, factor = units.of(parameter)
+            unit, factor = units.find_unit(parameter)
             is_angle = unit in ANGLES or parameter.address.endswith((".theta", ".angle"))
             low, high = _compute_slider_range(source, parameter, p, mechanism_length, is_angle)
-            low, high = (_limit_range(simulation.compiled, parameter, float(p[k]), end) for end in (low, high))
+            low, high = (_limit_range_end(simulation.compiled, parameter, float(p[k]), end) for end in (low, high))
             entry |= {"unit": format_unit(unit), "factor": factor, "low": low, "high": high}
         entries_by_section.setdefault(section, []).append(entry)
     sections = [
@@ -97,28 +97,28 @@ def list_units(source: KernelSource) -> dict[str, dict[str, float]]:
     }
 
 
-def _limit_range(compiled: CompiledModel, parameter: RuntimeParameter, value: float, end: float) -> float:
+def _limit_range_end(compiled: CompiledModel, parameter: RuntimeParameter, value: float, end: float) -> float:
     """Return the end of a slider's range, or if a condition refuses `end`, the accepted value nearest to it.
 
     The value is found by bisection from the current `value`. `end` is returned too if the current value is refused.
     """
 
-    def is_step_refused(number: float) -> bool:
+    def is_value_refused(new_value: float) -> bool:
         """Return whether a value of the parameter breaks a condition."""
         try:
-            prepare_values(compiled, {parameter.address: number})
+            prepare_values(compiled, {parameter.address: new_value})
         except GudgeonError:
             return True
         return False
 
-    if not is_step_refused(end) or is_step_refused(value):
+    if not is_value_refused(end) or is_value_refused(value):
         return end
     accepted, refused = value, end
     for _ in range(HALVINGS):
         middle = 0.5 * (accepted + refused)
-        accepted, refused = (accepted, middle) if is_step_refused(middle) else (middle, refused)
+        accepted, refused = (accepted, middle) if is_value_refused(middle) else (middle, refused)
     return (
-        0.0 if abs(accepted) < EDGE * abs(value) and not is_step_refused(0.0) else accepted + EDGE * (value - accepted)
+        0.0 if abs(accepted) < EDGE * abs(value) and not is_value_refused(0.0) else accepted + EDGE * (value - accepted)
     )
 
 
@@ -142,7 +142,7 @@ class _Units:
             si: counter.most_common(1)[0][0] for si, counter in unit_counts.items()
         }
 
-    def of(self, parameter: RuntimeParameter) -> tuple[str, float]:
+    def find_unit(self, parameter: RuntimeParameter) -> tuple[str, float]:
         """Return the unit of a parameter and its value in SI.
 
         It is the unit in the file, else the most frequent one of similar parameters, else degrees or a unit of suitable
