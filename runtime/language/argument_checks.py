@@ -15,7 +15,7 @@ import numpy as np
 
 from gudgeon.errors import BadValueError
 
-One = TypeVar("One")  # type of the items of a checked list
+Item = TypeVar("Item")  # type of the items of a checked list
 IN_RANGE = "expected a magnitude from 2.3e-308 to 1.7e308"
 
 
@@ -152,8 +152,8 @@ def check_mapping(value: Any, name: str, hint: str = "") -> Mapping[str, Any]:
     return mapping
 
 
-def check_list(value: Any, name: str, kind: type[One], expected: str) -> list[One]:
-    """Return a list of the items of a sequence, set, one-dimensional array or table column, all of type `kind`.
+def check_list(value: Any, name: str, item_type: type[Item], expected: str) -> list[Item]:
+    """Return a list of the items of a sequence, set, one-dimensional array or table column, all of type `item_type`.
 
     Raises BadValueError with `expected` for other values, also for a single text, a mapping, or a column of 10⁶ or
     more items.
@@ -162,7 +162,7 @@ def check_list(value: Any, name: str, kind: type[One], expected: str) -> list[On
         raise_bad_value(name, value, expected)
     if isinstance(value, Sequence) or len(getattr(value, "shape", ())) == 0 or len(value) < 10**6:  # type: ignore[arg-type]
         items = list(value)
-        if all(isinstance(item, kind) for item in items):
+        if all(isinstance(item, item_type) for item in items):
             return items
     raise_bad_value(name, value, expected)
 
@@ -175,16 +175,16 @@ def check_names(value: Any, name: str, expected: str) -> list[str]:
     return [str.__str__(check_text(text, name, expected)) for text in every]
 
 
-def check_instance(value: Any, name: str, kind: type[One]) -> One:
-    """Return the value if it is an instance of the class `kind`, else raise BadValueError."""
-    if not isinstance(value, kind):
-        raise_bad_value(name, value, f"a {kind.__name__}")
+def check_instance(value: Any, name: str, item_type: type[Item]) -> Item:
+    """Return the value if it is an instance of the class `item_type`, else raise BadValueError."""
+    if not isinstance(value, item_type):
+        raise_bad_value(name, value, f"a {item_type.__name__}")
     return value
 
 
-def check_optional_instance(value: Any, name: str, kind: type[One]) -> One | None:
-    """Return the value if it is None or an instance of the class `kind`, else raise BadValueError."""
-    return None if value is None else check_instance(value, name, kind)
+def check_optional_instance(value: Any, name: str, item_type: type[Item]) -> Item | None:
+    """Return the value if it is None or an instance of the class `item_type`, else raise BadValueError."""
+    return None if value is None else check_instance(value, name, item_type)
 
 
 def check_positive(value: Any, name: str) -> float:

@@ -27,7 +27,9 @@ SPLINE, MONOTONE = INTERPOLATIONS = ("spline", "monotone")
 STOP, HOLD, LINE = EXTRAPOLATE = ("none", "hold", "line")
 LEAST = {NATURAL: 2, CLAMPED: 2, PERIODIC: 3, NOT_A_KNOT: 4}  # smallest number of points by condition at the ends
 _INTERPOLATION_NAMES = {SPLINE: "cubic spline", MONOTONE: "monotone cubic"}  # names of the interpolations in messages
-LONG = 4000  # points: tables of longer curves are stored and emitted as bytes, which takes a tenth of the time
+MAX_LISTED_KNOTS = (
+    4000  # points: tables of longer curves are stored and emitted as bytes, which takes a tenth of the time
+)
 MARGIN = 1e-9  # of the range: an argument may be outside by so much through rounding
 
 
@@ -65,8 +67,10 @@ class Curve:
 
     @property
     def is_long(self) -> bool:
-        """Return whether the curve has more than LONG knots, so that its tables are stored and emitted as bytes."""
-        return len(self.x) > LONG
+        """Return whether the curve has more than MAX_LISTED_KNOTS knots, so that its tables are stored and emitted as
+        bytes.
+        """
+        return len(self.x) > MAX_LISTED_KNOTS
 
     def __hash__(self) -> int:
         """Return a hash of name, range, number of knots and options; the coefficients would take too long."""
@@ -117,7 +121,7 @@ class Curve:
 
     def compute_end_derivative(self, order: int) -> float:
         """Return the derivative of the given order (0: value) at the last knot."""
-        return float(_evaluate_horner(np.array(self.coefficients[-1]), np.float64(self.x[-1] - self.x[-2]), order))
+        return float(_evaluate_cubic(np.array(self.coefficients[-1]), np.float64(self.x[-1] - self.x[-2]), order))
 
     def is_within(self, x: Any) -> Any:
         """Return whether the curve has a value at x (number or array), with a tolerance of MARGIN times the range.
@@ -142,7 +146,7 @@ class Curve:
                 x = x - (last - first) * np.floor((x - first) / (last - first))
             held = np.clip(x, first, last) if self.extrapolate != STOP else x
             k = np.clip(np.searchsorted(knots, held, side="right") - 1, 0, len(knots) - 2)
-            value = _evaluate_horner(np.moveaxis(pieces[k], -1, 0), held - knots[k], order)
+            value = _evaluate_cubic(np.moveaxis(pieces[k], -1, 0), held - knots[k], order)
             value = self._extrapolate(value, x, order)
         return np.where(inside, value, np.nan)[()]
 
@@ -207,21 +211,24 @@ def make_even_pieces(
         return tuple(x), tuple(pieces)
     half = 0.5 * (x[-1] - x[-2])
     c = np.array(pieces[-1])
-    value, slope, bend = (float(_evaluate_horner(c, half, order)) for order in range(3))
+    value, slope, bend = (float(_evaluate_cubic(c, half, order)) for order in range(3))
     second = (value, slope, bend / 2.0, pieces[-1][3])
     return (*x[:-1], x[-2] + half, x[-1]), (*pieces, second)
 
 
-def _evaluate_horner(c: Any, h: Any, order: int) -> Any:
-    """Return the cubic c0 + h (c1 + h (c2 + h c3)), or its derivative of the given order (1 to 3), at h."""
+def _evaluate_cubic(coefficients: Any, h: Any, order: int) -> Any:
+    """Return the cubic c0 + h (c1 + h (c2 + h c3)), or its derivative of the given order (1 to 3), at h.
+
+    coefficients: c0 to c3, numbers or arrays.
+    """
     match order:
         case 0:
-            return c[0] + h * (c[1] + h * (c[2] + h * c[3]))
+            return coefficients[0] + h * (coefficients[1] + h * (coefficients[2] + h * coefficients[3]))
         case 1:
-            return c[1] + h * (2.0 * c[2] + h * (3.0 * c[3]))
+            return coefficients[1] + h * (2.0 * coefficients[2] + h * (3.0 * coefficients[3]))
         case 2:
-            return 2.0 * c[2] + h * (6.0 * c[3])
-    return 6.0 * c[3]
+            return 2.0 * coefficients[2] + h * (6.0 * coefficients[3])
+    return 6.0 * coefficients[3]
 
 
 def compute_spline(
@@ -234,17 +241,21 @@ def compute_spline(
     cubic, natural means end slopes from three points, limited to keep it monotone.
     """
     h = [b - a for a, b in zip(x, x[1:], strict=False)]
-    rises = [(b - a) / step for a, b, step in zip(y, y[1:], h, strict=False)]
+    mean_slopes = [(b - a) / step for a, b, step in zip(y, y[1:], h, strict=False)]
     if interpolation == MONOTONE:
-        slopes = compute_monotone_slopes(h, rises, ends == PERIODIC, ends == CLAMPED)
+        slopes = compute_monotone_slopes(h, mean_slopes, ends == PERIODIC, ends == CLAMPED)
     else:
-        slopes = _compute_periodic_slopes(h, rises) if ends == PERIODIC else _compute_slopes_with_ends(h, rises, ends)
+        slopes = (
+            _compute_periodic_slopes(h, mean_slopes)
+            if ends == PERIODIC
+            else _compute_slopes_with_ends(h, mean_slopes, ends)
+        )
     return tuple(
         (
             y[k],
             slopes[k],
-            (3.0 * rises[k] - 2.0 * slopes[k] - slopes[k + 1]) / h[k],
-            (slopes[k] + slopes[k + 1] - 2.0 * rises[k]) / h[k] / h[k],
+            (3.0 * mean_slopes[k] - 2.0 * slopes[k] - slopes[k + 1]) / h[k],
+            (slopes[k] + slopes[k + 1] - 2.0 * mean_slopes[k]) / h[k] / h[k],
         )
         for k in range(len(h))
     )
@@ -258,20 +269,22 @@ def _build_knot_equation(a: float, b: float, p: float, q: float) -> tuple[float,
     return b, 2.0 * (a + b), a, 3.0 * (b * p + a * q)
 
 
-def _compute_slopes_with_ends(h: Sequence[float], rises: Sequence[float], ends: str) -> list[float]:
+def _compute_slopes_with_ends(h: Sequence[float], mean_slopes: Sequence[float], ends: str) -> list[float]:
     """Return the slopes at all knots of a spline that is clamped, natural or not_a_knot at its ends.
 
-    h, rises: lengths and mean slopes of the pieces.
+    h, mean_slopes: lengths and mean slopes of the pieces.
     """
-    rows = [_build_knot_equation(a, b, p, q) for a, b, p, q in zip(h, h[1:], rises, rises[1:], strict=False)]
+    rows = [
+        _build_knot_equation(a, b, p, q) for a, b, p, q in zip(h, h[1:], mean_slopes, mean_slopes[1:], strict=False)
+    ]
     if ends == CLAMPED:
         first, last = (0.0, 1.0, 0.0, 0.0), (0.0, 1.0, 0.0, 0.0)
     elif ends == NATURAL:
-        first, last = (0.0, 2.0, 1.0, 3.0 * rises[0]), (1.0, 2.0, 0.0, 3.0 * rises[-1])
+        first, last = (0.0, 2.0, 1.0, 3.0 * mean_slopes[0]), (1.0, 2.0, 0.0, 3.0 * mean_slopes[-1])
     else:
-        above, right = _build_not_a_knot_equation(h[0], h[1], rises[0], rises[1])
+        above, right = _build_not_a_knot_equation(h[0], h[1], mean_slopes[0], mean_slopes[1])
         first = (0.0, h[1], above, right)
-        below, right = _build_not_a_knot_equation(h[-1], h[-2], rises[-1], rises[-2])
+        below, right = _build_not_a_knot_equation(h[-1], h[-2], mean_slopes[-1], mean_slopes[-2])
         last = (below, h[-2], 0.0, right)
     return _solve_tridiagonal([first, *rows, last])
 
@@ -285,14 +298,15 @@ def _build_not_a_knot_equation(a: float, b: float, p: float, q: float) -> tuple[
     return both, ((a + 2.0 * both) * b * p + a * a * q) / both
 
 
-def _compute_periodic_slopes(h: Sequence[float], rises: Sequence[float]) -> list[float]:
+def _compute_periodic_slopes(h: Sequence[float], mean_slopes: Sequence[float]) -> list[float]:
     """Return the slopes at all knots of a periodic spline, by two tridiagonal solves (Sherman–Morrison formula).
 
-    h, rises: lengths and mean slopes of the pieces.
+    h, mean_slopes: lengths and mean slopes of the pieces.
     """
     before = [h[-1], *h[:-1]]
     rows = [
-        _build_knot_equation(a, b, p, q) for a, b, p, q in zip(before, h, [rises[-1], *rises[:-1]], rises, strict=True)
+        _build_knot_equation(a, b, p, q)
+        for a, b, p, q in zip(before, h, [mean_slopes[-1], *mean_slopes[:-1]], mean_slopes, strict=True)
     ]
     corner_up, corner_down = rows[0][0], rows[-1][2]  # entries (first, last) and (last, first)
     shift = -rows[0][1]
@@ -324,24 +338,29 @@ def _solve_tridiagonal(rows: Sequence[Sequence[float]]) -> list[float]:
     return right
 
 
-def compute_monotone_slopes(h: Sequence[float], rises: Sequence[float], repeats: bool, flat_ends: bool) -> list[float]:
+def compute_monotone_slopes(
+    h: Sequence[float], mean_slopes: Sequence[float], is_periodic: bool, has_flat_ends: bool
+) -> list[float]:
     """Return the slopes at all knots of a monotone cubic: weighted harmonic means of the mean slopes on both sides, 0
     at extrema.
 
-    h, rises: lengths and mean slopes of the pieces, (n,). repeats: periodic. flat_ends: no slope at the ends.
+    h, mean_slopes: lengths and mean slopes of the pieces, (n,). is_periodic: of the curve. has_flat_ends: the
+    slopes at both ends are 0.
     """
-    if repeats:
+    if is_periodic:
         inner = [
             _compute_harmonic_mean(*neighbours)
-            for neighbours in zip([h[-1], *h[:-1]], h, [rises[-1], *rises[:-1]], rises, strict=True)
+            for neighbours in zip([h[-1], *h[:-1]], h, [mean_slopes[-1], *mean_slopes[:-1]], mean_slopes, strict=True)
         ]
         return [*inner, inner[0]]
-    inner = [_compute_harmonic_mean(*neighbours) for neighbours in zip(h, h[1:], rises, rises[1:], strict=False)]
-    if flat_ends:
+    inner = [
+        _compute_harmonic_mean(*neighbours) for neighbours in zip(h, h[1:], mean_slopes, mean_slopes[1:], strict=False)
+    ]
+    if has_flat_ends:
         return [0.0, *inner, 0.0]
     if not inner:
-        return [rises[0], rises[0]]
-    first, last = _compute_end_slope(*h[:2], *rises[:2]), _compute_end_slope(*h[:-3:-1], *rises[:-3:-1])
+        return [mean_slopes[0], mean_slopes[0]]
+    first, last = _compute_end_slope(*h[:2], *mean_slopes[:2]), _compute_end_slope(*h[:-3:-1], *mean_slopes[:-3:-1])
     return [first, *inner, last]
 
 

@@ -18,7 +18,7 @@ from gudgeon.language.functions import FUNCTIONS, Units
 from gudgeon.language.tree import Binary, Call, CurveCall, Expr, Name, Number, Unary, evaluate, iterate_names
 from gudgeon.language.units import DIMENSIONLESS, Dimension, describe_dimension, find_symbol_dimension, find_unit
 
-_MOST = 24  # largest exponent of a dimension: mechanics needs no larger one
+_MAX_EXPONENT = 24  # largest exponent of a dimension: mechanics needs no larger one
 
 
 @dataclass(frozen=True)
@@ -33,19 +33,19 @@ _DimensionOrFlexible = Dimension | _Flexible
 
 
 def check_dimension(
-    expr: Expr, expected: Dimension | None, dimension_of: Callable[[str], Dimension | None], location: Location
+    expr: Expr, expected: Dimension | None, get_dimension: Callable[[str], Dimension | None], location: Location
 ) -> Dimension | None:
     """Return the dimension of an expression after checking it: `expected` if the expression fits, None if it fits any.
 
-    expected: None for any dimension. dimension_of(path): dimension of a name, None for one that fits any; it may
+    expected: None for any dimension. get_dimension(path): dimension of a name, None for one that fits any; it may
     raise. location: of the first character. Raises UnitError with what was found and expected, and hints on names that
     hide units.
     """
     try:
-        dimension = _Checker(dimension_of, location).find_dimension(expr)
+        dimension = _DimensionChecker(get_dimension, location).find_dimension(expr)
         if expected is not None and isinstance(dimension, Dimension) and dimension != expected:
             message = f"expected {describe_dimension(expected)}, got {describe_dimension(dimension)}"
-            raise UnitError(message, location, _suggest_divisor(expr, expected))
+            raise UnitError(message, location, _suggest_explicit_division(expr, expected))
     except UnitError as error:
         if not (shadowed := dict.fromkeys(find_names_over_units(expr))):
             raise
@@ -73,7 +73,7 @@ def find_names_over_units(expr: Expr) -> Iterator[str]:
                 yield from find_names_over_units(argument)
 
 
-def _suggest_divisor(expr: Expr, expected: Dimension) -> str:
+def _suggest_explicit_division(expr: Expr, expected: Dimension) -> str:
     """Return a hint for expressions such as `1/12 kg*m^2`, which is read as 1/(12 kg*m^2); "" for all others."""
     if not (isinstance(expr, Binary) and expr.operator == "/" and isinstance(expr.right, Number)):
         return ""
@@ -84,7 +84,7 @@ def _suggest_divisor(expr: Expr, expected: Dimension) -> str:
     return f"a unit belongs to the number before it: write 1 {word} * …, or (…)/{number} * 1 {word}"
 
 
-def _is_of_time_alone(expr: Expr) -> bool:
+def _depends_on_time_only(expr: Expr) -> bool:
     """Return whether an expression consists of `t`, numbers without unit and operators only."""
     match expr:
         case Number(has_unit=has_unit):
@@ -92,17 +92,17 @@ def _is_of_time_alone(expr: Expr) -> bool:
         case Name(path=path):
             return path == "t"
         case Unary(operand=operand):
-            return _is_of_time_alone(operand)
+            return _depends_on_time_only(operand)
         case Binary(left=left, right=right):
-            return _is_of_time_alone(left) and _is_of_time_alone(right)
+            return _depends_on_time_only(left) and _depends_on_time_only(right)
     return False
 
 
-class _Checker:
+class _DimensionChecker:
     """Compute the dimension of a tree. `where`: location of its first character, for errors."""
 
-    def __init__(self, dimension_of: Callable[[str], Dimension | None], location: Location) -> None:
-        self._dimension_of, self._where = dimension_of, location
+    def __init__(self, get_dimension: Callable[[str], Dimension | None], location: Location) -> None:
+        self._get_dimension, self._where = get_dimension, location
 
     def find_dimension(self, expr: Expr) -> _DimensionOrFlexible:
         """Return the dimension of an expression, computed from its leaves up, or that it is flexible (fits any
@@ -115,7 +115,7 @@ class _Checker:
                 unit = find_unit(text.partition(" ")[2]) if has_unit else None
                 return unit.dimension if unit else _BARE
             case Name(path=path):
-                return self._dimension_of(path) or _ANY
+                return self._get_dimension(path) or _ANY
             case Unary(operand=operand):
                 return self.find_dimension(operand)
             case CurveCall():
@@ -135,10 +135,10 @@ class _Checker:
             expr = expr.left
         return Location(self._where.file, self._where.line, self._where.column + expr.offset)
 
-    def _find_common_dimension(self, problem: str, *parts: Expr) -> _DimensionOrFlexible:
+    def _find_common_dimension(self, message_start: str, *parts: Expr) -> _DimensionOrFlexible:
         """Return the common dimension of all parts, or that all are flexible. Raises UnitError if two differ.
 
-        problem: beginning of the message, such as "cannot add".
+        message_start: beginning of the message, such as "cannot add".
         """
         result: _DimensionOrFlexible = _BARE
         for part in parts:
@@ -146,7 +146,7 @@ class _Checker:
             if isinstance(part_dimension, _Flexible):
                 result = result if isinstance(result, Dimension) or part_dimension.pure else part_dimension
             elif isinstance(result, Dimension) and part_dimension != result:
-                message = f"{problem}: {describe_dimension(result)} and {describe_dimension(part_dimension)}"
+                message = f"{message_start}: {describe_dimension(result)} and {describe_dimension(part_dimension)}"
                 raise UnitError(message, self._find_location(part), f"expected {describe_dimension(result)}")
             else:
                 result = part_dimension
@@ -192,16 +192,16 @@ class _Checker:
             return _ANY
         if left == right == _BARE:
             return _BARE
-        if _BARE in (left, right) and _is_of_time_alone(expr):
+        if _BARE in (left, right) and _depends_on_time_only(expr):
             return _ANY
         a = left if isinstance(left, Dimension) else DIMENSIONLESS
         b = right if isinstance(right, Dimension) else DIMENSIONLESS
-        return self._check_bounds(a * b if expr.operator == "*" else a / b, expr)
+        return self._check_exponent_bounds(a * b if expr.operator == "*" else a / b, expr)
 
     def _check_power(self, expr: Binary) -> _DimensionOrFlexible:
         """Return the dimension of a power; raise UnitError unless the exponent is a pure number.
 
-        With a dimensional base the exponent must be constant, rational and at most _MOST.
+        With a dimensional base the exponent must be constant, rational and at most _MAX_EXPONENT.
         """
         base, exponent = self.find_dimension(expr.left), self.find_dimension(expr.right)
         if isinstance(exponent, Dimension) and exponent != DIMENSIONLESS:
@@ -215,16 +215,16 @@ class _Checker:
             else float(evaluate(expr.right, lambda _: np.nan))
         )
         if (
-            not abs(value) <= _MOST
+            not abs(value) <= _MAX_EXPONENT
             or (power := Fraction(value).limit_denominator(12)) != value
             and abs(power - value) > 1e-12
         ):
             message = f"the exponent of {describe_dimension(base)} is a plain number such as 2 or 1/2"
             raise UnitError(message, self._find_location(expr.right))
-        return self._check_bounds(base**power, expr)
+        return self._check_exponent_bounds(base**power, expr)
 
-    def _check_bounds(self, dimension: Dimension, expr: Binary) -> Dimension:
-        """Return the dimension unchanged. Raises UnitError at the expression if an exponent exceeds _MOST."""
-        if max(abs(dimension.length), abs(dimension.mass), abs(dimension.time)) > _MOST:
-            raise UnitError(f"a unit with an exponent above {_MOST}", self._find_location(expr))
+    def _check_exponent_bounds(self, dimension: Dimension, expr: Binary) -> Dimension:
+        """Return the dimension unchanged. Raises UnitError at the expression if an exponent exceeds _MAX_EXPONENT."""
+        if max(abs(dimension.length), abs(dimension.mass), abs(dimension.time)) > _MAX_EXPONENT:
+            raise UnitError(f"a unit with an exponent above {_MAX_EXPONENT}", self._find_location(expr))
         return dimension

@@ -30,25 +30,25 @@ WORDS = frozenset(
 )
 
 
-def check_name(name: str, kind: str, location: Location | None) -> None:
+def check_name(name: str, item_kind: str, location: Location | None) -> None:
     """Raise BadNameError unless `name` can name an item of a file: a free identifier of at most 64 characters.
 
-    kind: of the item, such as "parameter"; names that stand alone in expressions must not be functions or reserved
+    item_kind: of the item, such as "parameter"; names that stand alone in expressions must not be functions or reserved
     words. location: for the error.
     """
-    check_label(name, kind, location)
-    reason = RESERVED.get(name) if kind not in ("point", "mechanism") else None  # no expression has these alone
-    if kind in ("parameter", "output", "curve", "expression"):  # the others stand in expressions with a dot only
+    check_label(name, item_kind, location)
+    reason = RESERVED.get(name) if item_kind not in ("point", "mechanism") else None  # no expression has these alone
+    if item_kind in ("parameter", "output", "curve", "expression"):  # the others stand in expressions with a dot only
         reason = "it is a function of expressions" if name in FUNCTIONS else reason
         reason = "an expression takes it for no name" if name in WORDS else reason
-    if kind == "output" and name == "time":
+    if item_kind == "output" and name == "time":
         reason = "it is the axis of results"
     alternative = ""
     if "__" in name:
         reason, alternative = "names that hold '__' are kept for emitted code", re.sub("__+", "_", name)
     if reason:
         raise BadNameError(
-            f"{name!r} cannot name this {kind}: {reason}", location, suggest_another_name(name, alternative)
+            f"{name!r} cannot name this {item_kind}: {reason}", location, suggest_another_name(name, alternative)
         )
 
 
@@ -64,12 +64,12 @@ def check_not_null(name: str, item: str, location: Location | None) -> None:
         raise BadNameError(f"{str(name)!r} cannot name {item}: {reason}", location, suggest_another_name(name))
 
 
-def check_label(name: str, kind: str, location: Location | None) -> None:
+def check_label(name: str, item_kind: str, location: Location | None) -> None:
     """Raise BadNameError with a hint unless `name` is an ASCII identifier of at most 64 characters that YAML reads as
     text.
 
     This is enough for items that no expression and no C identifier names alone: scenes, materials, bearings, contacts.
-    kind: of the item. location: for the error.
+    item_kind: of the item. location: for the error.
     """
     if not IDENTIFIER.fullmatch(name):
         hint = "expected a letter, then letters, digits or '_', in ASCII"
@@ -79,11 +79,11 @@ def check_label(name: str, kind: str, location: Location | None) -> None:
         if "=" in name and IDENTIFIER.fullmatch(plain := name.partition("=")[0].strip()):
             hint = f"a value stands behind a colon: {plain}:{name.partition('=')[2].partition('=')[0].rstrip()}"
         hint = describe_lookalike(name) + hint
-        raise BadNameError(f"{name[:MAX_LENGTH]!r} cannot name this {kind}: it is no identifier", location, hint)
-    check_not_null(name, f"this {kind}", location)
+        raise BadNameError(f"{name[:MAX_LENGTH]!r} cannot name this {item_kind}: it is no identifier", location, hint)
+    check_not_null(name, f"this {item_kind}", location)
     if len(name) > MAX_LENGTH:
         raise BadNameError(
-            f"the name of this {kind} has {len(name)} characters", location, f"expected at most {MAX_LENGTH}"
+            f"the name of this {item_kind} has {len(name)} characters", location, f"expected at most {MAX_LENGTH}"
         )
 
 
@@ -96,7 +96,7 @@ def format_character(character: str) -> str:
     return f"U+{ord(character):04X}" + (f" ({name}{shown})" if name else "")
 
 
-def advise_on_character(character: str) -> str:
+def suggest_replacement(character: str) -> str:
     """Return advice on a character that looks like another one, such as "write '-'"; "" for ASCII and unknown ones."""
     kind = unicodedata.category(character)
     if character.isascii():
@@ -115,8 +115,8 @@ def describe_lookalike(name: str) -> str:
     """Return "it contains U+00A0 (no-break space): …; " for the first character of a name that looks like another;
     else "".
     """
-    odd = next((character for character in name if not character.isascii() and advise_on_character(character)), "")
-    return f"it contains {format_character(odd)}: {advise_on_character(odd)}; " if odd else ""
+    odd = next((character for character in name if not character.isascii() and suggest_replacement(character)), "")
+    return f"it contains {format_character(odd)}: {suggest_replacement(odd)}; " if odd else ""
 
 
 def find_near_names(name: str, known_names: Iterable[str], max_names: int = 3, cutoff: float = 0.6) -> list[str]:

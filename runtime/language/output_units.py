@@ -24,13 +24,13 @@ _PLAIN = (Fraction(0),) * 4  # exponents of a pure number
 _NAMES = ("N", "J", "N/m", "N*s/m", "Pa", "Pa*s", "W", "m", "m/s", "m/s^2", "rad", "rad/s", "rad/s^2")
 
 
-def derive_unit(expression: Expr, unit: Callable[[str], str | None]) -> str:
+def derive_unit(expression: Expr, get_unit: Callable[[str], str | None]) -> str:
     """Return the SI unit of an expression from the units of its names; "" if it cannot be derived.
 
-    unit(name): unit of a name, None if it has none.
+    get_unit(name): unit of a name, None if it has none.
     """
     try:
-        return _format_exponents(_derive_exponents(expression, unit) or _PLAIN)
+        return _format_exponents(_derive_exponents(expression, get_unit) or _PLAIN)
     except (ValueError, ZeroDivisionError):
         return ""
 
@@ -54,7 +54,7 @@ def parse_exponents(unit: str) -> Exponents:
     return total[0], total[1], total[2], total[3]
 
 
-def _derive_exponents(expression: Expr, unit: Callable[[str], str | None]) -> Exponents | None:
+def _derive_exponents(expression: Expr, get_unit: Callable[[str], str | None]) -> Exponents | None:
     """Return the exponents of an expression's unit; None for a bare number, which fits any unit.
 
     Raises ValueError for a unit that is not SI.
@@ -63,22 +63,24 @@ def _derive_exponents(expression: Expr, unit: Callable[[str], str | None]) -> Ex
         case Number():
             return None
         case Name(path=path):
-            text = unit(path)
+            text = get_unit(path)
             return None if text is None else parse_exponents(text)
         case Unary(operand=operand):
-            return _derive_exponents(operand, unit)
+            return _derive_exponents(operand, get_unit)
         case Binary(operator="+" | "-", left=left, right=right):
-            return _select_exponents(_derive_exponents(left, unit), _derive_exponents(right, unit))
+            return _merge_exponents(_derive_exponents(left, get_unit), _derive_exponents(right, get_unit))
         case Binary(operator="**", left=left, right=Number(value=power)):
-            return _raise_unit(_derive_exponents(left, unit), Fraction(power).limit_denominator(12))
+            return _scale_exponents(_derive_exponents(left, get_unit), Fraction(power).limit_denominator(12))
         case Binary(operator="*" | "/" as operator, left=left, right=right):
-            factor = _raise_unit(_derive_exponents(right, unit) or _PLAIN, Fraction(1 if operator == "*" else -1))
-            return _multiply_units(_derive_exponents(left, unit) or _PLAIN, factor or _PLAIN)
+            factor = _scale_exponents(
+                _derive_exponents(right, get_unit) or _PLAIN, Fraction(1 if operator == "*" else -1)
+            )
+            return _add_exponents(_derive_exponents(left, get_unit) or _PLAIN, factor or _PLAIN)
         case CurveCall(curve=curve):
             return None if curve.unit is None else parse_exponents(curve.unit)
         case Call(function=function, arguments=arguments):
             return _derive_call_exponents(
-                FUNCTIONS[function], [_derive_exponents(argument, unit) for argument in arguments]
+                FUNCTIONS[function], [_derive_exponents(argument, get_unit) for argument in arguments]
             )
     return _PLAIN
 
@@ -86,26 +88,30 @@ def _derive_exponents(expression: Expr, unit: Callable[[str], str | None]) -> Ex
 def _derive_call_exponents(function: Function, arguments: list[Exponents | None]) -> Exponents | None:
     """Return the exponents of a function's value from those of its arguments; None if it fits any unit."""
     if function.units is Units.ROOT:
-        return _raise_unit(arguments[0], Fraction(1, 2))
+        return _scale_exponents(arguments[0], Fraction(1, 2))
     if function.units in (Units.SAME, Units.CHOICE):
         first, *rest = arguments[2:] if function.units is Units.CHOICE else arguments
-        return _select_exponents(first, rest[0] if rest else None)
+        return _merge_exponents(first, rest[0] if rest else None)
     return parse_exponents("rad") if function.is_angle else _PLAIN
 
 
-def _select_exponents(a: Exponents | None, b: Exponents | None) -> Exponents | None:
+def _merge_exponents(a: Exponents | None, b: Exponents | None) -> Exponents | None:
     """Return the exponents of a sum: those of a, or those of b if a is a bare number or without unit."""
     return b if a is None or (a == _PLAIN and b is not None) else a
 
 
-def _multiply_units(a: Exponents, b: Exponents) -> Exponents:
+def _add_exponents(a: Exponents, b: Exponents) -> Exponents:
     """Return the exponents of the product of two units."""
     return a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3] + b[3]
 
 
-def _raise_unit(a: Exponents | None, factor: Fraction) -> Exponents | None:
-    """Return the exponents of a unit raised to the power `factor`; None for None."""
-    return None if a is None else (a[0] * factor, a[1] * factor, a[2] * factor, a[3] * factor)
+def _scale_exponents(exponents: Exponents | None, power: Fraction) -> Exponents | None:
+    """Return the exponents of a unit that is raised to a power; None for None."""
+    return (
+        None
+        if exponents is None
+        else (exponents[0] * power, exponents[1] * power, exponents[2] * power, exponents[3] * power)
+    )
 
 
 def _format_exponents(exponents: Exponents) -> str:

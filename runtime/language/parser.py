@@ -59,6 +59,7 @@ class _Parser:
     """Parse an expression by precedence climbing over its tokens, and count depth and nodes."""
 
     def __init__(self, tokens: Tokenizer, first: Token, curves: Mapping[str, Curve]) -> None:
+        """Begin at the token `first`, which has been read from `tokens`; `curves` may be called by their names."""
         self.tokens, self.token, self.where, self.curves = tokens, first, tokens.where, curves
         self.depths: dict[int, int] = {}  # id of a node → levels below it
         self.node_counts: dict[int, int] = {}  # id of a node → nodes below it, with functions written out
@@ -68,7 +69,7 @@ class _Parser:
         """Return the tree of the whole text. Raises ExpressionError if anything follows the expression."""
         expr = self.parse_sum(0)
         if self.token.kind != "end":
-            self.fail(
+            self.raise_error(
                 f"unexpected {self.token}",
                 self.token.offset,
                 self.suggest_comparison()
@@ -84,7 +85,7 @@ class _Parser:
         is_decimal = self.token.text == "," and before and after
         return f"a number is written with a point: {before[0]}.{after[0]}" if is_decimal and before and after else ""
 
-    def fail(self, message: str, offset: int, hint: str) -> NoReturn:
+    def raise_error(self, message: str, offset: int, hint: str) -> NoReturn:
         """Raise ExpressionError with a hint at an offset of the text."""
         raise ExpressionError(message, offset_location(self.where, offset), hint)
 
@@ -119,15 +120,17 @@ class _Parser:
 
     def parse_sum(self, level: int) -> Expr:
         """Return the tree of a sum of products that begins at the present token; `level`: depth of nesting."""
-        return self.parse_chain(("+", "-"), level)
+        return self.parse_operator_chain(("+", "-"), level)
 
-    def parse_chain(self, operators: tuple[str, str], level: int) -> Expr:
+    def parse_operator_chain(self, operators: tuple[str, str], level: int) -> Expr:
         """Return the tree of left-associative operators: sums of products, or products of signed powers.
 
         operators: ("+", "-") or ("*", "/"). level: depth of nesting. Chains that would make the tree too deep are
         balanced.
         """
-        parse_operand = self.parse_signed if operators == ("*", "/") else lambda n: self.parse_chain(("*", "/"), n)
+        parse_operand = (
+            self.parse_signed if operators == ("*", "/") else lambda n: self.parse_operator_chain(("*", "/"), n)
+        )
         self.check_depth(level, self.token.offset)
         first, operands = parse_operand(level), list[Operand]()
         while self.token.kind == "operator" and self.token.text in operators:
@@ -151,22 +154,22 @@ class _Parser:
             else numerator
         )
 
-    def join_operands(self, first: Expr, rest: list[Operand], n_left: int = 1) -> Expr:
+    def join_operands(self, first: Expr, further_operands: list[Operand], n_left: int = 1) -> Expr:
         """Return the tree that joins operands: up to `n_left` operators from left to right, more as a balanced tree.
 
-        first: operand before all operators. rest: operator, offset and operand of each further one. For subtraction
-        the signs within the second half are inverted.
+        first: operand before all operators. further_operands: operator, offset and operand of each further one. For
+        subtraction the signs within the second half are inverted.
         """
-        if len(rest) <= n_left:
-            for operator, offset, operand in rest:
+        if len(further_operands) <= n_left:
+            for operator, offset, operand in further_operands:
                 first = self.register_node(Binary(operator, first, operand, offset), first, operand)
             return first
-        half = len(rest) // 2
-        operator, offset, operand = rest[half]
+        half = len(further_operands) // 2
+        operator, offset, operand = further_operands[half]
         opposite = {"+": "-", "-": "+"} if operator == "-" else {}  # a - (b + c) for a - b - c
-        after = [(opposite.get(sign, sign), position, term) for sign, position, term in rest[half + 1 :]]
+        after = [(opposite.get(sign, sign), position, term) for sign, position, term in further_operands[half + 1 :]]
         return self.join_operands(
-            self.join_operands(first, rest[:half]), [(operator, offset, self.join_operands(operand, after))]
+            self.join_operands(first, further_operands[:half]), [(operator, offset, self.join_operands(operand, after))]
         )
 
     def refuse_ambiguous_angle(self, operator: Token) -> None:
@@ -182,7 +185,7 @@ class _Parser:
         unit = find_unit(word)
         if word != "rad" and unit and unit.dimension == DIMENSIONLESS:
             hint = f"a unit belongs to the number before it: write 1 {word} * …, or …/({self.token.text})"
-            self.fail(f"a division by {self.token.text} can mean two things", self.token.offset, hint)
+            self.raise_error(f"a division by {self.token.text} can mean two things", self.token.offset, hint)
 
     def parse_signed(self, level: int) -> Expr:
         """Return the tree of an operand with its signs and an optional power, which binds tighter than a sign."""
@@ -211,7 +214,7 @@ class _Parser:
             return self.parse_name(token, level)
         if token.text != "(":
             what = f"got {token}" if token.text or token.offset else "got nothing"
-            self.fail(
+            self.raise_error(
                 f"expected a number, a name or '(', {what}", token.offset, "an expression such as 80 mm or 2*pi * t"
             )
         self.advance()
@@ -219,11 +222,11 @@ class _Parser:
         self.consume_bracket(token.offset)
         return inner
 
-    def consume_bracket(self, opened: int) -> None:
-        """Consume the ")" that closes the bracket at offset `opened`. Raises ExpressionError if it is missing."""
+    def consume_bracket(self, open_offset: int) -> None:
+        """Consume the ")" of the "(" at the offset `open_offset`. Raises ExpressionError if it is missing."""
         if self.token.text != ")":
-            hint = f"the '(' at column {self.where.column + opened} is open"
-            self.fail(f"expected ')', got {self.token}", self.token.offset, self.suggest_comparison() or hint)
+            hint = f"the '(' at column {self.where.column + open_offset} is open"
+            self.raise_error(f"expected ')', got {self.token}", self.token.offset, self.suggest_comparison() or hint)
         self.advance()
 
     def suggest_comparison(self) -> str:
@@ -240,11 +243,11 @@ class _Parser:
             if is_call:
                 guess = find_nearest_name(token.text, callables)
                 hint = (f"did you mean {guess!r}? " if guess else "") + f"expected one of: {', '.join(callables)}"
-                self.fail(f"unknown function {token.text!r}", token.offset, hint)
+                self.raise_error(f"unknown function {token.text!r}", token.offset, hint)
             return self.register_node(Name(token.text, token.offset))
         if not is_call:
             what = "curve" if token.text in self.curves else "function"
-            self.fail(f"{token.text!r} is a {what}", token.offset, f"expected {token.text}(…)")
+            self.raise_error(f"{token.text!r} is a {what}", token.offset, f"expected {token.text}(…)")
         arguments = self.parse_arguments(token, level + 1)
         call = Call(token.text, arguments, token.offset)
         if token.text in self.curves:
@@ -262,11 +265,13 @@ class _Parser:
         others: list[Expr] = []
         if is_where:
             if operator not in _COMPARISONS:
-                self.fail(f"expected a comparison, got {self.token}", self.token.offset, FUNCTIONS["where"].usage)
+                self.raise_error(
+                    f"expected a comparison, got {self.token}", self.token.offset, FUNCTIONS["where"].usage
+                )
             self.advance()
             others.append(self.parse_sum(level))
             if self.token.text in _COMPARISONS:
-                self.fail(f"expected ',', got {self.token}", self.token.offset, NESTED)
+                self.raise_error(f"expected ',', got {self.token}", self.token.offset, NESTED)
         while self.token.text == ",":
             self.advance()
             others.append(self.parse_sum(level))
@@ -276,11 +281,11 @@ class _Parser:
         if len(others) + 1 != expected:
             expected, got = expected - is_where, len(others) + 1 - is_where
             message = f"{function.text} takes {expected} argument{'s' * (expected > 1)}, got {got}"
-            self.fail(message, function.offset, function_info.usage if function_info else "")
-        return _order_arguments(left, operator, *others) if is_where else (left, *others)
+            self.raise_error(message, function.offset, function_info.usage if function_info else "")
+        return _order_where_arguments(left, operator, *others) if is_where else (left, *others)
 
 
-def _order_arguments(left: Expr, operator: str, right: Expr, then: Expr, otherwise: Expr) -> tuple[Expr, ...]:
+def _order_where_arguments(left: Expr, operator: str, right: Expr, then: Expr, otherwise: Expr) -> tuple[Expr, ...]:
     """Return the arguments of `where` in the order that the operator `<` requires.
 
     left, right: compared values. then, otherwise: values if the comparison holds or not.

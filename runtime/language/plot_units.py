@@ -52,10 +52,10 @@ def format_quantity(value: float, unit: str, digits: int = 4) -> str:
     return f"{value * factor:.{digits}g} {text}".strip()
 
 
-def format_distinct(value: float, limit: float, digits: int = 4) -> tuple[str, str]:
+def format_distinct(value: float, other_value: float, digits: int = 4) -> tuple[str, str]:
     """Return two numbers as texts with at least `digits` digits, and up to 17 so that different numbers have different
     texts.
     """
-    while digits < 17 and value != limit and f"{value:.{digits}g}" == f"{limit:.{digits}g}":
+    while digits < 17 and value != other_value and f"{value:.{digits}g}" == f"{other_value:.{digits}g}":
         digits += 1
-    return f"{value:.{digits}g}", f"{limit:.{digits}g}"
+    return f"{value:.{digits}g}", f"{other_value:.{digits}g}"

@@ -22,7 +22,7 @@ def parse_quantity(text: str, address: str, exponents: Sequence[float]) -> float
     """
     where, expected = Location(f"value of {address}", 1, 1), make_dimension(*exponents)
 
-    def read(value: str) -> float:
+    def parse_text(value: str) -> float:
         """Return the value of a text without names, after checking its dimension."""
         expr = parse(value, where)
         name = next(iterate_names(expr), None)
@@ -33,8 +33,8 @@ def parse_quantity(text: str, address: str, exponents: Sequence[float]) -> float
         return float(evaluate(expr, lambda path: None))
 
     try:
-        with add_unit_hints(text.strip(), where, read, expected):
-            return read(text.strip())
+        with add_unit_hints(text.strip(), where, parse_text, expected):
+            return parse_text(text.strip())
     except UnknownNameError as error:  # a number has no names: it is the value that is wrong
         raise BadValueError(error.message, where, error.hint) from None
 

@@ -13,7 +13,7 @@ from typing import NoReturn
 from gudgeon.errors import ExpressionError, InputError, Location, UnitError
 from gudgeon.language.argument_checks import IN_RANGE
 from gudgeon.language.functions import FUNCTIONS
-from gudgeon.language.names import WORDS, advise_on_character, find_nearest_name, format_character
+from gudgeon.language.names import WORDS, find_nearest_name, format_character, suggest_replacement
 from gudgeon.language.tree import Number
 from gudgeon.language.units import OTHER_WORDS, UNITS, Unit, find_symbol_dimension, find_unit, list_factors, parse_unit
 
@@ -97,9 +97,11 @@ class Tokenizer:
     def __init__(self, text: str, where: Location, parameters: Container[str] = ()) -> None:
         self.text, self.where, self.position, self.parameters = text, where, 0, parameters
 
-    def fail(self, message: str, offset: int, hint: str = "", kind: type[InputError] = ExpressionError) -> NoReturn:
-        """Raise an error of the class `kind` at an offset of the text."""
-        raise kind(message, offset_location(self.where, offset), hint)
+    def raise_error(
+        self, message: str, offset: int, hint: str = "", error_class: type[InputError] = ExpressionError
+    ) -> NoReturn:
+        """Raise an error of the class `error_class` at an offset of the text."""
+        raise error_class(message, offset_location(self.where, offset), hint)
 
     def read_token(self) -> Token:
         """Return the next token and advance; at the end a token of kind "end".
@@ -116,8 +118,8 @@ class Tokenizer:
         match = _TOKEN.match(text, start)
         if match is None:
             character = text[start]
-            hint = _ADVICE.get(character) or advise_on_character(character)
-            self.fail(f"unexpected character {format_character(character)}", start, hint)
+            hint = _ADVICE.get(character) or suggest_replacement(character)
+            self.raise_error(f"unexpected character {format_character(character)}", start, hint)
         self.position = match.end()
         kind = str(match.lastgroup)
         if kind == "number" or match[0] == "pi":
@@ -137,11 +139,13 @@ class Tokenizer:
         """
         if name in WORDS:
             hint = _ADVICE.get(name, "expected a number, a name or an expression")
-            self.fail(f"{name!r} is no number", start, hint)
+            self.raise_error(f"{name!r} is no number", start, hint)
         offset = start
         for part in name.split("."):
             if part.startswith("_") or "__" in part:
-                self.fail(f"{part!r} is no name", offset, "attributes of Python objects cannot be reached from here")
+                self.raise_error(
+                    f"{part!r} is no name", offset, "attributes of Python objects cannot be reached from here"
+                )
             offset += len(part) + 1
 
     def _parse_number(self, literal: str, start: int) -> Token:
@@ -158,9 +162,9 @@ class Tokenizer:
         try:
             si = unit.to_si(value) if unit else float(value)
         except OverflowError:
-            self.fail(f"{text!r} is too large", start, "expected a number below 1.8e308")
+            self.raise_error(f"{text!r} is too large", start, "expected a number below 1.8e308")
         if value and not sys.float_info.min <= abs(si) < math.inf:  # below it digits are lost
-            self.fail(f"{text!r} is out of range", start, IN_RANGE)
+            self.raise_error(f"{text!r} is out of range", start, IN_RANGE)
         return Token("number", text, start, Number(si, text, unit is not None, start))
 
     def _parse_literal(self, literal: str, start: int) -> Fraction:
@@ -173,13 +177,13 @@ class Tokenizer:
         has_unit = next_character.isalpha() and parse_unit(self.text, self.position) is not None
         has_base_prefix = literal == "0" and next_character in ("x", "o", "b", "X", "O", "B") and not has_unit
         if re.match(r"0[0-9]", literal) or has_base_prefix:
-            self.fail(
+            self.raise_error(
                 f"{literal + next_character!r} does not begin a number",
                 start,
                 "expected a decimal number, such as 12 or 1e-4",
             )
         if next_character == "_":
-            self.fail("'_' in a number", self.position, "expected digits without separators")
+            self.raise_error("'_' in a number", self.position, "expected digits without separators")
         if next_character.isalpha() and not has_unit:
             word = re.match(r"\w*", self.text[self.position :])
             other = OTHER_WORDS.get(word[0]) if word else None
@@ -189,13 +193,13 @@ class Tokenizer:
             hint = f"write {literal} {other}" if other else hint
             hint = f"write {literal}*pi" if word and word[0] == "pi" else hint
             if sign := re.match(r"[eE]([^\x00-\x7f])[0-9]", self.text[self.position :]):
-                hint = f"{format_character(sign[1])} is not a sign of an exponent: {advise_on_character(sign[1])}"
-            self.fail(f"{next_character!r} right behind the number {literal}", self.position, hint)
+                hint = f"{format_character(sign[1])} is not a sign of an exponent: {suggest_replacement(sign[1])}"
+            self.raise_error(f"{next_character!r} right behind the number {literal}", self.position, hint)
         _, _, exponent = literal.lower().partition("e")
         if exponent and (len(exponent) > 5 or abs(int(exponent)) > _MAX_EXPONENT):
-            self.fail(f"{literal!r} is out of range", start, IN_RANGE)
+            self.raise_error(f"{literal!r} is out of range", start, IN_RANGE)
         if len(literal) > _MAX_LENGTH:
-            self.fail(f"a number of {len(literal)} characters", start, f"expected at most {_MAX_LENGTH}")
+            self.raise_error(f"a number of {len(literal)} characters", start, f"expected at most {_MAX_LENGTH}")
         return Fraction(literal)
 
     def _parse_following_unit(self, start: int) -> tuple[Unit | None, int]:
@@ -205,7 +209,7 @@ class Tokenizer:
         """
         text, end = self.text, self.position
         has_space = text[end : end + 1] == " "
-        self._check_powers(end + has_space)
+        self._check_unit_power(end + has_space)
         if not has_space and not text[end : end + 1].isalpha():
             return None, end
         unit = parse_unit(text, end + has_space, self.parameters)
@@ -215,11 +219,11 @@ class Tokenizer:
                 written, power = text[start:after], re.match(r" *\*\* *(\(-?[1-9]/2\)|-?[0-9.]+)", text[after:])
                 power_text = power[1] if power and find_unit(f"m^{power[1]}") else "2"
                 hint = f"a power of the unit is {written}^{power_text}, of the quantity ({written})**{power_text}"
-                self.fail(f"a power behind {written!r} can mean two things", after, hint)
+                self.raise_error(f"a power behind {written!r} can mean two things", after, hint)
             if start == 0 and (power := _NEGATIVE.fullmatch(text, after)):
                 written = text[:after]
                 hint = f"write {written}^{power[1]} for the power, {written} - {power[1][1:]} for the difference"
-                self.fail(f"{text[: after + 2]!r} can mean two things", after, hint)
+                self.raise_error(f"{text[: after + 2]!r} can mean two things", after, hint)
             self._refuse_ambiguous_unit(start, end + has_space, after)
             return unit
         spaces = len(text) - end - len(text[end:].lstrip(" "))
@@ -228,14 +232,12 @@ class Tokenizer:
             self._raise_unknown_unit(word[0], end + spaces, spaces)
         return None, end
 
-    def _check_powers(self, begin: int) -> None:
-        """Raise UnitError for a unit in brackets, or a power of a unit that is not a listed number, from offset
-        `begin` on.
-        """
-        if (bracketed := _BRACKETED.match(self.text, begin)) and find_unit(bracketed[1]):
+    def _check_unit_power(self, start: int) -> None:
+        """Raise UnitError if the unit text at offset `start` is in brackets or has a power that is not allowed."""
+        if (bracketed := _BRACKETED.match(self.text, start)) and find_unit(bracketed[1]):
             hint = "each unit has its own power: m^2/s^2 for (m/s)^2"
-            self.fail(f"brackets around the unit {bracketed[1]}", begin, hint, UnitError)
-        match = _POWER.match(self.text, begin)
+            self.raise_error(f"brackets around the unit {bracketed[1]}", start, hint, UnitError)
+        match = _POWER.match(self.text, start)
         if not match or not find_symbol_dimension(match["symbol"]):
             return
         symbol, power = match["symbol"], match["power"].replace(" ", "")
@@ -252,30 +254,32 @@ class Tokenizer:
         message = (
             f"{power!r} is not a power of the unit {symbol}" if power else f"the unit {symbol} has ^ without a power"
         )
-        self.fail(message, match.start("symbol"), hint, UnitError)
+        self.raise_error(message, match.start("symbol"), hint, UnitError)
 
-    def _refuse_ambiguous_unit(self, start: int, begin: int, after: int) -> None:
+    def _refuse_ambiguous_unit(self, number_start: int, unit_start: int, end: int) -> None:
         """Raise ExpressionError for `2m` and `3 N m` if m is a name of the file, since a factor may be meant.
 
-        start, begin, after: offsets of the number, of its unit, and after both.
+        number_start, unit_start: offsets of the number and of its unit. end: offset after both.
         """
-        written, spaced = self.text[start:after], self.text[begin - 1] == " "
-        for before, symbol in list_factors(self.text[begin:after]):
+        written, spaced = self.text[number_start:end], self.text[unit_start - 1] == " "
+        for before, symbol in list_factors(self.text[unit_start:end]):
             doubtful = before == " " if before else not spaced
             if doubtful and symbol in self.parameters:
-                number, word = self.text[start:begin], self.text[begin:after]
+                number, word = self.text[number_start:unit_start], self.text[unit_start:end]
                 hint = f"write '… * {symbol}' for the parameter, '… * (1 {symbol})' for the unit"
                 if not before:
                     hint = f"write '{number} {word}' for the unit, '{number} * {symbol}' for the parameter"
-                self.fail(f"{written!r} can mean two things: {symbol} is a unit, and a parameter here", begin, hint)
+                self.raise_error(
+                    f"{written!r} can mean two things: {symbol} is a unit, and a parameter here", unit_start, hint
+                )
 
-    def _raise_unknown_unit(self, word: str, offset: int, spaces: int) -> NoReturn:
+    def _raise_unknown_unit(self, word: str, offset: int, n_spaces: int) -> NoReturn:
         """Raise UnitError for a word after a number that is not a unit, with the most likely remedy.
 
-        offset: of the word. spaces: number of spaces before it.
+        offset: of the word. n_spaces: number of spaces before it.
         """
         if parse_unit(word):
-            self.fail(f"{spaces} spaces before the unit {word!r}", offset, "expected exactly one")
+            self.raise_error(f"{n_spaces} spaces before the unit {word!r}", offset, "expected exactly one")
         guess, powers = find_nearest_name(word, UNITS, 0.6), re.sub(r"(?<=[A-Za-z])([2-9])(?!\w)", r"^\1", word)
         if word == "Hz":
             hint = "write rev/s or 1/s: they differ by 2*pi"
@@ -285,4 +289,4 @@ class Tokenizer:
             hint = f"a product is written with '*'; units are {', '.join(list(UNITS)[:12])}, …"
         else:
             hint = f"did you mean {guess!r}? A product is written with '*'"
-        self.fail(f"unknown unit {word!r}", offset, hint, UnitError)
+        self.raise_error(f"unknown unit {word!r}", offset, hint, UnitError)

@@ -86,8 +86,8 @@ _OPERATORS: Mapping[str, Callable[[Any, Any], Any]] = {
 _CURVE = "curve"  # first item of a curve in a stored tree: no function has this name
 
 
-def evaluate(expr: Expr, value_of: Callable[[str], Any]) -> Any:
-    """Return the value of an expression, a number or an array; `value_of(path)` returns the value of a name.
+def evaluate(expr: Expr, get_value: Callable[[str], Any]) -> Any:
+    """Return the value of an expression, a number or an array; `get_value(path)` returns the value of a name.
 
     Undefined operations give NaN or infinity without a warning. Raises TypeError for another object.
     """
@@ -95,17 +95,17 @@ def evaluate(expr: Expr, value_of: Callable[[str], Any]) -> Any:
         case Number(value=value):
             return np.float64(value)
         case Name(path=path):
-            return value_of(path)
+            return get_value(path)
         case Unary(operand=operand):
-            return -evaluate(operand, value_of)
+            return -evaluate(operand, get_value)
         case Binary(operator=operator, left=left, right=right):
             with np.errstate(all="ignore"):
-                return _OPERATORS[operator](evaluate(left, value_of), evaluate(right, value_of))
+                return _OPERATORS[operator](evaluate(left, get_value), evaluate(right, get_value))
         case CurveCall(arguments=(argument,), curve=curve):
-            return curve.evaluate(evaluate(argument, value_of))
+            return curve.evaluate(evaluate(argument, get_value))
         case Call(function=function, arguments=arguments):
             with np.errstate(all="ignore"):
-                return FUNCTIONS[function].evaluate(*(evaluate(a, value_of) for a in arguments))
+                return FUNCTIONS[function].evaluate(*(evaluate(a, get_value) for a in arguments))
     raise TypeError(f"not an expression: {expr!r}")
 
 
@@ -139,20 +139,20 @@ def iterate_units(expr: Expr) -> Iterator[str]:
                 yield from iterate_units(argument)
 
 
-def replace_names(expr: Expr, trees: Mapping[str, Expr]) -> Expr:
-    """Return a copy of an expression with trees in place of names; `trees` has the tree of each name.
+def replace_names(expr: Expr, replacements: Mapping[str, Expr]) -> Expr:
+    """Return a copy of an expression with trees in place of names; `replacements` has the tree of each name.
 
     Names without a tree stay. The same object is used wherever a name occurs.
     """
     match expr:
         case Name():
-            return trees.get(expr.path, expr)
+            return replacements.get(expr.path, expr)
         case Unary(operand=operand):
-            return replace(expr, operand=replace_names(operand, trees))
+            return replace(expr, operand=replace_names(operand, replacements))
         case Binary(left=left, right=right):
-            return replace(expr, left=replace_names(left, trees), right=replace_names(right, trees))
+            return replace(expr, left=replace_names(left, replacements), right=replace_names(right, replacements))
         case Call(arguments=arguments):
-            return replace(expr, arguments=tuple(replace_names(argument, trees) for argument in arguments))
+            return replace(expr, arguments=tuple(replace_names(argument, replacements) for argument in arguments))
     return expr
 
 
@@ -171,26 +171,26 @@ def iterate_calls(expr: Expr, function: str = "") -> Iterator[Call]:
                 yield from iterate_calls(argument, function)
 
 
-def iterate_active_calls(expr: Expr, function: str, value_of: Callable[[str], Any]) -> Iterator[Call]:
+def iterate_active_calls(expr: Expr, function: str, get_value: Callable[[str], Any]) -> Iterator[Call]:
     """Yield the calls of one function on which the present value of an expression depends.
 
-    Only active branches of `where` are searched, both at equality. value_of(path): value of a name.
+    Only active branches of `where` are searched, both at equality. get_value(path): value of a name.
     """
     match expr:
         case Unary(operand=operand):
-            yield from iterate_active_calls(operand, function, value_of)
+            yield from iterate_active_calls(operand, function, get_value)
         case Binary(left=left, right=right):
-            yield from iterate_active_calls(left, function, value_of)
-            yield from iterate_active_calls(right, function, value_of)
+            yield from iterate_active_calls(left, function, get_value)
+            yield from iterate_active_calls(right, function, get_value)
         case Call(arguments=arguments):
             if function == expr.function:
                 yield expr
             if expr.function == "where":
                 left, right, then, otherwise = arguments
-                gap = evaluate(left, value_of) - evaluate(right, value_of)
+                gap = evaluate(left, get_value) - evaluate(right, get_value)
                 arguments = (left, right, *(then,) * bool(gap <= 0.0), *(otherwise,) * bool(gap >= 0.0))
             for argument in arguments:
-                yield from iterate_active_calls(argument, function, value_of)
+                yield from iterate_active_calls(argument, function, get_value)
 
 
 def iterate_curve_calls(expr: Expr) -> Iterator[CurveCall]:

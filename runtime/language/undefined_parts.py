@@ -38,13 +38,13 @@ def find_undefined_part(expr: Expr, known_values: Mapping[str, float]) -> float 
     parts = (
         inner
         for part in _iterate_constant_parts(expr, known_values)
-        for inner in (part, *_iterate_absorbed_parts(part, known_values))
+        for inner in (part, *_iterate_masked_parts(part, known_values))
     )
     numbers = (float(evaluate(part, known_values.__getitem__)) for part in parts)
     return next((number for number in numbers if not math.isfinite(number)), None)
 
 
-def _iterate_absorbed_parts(expr: Expr, known_values: Mapping[str, float]) -> Iterator[Expr]:
+def _iterate_masked_parts(expr: Expr, known_values: Mapping[str, float]) -> Iterator[Expr]:
     """Yield the parts of a constant expression whose infinity or NaN its value may hide: arguments, divisors,
     exponents.
 
@@ -53,11 +53,11 @@ def _iterate_absorbed_parts(expr: Expr, known_values: Mapping[str, float]) -> It
     """
     match expr:
         case Unary(operand=operand):
-            yield from _iterate_absorbed_parts(operand, known_values)
+            yield from _iterate_masked_parts(operand, known_values)
         case Binary(operator=operator, left=left, right=right):
             yield from {"/": (right,), "**": (left, right)}.get(operator, ())
-            yield from _iterate_absorbed_parts(left, known_values)
-            yield from _iterate_absorbed_parts(right, known_values)
+            yield from _iterate_masked_parts(left, known_values)
+            yield from _iterate_masked_parts(right, known_values)
         case Call(function=function, arguments=arguments):
             if function == "where":
                 less, more, then, otherwise = arguments
@@ -68,7 +68,7 @@ def _iterate_absorbed_parts(expr: Expr, known_values: Mapping[str, float]) -> It
             if function in DIVIDING:
                 yield Binary("/", Number(1.0), arguments[-1])
             for argument in arguments:
-                yield from _iterate_absorbed_parts(argument, known_values)
+                yield from _iterate_masked_parts(argument, known_values)
 
 
 def _iterate_constant_parts(expr: Expr, known_names: Container[str]) -> Iterator[Expr]:

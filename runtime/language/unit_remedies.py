@@ -129,22 +129,22 @@ class _Quantity:
 def add_unit_hints(
     text: str,
     location: Location,
-    accept: Callable[[str], object],
+    check_value: Callable[[str], object],
     expected: Dimension | None,
     names: Container[str] = (),
 ) -> Iterator[None]:
     """Add a hint to errors raised inside the context: what to write in place of a wrong unit.
 
-    text: the whole value, whose first character is at `location`. accept(other): raises InputError unless `other` may
-    replace it. expected: dimension of the value, None if any. names: parameters and expressions of the file. Errors
-    that are not about a unit stay as they are.
+    text: the whole value, whose first character is at `location`. check_value(other): raises InputError unless the text
+    `other` may replace it. expected: dimension of the value, None if any. names: parameters and expressions of the
+    file. Errors that are not about a unit stay as they are.
     """
     try:
         yield
     except (UnitError, ExpressionError, UnknownNameError, InputErrors) as caught:
         mended = dict[str, InputError]()  # by the hint, which may be one for several names
         for error in caught.errors if isinstance(caught, InputErrors) else [caught]:
-            hint = _find_remedy(error, text, location, accept, expected, names)
+            hint = _find_remedy(error, text, location, check_value, expected, names)
             mended.setdefault(hint or str(error), type(error)(error.message, error.where, hint) if hint else error)
         raise combine_errors(mended.values()) from None
 
@@ -153,7 +153,7 @@ def _find_remedy(
     error: InputError,
     text: str,
     location: Location,
-    accept: Callable[[str], object],
+    check_value: Callable[[str], object],
     expected: Dimension | None,
     names: Container[str],
 ) -> str:
@@ -173,7 +173,7 @@ def _find_remedy(
     if found is None:
         return ""
 
-    def accepted(proposals: Iterable[str], max_count: int) -> list[str]:
+    def list_accepted_proposals(proposals: Iterable[str], max_count: int) -> list[str]:
         """Return the first `max_count` proposals that are accepted in place of the quantity, without repetitions."""
         before, after = text[: found.begin], text[found.end :]
         divides = before.rstrip().endswith(("/", "**"))
@@ -183,20 +183,20 @@ def _find_remedy(
         fitting = (
             proposal
             for proposal in bracketed
-            if proposal != written and _is_accepted(accept, before, proposal, after, location)
+            if proposal != written and _is_accepted(check_value, before, proposal, after, location)
         )
         return list(itertools.islice(dict.fromkeys(fitting), max_count))
 
     written = text[found.begin : found.end]
     for proposals, most in _iterate_proposals(text, found, names, expected):
-        if shown := accepted(proposals, most):
+        if shown := list_accepted_proposals(proposals, most):
             differ = ": they differ by 2*pi" if any("rev" in proposal for proposal in shown) and shown[1:] else ""
             return f"write {' or '.join(shown)}{differ}"
     guess = find_nearest_name(text[found.unit_at : found.end], UNITS, 0.6) if not found.factors else None
-    if guess and accepted([f"{found.number} {guess}"], 1):
+    if guess and list_accepted_proposals([f"{found.number} {guess}"], 1):
         return f"did you mean {guess if text[: found.unit_at].endswith(' ') else f'{found.number} {guess}'!r}?"
     if expected is not None:
-        listed = accepted((f"{found.number} {proposal}" for proposal in UNITS), _MAX_LISTED)
+        listed = list_accepted_proposals((f"{found.number} {proposal}" for proposal in UNITS), _MAX_LISTED)
         if units := ", ".join(proposal.removeprefix(f"{found.number} ") for proposal in listed):
             return f"units that fit here: {units}"
     if re.match("did you mean|write|.* is written|a power of", error.hint):  # it was not tried, and does not fit
@@ -204,16 +204,18 @@ def _find_remedy(
     return ""
 
 
-def _is_accepted(accept: Callable[[str], object], before: str, proposal: str, after: str, location: Location) -> bool:
+def _is_accepted(
+    check_value: Callable[[str], object], text_before: str, proposal: str, text_after: str, location: Location
+) -> bool:
     """Return whether the value with this proposal is accepted, or is wrong only in the unit of a later number.
 
-    before, after: text around the proposal. location: of the value.
+    text_before, text_after: text around the proposal. location: of the value.
     """
     try:
-        accept(before + proposal + after)
+        check_value(text_before + proposal + text_after)
     except InputError as error:
-        error_location, begin = error.where, len(before + proposal)
-        blanked = " " * begin + after
+        error_location, begin = error.where, len(text_before + proposal)
+        blanked = " " * begin + text_after
         later = _find_quantity(blanked, error_location.column - location.column, ()) if error_location else None
         return later is not None and later.begin > begin and blanked[later.begin - 1] in " (,"
     return True
@@ -227,10 +229,10 @@ def _find_quantity(text: str, offset: int, names: Container[str]) -> _Quantity |
     for match in _NUMBER.finditer(text, 0, offset + 1):
         begin = match.end()
         position = begin + 2 if text.startswith("1/", begin) and match[0] != match["number"] else begin
-        divided = position > begin
+        is_divided = position > begin
         if per := re.compile(r"(?:/|per ) *").match(text, begin):
-            position, divided = per.end(), True
-        factors, end = _parse_factors(text, position, divided, names)
+            position, is_divided = per.end(), True
+        factors, end = _parse_factors(text, position, is_divided, names)
         word = _WORD.match(text, begin)
         end = end if factors else word.end() if word else begin
         if begin <= offset < end:
@@ -238,15 +240,15 @@ def _find_quantity(text: str, offset: int, names: Container[str]) -> _Quantity |
     return None
 
 
-def _parse_factors(text: str, position: int, divided: bool, names: Container[str]) -> tuple[list[_Factor], int]:
+def _parse_factors(text: str, position: int, is_divided: bool, names: Container[str]) -> tuple[list[_Factor], int]:
     """Return the factors of a unit text from `position` on, and the offset where they end.
 
-    divided: whether a division precedes the first. names: of the file, which end the unit after an operator. Reading
+    is_divided: whether a division precedes the first. names: of the file, which end the unit after an operator. Reading
     stops at the first symbol without a meaning.
     """
-    factors, end, below, between = list[_Factor](), position, divided, ""
+    factors, end, below, between = list[_Factor](), position, is_divided, ""
     while True:
-        sign = -1 if divided else 1
+        sign = -1 if is_divided else 1
         group, factor = _GROUP.match(text, position), _FACTOR.match(text, position)
         if group:
             inner, inner_end = _parse_factors(group["inside"], 0, False, names)
@@ -263,7 +265,7 @@ def _parse_factors(text: str, position: int, divided: bool, names: Container[str
             power = None if power is None else sign * power
             if factor["symbol"] in _SPEEDS and power is not None:
                 factors += [_Factor("km", power), _Factor("h", -power)]
-            elif _list_meanings(factor["symbol"]):
+            elif _list_unit_meanings(factor["symbol"]):
                 factors.append(_Factor(factor["symbol"], power, bool(factors) and not between and below))
             else:
                 return factors, end
@@ -273,8 +275,8 @@ def _parse_factors(text: str, position: int, divided: bool, names: Container[str
         if (operator := _BETWEEN.match(text, end)) is None:
             return factors, end
         between = operator[0].strip()
-        divided, position = between in ("/", "per"), operator.end()
-        below = below or divided
+        is_divided, position = between in ("/", "per"), operator.end()
+        below = below or is_divided
 
 
 def _is_name(symbol: str, names: Container[str]) -> bool:
@@ -292,7 +294,7 @@ def _parse_power(text: str | None) -> Fraction | None:
         return None
 
 
-def _list_meanings(symbol: str) -> list[tuple[Decimal, str]]:
+def _list_unit_meanings(symbol: str) -> list[tuple[Decimal, str]]:
     """Return the possible meanings of a unit symbol, each a number and a unit of the list; empty for an unknown one.
 
     Tried in turn: the list, other unit systems, SI prefixes, and other capitals.
@@ -306,7 +308,7 @@ def _list_meanings(symbol: str) -> list[tuple[Decimal, str]]:
         if prefix in _PREFIXES and rest != symbol and rest in _PREFIXED:
             if find_symbol_dimension(plain := prefix.translate(_PLAIN) + rest):
                 return [(Decimal(1), plain)]
-            return [(Decimal(_PREFIXES[prefix]) * number, unit) for number, unit in _list_meanings(rest)]
+            return [(Decimal(_PREFIXES[prefix]) * number, unit) for number, unit in _list_unit_meanings(rest)]
     candidates = [
         candidate for candidate in (*UNITS, *_OTHER_UNITS) if candidate.lower() == symbol.lower() and len(symbol) > 1
     ]
@@ -315,7 +317,7 @@ def _list_meanings(symbol: str) -> list[tuple[Decimal, str]]:
         meant
         for candidate in candidates
         if differences[candidate] == min(differences.values())
-        for meant in _list_meanings(candidate)
+        for meant in _list_unit_meanings(candidate)
     ]
 
 
@@ -354,7 +356,7 @@ def _iterate_listed_units(quantity: _Quantity) -> Iterator[str]:
         [
             (meant, factor.power, k)
             for k in ((1, -1) if factor.either else (1,))
-            for meant in _list_meanings(factor.symbol)
+            for meant in _list_unit_meanings(factor.symbol)
         ]
         for factor in quantity.factors
     ]
@@ -362,10 +364,14 @@ def _iterate_listed_units(quantity: _Quantity) -> Iterator[str]:
         yield _format_quantity(quantity.number, [(meant, Fraction(power or 1) * sign) for meant, power, sign in choice])
 
 
-def _iterate_powers(quantity: _Quantity, k: int) -> Iterator[str]:
-    """Yield the quantity in units of the list with other powers of its factor k, the likeliest first."""
+def _iterate_powers(quantity: _Quantity, factor_index: int) -> Iterator[str]:
+    """Yield the quantity in units of the list with other powers of one of its factors, the likeliest first."""
     for power in _POWERS:
-        factors = (*quantity.factors[:k], _Factor(quantity.factors[k].symbol, power), *quantity.factors[k + 1 :])
+        factors = (
+            *quantity.factors[:factor_index],
+            _Factor(quantity.factors[factor_index].symbol, power),
+            *quantity.factors[factor_index + 1 :],
+        )
         yield from _iterate_listed_units(replace(quantity, factors=factors))
 
 

@@ -94,15 +94,15 @@ _WORDS: Mapping[Dimension, tuple[str, str]] = {
 }
 
 
-def find_si_unit(dimension_: Dimension) -> str:
+def find_si_unit(dimension: Dimension) -> str:
     """Return the SI unit of a dimension as files write it: "m", "kg*m^2", "1/s"; "" for a pure number."""
-    if dimension_ == DIMENSIONLESS:
+    if dimension == DIMENSIONLESS:
         return ""
-    if dimension_ == RATE:
+    if dimension == RATE:
         return "1/s"
-    if dimension_ in _WORDS:
-        return _WORDS[dimension_][1]
-    exponents = {"kg": dimension_.mass, "m": dimension_.length, "s": dimension_.time}
+    if dimension in _WORDS:
+        return _WORDS[dimension][1]
+    exponents = {"kg": dimension.mass, "m": dimension.length, "s": dimension.time}
     numerator = "*".join(_format_power(s, e) for s, e in exponents.items() if e > 0)
     denominator = "".join("/" + _format_power(s, -e) for s, e in exponents.items() if e < 0)
     return (numerator or "1") + denominator
@@ -247,7 +247,7 @@ def parse_unit(text: str, start: int = 0, names: Container[str] = ()) -> tuple[U
             break
         is_name = bool(unit) and match[0] in names and between in ("*", "/")
         power = Fraction((match["power"] or _RAISED.get(match["raised"]) or "1").strip("()"))
-        raised = _raise_unit(_SYMBOLS[match[1]], -power if divide else power)
+        raised = _compute_unit_power(_SYMBOLS[match[1]], -power if divide else power)
         if raised is None:
             break
         total = Unit(total.factor * raised.factor, total.pi_power + raised.pi_power, total.dimension * raised.dimension)
@@ -261,15 +261,15 @@ def parse_unit(text: str, start: int = 0, names: Container[str] = ()) -> tuple[U
     return unit
 
 
-def _raise_unit(unit_: Unit, power: Fraction) -> Unit | None:
+def _compute_unit_power(base: Unit, power: Fraction) -> Unit | None:
     """Return a unit raised to a whole or half power; None for a root of a unit that contains π."""
     if power.denominator == 1:
-        return Unit(unit_.factor ** int(power), unit_.pi_power * int(power), unit_.dimension**power)
-    if unit_.pi_power:
+        return Unit(base.factor ** int(power), base.pi_power * int(power), base.dimension**power)
+    if base.pi_power:
         return None
-    square = unit_.factor**power.numerator
+    square = base.factor**power.numerator
     root = Fraction(math.isqrt(square.numerator * 10**120 // square.denominator), 10**60)
-    return Unit(root, 0, unit_.dimension**power)
+    return Unit(root, 0, base.dimension**power)
 
 
 def list_factors(token: str) -> list[tuple[str, str]]:

@@ -43,7 +43,7 @@ class Motion:
 
 @dataclass(frozen=True)
 class Pressure:
-    """Solution for all unknowns (n·rows,): pressure, filled fraction θ, and gain of each cell.
+    """Solution for all unknowns (n·n_rows,): pressure, filled fraction θ, and gain of each cell.
 
     unknown: signed with half_sommerfeld. gain: outflow − closing (for elrod_adams also the convected oil); 0 where the
     equation holds.
@@ -54,32 +54,39 @@ class Pressure:
     gain: Array
 
 
-def solve_pressure(kind: str, equation: Equation, motion: Motion, free: Flags, start: Array | None = None) -> Pressure:
+def solve_pressure(
+    cavitation: str, equation: Equation, motion: Motion, free_nodes: Flags, initial_unknowns: Array | None = None
+) -> Pressure:
     """Solve the film equation under a cavitation condition, and return pressure, filled fraction and gain of all
     nodes.
 
-    kind: "half_sommerfeld", "reynolds" or "elrod_adams". free: nodes at which p is unknown, all except the groove.
-    start: unknowns near the solution, from a coarser grid; only their signs are used. Without it, elrod_adams starts
-    from the solution of reynolds. Raises BadValueError, GudgeonError if the active set does not converge.
+    cavitation: "half_sommerfeld", "reynolds" or "elrod_adams". free_nodes: nodes at which p is unknown, all except the
+    groove. initial_unknowns: unknowns near the solution, from a coarser grid; only their signs are used. Without it,
+    elrod_adams starts from the solution of reynolds. Raises BadValueError, GudgeonError if the active set does not
+    converge.
     """
-    closing = equation.compute_squeeze_flow(motion.w_n, motion.w_t)
-    if kind == "half_sommerfeld":
-        p = _solve_subsystem(equation.matrix, closing, free)
-        return Pressure(p, np.ones_like(p), equation.matrix @ p - closing)
-    has_pressure = (closing > 0.0) if start is None else (start > 0.0)
-    if kind == "elrod_adams" and start is not None:
-        return _solve_elrod_adams(equation, motion, free, has_pressure & free)
-    p, has_pressure = _solve_reynolds(equation.matrix, closing, free, has_pressure & free)
-    if kind == "elrod_adams":
-        return _solve_elrod_adams(equation, motion, free, has_pressure)
-    return Pressure(p, np.ones_like(p), equation.matrix @ p - closing)
+    squeeze_flow = equation.compute_squeeze_flow(motion.w_n, motion.w_t)
+    if cavitation == "half_sommerfeld":
+        p = _solve_subsystem(equation.matrix, squeeze_flow, free_nodes)
+        return Pressure(p, np.ones_like(p), equation.matrix @ p - squeeze_flow)
+    has_pressure = (squeeze_flow > 0.0) if initial_unknowns is None else (initial_unknowns > 0.0)
+    if cavitation == "elrod_adams" and initial_unknowns is not None:
+        return _solve_elrod_adams(equation, motion, free_nodes, has_pressure & free_nodes)
+    p, has_pressure = _solve_complementarity_problem(
+        equation.matrix, squeeze_flow, free_nodes, has_pressure & free_nodes
+    )
+    if cavitation == "elrod_adams":
+        return _solve_elrod_adams(equation, motion, free_nodes, has_pressure)
+    return Pressure(p, np.ones_like(p), equation.matrix @ p - squeeze_flow)
 
 
-def _solve_subsystem(matrix: sparse.csr_matrix, right_side: Array, selected: Flags) -> Array:
-    """Return p that satisfies the selected equations of matrix p = right_side, with p = 0 at all other nodes."""
+def _solve_subsystem(matrix: sparse.csr_matrix, right_side: Array, selected_nodes: Flags) -> Array:
+    """Return p of the equations matrix p = right_side at the selected nodes, with p = 0 at all other nodes."""
     p = np.zeros(len(right_side))
-    if selected.any():
-        p[selected] = _factorize_m_matrix(matrix[selected][:, selected]).solve(right_side[selected])
+    if selected_nodes.any():
+        p[selected_nodes] = _factorize_m_matrix(matrix[selected_nodes][:, selected_nodes]).solve(
+            right_side[selected_nodes]
+        )
     return p
 
 
@@ -105,25 +112,29 @@ def _factorize(matrix: sparse.csr_matrix, **options: Any) -> Any:
         raise GudgeonError(message) from error
 
 
-def _solve_reynolds(matrix: sparse.csr_matrix, closing: Array, free: Flags, active: Flags) -> tuple[Array, Flags]:
-    """Return pressure and active set (nodes with p > 0) of the complementarity problem, from a first active set.
+def _solve_complementarity_problem(
+    matrix: sparse.csr_matrix, squeeze_flow: Array, free_nodes: Flags, active_nodes: Flags
+) -> tuple[Array, Flags]:
+    """Return pressure and active set (nodes with p > 0) of the complementarity problem of the reynolds condition.
 
+    free_nodes: all nodes but the groove. active_nodes: first guess of the active set.
     Raises GudgeonError if the active set does not settle in MAX_MONOTONE_STEPS iterations.
     """
     for _ in range(MAX_MONOTONE_STEPS):
-        p = _solve_subsystem(matrix, closing, active)
-        next_active = np.where(active, p > 0.0, matrix @ p < closing) & free
-        if np.array_equal(next_active, active):
-            return p, active
-        active = next_active
+        p = _solve_subsystem(matrix, squeeze_flow, active_nodes)
+        next_active = np.where(active_nodes, p > 0.0, matrix @ p < squeeze_flow) & free_nodes
+        if np.array_equal(next_active, active_nodes):
+            return p, active_nodes
+        active_nodes = next_active
     raise GudgeonError("reynolds: where the film ends is not found: another number of cells may do")
 
 
-def _solve_elrod_adams(equation: Equation, motion: Motion, free: Flags, full: Flags) -> Pressure:
-    """Solve for p in full nodes and for θ in cavitated nodes; the groove is full with p = 0.
+def _solve_elrod_adams(equation: Equation, motion: Motion, free_nodes: Flags, full_nodes: Flags) -> Pressure:
+    """Return the solution for p in full nodes and for θ in cavitated nodes; the groove is full with p = 0.
 
-    full: first guess of the full nodes; if it fails, the iteration starts from no full nodes. Raises BadValueError if
-    the gap closes faster than oil is convected, GudgeonError if the active set does not converge.
+    free_nodes: all nodes but the groove. full_nodes: first guess of the full nodes; if it fails, the iteration starts
+    from no full nodes. Raises BadValueError if the gap closes faster than oil is convected, GudgeonError if the active
+    set does not converge.
     """
     matrix, convection = equation.matrix, equation.build_convection_matrix(motion.half_speed, motion.w_n)
     if (convection.diagonal() <= 0.0).any():
@@ -131,8 +142,8 @@ def _solve_elrod_adams(equation: Equation, motion: Motion, free: Flags, full: Fl
             "elrod_adams: the gap closes faster than oil is carried along",
             hint="θ would hang on what was before; cavitation='reynolds' does not know θ",
         )
-    pressure = _iterate_full_nodes(matrix, convection, free, full) or _iterate_full_nodes(
-        matrix, convection, free, np.zeros_like(full)
+    pressure = _iterate_full_nodes(matrix, convection, free_nodes, full_nodes) or _iterate_full_nodes(
+        matrix, convection, free_nodes, np.zeros_like(full_nodes)
     )
     if pressure is None:
         raise GudgeonError("elrod_adams: where the film ends is not found: another number of cells may do")
@@ -140,24 +151,24 @@ def _solve_elrod_adams(equation: Equation, motion: Motion, free: Flags, full: Fl
 
 
 def _iterate_full_nodes(
-    matrix: sparse.csr_matrix, convection: sparse.csr_matrix, free: Flags, full: Flags
+    matrix: sparse.csr_matrix, convection: sparse.csr_matrix, free_nodes: Flags, full_nodes: Flags
 ) -> Pressure | None:
-    """Iterate the active set of full nodes from the guess `full`; return None if it does not settle in MAX_STEPS
-    iterations.
+    """Iterate the active set of full nodes; return the solution, or None without convergence in MAX_STEPS iterations.
 
-    matrix, convection: outflows by pressure and by filled fraction. free: all nodes but the groove. Without supply of
-    oil, a guess with a film may cycle; then the caller starts from an empty one.
+    full_nodes: first guess.
+    matrix, convection: outflows by pressure and by filled fraction. free_nodes: all nodes but the groove. Without
+    supply of oil, a guess with a film may cycle; then the caller starts from an empty one.
     """
-    groove = np.where(free, 0.0, 1.0)
+    groove = np.where(free_nodes, 0.0, 1.0)
     for _ in range(MAX_STEPS):
-        is_full = full.astype(float)
+        is_full = full_nodes.astype(float)
         columns = matrix @ sparse.diags(is_full) + convection @ sparse.diags(1.0 - is_full)
         right = -(convection @ (is_full + groove))
         unknown = np.zeros(len(right))
-        unknown[free] = _factorize(columns[free][:, free]).solve(right[free])
-        p, filled = np.where(full, unknown, 0.0), np.where(full | ~free, 1.0, unknown)
-        next_full = np.where(full, p > 0.0, filled > 1.0) & free
-        if np.array_equal(next_full, full):
+        unknown[free_nodes] = _factorize(columns[free_nodes][:, free_nodes]).solve(right[free_nodes])
+        p, filled = np.where(full_nodes, unknown, 0.0), np.where(full_nodes | ~free_nodes, 1.0, unknown)
+        next_full = np.where(full_nodes, p > 0.0, filled > 1.0) & free_nodes
+        if np.array_equal(next_full, full_nodes):
             return Pressure(p, filled, matrix @ p + convection @ filled)
-        full = next_full
+        full_nodes = next_full
     return None

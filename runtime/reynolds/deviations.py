@@ -131,12 +131,14 @@ def _evaluate_law(
     """
     bearing, (ratios, closing, turning) = _make_bearing(l_over_d), _build_states(eps, motion)
     with np.errstate(over="ignore", invalid="ignore"):
-        force = law_force(law, bearing, keys)(ratios + 0.0 * closing, closing, -turning) / _compute_force_unit(bearing)
+        force = make_law_force(law, bearing, keys)(ratios + 0.0 * closing, closing, -turning) / _compute_force_unit(
+            bearing
+        )
     check_finite(force)
     return force
 
 
-def law_force(name: str, bearing: Bearing, keys: Mapping[str, float | str | bool]) -> LawForce:
+def make_law_force(name: str, bearing: Bearing, keys: Mapping[str, float | str | bool]) -> LawForce:
     """Return a function of ε, w_n and w_t (1/s) that computes the law's forces F_r and F_t (…, 2) in N.
 
     name: of a film law. keys: its keys, in SI; the viscosity is that of the bearing. Raises UnknownNameError,

@@ -27,7 +27,7 @@ UNIFORM = 0.5  # fraction of equidistant nodes; the others follow Sommerfeld's a
 
 @dataclass(frozen=True)
 class Equation:
-    """The flows of a grid. Unknowns are counted along the bearing first: node (i, j) is i·rows + j.
+    """The flows of a grid. Unknowns are counted along the bearing first: node (i, j) is i·n_rows + j.
 
     An open end's nodes are unknowns too: p = 0 there, and the unknown is what flows out over the end.
     """
@@ -35,7 +35,7 @@ class Equation:
     grid: Grid
 
     @property
-    def rows(self) -> int:
+    def n_rows(self) -> int:
         """Return the number of unknowns at one angle: nodes along the half bearing and, for an open end, its
         outflow.
         """
@@ -43,13 +43,13 @@ class Equation:
 
     @cached_property
     def matrix(self) -> sparse.csr_matrix:
-        """Return the matrix (n·rows, n·rows) of the outflow of each cell by the unknowns.
+        """Return the matrix (n·n_rows, n·n_rows) of the outflow of each cell by the unknowns.
 
         It is an M-matrix; each column sums to 0, or to what leaves over the end.
         """
         grid, n, m = self.grid, len(self.grid.phi), len(self.grid.zeta)
         i = np.arange(n)
-        conductances = (1.0 + grid.eps * np.cos(grid.right)) ** 3 / grid.apart  # between i and i + 1
+        conductances = (1.0 + grid.eps * np.cos(grid.right)) ** 3 / grid.node_spacing  # between i and i + 1
         around = sparse.coo_matrix(
             (
                 np.concatenate([conductances + np.roll(conductances, 1), -conductances, -conductances]),
@@ -57,12 +57,12 @@ class Equation:
             ),
             shape=(n, n),
         )
-        heights = np.zeros(self.rows)
+        heights = np.zeros(self.n_rows)
         heights[:m] = grid.height[:m]  # at the end p = 0: nothing flows around
         matrix = sparse.kron(around, sparse.diags(heights))
         if not grid.sealed:
             matrix += sparse.kron(sparse.diags(grid.h**3 * (grid.right - grid.left)), self._build_axial_matrix())
-            matrix += sparse.kron(sparse.eye(n), sparse.diags(np.arange(self.rows) == m, dtype=float))
+            matrix += sparse.kron(sparse.eye(n), sparse.diags(np.arange(self.n_rows) == m, dtype=float))
         return sparse.csr_matrix(matrix)
 
     def _build_axial_matrix(self) -> sparse.csr_matrix:
@@ -78,7 +78,7 @@ class Equation:
         )
 
     def compute_squeeze_flow(self, w_n: float, w_t: float) -> Array:
-        """Return −∫ ∂h/∂t over each cell, (n·rows,): the flow that the closing gap displaces.
+        """Return −∫ ∂h/∂t over each cell, (n·n_rows,): the flow that the closing gap displaces.
 
         w_n, w_t: effective squeeze velocities over c along and across the line of centres, 1/s.
         """
@@ -90,7 +90,7 @@ class Equation:
         """Return the matrix of outflows by the filled fraction θ of each cell.
 
         Oil is convected from upstream, ½ω_s θ h, and stored by the rate ε̇ = w_n of the gap, θ ∂h/∂t. With θ = 1
-        everywhere the outflow is −closing. half_speed: ½ω_s, 1/s.
+        everywhere the outflow is minus the squeeze flow. half_speed: ½ω_s, 1/s.
         """
         grid, n = self.grid, len(self.grid.phi)
         flow = half_speed * (1.0 + grid.eps * np.cos(grid.right))  # through a cell's end, from i to i + 1
@@ -115,7 +115,7 @@ class Grid:
     phi: Array  # (n,) nodes
     right: Array  # (n,) a cell's end towards larger φ
     left: Array  # (n,) and towards smaller
-    apart: Array  # (n,) from a node to the next
+    node_spacing: Array  # (n,) from a node to the next
     weight: Array  # (n,) of the trapezoidal rule in the variable in which nodes lie evenly: no error but that of p
     zeta: Array  # (m,) nodes but that at the end, where p = 0
     height: Array  # (m,) lengths of cells; for an open end with the remaining length (m + 1,)
@@ -133,29 +133,29 @@ class Grid:
         return np.asarray(1.0 + self.eps * np.cos(self.phi))
 
 
-def make_grid(eps: float, l_over_d: float, around: int, along: int, start: float = 0.0) -> Grid:
+def make_grid(eps: float, l_over_d: float, n_around: int, n_along: int, first_angle: float = 0.0) -> Grid:
     """Return a grid with a node at φ = start, dense where the film is thin and towards open ends.
 
-    eps: eccentricity ratio. around: number of cells around. along: cells from the middle to an end, 0 for a sealed
+    eps: eccentricity ratio. n_around: number of cells around. n_along: cells from the middle to an end, 0 for a sealed
     bearing.
     """
-    spread = TURN / around
-    shift = float(_compute_uniform_angle(np.array([start]), eps)[0])
-    half_nodes = _invert_uniform_angle(shift + 0.5 * spread * np.arange(2 * around, dtype=float), eps)
+    spread = TURN / n_around
+    shift = float(_compute_uniform_angle(np.array([first_angle]), eps)[0])
+    half_nodes = _invert_uniform_angle(shift + 0.5 * spread * np.arange(2 * n_around, dtype=float), eps)
     phi, right = half_nodes[::2], half_nodes[1::2]
     left = np.concatenate([[right[-1] - TURN], right[:-1]])
-    apart = np.concatenate([phi[1:], [phi[0] + TURN]]) - phi
+    node_spacing = np.concatenate([phi[1:], [phi[0] + TURN]]) - phi
     weight = spread / _compute_density(phi, eps)
-    if not along:
+    if not n_along:
         half_length = np.array([l_over_d])
-        return Grid(eps, phi, right, left, apart, weight, np.zeros(1), half_length, np.zeros(0), half_length)
-    layer = min(1.0, math.sqrt(1.0 - eps * eps) / l_over_d)  # axial and circumferential gradients are similar
-    zeta, slope = _place_axial_nodes(np.linspace(0.0, 1.0, 2 * along + 1), l_over_d, layer)
+        return Grid(eps, phi, right, left, node_spacing, weight, np.zeros(1), half_length, np.zeros(0), half_length)
+    end_slope_ratio = min(1.0, math.sqrt(1.0 - eps * eps) / l_over_d)  # axial and circumferential gradients are similar
+    zeta, slope = _place_axial_nodes(np.linspace(0.0, 1.0, 2 * n_along + 1), l_over_d, end_slope_ratio)
     height = np.diff(np.concatenate([[0.0], zeta[1::2], [l_over_d]]))
-    simpson = np.where(np.arange(along) % 2, 4.0, 2.0) / (3.0 * along)
+    simpson = np.where(np.arange(n_along) % 2, 4.0, 2.0) / (3.0 * n_along)
     simpson[0] *= 0.5
     nodes = zeta[::2]
-    return Grid(eps, phi, right, left, apart, weight, nodes[:-1], height, np.diff(nodes), simpson * slope[:-1:2])
+    return Grid(eps, phi, right, left, node_spacing, weight, nodes[:-1], height, np.diff(nodes), simpson * slope[:-1:2])
 
 
 def _compute_density(phi: Array, eps: float) -> Array:
@@ -193,14 +193,14 @@ def _invert_uniform_angle(values: Array, eps: float) -> Array:
     return phi
 
 
-def _place_axial_nodes(fraction: Array, length: float, layer: float) -> tuple[Array, Array]:
+def _place_axial_nodes(fraction: Array, length: float, end_slope_ratio: float) -> tuple[Array, Array]:
     """Return ζ from 0 to `length`, dense towards the end, and its slope by `fraction`, for fractions from 0 to 1.
 
-    layer: slope at the end over that of equidistant nodes; above 0.98 the nodes are equidistant.
+    end_slope_ratio: slope at the end over that of equidistant nodes; above 0.98 the nodes are equidistant.
     """
-    if layer > 0.98:
+    if end_slope_ratio > 0.98:
         return length * fraction, np.full_like(fraction, length)
-    b = brentq(lambda b: b / math.sinh(b) - layer, 1e-3, 700.0)
+    b = brentq(lambda b: b / math.sinh(b) - end_slope_ratio, 1e-3, 700.0)
     return (
         np.asarray(length * (1.0 - np.sinh(b * (1.0 - fraction)) / math.sinh(b))),
         np.asarray(length * b * np.cosh(b * (1.0 - fraction)) / math.sinh(b)),

@@ -31,7 +31,7 @@ def draw_film(film: Film) -> Figure:
     with matplotlib.rc_context(STYLE):
         figure = Figure(figsize=(10, 4.2), dpi=120, layout="constrained")
         left, right = figure.subplots(1, 2, width_ratios=(1.7, 1.0))
-        _draw_map(left, film, factor, unit)
+        _draw_pressure_map(left, film, factor, unit)
         _draw_middle_plane(right, film)
         figure.suptitle(_format_title(film), fontsize=11, x=0.012, ha="left")
     return figure
@@ -46,7 +46,7 @@ def _format_title(film: Film) -> str:
     )
 
 
-def _draw_map(ax: Axes, film: Film, factor: float, unit: str) -> None:
+def _draw_pressure_map(ax: Axes, film: Film, factor: float, unit: str) -> None:
     """Draw the pressure over angle and axial position, with the edge of the film, the thinnest film and the groove.
 
     factor, unit: from Pa to the unit that is shown. The first angle is repeated after the last.

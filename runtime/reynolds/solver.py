@@ -67,7 +67,7 @@ def solve(
     speeds = check_number(omega_journal, "omega_journal"), check_number(omega_bearing, "omega_bearing")
     distance = math.hypot(*e)
     check_eccentricity(distance / bearing.clearance)
-    n = _find_centre_direction(e, v)
+    n = _find_line_of_centres(e, v)
     t = np.array([-n[1], n[0]])
     omega_s = sum(speeds) - (2.0 * float(v @ t) / distance if distance > 0.0 else 0.0)
     eps, c = distance / bearing.clearance, bearing.clearance
@@ -75,13 +75,13 @@ def solve(
     groove_angle = _find_groove_angle(groove, n, sealed, cavitation)
     problem = Problem(eps, bearing.l_over_d, sealed, cavitation, groove_angle, motion)
     with np.errstate(over="ignore", invalid="ignore"):
-        coarse, fine = solve_refined(problem, around, axial)
+        coarse, fine = solve_on_two_grids(problem, around, axial)
         film = _build_film(bearing, ends, e, n, omega_s, speeds[0] - speeds[1], fine, coarse)
     check_finite(film.force, film.pressure)
     return film
 
 
-def _find_centre_direction(eccentricity: Array, velocity: Array) -> Array:
+def _find_line_of_centres(eccentricity: Array, velocity: Array) -> Array:
     """Return the unit vector (2,) of the line of centres, else that of the motion, else (1, 0)."""
     for vector in (eccentricity, velocity, np.array([1.0, 0.0])):
         if (size := math.hypot(*vector)) > 0.0:
@@ -150,7 +150,7 @@ class Solution:
 
     @cached_property
     def filled(self) -> Array:
-        """Return the filled fraction θ of the gap at the nodes (n, rows)."""
+        """Return the filled fraction θ of the gap at the nodes (n, n_rows)."""
         return self._reshape_to_grid(self.pressure.filled)
 
     @cached_property
@@ -191,20 +191,20 @@ class Solution:
         return 2.0 * outflow, 2.0 * (source + inflow), 2.0 * stored
 
     def _reshape_to_grid(self, values: Array) -> Array:
-        """Return values at all unknowns, (n·rows,), as an array (n, rows)."""
-        return values.reshape(len(self.grid.phi), self.equation.rows)
+        """Return values at all unknowns, (n·n_rows,), as an array (n, n_rows)."""
+        return values.reshape(len(self.grid.phi), self.equation.n_rows)
 
 
-def solve_refined(
-    problem: Problem, around: int, along: int, equations: dict[int, Equation] | None = None
+def solve_on_two_grids(
+    problem: Problem, n_around: int, n_along: int, equations: dict[int, Equation] | None = None
 ) -> list[Solution]:
-    """Solve a problem on half as many cells in both directions, and on all; return both solutions, the coarse one
-    first.
+    """Return the solutions of a problem on half as many cells in both directions, and on all cells.
 
-    Each grid starts from the active set of the coarser one. equations: cached equations of this eccentricity by number
-    of cells around; new ones are added.
+    n_around: cells around. n_along: cells from the middle to an end, 0 for a sealed bearing. Each grid starts from the
+    active set of the coarser one. equations: cached equations of this eccentricity by number of cells around; new ones
+    are added.
     """
-    levels = [(around, along), (around // 2, along // 2)]
+    levels = [(n_around, n_along), (n_around // 2, n_along // 2)]
     while levels[-1][0] > COARSEST and not levels[-1][0] % 4 and not levels[-1][1] % 4:
         levels.append((levels[-1][0] // 2, levels[-1][1] // 2))
     equations_by_size = {} if equations is None else equations
@@ -213,7 +213,7 @@ def solve_refined(
         if n not in equations_by_size:
             equations_by_size[n] = Equation(make_grid(problem.eps, problem.l_over_d, n, m, problem.groove or 0.0))
         equation = equations_by_size[n]
-        free = np.ones((n, equation.rows), dtype=bool)
+        free = np.ones((n, equation.n_rows), dtype=bool)
         if problem.groove is not None:
             free[0] = False
         start = _interpolate_unknowns(solutions[-1]) if solutions else None
@@ -223,21 +223,21 @@ def solve_refined(
 
 
 def _flatten_to_vector(flags: Flags) -> Flags:
-    """Return a flag for each unknown, (n·rows,), from an array (n, rows)."""
+    """Return a flag for each unknown, (n·n_rows,), from an array (n, n_rows)."""
     return np.asarray(flags.ravel())
 
 
-def _interpolate_unknowns(coarse: Solution) -> Array:
+def _interpolate_unknowns(coarse_solution: Solution) -> Array:
     """Return the unknowns of a coarse solution, interpolated linearly to twice as many cells; only their signs are
     used.
     """
-    p = coarse.p
-    if not coarse.grid.sealed:
+    p = coarse_solution.p
+    if not coarse_solution.grid.sealed:
         p = np.concatenate([p, np.zeros((len(p), 1))], axis=1)
     n, m = p.shape
     rows = np.empty((2 * n, m))
     rows[::2], rows[1::2] = p, 0.5 * (p + np.roll(p, -1, axis=0))
-    if coarse.grid.sealed:
+    if coarse_solution.grid.sealed:
         return rows.ravel()
     fine = np.empty((2 * n, 2 * m - 1))
     fine[:, ::2], fine[:, 1::2] = rows, 0.5 * (rows[:, :-1] + rows[:, 1:])
@@ -252,28 +252,28 @@ def _build_film(
     direction: Array,
     omega_s: float,
     slip: float,
-    fine: Solution,
-    coarse: Solution,
+    fine_solution: Solution,
+    coarse_solution: Solution,
 ) -> Film:
     """Return the film in SI units and the caller's frame from the solutions on both grids.
 
     e: eccentricity (2,) in m. direction: unit vector of the line of centres. omega_s, slip: ω_s and ω_i − ω_j in
     rad/s. The error is the difference of the forces of both grids.
     """
-    grid, problem = fine.grid, fine.problem
+    grid, problem = fine_solution.grid, fine_solution.problem
     pressure_unit, c, widest = bearing.pressure_unit, bearing.clearance, math.atan2(-direction[1], -direction[0])
-    radial, tangential = (pressure_unit * bearing.radius**2 * fine.force).tolist()
-    p = pressure_unit * np.maximum(fine.p, 0.0)
-    filled = fine.filled
+    radial, tangential = (pressure_unit * bearing.radius**2 * fine_solution.force).tolist()
+    p = pressure_unit * np.maximum(fine_solution.p, 0.0)
+    filled = fine_solution.filled
     if not grid.sealed:
         p = np.concatenate([p, np.zeros((len(p), 1))], axis=1)
     zeta = np.array([0.0, problem.l_over_d]) if grid.sealed else np.append(grid.zeta, problem.l_over_d)
     if grid.sealed:
         p, filled = np.repeat(p, 2, axis=1), np.repeat(filled, 2, axis=1)
-    drag = 2.0 * float(((fine.filled @ grid.height) / grid.h) @ grid.weight)
+    drag = 2.0 * float(((fine_solution.filled @ grid.height) / grid.h) @ grid.weight)
     drag *= bearing.viscosity * bearing.radius**4 / c * slip
     eccentric_torque = 0.5 * math.hypot(*e) * tangential
-    leakage, supply, stored = (c * bearing.radius**2 * flow for flow in fine.flows)
+    leakage, supply, stored = (c * bearing.radius**2 * flow for flow in fine_solution.flows)
     return Film(
         bearing,
         problem.cavitation,
@@ -289,7 +289,7 @@ def _build_film(
         radial * direction + tangential * np.array([-direction[1], direction[0]]),
         radial,
         tangential,
-        pressure_unit * bearing.radius**2 * float(np.hypot(*(fine.force - coarse.force))),
+        pressure_unit * bearing.radius**2 * float(np.hypot(*(fine_solution.force - coarse_solution.force))),
         -drag - eccentric_torque,
         drag - eccentric_torque,
         leakage,
@@ -300,11 +300,11 @@ def _build_film(
     )
 
 
-def _mirror_half(half: Array) -> Array:
+def _mirror_half(half_values: Array) -> Array:
     """Return the values along the whole bearing, (n, 2m − 1), from those of the half from the middle to an end, (n,
     m).
     """
-    return np.concatenate([half[:, :0:-1], half], axis=1)
+    return np.concatenate([half_values[:, :0:-1], half_values], axis=1)
 
 
 def _find_pressure_extent(p: Array, angle: Array) -> tuple[float, float] | None:

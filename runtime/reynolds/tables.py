@@ -22,7 +22,7 @@ from gudgeon.reynolds.bearing import (
 )
 from gudgeon.reynolds.cavitation import Motion
 from gudgeon.reynolds.equation import Array, Equation
-from gudgeon.reynolds.solver import CELLS, WIDEST, Problem, solve_refined
+from gudgeon.reynolds.solver import CELLS, WIDEST, Problem, solve_on_two_grids
 
 MAX_STATES = 1_000_000  # takes a day
 
@@ -79,7 +79,7 @@ def table(
             cached = cached if cached[0] == e else (e, {})
             motion = Motion(closing, -0.5 * e * speed, 0.5 * speed)
             problem = Problem(e, bearing.l_over_d, sealed, cavitation, groove_angle, motion)
-            coarse, fine = solve_refined(problem, around, axial, cached[1])
+            coarse, fine = solve_on_two_grids(problem, around, axial, cached[1])
             force[k], error[k] = unit * fine.force, unit * np.hypot(*(fine.force - coarse.force))
     check_finite(force)
     e_all, closing_all, speed_all = (x.copy() for x in states)

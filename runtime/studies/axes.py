@@ -19,7 +19,7 @@ from gudgeon.simulation.simulation import Simulation
 from gudgeon.studies.runs import Parameters
 
 SETTINGS = {"step": "s", "rtol": ""}  # axes of the method, not of the mechanism
-COUNT, MOST = 5, 1000  # values of a range: by default, at most
+DEFAULT_COUNT, MAX_COUNT = 5, 1000  # values of a range: by default, at most
 _COUNT = re.compile(r"[0-9]{1,6}")
 # Axes that move every such number of the scene, each by its ratio to the first.
 GROUPS: dict[str, Callable[[str], bool]] = {
@@ -49,7 +49,7 @@ class Axis:
         """
         return self.name in SETTINGS
 
-    def parameters(self, value: float) -> dict[str, float | str]:
+    def build_parameters(self, value: float) -> dict[str, float | str]:
         """Return the parameters, address to value, that `simulate` needs for one value of the axis.
 
         Each address gets the value times its ratio. For a choice, the value is an index and each address gets the word
@@ -78,12 +78,12 @@ def make_axis(
     if name in SETTINGS:
         return Axis(name, tuple(sorted(values)), SETTINGS[name])
     source, p = simulation.source, prepare_values(simulation.compiled, parameters)[0]
-    slots = _drop_unused_materials(source, p, _find_parameter_indices(source, name))
-    first = float(p[slots[0]])
-    if len(slots) > 1 and first == 0.0:
-        raise BadValueError(f"axis {name}: {source.slots[slots[0]].address} is zero, there is no ratio to it")
-    ratios = tuple((source.slots[k].address, float(p[k]) / first if len(slots) > 1 else 1.0) for k in slots)
-    return Axis(name, tuple(sorted(values)), source.slots[slots[0]].unit, ratios)
+    indices = _drop_unused_materials(source, p, _find_parameter_indices(source, name))
+    first = float(p[indices[0]])
+    if len(indices) > 1 and first == 0.0:
+        raise BadValueError(f"axis {name}: {source.slots[indices[0]].address} is zero, there is no ratio to it")
+    ratios = tuple((source.slots[k].address, float(p[k]) / first if len(indices) > 1 else 1.0) for k in indices)
+    return Axis(name, tuple(sorted(values)), source.slots[indices[0]].unit, ratios)
 
 
 def parse_axis(simulation: Simulation, axis_text: str, parameters: Parameters | None = None) -> Axis:
@@ -96,23 +96,25 @@ def parse_axis(simulation: Simulation, axis_text: str, parameters: Parameters | 
     name, _, value_list = check_text(axis_text, "axis").partition("=")
     if not value_list:
         raise BadValueError(f"axis {axis_text!r}: expected name=low..high:count or name=a,b,c")
-    if (choice_slot := _find_choice_parameter(simulation.source, name.strip())) is not None:
+    if (choice := _find_choice_parameter(simulation.source, name.strip())) is not None:
         if ".." in value_list or ":" in value_list:
-            names = ",".join(choice_slot.words)
+            names = ",".join(choice.words)
             raise BadValueError(f"axis {axis_text!r}: its values are names, there is none between: {name}={names}")
         return make_axis(simulation, name.strip(), value_list.split(","), parameters)
     ends, colon, count = value_list.partition(":")
-    slot = _find_leading_parameter(simulation.source, name.strip())
+    parameter = _find_leading_parameter(simulation.source, name.strip())
     values = [
-        read_parameter_value(_parse_quantity(part), slot)
+        read_parameter_value(_parse_quantity(part), parameter)
         for part in (ends.split("..") if ".." in ends else ends.split(","))
     ]
     if ".." in ends:
         if len(values) != 2 or not 0 < values[0] < values[1]:
             raise BadValueError(f"axis {axis_text!r}: expected 0 < low < high")
-        count_of_values = COUNT if not colon else int(count) if _COUNT.fullmatch(count) else 0
-        if not 2 <= count_of_values <= MOST:
-            raise BadValueError(f"axis {axis_text!r}: expected a whole number of values after ':', from 2 to {MOST}")
+        count_of_values = DEFAULT_COUNT if not colon else int(count) if _COUNT.fullmatch(count) else 0
+        if not 2 <= count_of_values <= MAX_COUNT:
+            raise BadValueError(
+                f"axis {axis_text!r}: expected a whole number of values after ':', from 2 to {MAX_COUNT}"
+            )
         values = np.geomspace(values[0], values[1], count_of_values).tolist()
     elif colon:
         raise BadValueError(f"axis {axis_text!r}: only a range low..high takes a number of values after ':'")
@@ -133,7 +135,7 @@ def _find_choice_parameter(source: KernelSource, name: str) -> RuntimeParameter 
     """Return the run-time parameter with this address if its values are words (a choice, such as a material), else
     None.
     """
-    return next((slot for slot in source.slots if slot.address == name and slot.words), None)
+    return next((parameter for parameter in source.slots if parameter.address == name and parameter.words), None)
 
 
 def _find_parameter_indices(source: KernelSource, name: str) -> list[int]:
@@ -145,7 +147,7 @@ def _find_parameter_indices(source: KernelSource, name: str) -> list[int]:
     if name == "clearance":
         indices = list(dict.fromkeys(j.clearance for j in source.clearances if j.clearance < len(source.slots)))
     elif name in GROUPS:
-        indices = [k for k, slot in enumerate(source.slots) if GROUPS[name](slot.address)]
+        indices = [k for k, parameter in enumerate(source.slots) if GROUPS[name](parameter.address)]
     else:
         return [int(np.flatnonzero(read_given_parameters(source, {name: 1.0})[1])[0])]
     if not indices:
@@ -153,24 +155,28 @@ def _find_parameter_indices(source: KernelSource, name: str) -> list[int]:
     return indices
 
 
-def _drop_unused_materials(source: KernelSource, p: Array, slots: list[int]) -> list[int]:
-    """Return the parameter indices `slots` without the moduli of materials that could be chosen, but are not with p.
+def _drop_unused_materials(source: KernelSource, p: Array, indices: list[int]) -> list[int]:
+    """Return the parameter indices without the moduli of materials that could be chosen, but are not with p.
 
-    Choices of bearings and guides count. A list of fewer than two indices is returned unchanged.
+    indices: into p. Choices of bearings and guides count. Fewer than two indices are returned unchanged.
     """
     choices = [
-        (slot, format_parameter(slot, float(entry))) for slot, entry in zip(source.slots, p, strict=False) if slot.words
+        (parameter, format_parameter(parameter, float(entry)))
+        for parameter, entry in zip(source.slots, p, strict=False)
+        if parameter.words
     ]
-    choices = [(slot, name) for slot, name in choices if slot.address.startswith(("bearings.", "guides."))]
-    selectable = {f"materials.{word}.E" for slot, _ in choices for word in slot.words}
+    choices = [
+        (parameter, name) for parameter, name in choices if parameter.address.startswith(("bearings.", "guides."))
+    ]
+    selectable = {f"materials.{word}.E" for parameter, _ in choices for word in parameter.words}
     selected = {f"materials.{name}.E" for _, name in choices}
-    return slots if len(slots) < 2 else [k for k in slots if source.slots[k].address not in selectable - selected]
+    return indices if len(indices) < 2 else [k for k in indices if source.slots[k].address not in selectable - selected]
 
 
 def _find_leading_parameter(source: KernelSource, name: str) -> RuntimeParameter:
     """Return the parameter whose unit and dimension the numbers of an axis have.
 
-    For `step` and `rtol` it is a new Slot (s, or without dimension), for a group its first member.
+    For `step` and `rtol` it is a new RuntimeParameter (s, or without dimension), for a group its first member.
     """
     if name in SETTINGS:
         return RuntimeParameter(name, SETTINGS[name], 0.0, False, (0, 0, 1 if name == "step" else 0))

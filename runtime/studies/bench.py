@@ -25,8 +25,8 @@ from gudgeon.studies.runs import (
     Attempt,
     Error,
     Parameters,
+    SceneWindow,
     Setting,
-    Work,
     compare_runs,
     find_default_step,
     find_mechanism_size,
@@ -39,11 +39,14 @@ REFERENCES = (Setting("dop853", 1e-13), Setting("rodas5p", 1e-12))
 SECOND = 1e-12  # tolerance of the second reference if one method is both
 TOLERANCES = tuple(float(f"1e-{k}") for k in range(3, 12))
 KINEMATIC = (10, 100, 1_000, 10_000)  # samples of a scene without a degree of freedom
-LONG, LIMIT = 2.0, 5.0  # s: run time after which a cross-check gets no tighter tolerance; after which it is stopped
+MAX_CROSS_CHECK_S, CROSS_CHECK_LIMIT_S = (
+    2.0,
+    5.0,
+)  # s: run time after which a cross-check gets no tighter tolerance; after which it is stopped
 QUICK = 0.02  # s of timed runs
-TRUSTED = 20  # times the references' difference: smaller errors are not resolved
-SMALL = 1e-3  # the largest error from which an order is determined
-STRAIGHT = math.log(2.5)  # the largest deviation of points from a line that determines an order
+RESOLUTION_FACTOR = 20  # times the references' difference: smaller errors are not resolved
+MAX_ORDER_ERROR = 1e-3  # the largest error from which an order is determined
+MAX_LINE_DEVIATION = math.log(2.5)  # the largest deviation of points from a line that determines an order
 
 
 @dataclass(frozen=True)
@@ -91,50 +94,53 @@ class SceneBench:
         """Return the names of the measured methods without repetitions, in the order of the rows."""
         return tuple(dict.fromkeys(row.setting.method for row in self.rows))
 
-    def of(self, method: str) -> list[Row]:
+    def list_rows(self, method: str) -> list[Row]:
         """Return all rows of a method, including failed ones, from the longest step or loosest tolerance on."""
         return [row for row in self.rows if row.setting.method == method]
 
     def estimate_order(self, measure: str, method: str = "rk4") -> float:
         """Return the order of convergence of a method: the slope of log(error) over log(step or tolerance).
 
-        measure: "motion", "path" or "force". Errors that the references do not resolve, or of SMALL or more, are left
-        out. NaN for fewer than three points, or points that are not on a line (a stiff scene at its stability limit).
+        measure: "motion", "path" or "force". Errors that the references do not resolve, or of MAX_ORDER_ERROR or more,
+        are left out. NaN for fewer than three points, or points that are not on a line (a stiff scene at its stability
+        limit).
         """
-        points = [(row.setting.value, getattr(row.error, measure)) for row in self.of(method) if not row.failure]
-        log_points = np.log([(h, e) for h, e in points if self.is_resolved(measure, e) and e < SMALL])
+        points = [(row.setting.value, getattr(row.error, measure)) for row in self.list_rows(method) if not row.failure]
+        log_points = np.log([(h, e) for h, e in points if self.is_resolved(measure, e) and e < MAX_ORDER_ERROR])
         if len(log_points) < 3:
             return NAN
         polynomial = np.polyfit(log_points[:, 0], log_points[:, 1], 1)
         return (
             float(polynomial[0])
-            if np.std(np.polyval(polynomial, log_points[:, 0]) - log_points[:, 1]) < STRAIGHT
+            if np.std(np.polyval(polynomial, log_points[:, 0]) - log_points[:, 1]) < MAX_LINE_DEVIATION
             else NAN
         )
 
     def is_resolved(self, measure: str, error: float) -> bool:
-        """Return whether an error is large enough to be measured: more than TRUSTED times the difference of the two
-        references.
+        """Return whether an error is large enough to be measured: more than RESOLUTION_FACTOR times the difference of
+        the two references.
 
         measure: "motion", "path" or "force".
         """
-        return error > TRUSTED * getattr(self.agreement, measure)
+        return error > RESOLUTION_FACTOR * getattr(self.agreement, measure)
 
-    def row(self, setting: Setting) -> Row | None:
+    def find_row(self, setting: Setting) -> Row | None:
         """Return the row with the method and the step or tolerance of `setting`, equal to rounding; None if it was not
         measured.
         """
-        return next((r for r in self.of(setting.method) if math.isclose(r.setting.value, setting.value)), None)
+        return next((r for r in self.list_rows(setting.method) if math.isclose(r.setting.value, setting.value)), None)
 
-    def find_seconds_to_error(self, error: float, method: str) -> float:
+    def find_run_time_for_error(self, error: float, method: str) -> float:
         """Return the least run time (s per simulated second) of the rows of a method whose largest error is at most
         `error`.
 
         NaN if no such row exists, or if the references differ so much that `error` is not resolved.
         """
-        if any(TRUSTED * getattr(self.agreement, m) > error for m in ("motion", "path", "force")):
+        if any(RESOLUTION_FACTOR * getattr(self.agreement, m) > error for m in ("motion", "path", "force")):
             return NAN
-        return min((r.seconds for r in self.of(method) if not r.failure and r.error.largest <= error), default=NAN)
+        return min(
+            (r.seconds for r in self.list_rows(method) if not r.failure and r.error.largest <= error), default=NAN
+        )
 
 
 Report = Callable[[float, str], None]
@@ -154,16 +160,15 @@ def measure_scene(
     """Measure run time and error of one scene with every method and setting, against two references.
 
     steps (s) of rk4: by default 1, 2, 5 · 10^k around the step of a plain run. tolerances: by default 1e-3 … 1e-11.
-    methods: names or patterns as in `default_option`, by default all that fit. t_end (s): by default the first few
-    contacts or,
-    without contact, as many of the shortest steps as are affordable. quick: fewer settings over a tenth of the window,
-    without cross-checks. A scene without degrees of freedom is measured by its kinematic method alone. After Ctrl-C the
-    rows so far are returned. Raises BadValueError for invalid steps, tolerances or methods.
+    methods: names, or patterns such as "scipy:*"; by default all that fit. t_end (s): by default the end of the first
+    few contacts or, without contact, as many of the shortest steps as are affordable. quick: fewer settings over a
+    tenth of the window, without cross-checks. A scene without degrees of freedom is measured by its kinematic method
+    alone. After Ctrl-C the rows so far are returned. Raises BadValueError for invalid steps, tolerances or methods.
     """
     parameters, progress = dict(check_mapping(parameters, "parameters")), check_callable(progress, "progress")
     t_end, quick = None if t_end is None else check_positive(t_end, "t_end"), check_flag(quick, "quick")
     if simulation.source.degrees_of_freedom == 0:
-        return _measure_kinematic(simulation, parameters, KINEMATIC[:3] if quick else KINEMATIC, t_end, progress)
+        return _measure_kinematic_scene(simulation, parameters, KINEMATIC[:3] if quick else KINEMATIC, t_end, progress)
     selected, left_out = select_methods(simulation, methods, quick)
     usual = list_default_steps(simulation, parameters, quick)
     steps = sorted(check_numbers(steps, "steps") or usual, reverse=True)
@@ -172,14 +177,14 @@ def measure_scene(
     )
     if not steps[-1] > 0 or not 0 < tolerances[-1] <= tolerances[0] < 1:
         raise BadValueError("expected positive steps (s) and tolerances between 0 and 1")
-    longest = max(REFERENCE_STEPS * steps[-1] / (10 if quick else 1), 2 * steps[0])
+    max_window = max(REFERENCE_STEPS * steps[-1] / (10 if quick else 1), 2 * steps[0])
     pilot = Setting("rk4", find_default_step(simulation, parameters))
-    work = (
-        Work(simulation, t_end, parameters)
+    window = (
+        SceneWindow(simulation, t_end, parameters)
         if t_end
-        else measured.find_comparison_window(simulation, longest, pilot, parameters)
+        else measured.find_comparison_window(simulation, max_window, pilot, parameters)
     )
-    work = replace(work, enough=QUICK if quick else work.enough)
+    window = replace(window, timing_budget=QUICK if quick else window.timing_budget)
     settings = [Setting("rk4", step) for step in steps if "rk4" in selected]
     settings += [Setting(method, x) for method in selected if method in ADAPTIVE for x in tolerances]
     checks = [method for method in selected if method in python_driver.NAMES]
@@ -187,7 +192,7 @@ def measure_scene(
         _ = simulation.full  # derived and compiled before any of them is timed
     settings += [Setting(method, x) for method in checks for x in tolerances[::2]]
     reference_settings = select_references(simulation, settings)
-    scene_bench = _measure_settings(work, settings, reference_settings, progress or (lambda fraction, text: None))
+    scene_bench = _measure_settings(window, settings, reference_settings, progress or (lambda fraction, text: None))
     return replace(scene_bench, left_out=(*left_out, *scene_bench.left_out))
 
 
@@ -216,7 +221,7 @@ def select_references(simulation: Simulation, settings: Sequence[Setting]) -> tu
 
 
 def _measure_settings(
-    work: Work, settings: Sequence[Setting], reference_settings: Sequence[Setting], progress: Report
+    window: SceneWindow, settings: Sequence[Setting], reference_settings: Sequence[Setting], progress: Report
 ) -> SceneBench:
     """Run the two references, then measure every setting against them, and return the bench of the scene.
 
@@ -225,17 +230,17 @@ def _measure_settings(
     """
     count = len(settings) + len(reference_settings)
 
-    def attempt_setting(index: int, setting: Setting) -> Attempt:
+    def run_setting(index: int, setting: Setting) -> Attempt:
         """Run one setting and report progress; `index` is its number among references and settings.
 
-        Cross-checks by solvers in Python are stopped after LIMIT seconds.
+        Cross-checks by solvers in Python are stopped after CROSS_CHECK_LIMIT_S seconds.
         """
         text = f"{setting.method} {setting}"
-        limited = replace(work, limit=LIMIT) if setting.method in python_driver.NAMES else work
+        limited = replace(window, limit=CROSS_CHECK_LIMIT_S) if setting.method in python_driver.NAMES else window
         return limited.run(setting, lambda fraction, _: progress((index + fraction) / count, text))
 
     reference_attempts = [
-        attempt_setting(index, setting) for index, setting in enumerate(reference_settings)
+        run_setting(index, setting) for index, setting in enumerate(reference_settings)
     ]  # without them there is nothing to say
     successful = [a for a in reference_attempts if a.run is not None and not a.failure]
     agreement, contact = Error(math.inf, math.inf, math.inf), NAN
@@ -245,14 +250,14 @@ def _measure_settings(
     if len(successful) == 2 and successful[0].run is not None and successful[1].run is not None:
         agreement = compare_runs(successful[0].run, successful[1].run)
     rows, left_out, missing = _measure_rows(
-        work, settings, successful, lambda k, one: attempt_setting(len(reference_settings) + k, one)
+        window, settings, successful, lambda k, one: run_setting(len(reference_settings) + k, one)
     )
-    rhs = () if missing else tuple(measure_rhs_time(work.simulation, work.t_end))
-    name = work.simulation.source.scene
+    rhs = () if missing else tuple(measure_rhs_time(window.simulation, window.t_end))
+    name = window.simulation.source.scene
     return SceneBench(
         name,
-        work.t_end,
-        work.why,
+        window.t_end,
+        window.why,
         tuple(rows),
         tuple(reference_settings),
         agreement,
@@ -264,13 +269,15 @@ def _measure_settings(
 
 
 def _measure_rows(
-    work: Work, settings: Sequence[Setting], references: Sequence[Attempt], attempt: Callable[[int, Setting], Attempt]
+    window: SceneWindow,
+    settings: Sequence[Setting],
+    references: Sequence[Attempt],
+    run_setting: Callable[[int, Setting], Attempt],
 ) -> tuple[list[Row], list[str], int]:
-    """Measure the settings in order; return the rows, the reasons for settings left out, and the number that Ctrl-C
-    left out.
+    """Measure the settings in order; return their rows, reasons for omitted settings, and how many Ctrl-C left out.
 
-    `attempt` runs the k-th setting. If a cross-check is stopped, or takes longer than LONG seconds, its tighter
-    settings are left out.
+    run_setting: runs the k-th setting and returns its attempt. If a cross-check is stopped, or takes longer than
+    MAX_CROSS_CHECK_S seconds, its tighter settings are left out.
     """
     rows: list[Row] = []
     slow: dict[str, str] = {}
@@ -278,14 +285,18 @@ def _measure_rows(
         if setting.method in slow:
             continue
         try:
-            outcome = attempt(k, setting)
+            outcome = run_setting(k, setting)
             if outcome.slow:
                 slow[setting.method] = f"{setting.method}: {setting} and tighter left out: {outcome.failure}"
                 continue
-            rows.append(_measure_row(work, outcome, references))
+            rows.append(_measure_row(window, outcome, references))
         except KeyboardInterrupt:
             return rows, list(slow.values()), sum(setting_left.method not in slow for setting_left in settings[k:])
-        if setting.method in python_driver.NAMES and _read_run_time(outcome) > LONG and k + 1 < len(settings):
+        if (
+            setting.method in python_driver.NAMES
+            and _read_run_time(outcome) > MAX_CROSS_CHECK_S
+            and k + 1 < len(settings)
+        ):
             next_setting = settings[k + 1]
             if next_setting.method == setting.method:
                 reason = f"{setting} took {_read_run_time(outcome):.2g} s"
@@ -298,11 +309,11 @@ def _read_run_time(attempt: Attempt) -> float:
     return attempt.run.diagnostics.seconds if attempt.run is not None else 0.0
 
 
-def _measure_row(work: Work, attempt: Attempt, references: Sequence[Attempt]) -> Row:
+def _measure_row(window: SceneWindow, attempt: Attempt, references: Sequence[Attempt]) -> Row:
     """Return the row of an attempt: its error against a reference by another method, and its run time by repeated runs.
 
-    A failed attempt gets a row with the failure, and is not timed. A cross-check that took longer than `work.enough` is
-    not repeated.
+    A failed attempt gets a row with the failure, and is not timed. A cross-check that took longer than
+    `window.timing_budget` is not repeated.
     """
     if attempt.failure or attempt.run is None:
         return Row(
@@ -323,10 +334,10 @@ def _measure_row(work: Work, attempt: Attempt, references: Sequence[Attempt]) ->
     )  # nor by the same from elsewhere
     error = compare_runs(attempt.run, reference.run) if reference is not None and reference.run is not None else Error()
     known_seconds = diagnostics.seconds if attempt.setting.method in python_driver.NAMES else 0.0
-    seconds = known_seconds if known_seconds > work.enough else work.measure_seconds(attempt.setting)
+    seconds = known_seconds if known_seconds > window.timing_budget else window.measure_run_time(attempt.setting)
     return Row(
         attempt.setting,
-        seconds / work.t_end,
+        seconds / window.t_end,
         diagnostics.right_hand_sides,
         error,
         diagnostics.jacobians,
@@ -336,38 +347,38 @@ def _measure_row(work: Work, attempt: Attempt, references: Sequence[Attempt]) ->
 
 
 def find_independent_reference(methods: Iterable[str], references: Sequence[Attempt]) -> Attempt | None:
-    """Return the first reference run by none of these methods, else the last one; None without references."""
+    """Return the first reference whose method is not among `methods`, else the last one; None without references."""
     return next(
         (attempt for attempt in references if attempt.setting.method not in methods),
         references[-1] if references else None,
     )
 
 
-def _measure_kinematic(
+def _measure_kinematic_scene(
     simulation: Simulation,
     parameters: Parameters,
-    counts: Sequence[int],
+    sample_counts: Sequence[int],
     t_end: float | None,
     progress: Report | None,
 ) -> SceneBench:
-    """Measure the kinematic method of a scene without degrees of freedom for each number of samples in `counts`.
+    """Measure the kinematic method of a scene without degrees of freedom for each number of samples in `sample_counts`.
 
     The error is the residual of the constraint equations after Newton's method, divided by the size of the mechanism.
     t_end (s): by default the end of a plain run; None or 0 mean the default. A failed run gets a row with the failure.
     """
-    work = Work(simulation, t_end or evaluate_end(simulation.compiled, parameters), parameters)
+    window = SceneWindow(simulation, t_end or evaluate_end(simulation.compiled, parameters), parameters)
     rows = []
-    for index, count in enumerate(counts):
+    for index, count in enumerate(sample_counts):
         if progress:
-            progress(index / len(counts), f"{count} samples")
-        setting = Setting("kinematic", work.t_end / count)
-        attempt = work.run_at_times(setting, np.linspace(0.0, work.t_end, count + 1))
+            progress(index / len(sample_counts), f"{count} samples")
+        setting = Setting("kinematic", window.t_end / count)
+        attempt = window.run_at_times(setting, np.linspace(0.0, window.t_end, count + 1))
         if attempt.run is None or attempt.failure:
             failure = attempt.failure or "no result"
             rows.append(Row(setting, NAN, 0, Error(), 0, count, None, failure, attempt.failed_at))
             continue
-        seconds = work.measure_seconds(setting, count) / work.t_end
+        seconds = window.measure_run_time(setting, count) / window.t_end
         error = Error(attempt.run.diagnostics.phi_max / find_mechanism_size(attempt.run))
         rows.append(Row(setting, seconds, 0, error, samples=count))
-    rhs = tuple(measure_rhs_time(simulation, work.t_end))
-    return SceneBench(simulation.source.scene, work.t_end, "", tuple(rows), (), Error(), NAN, rhs)
+    rhs = tuple(measure_rhs_time(simulation, window.t_end))
+    return SceneBench(simulation.source.scene, window.t_end, "", tuple(rows), (), Error(), NAN, rhs)

@@ -20,16 +20,16 @@ from gudgeon.language.argument_checks import check_number
 from gudgeon.model.compiled import Array
 from gudgeon.results.results import Result
 from gudgeon.simulation.simulation import Simulation
-from gudgeon.studies.runs import ONSETS, Attempt, Parameters, Setting, Work, compute_differences
+from gudgeon.studies.runs import ONSETS, Attempt, Parameters, SceneWindow, Setting, compute_differences
 from gudgeon.studies.verdicts import Cell, Limits, Pair, judge_runs, select_limits
 
-FINER = 100.0
+TOLERANCE_RATIO = 100.0
 SEED = 20  # of Sobol's scrambling
-SAMPLES = 1000  # of the window
+N_SAMPLES = 1000  # of the window
 DENSE = 10_000  # samples of the long run, in which a missed contact shows
 TIGHT = 1e-10
 MARGIN = 10.0  # errors need not fall with the tolerance as exactly as that
-PATIENCE = 10.0  # the finer run may take so many times longer
+CPU_LIMIT_FACTOR = 10.0  # the finer run may take so many times longer
 
 
 @dataclass(frozen=True)
@@ -46,7 +46,7 @@ class Range:
         if not 0.0 < check_number(self.low, f"range {self.name}") <= check_number(self.high, f"range {self.name}"):
             raise BadValueError(f"range {self.name}={self.low:g}..{self.high:g}: expected 0 < low ≤ high")
 
-    def at(self, fraction: float) -> float:
+    def interpolate(self, fraction: float) -> float:
         """Return the value at a fraction of the range on its logarithmic scale, exactly `low` at 0 and `high` at 1."""
         if fraction in (0.0, 1.0):
             return (self.low, self.high)[int(fraction)]
@@ -76,7 +76,7 @@ def sample_sobol_points(ranges: Sequence[Range], count: int) -> list[dict[str, f
 
 def _interpolate_point(ranges: Sequence[Range], fractions: Sequence[float]) -> dict[str, float]:
     """Return the values at a point of the box, range name to value, from its fraction (0 to 1) along each range."""
-    return {range_.name: range_.at(fraction) for range_, fraction in zip(ranges, fractions, strict=True)}
+    return {range_.name: range_.interpolate(fraction) for range_, fraction in zip(ranges, fractions, strict=True)}
 
 
 def judge_point(
@@ -90,66 +90,68 @@ def judge_point(
 ) -> Cell:
     """Return the verdict on one point of a box: a long run over [0, t_end] (s), and two runs over the first contacts.
 
-    limits: by default those of the setting. limit (s): processor time of the long run; the other runs may take ten
+    limits: by default those of the setting. cpu_limit (s): processor time of the long run; the other runs may take ten
     times longer. A failed long run is judged alone. If the two runs differ by more than the limits, they are compared
     again over the time in which runs can agree at all (`_count_predictable_samples`).
     """
-    work, limits = Work(simulation, t_end, parameters, limit=cpu_limit), limits or select_limits(setting)
-    long_run = work.run_at_times(setting, np.linspace(0.0, t_end, DENSE + 1), progress)
+    window, limits = SceneWindow(simulation, t_end, parameters, limit=cpu_limit), limits or select_limits(setting)
+    long_run = window.run_at_times(setting, np.linspace(0.0, t_end, DENSE + 1), progress)
     if long_run.failure or long_run.run is None:
         return judge_runs(parameters, long_run, [], limits)
-    refined_work = replace(work, limit=PATIENCE * cpu_limit)
+    refined_window = replace(window, limit=CPU_LIMIT_FACTOR * cpu_limit)
     times = choose_comparison_times(long_run.run)
-    run_pair = _run_with_refinement(refined_work, setting, times)
+    run_pair = _run_coarse_and_fine(refined_window, setting, times)
     cell = judge_runs(parameters, long_run, [run_pair], limits)
     if cell.failed and cell.error.exceeds_limits(limits.motion, limits.path, limits.force):
-        predictable_samples = times[: _count_predictable_samples(refined_work, run_pair[1], limits)]
+        predictable_samples = times[: _count_predictable_samples(refined_window, run_pair[1], limits)]
         cell = judge_runs(
             parameters,
             long_run,
-            [_run_with_refinement(refined_work, setting, predictable_samples)] if len(predictable_samples) > 1 else [],
+            [_run_coarse_and_fine(refined_window, setting, predictable_samples)]
+            if len(predictable_samples) > 1
+            else [],
             limits,
         )
     return cell
 
 
 def choose_comparison_times(run: Result) -> Array:
-    """Return SAMPLES + 1 times (s) from 0 at which two runs are compared.
+    """Return N_SAMPLES + 1 times (s) from 0 at which two runs are compared.
 
     They end half-way between the fourth onset of contact and the next, or at the end of a run with four onsets or
     fewer.
     """
     onsets = np.sort(run.impacts["t_on"])
     end = float(onsets[ONSETS - 1] + onsets[ONSETS]) / 2 if len(onsets) > ONSETS else float(run.t[-1])
-    return np.linspace(0.0, end, SAMPLES + 1)
+    return np.linspace(0.0, end, N_SAMPLES + 1)
 
 
-def _run_with_refinement(work: Work, setting: Setting, times: Array) -> Pair:
-    """Return the outcomes of two runs at the same times (s): with the setting, and with a tolerance FINER times
-    tighter.
+def _run_coarse_and_fine(window: SceneWindow, setting: Setting, times: Array) -> Pair:
+    """Return the outcomes of two runs at the same times (s): with the setting, and with a tolerance TOLERANCE_RATIO
+    times tighter.
     """
-    return work.run_at_times(setting, times), work.run_at_times(setting.refine(FINER), times)
+    return window.run_at_times(setting, times), window.run_at_times(setting.refine(TOLERANCE_RATIO), times)
 
 
-def _count_predictable_samples(work: Work, fine: Attempt, limits: Limits) -> int:
-    """Return the number of samples up to which any run can agree with the finer run `fine` within the limits.
+def _count_predictable_samples(window: SceneWindow, fine_run: Attempt, limits: Limits) -> int:
+    """Return the number of samples up to which any run can agree with the finer run `fine_run` within the limits.
 
     Two runs at very tight tolerances are compared. From the sample on at which they differ by more than the limits over
     the ratio of their tolerances, no run can meet the limits: lasting contact amplifies differences like impacts. The
-    result is SAMPLES + 1 if they never do, or if a run fails.
+    result is N_SAMPLES + 1 if they never do, or if a run fails.
     """
-    if fine.run is None:
-        return SAMPLES + 1
-    tightest = replace(fine.setting, value=min(fine.setting.value, TIGHT))
-    a, b = (work.run_at_times(setting, fine.run.t) for setting in (tightest, tightest.refine(FINER)))
+    if fine_run.run is None:
+        return N_SAMPLES + 1
+    tightest = replace(fine_run.setting, value=min(fine_run.setting.value, TIGHT))
+    a, b = (window.run_at_times(setting, fine_run.run.t) for setting in (tightest, tightest.refine(TOLERANCE_RATIO)))
     if a.run is None or b.run is None or a.failure or b.failure:
-        return SAMPLES + 1
+        return N_SAMPLES + 1
     bounds = (limits.motion, limits.path, limits.force)
     exceeds = np.any(
         [
-            differences > limit / (MARGIN * FINER)
+            differences > limit / (MARGIN * TOLERANCE_RATIO)
             for differences, limit in zip(compute_differences(a.run, b.run), bounds, strict=True)
         ],
         axis=0,
     )
-    return int(np.argmax(exceeds)) if exceeds.any() else SAMPLES + 1
+    return int(np.argmax(exceeds)) if exceeds.any() else N_SAMPLES + 1

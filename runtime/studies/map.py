@@ -33,8 +33,8 @@ from gudgeon.studies.runs import (
     NAN,
     Attempt,
     Parameters,
+    SceneWindow,
     Setting,
-    Work,
     find_comparison_window,
     find_default_step,
     list_round_numbers,
@@ -80,18 +80,20 @@ class VerdictMap(_Verdicts):
     t_long: float  # s, over which stability is judged
     full: bool = False  # whether the full formulation is used, in which Baumgarte's gains act
 
-    def cell(self, row: float, column: float) -> Cell:
+    def get_cell(self, row_value: float, column_value: float) -> Cell:
         """Return the cell at a value of the row axis and a value of the column axis.
 
         A column of NaN, as in a scene without play, means the first one. Raises KeyError if the map does not have the
         values.
         """
-        if row not in self.rows.values or (column not in self.columns.values and column == column):
-            raise KeyError((row, column))
-        column_index = self.columns.values.index(column) if column == column else 0
-        return self.cells[column_index * len(self.rows.values) + self.rows.values.index(row)]
+        if row_value not in self.rows.values or (
+            column_value not in self.columns.values and column_value == column_value
+        ):
+            raise KeyError((row_value, column_value))
+        column_index = self.columns.values.index(column_value) if column_value == column_value else 0
+        return self.cells[column_index * len(self.rows.values) + self.rows.values.index(row_value)]
 
-    def find_largest_stable_row(self, column: float) -> float:
+    def find_largest_stable_row(self, column_value: float) -> float:
         """Return the largest row value of a column such that its cell and all those at smaller row values are stable.
 
         NaN if the cell at the smallest row value is not stable. Raises KeyError for a column that the map does not
@@ -99,7 +101,7 @@ class VerdictMap(_Verdicts):
         """
         largest = NAN
         for row in self.rows.values:
-            if self.cell(row, column).status is not Status.STABLE:
+            if self.get_cell(row, column_value).status is not Status.STABLE:
                 break
             largest = row
         return largest
@@ -135,9 +137,9 @@ def verdict_map(
 
     `value`: the step or tolerance if neither axis is one. `t_long` (s) is the run over which a cell must remain valid;
     `t_short` bounds the window in which a step is compared with a tenth of itself (see `find_comparison_window`).
-    `parameters` as in
-    `simulate`; `quick` judges a few pairs. After Ctrl-C the cells so far are returned, the others as Status.MISSING.
-    Raises BadValueError for a scene that is not integrated or axes that do not fit, MemoryError for too many cells.
+    `parameters` as in `simulate`; `quick` judges a few pairs. After Ctrl-C the cells so far are returned, the others as
+    Status.MISSING. Raises BadValueError for a scene that is not integrated or axes that do not fit, MemoryError for too
+    many cells.
     """
     _check_dynamic(simulation)
     axes, method = check_list(axes, "axes", Axis, "a list of Axis"), check_text(method, "method")
@@ -243,13 +245,14 @@ def verdict_box(
     def find_point_parameters(point: Mapping[str, float]) -> dict[str, float | str]:
         """Return the parameters of `simulate` at a point of the box; a group sets all its addresses."""
         settings = (
-            group_axes[name].parameters(value) if name in group_axes else {name: value} for name, value in point.items()
+            group_axes[name].build_parameters(value) if name in group_axes else {name: value}
+            for name, value in point.items()
         )
         return dict(parameters) | {
             address: value for parameter_values in settings for address, value in parameter_values.items()
         }
 
-    def judge_one(point: Mapping[str, float], report: Report) -> Cell:
+    def judge_one_point(point: Mapping[str, float], report: Report) -> Cell:
         """Return the verdict on one point, and report the progress of its runs."""
         return judge_point(simulation, find_point_parameters(point), t_long, setting, limits, LIMIT, report)
 
@@ -258,7 +261,7 @@ def verdict_box(
     for point in points:
         prepare_values(simulation.compiled, find_point_parameters(point))
     with Pool[Mapping[str, float], Cell](progress or (lambda fraction, text: None), len(points)) as pool:
-        cells_or_none = pool.map(judge_one, points)
+        cells_or_none = pool.map(judge_one_point, points)
     cells = tuple(
         cell or make_missing_cell(find_point_parameters(point), setting)
         for cell, point in zip(cells_or_none, points, strict=True)
@@ -316,7 +319,7 @@ def _build_clearance_axis(simulation: Simulation, parameters: Parameters, quick:
     allowed = []
     for c in axis.values:
         try:
-            prepare_values(simulation.compiled, {**parameters, **axis.parameters(c)})
+            prepare_values(simulation.compiled, {**parameters, **axis.build_parameters(c)})
         except BadValueError:
             continue
         allowed.append(c)
@@ -353,7 +356,7 @@ def _build_jobs(
     for column_value in columns.values:
         if rows.is_method_setting:
             settings = tuple(Setting(default_setting.method, row_value) for row_value in rows.values)
-            parameters = {**fixed_parameters, **columns.parameters(column_value)}
+            parameters = {**fixed_parameters, **columns.build_parameters(column_value)}
             # fixed steps are references for each other, tolerances are judged alone
             jobs += (
                 [_MapJob(parameters, settings)]
@@ -364,7 +367,7 @@ def _build_jobs(
         for row_value in rows.values:
             jobs.append(
                 _MapJob(
-                    {**fixed_parameters, **columns.parameters(column_value), **rows.parameters(row_value)},
+                    {**fixed_parameters, **columns.build_parameters(column_value), **rows.build_parameters(row_value)},
                     (default_setting,),
                 )
             )
@@ -374,52 +377,54 @@ def _build_jobs(
 
 
 def _judge_job(
-    simulation: Simulation, job: _MapJob, t_long: float, longest: float, limits: Limits | None, report: Report
+    simulation: Simulation, job: _MapJob, t_long: float, max_window: float, limits: Limits | None, report: Report
 ) -> list[Cell]:
     """Return the cells of a job: fixed steps are judged together, a tolerance is judged like a point of a box.
 
-    t_long (s): end of the long runs. longest (s): bound of the window of comparison, for fixed steps only. Progress
+    t_long (s): end of the long runs. max_window (s): bound of the window of comparison, for fixed steps only. Progress
     goes to `report`.
     """
     if job.settings[0].has_fixed_step:
-        return _judge_steps(simulation, job, t_long, longest, limits, report)
+        return _judge_steps(simulation, job, t_long, max_window, limits, report)
     return [judge_point(simulation, job.parameters, t_long, job.settings[0], limits, LIMIT, report)]
 
 
 def _judge_steps(
-    simulation: Simulation, job: _MapJob, t_long: float, longest: float, limits: Limits | None, report: Report
+    simulation: Simulation, job: _MapJob, t_long: float, max_window: float, limits: Limits | None, report: Report
 ) -> list[Cell]:
     """Return the cells of a job with fixed steps, each from a long run and a comparison with a tenth of the step.
 
-    The comparison is over the first contacts, or over at most `longest` (s). If the finer run is also a long one
+    The comparison is over the first contacts, or over at most `max_window` (s). If the finer run is also a long one
     without contact, the long runs are compared, too. The progress is weighted by the number of steps of each run.
     """
     steps = [setting.refine(1) for setting in job.settings]
     shortest = min(find_default_step(simulation), *(setting.value for setting in steps))
-    short_work = find_comparison_window(simulation, longest, Setting("rk4", shortest), job.parameters)
-    long_work = Work(simulation, t_long, job.parameters)
+    short_window = find_comparison_window(simulation, max_window, Setting("rk4", shortest), job.parameters)
+    long_window = SceneWindow(simulation, t_long, job.parameters)
     all_steps = sorted({x for step in steps for x in (step, step.refine(FINER))}, key=lambda x: -x.value)
-    runs = [(work, step) for work, expected in ((short_work, all_steps), (long_work, steps)) for step in expected]
-    total_cost, completed = sum(work.t_end / step.value for work, step in runs), 0.0
-    attempts: dict[tuple[Work, Setting], Attempt] = {}
-    for work, step in runs:
-        fraction = work.t_end / step.value / total_cost
-        attempts[work, step] = work.run(step, _scale_progress(report, completed, fraction))
+    runs = [
+        (window, step) for window, expected in ((short_window, all_steps), (long_window, steps)) for step in expected
+    ]
+    total_cost, completed = sum(window.t_end / step.value for window, step in runs), 0.0
+    attempts: dict[tuple[SceneWindow, Setting], Attempt] = {}
+    for window, step in runs:
+        fraction = window.t_end / step.value / total_cost
+        attempts[window, step] = window.run(step, _scale_progress(report, completed, fraction))
         completed += fraction
     cells = []
     for step in steps:
         reference = step.refine(FINER)
-        pairs = [(attempts[short_work, step], attempts[short_work, reference])]
-        fine = attempts.get((long_work, reference))
+        pairs = [(attempts[short_window, step], attempts[short_window, reference])]
+        fine = attempts.get((long_window, reference))
         if fine is not None and fine.run is not None and not len(fine.run.impacts):
-            pairs.append((attempts[long_work, step], fine))  # without contact errors mean something for longer
-        cells.append(judge_runs(job.parameters, attempts[long_work, step], pairs, limits))
+            pairs.append((attempts[long_window, step], fine))  # without contact errors mean something for longer
+        cells.append(judge_runs(job.parameters, attempts[long_window, step], pairs, limits))
     return cells
 
 
-def _scale_progress(report: Report, done: float, fraction_of_job: float) -> Report:
-    """Return a progress function for one run of a job, which maps its progress to [done, done + fraction_of_job].
+def _scale_progress(report: Report, begin: float, length: float) -> Report:
+    """Return a progress function for one run of a job, which maps its progress to [begin, begin + length].
 
-    Results go to `report`, the progress function of the whole job.
+    report: the progress function of the whole job, which receives the mapped progress.
     """
-    return lambda fraction, text: report(done + fraction_of_job * fraction, text)
+    return lambda fraction, text: report(begin + length * fraction, text)

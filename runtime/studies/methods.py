@@ -33,20 +33,20 @@ def has_adaptive_method(simulation: Simulation) -> bool:
     return bool(set(CHOOSING) & set(simulation.source.methods))
 
 
-def select_methods(simulation: Simulation, expected: Sequence[str] | None, quick: bool) -> tuple[list[str], list[str]]:
+def select_methods(simulation: Simulation, requested: Sequence[str] | None, quick: bool) -> tuple[list[str], list[str]]:
     """Return the methods that are measured in a scene, and sentences with the reasons for those left out.
 
-    expected: names, or patterns such as "scipy:*"; None means all that fit, with `quick` without the cross-checks,
+    requested: names, or patterns such as "scipy:*"; None means all that fit, with `quick` without the cross-checks,
     which are slow. Raises BadValueError for a name or pattern that no method has, or if none of the methods fits.
     """
     own_methods = (*(name for name in INTEGRATORS if name not in CHOOSING), *ADAPTIVE)
     all_methods = (*own_methods, *python_driver.NAMES)
     default_methods = own_methods if quick else all_methods
-    expected = (
-        default_methods if expected is None else check_list(expected, "methods", str, "a list of names of methods")
+    requested = (
+        default_methods if requested is None else check_list(requested, "methods", str, "a list of names of methods")
     )
-    selected = [m for m in all_methods if any(fnmatchcase(m, text) for text in expected)]
-    for text in expected:
+    selected = [m for m in all_methods if any(fnmatchcase(m, text) for text in requested)]
+    for text in requested:
         if not any(fnmatchcase(method, text) for method in all_methods):
             raise BadValueError(
                 f"method {text!r}: expected some of {', '.join(all_methods)}, or a pattern such as 'scipy:*'"
@@ -55,7 +55,7 @@ def select_methods(simulation: Simulation, expected: Sequence[str] | None, quick
     fitting, left_out = [], []
     for method in selected:
         package = method.partition(":")[0]
-        source, is_requested = simulation.source, method in STAGED and expected is not default_methods
+        source, is_requested = simulation.source, method in STAGED and requested is not default_methods
         supported = (*source.methods, *(STAGED if is_requested and not source.reason_without_jacobian else ()))
         fits = method in supported if method in CHOOSING else has_adaptive_method(simulation)
         if method in ADAPTIVE and not fits:
@@ -85,43 +85,43 @@ class RhsTime:
 
 
 def measure_rhs_time(
-    simulation: Simulation, longest: float, batch: int = BATCH, repeats: int = REPEATS
+    simulation: Simulation, max_window: float, batch: int = BATCH, repeats: int = REPEATS
 ) -> list[RhsTime]:
-    """Measure the time of one right-hand side at the start and, if a joint touches within `longest` (s), at its first
-    peak force.
+    """Measure the time of one right-hand side at the start and, if a joint touches within `max_window` (s), at its
+    first peak force.
 
     Return one or two RhsTime in this order. Each time is the least of `repeats` batches of `batch` calls.
     """
     start = simulation.start()
     open_contacts = simulation.compiled.as_discrete_states(None)
-    times = [_measure_state_time(simulation, "start", 0.0, start.q, start.v, open_contacts, batch, repeats)]
-    if (run := _run_to_contact(simulation, longest)) is not None:
+    times = [_measure_rhs_at_state(simulation, "start", 0.0, start.q, start.v, open_contacts, batch, repeats)]
+    if (run := _run_to_first_contact(simulation, max_window)) is not None:
         closed_joints = [j.name for j, code in zip(simulation.source.clearances, run.state[-1], strict=True) if code]
         state = f"{', '.join(closed_joints)} in contact"
         times.append(
-            _measure_state_time(
+            _measure_rhs_at_state(
                 simulation, state, float(run.t[-1]), run.q[-1], run.v[-1], run.memory[-1], batch, repeats, closed_joints
             )
         )
     return times
 
 
-def count_operations(simulation: Simulation, closed: list[str] | None = None) -> int:
+def count_operations(simulation: Simulation, closed_joints: list[str] | None = None) -> int:
     """Return the number of operations of one right-hand side: equations of motion, all films, dry forces of the closed
     joints.
 
-    closed: names of the joints in contact; None means none.
+    closed_joints: names of the joints in contact; None means none.
     """
     total = 0
     for kernel, count in simulation.source.operations.items():
         names = [j.name for j in simulation.source.clearances if kernel.endswith(f"_{j.name}_force")]
-        if kernel == "dynamics" or (names and (kernel.startswith("film_") or names[0] in (closed or []))):
+        if kernel == "dynamics" or (names and (kernel.startswith("film_") or names[0] in (closed_joints or []))):
             total += count
     return total
 
 
-def _run_to_contact(simulation: Simulation, longest: float) -> Result | None:
-    """Return a run (rk4) that ends at the peak force of the first contact within `longest` (s).
+def _run_to_first_contact(simulation: Simulation, max_window: float) -> Result | None:
+    """Return a run (rk4) that ends at the peak force of the first contact within `max_window` (s).
 
     None for a scene without play, without a contact, if the run fails, or if no joint is in contact at its end.
     """
@@ -129,8 +129,8 @@ def _run_to_contact(simulation: Simulation, longest: float) -> Result | None:
         return None
     step = find_default_step(simulation)
     try:
-        work = find_comparison_window(simulation, longest, Setting("rk4", step))
-        impacts = simulation.simulate(work.t_end, output=1, method="rk4", step=step, stop=False, peaks=()).impacts
+        window = find_comparison_window(simulation, max_window, Setting("rk4", step))
+        impacts = simulation.simulate(window.t_end, output=1, method="rk4", step=step, stop=False, peaks=()).impacts
         if not len(impacts):
             return None
         run = simulation.simulate(float(impacts[0]["t_peak"]), output=1, method="rk4", step=step, stop=False, peaks=())
@@ -139,29 +139,29 @@ def _run_to_contact(simulation: Simulation, longest: float) -> Result | None:
     return run if run.state[-1].any() else None
 
 
-def _measure_state_time(
+def _measure_rhs_at_state(
     simulation: Simulation,
     state: str,
     t: float,
     q: Array,
     v: Array,
-    memory: Array,
+    discrete_states: Array,
     batch: int,
     repeats: int,
-    closed: list[str] | None = None,
+    closed_joints: list[str] | None = None,
 ) -> RhsTime:
     """Measure the time of the right-hand side at a state, as the minimum of `repeats` batches of `batch` calls in
     C.
 
-    state: text that describes it. q, v, memory: coordinates, velocities, and discrete states. closed: names of the
-    joints in contact, for the number of operations.
+    state: text that describes it. q, v: coordinates and velocities. closed_joints: names of the joints in contact,
+    for the number of operations.
     """
     model = simulation.compiled
-    y, contact_states = np.concatenate([q, v, np.zeros(N_WORK)]), model.as_discrete_states(memory)
+    y, contact_states = np.concatenate([q, v, np.zeros(N_WORK)]), model.as_discrete_states(discrete_states)
     arguments = (batch, t, model.pointer(y), model.pointer(contact_states), model.pointer(simulation.p))
     shortest = np.inf
     for _ in range(repeats):
         before = time.perf_counter()
         model.lib.gudgeon_time_rhs(*arguments)
         shortest = min(shortest, (time.perf_counter() - before) / batch)
-    return RhsTime(state, shortest, count_operations(simulation, closed), t, q.copy(), v.copy())
+    return RhsTime(state, shortest, count_operations(simulation, closed_joints), t, q.copy(), v.copy())

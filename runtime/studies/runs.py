@@ -25,9 +25,12 @@ NAN = math.nan
 Parameters: TypeAlias = Mapping[str, float | str]  # as in `simulate`
 ONSETS = 4  # contacts that a window holds: after more of them dry motion is chaotic
 PILOTS = 6  # the first pilot run is 2^-6 of the longest window
-SAMPLES = 100  # at least so many in a window
+MIN_SAMPLES = 100  # at least so many in a window
 FIXED = ("rk4", "kinematic")  # methods that are given a step
-REPEATS, ENOUGH = 25, 0.5  # a timed run is repeated up to REPEATS times, or until ENOUGH seconds
+MAX_REPEATS, TIMING_BUDGET_S = (
+    25,
+    0.5,
+)  # a timed run is repeated up to MAX_REPEATS times, or for TIMING_BUDGET_S seconds in total
 
 
 @dataclass(frozen=True)
@@ -88,50 +91,52 @@ class Attempt:
 
 
 @dataclass(frozen=True, eq=False)
-class Work:
-    """A scene with parameters and a window in time. A run with step h is sampled every max(h, spacing)."""
+class SceneWindow:
+    """A scene with parameters and a window in time. A run with step h is sampled every max(h, sample_interval)."""
 
     simulation: Simulation
     t_end: float
     parameters: Parameters = field(default_factory=dict)
     why: str = ""  # this window
     limit: float = math.inf  # s of processor time that a run may take
-    enough: float = ENOUGH  # s, see above
+    timing_budget: float = TIMING_BUDGET_S  # s, in total for the repetitions of a timed run
 
     @property
-    def spacing(self) -> float:
+    def sample_interval(self) -> float:
         """Return the interval of samples (s): a power of ten, so that steps 1, 2, 5 · 10^k divide it or are multiples
         of it.
 
-        The window contains at least SAMPLES intervals.
+        The window contains at least MIN_SAMPLES intervals.
         """
-        return 10.0 ** math.floor(math.log10(self.t_end / SAMPLES) + 1e-9)
+        return 10.0 ** math.floor(math.log10(self.t_end / MIN_SAMPLES) + 1e-9)
 
     def run(self, setting: Setting, progress: Progress | None = None) -> Attempt:
-        """Run a setting over the window with samples at multiples of the spacing, and return the outcome for
+        """Run a setting over the window with samples at multiples of the sample interval, and return the outcome for
         comparison.
 
-        If a fixed step is longer than the spacing, the samples are at multiples of it that are on the same grid. The
-        last sample may lie before the end of the window.
+        If a fixed step is longer than the sample interval, the samples are at multiples of it that are on the same
+        grid. The last sample may lie before the end of the window.
         """
-        stride = max(1, math.floor(setting.value / self.spacing * (1 + 1e-9))) if setting.has_fixed_step else 1
-        count = max(1, math.floor(self.t_end / (stride * self.spacing) * (1 + 1e-9)))
-        return self.run_at_times(setting, np.arange(count + 1, dtype=np.float64) * (stride * self.spacing), progress)
+        stride = max(1, math.floor(setting.value / self.sample_interval * (1 + 1e-9))) if setting.has_fixed_step else 1
+        count = max(1, math.floor(self.t_end / (stride * self.sample_interval) * (1 + 1e-9)))
+        return self.run_at_times(
+            setting, np.arange(count + 1, dtype=np.float64) * (stride * self.sample_interval), progress
+        )
 
-    def measure_seconds(self, setting: Setting, output: int = 1, progress: Progress | None = None) -> float:
-        """Return the wall time of the integration (s): the minimum of up to REPEATS runs that store only `output` + 1
-        samples.
+    def measure_run_time(self, setting: Setting, output: int = 1, progress: Progress | None = None) -> float:
+        """Return the wall time of the integration (s): the minimum of up to MAX_REPEATS runs that store only `output` +
+        1 samples.
 
-        Repetition ends after `enough` seconds in total. NaN if a run fails.
+        Repetition ends after `timing_budget` seconds in total. NaN if a run fails.
         """
         shortest, total = math.inf, 0.0
-        for _ in range(REPEATS):
+        for _ in range(MAX_REPEATS):
             attempt = self.run_at_times(setting, np.linspace(0.0, self.t_end, output + 1), progress)
             if attempt.run is None or attempt.failure:
                 return NAN
             shortest = min(shortest, attempt.run.diagnostics.seconds)
             total += attempt.run.diagnostics.seconds
-            if total > self.enough:
+            if total > self.timing_budget:
                 break
         return shortest
 
@@ -160,7 +165,7 @@ def attempt_run(
     start_time = time.thread_time()
     reached_fraction = 0.0
 
-    def report_and_limit(fraction: float, text: str) -> None:
+    def report_and_check_limit(fraction: float, text: str) -> None:
         """Report the progress of the run, and stop it by an exception after the limit of processor time."""
         nonlocal reached_fraction
         reached_fraction = fraction
@@ -177,7 +182,7 @@ def attempt_run(
             output=times,
             method=setting.method,
             parameters=parameters,
-            progress=report_and_limit,
+            progress=report_and_check_limit,
             stop=False,
             peaks=(),
             **options,
@@ -213,9 +218,9 @@ def find_default_step(simulation: Simulation, parameters: Parameters | None = No
 
 
 def find_comparison_window(
-    simulation: Simulation, longest: float, setting: Setting, parameters: Parameters | None = None
-) -> Work:
-    """Return the scene with the time window over the first few contacts, or over `longest` (s) if there are not so
+    simulation: Simulation, max_window: float, setting: Setting, parameters: Parameters | None = None
+) -> SceneWindow:
+    """Return the scene with the time window over the first few contacts, or over `max_window` (s) if there are not so
     many.
 
     The window ends half-way between the fourth onset and the next, which pilot runs with `setting` over growing windows
@@ -223,17 +228,17 @@ def find_comparison_window(
     that errors mean nothing there. A window never exceeds a plain run.
     """
     parameters = dict(parameters or {})
-    longest = min(longest, evaluate_end(simulation.compiled, parameters))
+    max_window = min(max_window, evaluate_end(simulation.compiled, parameters))
     for power in range(PILOTS, -1, -1) if simulation.source.clearances else ():
-        duration = longest / 2**power
+        duration = max_window / 2**power
         pilot = attempt_run(simulation, np.linspace(0.0, duration, 3), setting, parameters)
         onsets = np.zeros(0) if pilot.run is None else np.sort(pilot.run.impacts["t_on"])
         if len(onsets) > ONSETS:
             end = float(onsets[ONSETS - 1] + onsets[ONSETS]) / 2
-            return Work(simulation, float(f"{end:.2g}"), parameters, f"the first {ONSETS} contacts")
+            return SceneWindow(simulation, float(f"{end:.2g}"), parameters, f"the first {ONSETS} contacts")
         if pilot.failure:
             break
-    return Work(simulation, longest, parameters, "no contact" if simulation.source.clearances else "")
+    return SceneWindow(simulation, max_window, parameters, "no contact" if simulation.source.clearances else "")
 
 
 def compare_runs(run: Result, reference: Result) -> Error:

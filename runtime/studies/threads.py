@@ -9,36 +9,35 @@ from concurrent.futures import Future, ThreadPoolExecutor, as_completed
 from typing import Generic, TypeVar
 
 Report = Callable[[float, str], None]
-Piece = TypeVar("Piece")
-Found = TypeVar("Found")
+Task = TypeVar("Task")
+TaskResult = TypeVar("TaskResult")
 
 
-class Pool(Generic[Piece, Found]):
-    """Threads that process pieces of work; Ctrl-C ends all pieces at their next report and keeps finished ones."""
+class Pool(Generic[Task, TaskResult]):
+    """Threads that run tasks; Ctrl-C ends all tasks at their next report and keeps the results of finished ones."""
 
     def __init__(self, report: Report, count: int) -> None:
-        """Prepare a pool for `count` pieces of work; `report` receives the mean of their progress."""
+        """Prepare a pool for `count` tasks; `report` receives the mean of their progress."""
         self.report, self.fractions, self.stop = report, [0.0] * count, threading.Event()
         self.lock = threading.Lock()
 
-    def __enter__(self) -> Pool[Piece, Found]:
-        """Start as many threads as there are cores, at most one for each piece."""
+    def __enter__(self) -> Pool[Task, TaskResult]:
+        """Start as many threads as there are cores, at most one for each task."""
         self.executor = ThreadPoolExecutor(max(1, min(len(self.fractions), os.cpu_count() or 1)))
         return self
 
     def __exit__(self, *_: object) -> None:
-        """Request all running pieces to stop at their next report, cancel the waiting ones, and wait for them."""
+        """Request all running tasks to stop at their next report, cancel the waiting ones, and wait for them."""
         self.stop.set()
         self.executor.shutdown(wait=True, cancel_futures=True)
 
-    def map(self, function: Callable[[Piece, Report], Found], pieces: Sequence[Piece]) -> list[Found | None]:
-        """Call `function(piece, report_progress)` for all pieces in threads, and return the results in the order of the
-        pieces.
+    def map(self, function: Callable[[Task, Report], TaskResult], tasks: Sequence[Task]) -> list[TaskResult | None]:
+        """Call `function(task, report_progress)` for all tasks in threads, and return the results in their order.
 
-        After Ctrl-C the result of an unfinished piece is None. Raises KeyboardInterrupt if none is finished, and any
-        error of a piece.
+        After Ctrl-C the result of an unfinished task is None. Raises KeyboardInterrupt if none is finished, and any
+        error of a task.
         """
-        futures = [self.executor.submit(self._process_piece, function, piece, i) for i, piece in enumerate(pieces)]
+        futures = [self.executor.submit(self._run_task, function, task, i) for i, task in enumerate(tasks)]
         try:
             for future in as_completed(futures):
                 future.result()
@@ -46,23 +45,23 @@ class Pool(Generic[Piece, Found]):
             self.stop.set()
             self.executor.shutdown(wait=True, cancel_futures=True)
             results = [_get_result_or_none(future) for future in futures]
-            if all(piece is None for piece in results):
+            if all(task is None for task in results):
                 raise
             return results
         return [future.result() for future in futures]
 
-    def _process_piece(self, function: Callable[[Piece, Report], Found], piece: Piece, i: int) -> Found:
-        """Return the result of piece i in a worker thread, and report the piece as finished."""
-        report_progress = self._make_progress(i)
-        result = function(piece, report_progress)
+    def _run_task(self, function: Callable[[Task, Report], TaskResult], task: Task, i: int) -> TaskResult:
+        """Return the result of task i in a worker thread, and report the task as finished."""
+        report_progress = self._make_task_progress(i)
+        result = function(task, report_progress)
         report_progress(1.0, "")
         return result
 
-    def _make_progress(self, i: int) -> Report:
-        """Return the progress function of piece i, which raises KeyboardInterrupt in the piece after Ctrl-C."""
+    def _make_task_progress(self, i: int) -> Report:
+        """Return the progress function of task i, which raises KeyboardInterrupt in the task after Ctrl-C."""
 
         def report_progress(fraction: float, text: str) -> None:
-            """Set the fraction of piece i and report the mean over all pieces; the text is not used.
+            """Set the fraction of task i and report the mean over all tasks; the text is not used.
 
             Raises KeyboardInterrupt after Ctrl-C. Threads may call it at the same time.
             """
@@ -75,10 +74,8 @@ class Pool(Generic[Piece, Found]):
         return report_progress
 
 
-def _get_result_or_none(future: Future[Found]) -> Found | None:
-    """Return the result of a piece after Ctrl-C; None if it was cancelled or interrupted. Raises any other error of the
-    piece.
-    """
+def _get_result_or_none(future: Future[TaskResult]) -> TaskResult | None:
+    """Return the result of a task after Ctrl-C; None if it was cancelled or interrupted. Raises any other error."""
     if future.cancelled() or isinstance(future.exception(), KeyboardInterrupt):
         return None
     return future.result()

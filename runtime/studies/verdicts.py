@@ -82,9 +82,9 @@ class Cell:
         return self.status in (Status.INACCURATE, Status.DIVERGED)
 
 
-def check_memory_of_cells(cells: float) -> None:
+def check_memory_of_cells(n_cells: float) -> None:
     """Raise MemoryError if this number of cells does not fit into the free memory."""
-    check_memory(OF_A_CELL * cells, f"{cells:.0f} cells")
+    check_memory(OF_A_CELL * n_cells, f"{n_cells:.0f} cells")
 
 
 def make_missing_cell(parameters: Parameters, setting: Setting) -> Cell:
@@ -92,70 +92,72 @@ def make_missing_cell(parameters: Parameters, setting: Setting) -> Cell:
     return Cell(setting, parameters, Status.MISSING, "interrupted", "–", Error())
 
 
-def judge_runs(parameters: Parameters, long: Attempt, pairs: Sequence[Pair], limits: Limits | None = None) -> Cell:
+def judge_runs(
+    parameters: Parameters, long_run: Attempt, run_pairs: Sequence[Pair], limits: Limits | None = None
+) -> Cell:
     """Return the verdict on a setting: diverged, inaccurate, outside the model or stable, with the reason for the first
     fault found.
 
-    long: the run over the long window. pairs: over short windows, a run with the same setting and a finer one; failed
-    ones do not count for the error. limits: by default those of the setting. If the long run failed, the verdict is
-    "outside the model" if it says so with a tolerance, else "diverged".
+    long_run: the run over the long window. run_pairs: over short windows, a run with the same setting and a finer one;
+    failed ones do not count for the error. limits: by default those of the setting. A failed long run is "outside the
+    model" if it left the validity of the model and has no fixed step, else "diverged".
     """
-    limits = limits or select_limits(long.setting)
-    compared_runs = [(a.run, b.run) for a, b in pairs if a.run and b.run and not (a.failure or b.failure)]
+    limits = limits or select_limits(long_run.setting)
+    compared_runs = [(a.run, b.run) for a, b in run_pairs if a.run and b.run and not (a.failure or b.failure)]
     error = find_largest_errors([compare_runs(a, b) for a, b in compared_runs])
     compared = max((float(min(a.t[-1], b.t[-1])) for a, b in compared_runs), default=NAN)
-    cell = partial(Cell, long.setting, parameters, seconds=long.cpu, compared=compared)
-    if long.failure or long.run is None:
-        failure_text = f"at {format_seconds(long.failed_at)}" if math.isfinite(long.failed_at) else "fails"
+    cell = partial(Cell, long_run.setting, parameters, seconds=long_run.cpu, compared=compared)
+    if long_run.failure or long_run.run is None:
+        failure_text = f"at {format_seconds(long_run.failed_at)}" if math.isfinite(long_run.failed_at) else "fails"
         # a fixed step too long throws a journal through its bearing, whatever the model
-        status = Status.OUTSIDE if long.outside and not long.setting.has_fixed_step else Status.DIVERGED
-        return cell(status, long.failure or "no result", failure_text, error)
-    diagnostics = long.run.diagnostics
+        status = Status.OUTSIDE if long_run.outside and not long_run.setting.has_fixed_step else Status.DIVERGED
+        return cell(status, long_run.failure or "no result", failure_text, error)
+    diagnostics = long_run.run.diagnostics
     energy = diagnostics.energy_residual / max(diagnostics.energy_turned_over, 1e-300)
-    deepest = max((d for d, _ in _compute_penetrations(long.run)), default=NAN)
-    for status, reason, label in _find_faults(long.run, energy, error, pairs, limits):
+    deepest = max((d for d, _ in _compute_penetrations(long_run.run)), default=NAN)
+    for status, reason, label in _find_faults(long_run.run, energy, error, run_pairs, limits):
         return cell(status, reason, label, error, energy, deepest)
     return cell(Status.STABLE, "", format_rough_fraction(error.largest), error, energy, deepest)
 
 
 def _find_faults(
-    run: Result, energy: float, error: Error, pairs: Sequence[Pair], limits: Limits
+    run: Result, energy_residual: float, error: Error, run_pairs: Sequence[Pair], limits: Limits
 ) -> Iterator[tuple[Status, str, str]]:
     """Yield status, reason and label of each fault of a run, the worst first; a stable run yields nothing.
 
-    energy: residual over energy throughput. error: largest differences from the finer runs. pairs: runs over short
-    windows with the same and a finer setting. Of several errors beyond their limits, only the largest relative to its
-    limit is yielded.
+    energy_residual: residual over energy throughput. error: largest differences from the finer runs. run_pairs: runs
+    over short windows with the same and a finer setting. Of several errors beyond their limits, only the largest
+    relative to its limit is yielded.
     """
     for depth, radius in _compute_penetrations(run):
         if depth > limits.through * radius:
             yield Status.DIVERGED, f"a journal flew through its bearing: δ = {format_quantity(depth, 'm')}", "through"
-    if not math.isfinite(energy) or energy > limits.lost:
+    if not math.isfinite(energy_residual) or energy_residual > limits.lost:
         yield (
             Status.DIVERGED,
-            f"energy from nowhere: residual {format_fraction(energy)} of the energy turned over",
+            f"energy from nowhere: residual {format_fraction(energy_residual)} of the energy turned over",
             "energy",
         )
     if _has_lost_contact(run):
         yield Status.DIVERGED, "lost contact: the surfaces overlap while the joint counts as free", "lost"
-    for coarse, _ in pairs:
+    for coarse, _ in run_pairs:
         if coarse.failure:
             yield Status.DIVERGED, coarse.failure, f"at {format_seconds(coarse.failed_at)}"
     if violation := _describe_model_violation(run, limits):
-        if any(_is_outside_by_step(coarse, fine, limits) for coarse, fine in pairs):
+        if any(_is_violation_caused_by_method(coarse, fine, limits) for coarse, fine in run_pairs):
             yield Status.INACCURATE, f"too deep for the method's sake: {violation}, not so in the finer run", "δ"
         yield Status.OUTSIDE, f"the contact law does not hold: {violation}", "δ"
     phi = run.diagnostics.phi_max
     if not phi <= min(limits.phi * find_mechanism_size(run), limits.closed):
         yield Status.INACCURATE, f"the linkage comes apart: max |Φ| is {phi:.1e} m or rad", "|Φ|"
-    for _, fine in pairs:
+    for _, fine in run_pairs:
         if fine.failure:
             message = f"the finer run ({fine.setting}) fails, so nothing vouches for this one: {fine.failure}"
             yield Status.INACCURATE, message, "?"
     exceeded = [
         (value / limit, f"{name} {format_fraction(value)} of {reference}", f"{short} {format_fraction(value)}")
         for short, name, value, limit, reference in (
-            ("energy", "energy residual", energy, limits.energy, "the energy turned over"),
+            ("energy", "energy residual", energy_residual, limits.energy, "the energy turned over"),
             ("motion", "coordinates off by", error.motion, limits.motion, "the mechanism's size"),
             ("force", "joint force off by", error.force, limits.force, "its peak"),
             ("path", "journal's path off by", error.path, limits.path, "the clearance"),
@@ -203,16 +205,15 @@ def _describe_model_violation(run: Result, limits: Limits) -> str:
     return ""
 
 
-def _is_outside_by_step(coarse: Attempt, fine: Attempt, limits: Limits) -> bool:
-    """Return whether only the coarse run of a pair leaves the validity of the contact law, so that the method is the
-    cause.
+def _is_violation_caused_by_method(coarse_run: Attempt, fine_run: Attempt, limits: Limits) -> bool:
+    """Return whether only the coarse run violates the limits of the contact law, so that the method is the cause.
 
     It is False if either run has no result or the finer run leaves the model, too. With a fixed step it is True
     whenever the finer run stays within.
     """
-    if coarse.run is None or fine.run is None or _describe_model_violation(fine.run, limits):
+    if coarse_run.run is None or fine_run.run is None or _describe_model_violation(fine_run.run, limits):
         return False
-    return coarse.setting.has_fixed_step or bool(_describe_model_violation(coarse.run, limits))
+    return coarse_run.setting.has_fixed_step or bool(_describe_model_violation(coarse_run.run, limits))
 
 
 def _has_lost_contact(run: Result) -> bool:

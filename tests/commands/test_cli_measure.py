@@ -114,7 +114,7 @@ def test_gains_act_in_the_full_formulation() -> None:
     dry = gudgeon.load("nine_bar_press", scene="dry")
     axes = [make_axis(dry, "gains", [0.1, 100.0]), make_axis(dry, "step", [2e-5])]
     found = verdict_map(dry, axes, method="rk4", t_long=5e-3, t_short=2e-3)
-    weak, strong = (found.cell(2e-5, gain) for gain in (0.1, 100.0))
+    weak, strong = (found.get_cell(2e-5, gain) for gain in (0.1, 100.0))
     assert found.full and weak.energy != strong.energy
     assert not verdict_map(dry, axes[1:], method="rk4", t_long=5e-3, t_short=2e-3, quick=True).full
     with pytest.raises(BadValueError, match="dop853"):
@@ -155,23 +155,23 @@ def test_cross_checks_are_compared_with_another_method() -> None:
     pendulum = gudgeon.load(PENDULUM, scene="ideal")
     expected = ["scipy:DOP853", "scipy:RK45"]
     found = measure_scene(pendulum, [1e-3], [1e-5, 1e-6, 1e-7], t_end=0.5, quick=True, methods=expected)
-    assert found.methods == tuple(expected) and [len(found.of(name)) for name in expected] == [2, 2]
-    first, second = (found.of(name)[0] for name in expected)
+    assert found.methods == tuple(expected) and [len(found.list_rows(name)) for name in expected] == [2, 2]
+    first, second = (found.list_rows(name)[0] for name in expected)
     assert first.reference is not None and first.reference.method == "rodas5p"  # not by the same formulas
     assert second.reference is not None and second.reference.method == "dop853"
     for name in expected:
-        assert found.of(name)[1].error.motion < found.of(name)[0].error.motion / 5 < 1e-5
+        assert found.list_rows(name)[1].error.motion < found.list_rows(name)[0].error.motion / 5 < 1e-5
 
 
 def test_a_slow_cross_check_is_run_at_fewer_tolerances(monkeypatch: pytest.MonkeyPatch) -> None:
     """Every run counts as long: the loosest tolerance alone; with no time at all not even that. Both are told."""
     pendulum = gudgeon.load(PENDULUM, scene="ideal")
     options = {"t_end": 0.05, "quick": True, "methods": ["rk4", "scipy:RK45"]}
-    monkeypatch.setattr("gudgeon.studies.bench.LONG", 0.0)
+    monkeypatch.setattr("gudgeon.studies.bench.MAX_CROSS_CHECK_S", 0.0)
     found = measure_scene(pendulum, [1e-3], [1e-4, 1e-5, 1e-6], **options)  # type: ignore[arg-type]
-    assert [row.setting.value for row in found.of("scipy:RK45")] == [1e-4] and len(found.of("rk4")) == 1
+    assert [row.setting.value for row in found.list_rows("scipy:RK45")] == [1e-4] and len(found.list_rows("rk4")) == 1
     assert any(line.startswith("scipy:RK45: 1e-6 and tighter left out") for line in describe_bench(found, None))
-    monkeypatch.setattr("gudgeon.studies.bench.LIMIT", 0.0)
+    monkeypatch.setattr("gudgeon.studies.bench.CROSS_CHECK_LIMIT_S", 0.0)
     found = measure_scene(pendulum, [1e-3], [1e-4, 1e-5, 1e-6], **options)  # type: ignore[arg-type]
-    assert not found.of("scipy:RK45") and any("1e-4 and tighter left out" in line for line in found.left_out)
+    assert not found.list_rows("scipy:RK45") and any("1e-4 and tighter left out" in line for line in found.left_out)
     assert not found.interrupted

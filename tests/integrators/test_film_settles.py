@@ -13,7 +13,7 @@ import gudgeon
 from gudgeon.generator.kinds.laws.law import find_laws_of_role
 from gudgeon.model.parameters import prepare_values
 from gudgeon.reynolds import Bearing
-from gudgeon.reynolds.deviations import law_force
+from gudgeon.reynolds.deviations import make_law_force
 from gudgeon.simulation.simulation import Simulation
 from tests.programs import needs_compiler
 
@@ -65,7 +65,7 @@ def short_film(eps: float) -> tuple[float, float]:
 
 def fitted(law: str) -> Callable[[float], tuple[float, float]]:
     """Of a law without a closed form at rest: its own force there."""
-    force = law_force(law, Bearing(RADIUS, LENGTH, C, VISCOSITY), {})
+    force = make_law_force(law, Bearing(RADIUS, LENGTH, C, VISCOSITY), {})
 
     def steady(eps: float) -> tuple[float, float]:
         radial, tangential = force(*(np.array([x]) for x in (eps, 0.0, -0.5 * eps * OMEGA)))[0]

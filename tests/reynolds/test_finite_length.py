@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from gudgeon.reynolds import Bearing, deviation
-from gudgeon.reynolds.deviations import law_force
+from gudgeon.reynolds.deviations import make_law_force
 from gudgeon.reynolds.equation import Array
 from tests.oracles.butenschoen import ATTITUDE, ROTATION, WIDTHS
 
@@ -16,7 +16,7 @@ MOTION = np.array([0.0, 0.35, 0.9, 1.25, 0.5 * np.pi, 1.9, 2.4, np.pi])
 def at(ratio: float, eps: Array, w_n: Array, w_t: Array) -> Array:
     """(…, 2) over μ R³ L/c²."""
     own = Bearing(0.01, 0.02 * ratio, 1e-5, 0.1)
-    return law_force("finite_length", own, {})(eps, w_n, w_t) / (0.1 * 0.01**3 * own.length / 1e-5**2)
+    return make_law_force("finite_length", own, {})(eps, w_n, w_t) / (0.1 * 0.01**3 * own.length / 1e-5**2)
 
 
 def states(count: int, top: float = 0.9999) -> tuple[Array, Array, Array]:
@@ -61,7 +61,8 @@ def test_a_short_bearing_is_ocvirks(eps: float) -> None:
     turn = np.linspace(-np.pi, np.pi, 41)
     own = Bearing(0.01, 0.02 * 1e-4, 1e-5, 0.1)
     got, want = (
-        law_force(law, own, {})(eps + 0.0 * turn, np.cos(turn), np.sin(turn)) for law in ("finite_length", "ocvirk")
+        make_law_force(law, own, {})(eps + 0.0 * turn, np.cos(turn), np.sin(turn))
+        for law in ("finite_length", "ocvirk")
     )
     assert np.hypot(*(got - want).T).max() < 0.01 * np.hypot(*want.T).max()
 

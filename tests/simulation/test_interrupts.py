@@ -172,7 +172,7 @@ def test_a_map_keeps_its_shape(one_thread: None, monkeypatch: pytest.MonkeyPatch
     monkeypatch.setattr(maps, "judge_point", ctrl_c_at(2, maps.judge_point))
     found = verdict_map(press("lubricated"), t_long=0.005, quick=True)
     assert found.done == (1, 2) and found.interrupted
-    assert found.cell(1e-8, C).status is Status.STABLE and found.cell(1e-6, C).status is Status.MISSING
+    assert found.get_cell(1e-8, C).status is Status.STABLE and found.get_cell(1e-6, C).status is Status.MISSING
 
 
 def test_bench_keeps_its_rows(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -202,7 +202,7 @@ def test_what_is_no_choice_is_told(scenes: Scenes) -> None:
 def test_an_axis_of_names(scenes: Scenes, tmp_path: Path) -> None:
     """As columns of a map: each cell is run with its material, which is what is told of it."""
     one = parse_axis(scenes.dry, f"{JOURNAL}=glue, steel")
-    assert [one.parameters(x) for x in one.values] == [{JOURNAL: "steel"}, {JOURNAL: "glue"}]
+    assert [one.build_parameters(x) for x in one.values] == [{JOURNAL: "steel"}, {JOURNAL: "glue"}]
     assert [format_axis_value(one, x) for x in one.values] == ["steel", "glue"]
     message = ["map", str(scenes.file), "--scene", "dry", "--quick", "--t-end", "0.2 ms", "--out", str(tmp_path)]
     ran = CliRunner().invoke(app, [*message, "--axis", f"{JOURNAL}=glue,steel", "--axis", "rtol=1e-6"])

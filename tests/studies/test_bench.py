@@ -25,8 +25,8 @@ from gudgeon.simulation.simulation import Simulation
 from gudgeon.studies.bench import (
     ADAPTIVE,
     REFERENCES,
+    RESOLUTION_FACTOR,
     SECOND,
-    TRUSTED,
     Row,
     SceneBench,
     find_independent_reference,
@@ -38,8 +38,8 @@ from gudgeon.studies.runs import (
     ONSETS,
     Attempt,
     Error,
+    SceneWindow,
     Setting,
-    Work,
     compare_runs,
     compute_differences,
     find_comparison_window,
@@ -86,7 +86,7 @@ def test_order_is_the_slope_of_what_is_neither_rounding_nor_large(order: float, 
     steps = [1e-2, 5e-3, 2e-3, 1e-3, 5e-4]
     true = [(h, factor * h**order) for h in steps]
     scene = made([*true, (1e-5, 1e-13), (1.0, 0.9)], agreement=1e-13)
-    kept = [e for _, e in true if TRUSTED * 1e-13 < e < 1e-3]
+    kept = [e for _, e in true if RESOLUTION_FACTOR * 1e-13 < e < 1e-3]
     if len(kept) >= 3:
         assert scene.estimate_order("motion") == pytest.approx(order, abs=1e-6)
     else:
@@ -123,8 +123,8 @@ def test_common_samples_are_compared_one_by_one(make: Callable[..., Result]) -> 
 
 def test_run_time_to_an_error_is_the_least_that_has_it() -> None:
     scene = made([(1e-2, 1e-3), (1e-3, 1e-5), (1e-4, 1e-7)], agreement=1e-9)
-    assert scene.find_seconds_to_error(1e-4, "rk4") == pytest.approx(1e3)
-    assert math.isnan(scene.find_seconds_to_error(1e-8, "rk4"))  # less than what the references leave in doubt
+    assert scene.find_run_time_for_error(1e-4, "rk4") == pytest.approx(1e3)
+    assert math.isnan(scene.find_run_time_for_error(1e-8, "rk4"))  # less than what the references leave in doubt
 
 
 def test_a_run_is_compared_with_another_method() -> None:
@@ -156,10 +156,10 @@ def test_errors_fall_with_the_tolerance_until_the_references_leave_them_in_doubt
     scene = smooth()
     assert scene.agreement.motion < 1e-10 and scene.agreement.force < 1e-8
     for method in USUAL:
-        errors = [row.error.motion for row in scene.of(method)]
+        errors = [row.error.motion for row in scene.list_rows(method)]
         assert all(b < a / 3 or not scene.is_resolved("motion", b) for a, b in zip(errors, errors[1:], strict=False))
         assert errors[2] < 1e-6  # rtol 1e-8, over half a second
-        assert all(row.reference is not None and row.reference.method != method for row in scene.of(method))
+        assert all(row.reference is not None and row.reference.method != method for row in scene.list_rows(method))
     assert any("another method" in line for line in describe_bench(scene, None))
     assert {row["reference"] for row in list_bench_rows([scene])} == {"dop853 1e-13", "rodas5p 1e-12"}
 
@@ -175,24 +175,24 @@ def test_window_holds_the_first_contacts() -> None:
 @needs_compiler
 @pytest.mark.parametrize("step", [1e-6, 2e-6, 5e-6, 1e-5, 5e-5, 2e-4])
 def test_samples_of_every_step_are_samples_of_the_reference(step: float) -> None:
-    work = Work(press("dry"), 3.7e-3)
+    work = SceneWindow(press("dry"), 3.7e-3)
     coarse, fine = work.run(Setting("rk4", step)).run, work.run(Setting("rk4", 1e-6)).run
     assert coarse is not None and fine is not None
     assert coarse.diagnostics.step == pytest.approx(step, rel=1e-9)
     stride = round((coarse.t[1] - coarse.t[0]) / (fine.t[1] - fine.t[0]))
     assert fine.t[::stride][: len(coarse.t)] == pytest.approx(coarse.t, rel=1e-12)
-    assert coarse.t[-1] > 3.7e-3 - max(step, work.spacing)
+    assert coarse.t[-1] > 3.7e-3 - max(step, work.sample_interval)
 
 
 @needs_compiler
 def test_paper_step_is_told_to_be_too_long() -> None:
     film = measure_scene(press("lubricated"), [1e-4, 5e-6], [1e-6], t_end=0.02, quick=True)
-    late, good = film.row(Setting("rk4", 1e-4)), film.row(Setting("rk4", 5e-6))
+    late, good = film.find_row(Setting("rk4", 1e-4)), film.find_row(Setting("rk4", 5e-6))
     assert late is not None and (late.failure or late.error.force > 0.01)
     assert good is not None and not good.failure and good.error.force < 1e-6
     assert any(line.startswith("rk4 at 100 µs: ") for line in describe_bench(film, 1e-4))
     dry = measure_scene(press("dry"), [1e-4, 2e-6], [1e-6], t_end=0.0098, quick=True)
-    late, good = dry.row(Setting("rk4", 1e-4)), dry.row(Setting("rk4", 2e-6))
+    late, good = dry.find_row(Setting("rk4", 1e-4)), dry.find_row(Setting("rk4", 2e-6))
     assert late is not None and good is not None and late.error.force > 30 * good.error.force > 0
     assert 3.0 < dry.contact / 1e-4 < 5.0  # steps of the shortest contact
 

@@ -24,8 +24,14 @@ from gudgeon.studies.box import (
     sample_sobol_points,
 )
 from gudgeon.studies.map import VerdictBox, verdict_box
-from gudgeon.studies.runs import ONSETS, Error, Setting, Work, compare_runs
-from gudgeon.studies.show.box import WORST, count_verdicts, group_cells, remove_numbers, select_worst_cells
+from gudgeon.studies.runs import ONSETS, Error, SceneWindow, Setting, compare_runs
+from gudgeon.studies.show.box import (
+    MAX_WORST_POINTS,
+    describe_verdict_counts,
+    group_cells,
+    remove_numbers,
+    select_worst_cells,
+)
 from gudgeon.studies.show.box_figure import draw_box_figure, rank_ranges
 from gudgeon.studies.show.map import describe_comparison
 from gudgeon.studies.show.tables import format_seconds
@@ -103,11 +109,11 @@ def test_errors_are_told_with_the_time_that_was_compared() -> None:
 @needs_compiler
 def test_horizon_lies_where_tight_runs_come_apart_by_more_than_their_tolerance_allows() -> None:
     """Dry motion multiplies differences: a late sample says nothing of a run, the first contacts do."""
-    work, times = Work(press("dry"), 0.5), np.linspace(0.0, 0.5, 1001)
+    work, times = SceneWindow(press("dry"), 0.5), np.linspace(0.0, 0.5, 1001)
     fine = work.run_at_times(Setting("auto", 1e-10), times)
     known = _count_predictable_samples(work, fine, STRICT)
     assert 0.01 < times[known] < 0.45
-    work = Work(press("lubricated"), 0.05)
+    work = SceneWindow(press("lubricated"), 0.05)
     assert _count_predictable_samples(work, work.run_at_times(Setting("auto", 1e-10), times[:100]), STRICT) > 100
 
 
@@ -174,8 +180,8 @@ def test_reasons_are_grouped_without_their_numbers() -> None:
     assert remove_numbers("more than 120 s of processor time") == "more than … s of processor time"
     worst = [c.reason for c in select_worst_cells(cells)]
     assert worst[:3] == [cells[0].reason, cells[5].reason, cells[3].reason] and len(worst) == 5  # one of each first
-    assert len(select_worst_cells(cells * 9)) == WORST
-    message = count_verdicts([*cells, cell(Status.MISSING)])
+    assert len(select_worst_cells(cells * 9)) == MAX_WORST_POINTS
+    message = describe_verdict_counts([*cells, cell(Status.MISSING)])
     assert message.startswith("7 points: 1 stable, 2 inaccurate, 3 diverged, 1 not judged")
 
 

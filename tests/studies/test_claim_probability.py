@@ -98,10 +98,10 @@ def test_runs_that_all_ensembles_have_count_once() -> None:
     held = 0
     for _ in range(600):
         b = rng.normal(d, 1, 12)
-        each = [judge_claim(check, {A: {"m": rng.normal(0, 1, 32)}, B: {"m": b}}, shared=[B]) for _ in range(3)]
+        each = [judge_claim(check, {A: {"m": rng.normal(0, 1, 32)}, B: {"m": b}}, shared_cells=[B]) for _ in range(3)]
         held += merge_verdicts(each)[0].verdict == "holds"
     assert held < 0.08 * 600
-    few = [judge_claim(check, runs(a=[1.0] * 40, b=[2.0] * 4), shared=[B])] * 3
+    few = [judge_claim(check, runs(a=[1.0] * 40, b=[2.0] * 4), shared_cells=[B])] * 3
     assert merge_verdicts(few)[0].verdict == "undecided" and merge_verdicts(few)[0].low == few[0].low
 
 
@@ -163,6 +163,6 @@ def test_of_very_many_combinations_some_are_drawn(monkeypatch: pytest.MonkeyPatc
     rng = np.random.default_rng(3)
     own = {cell: {"m": rng.normal(k, 1.0, 30)} for k, cell in enumerate((A, B, C))}
     whole = judge_claim([Check((A, B, C), ("m",), middle)], own).probability
-    monkeypatch.setattr(judge, "MOST", 20_000)
+    monkeypatch.setattr(judge, "MAX_COMBINATIONS", 20_000)
     drawn = judge_claim([Check((A, B, C), ("m",), middle)], own).probability
     assert drawn != whole and abs(drawn - whole) < 4 * math.sqrt(whole * (1 - whole) / 20_000)

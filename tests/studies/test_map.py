@@ -17,7 +17,7 @@ from gudgeon.errors import BadValueError, UnknownNameError
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.studies.axes import Axis, make_axis, make_clearance_axis, parse_axis
 from gudgeon.studies.map import VerdictMap, list_default_clearances, list_default_steps, verdict_map
-from gudgeon.studies.runs import Attempt, Error, Setting, Work
+from gudgeon.studies.runs import Attempt, Error, SceneWindow, Setting
 from gudgeon.studies.show.map import describe_marked_step, format_run_command
 from gudgeon.studies.show.tables import format_fraction, format_seconds
 from gudgeon.studies.verdicts import Cell, Limits, Status, judge_runs
@@ -52,9 +52,9 @@ def test_film_is_lost_with_the_papers_step_and_not_with_a_short_one() -> None:
     """RK4 is stable while step × rate < 2.785; the film's rate near e = 0 is πS/(c m), ∝ 1/c³."""
     found = lubricated()
     for c in found.columns.values:
-        assert found.cell(1e-4, c).status is not Status.STABLE
-        assert found.cell(5e-6, c).status is Status.STABLE
-    assert found.cell(2e-5, 0.2e-3).status is not Status.STABLE
+        assert found.get_cell(1e-4, c).status is not Status.STABLE
+        assert found.get_cell(5e-6, c).status is Status.STABLE
+    assert found.get_cell(2e-5, 0.2e-3).status is not Status.STABLE
     assert found.find_largest_stable_row(0.2e-3) == 5e-6
     assert found.find_largest_stable_row(C) in (5e-6, 2e-5)  # at the brink: 2e-5 s times 1.4e5 1/s is 2.8
 
@@ -62,8 +62,8 @@ def test_film_is_lost_with_the_papers_step_and_not_with_a_short_one() -> None:
 @needs_compiler
 def test_dry_contact_is_less_accurate_with_the_papers_step() -> None:
     found = by_step("dry", [2e-6, 1e-4], [C], t_long=0.03)
-    assert found.cell(2e-6, C).status is Status.STABLE
-    assert found.cell(1e-4, C).error.force > 20 * found.cell(2e-6, C).error.force
+    assert found.get_cell(2e-6, C).status is Status.STABLE
+    assert found.get_cell(1e-4, C).error.force > 20 * found.get_cell(2e-6, C).error.force
 
 
 @needs_compiler
@@ -79,7 +79,7 @@ def test_every_verdict_but_stable_has_its_reason() -> None:
 @needs_compiler
 def test_soft_contact_is_outside_the_model_and_not_a_failure_of_the_step() -> None:
     found = by_step("dry", [5e-6], [C], t_long=0.02, t_short=0.02, parameters={"materials.aluminium.E": 2e7})
-    cell = found.cell(5e-6, C)
+    cell = found.get_cell(5e-6, C)
     assert cell.status is Status.OUTSIDE and "clearance" in cell.reason
     assert cell.penetration > C / 2
 
@@ -87,7 +87,7 @@ def test_soft_contact_is_outside_the_model_and_not_a_failure_of_the_step() -> No
 @needs_compiler
 def test_limits_decide() -> None:
     """The same runs judged by other limits."""
-    work = Work(press("dry"), 9e-3)
+    work = SceneWindow(press("dry"), 9e-3)
     long, fine = work.run(rk4(1e-5)), work.run(rk4(1e-6))
 
     def status(**limits: float) -> Status:
@@ -107,7 +107,7 @@ def test_limits_decide() -> None:
 
 @needs_compiler
 def test_run_that_nothing_vouches_for_is_not_stable() -> None:
-    work = Work(press("dry"), 2e-3)
+    work = SceneWindow(press("dry"), 2e-3)
     run = work.run(rk4(1e-5))
     failed = Attempt(rk4(1e-6), None, "no longer finite", 1e-4)
     assert judge_runs({}, run, [(run, failed)]).status is Status.INACCURATE
@@ -119,7 +119,7 @@ def test_lost_contact_is_seen() -> None:
     """A run whose surfaces overlap while it counts as free: what a missed onset would look like."""
     from dataclasses import replace
 
-    work = Work(press("dry"), 9e-3)
+    work = SceneWindow(press("dry"), 9e-3)
     run = work.run(rk4(1e-5))
     assert run.run is not None and run.run.state.any()
     blind = replace(run, run=replace(run.run, state=0 * run.run.state, stored={}))
@@ -171,8 +171,8 @@ def test_scene_without_play_has_one_column() -> None:
     pendulum = gudgeon.load(PENDULUM, scene="ideal")
     found = verdict_map(pendulum, [make_axis(pendulum, "step", [1e-3, 2e-1])], method="rk4", t_long=2.0)
     assert len(found.columns.values) == 1 and math.isnan(found.columns.values[0])
-    assert found.cell(1e-3, math.nan).status is Status.STABLE
-    assert found.cell(2e-1, math.nan).status is not Status.STABLE
+    assert found.get_cell(1e-3, math.nan).status is Status.STABLE
+    assert found.get_cell(2e-1, math.nan).status is not Status.STABLE
 
 
 @needs_compiler
@@ -191,8 +191,8 @@ def test_tolerance_times_clearance_is_the_usual_map() -> None:
     found = verdict_map(press("lubricated"), t_long=0.01, quick=True)
     assert found.rows.name == "rtol" and found.columns.name == "clearance" and not found.setting.has_fixed_step
     assert all(cell.status is Status.STABLE for cell in found.cells)
-    assert found.cell(1e-8, C).error.path < found.cell(1e-6, C).error.path
-    assert found.cell(1e-8, C).parameters == {"bearings.pin.clearance": C}
+    assert found.get_cell(1e-8, C).error.path < found.get_cell(1e-6, C).error.path
+    assert found.get_cell(1e-8, C).parameters == {"bearings.pin.clearance": C}
 
 
 @needs_compiler
@@ -201,7 +201,7 @@ def test_two_axes_of_numbers_take_one_tolerance_and_give_what_runs_them_again() 
     axes = [parse_axis(dry, "omega=20,60"), parse_axis(dry, "stiffness=1GPa..400GPa:2")]
     found = verdict_map(dry, axes, t_long=0.02)
     assert found.columns.values == (20.0, 60.0) and found.rows.values == (1e9, 4e11)
-    soft, hard = found.cell(1e9, 60.0), found.cell(4e11, 20.0)
+    soft, hard = found.get_cell(1e9, 60.0), found.get_cell(4e11, 20.0)
     assert soft.status is Status.OUTSIDE and hard.status is Status.STABLE
     assert (
         hard.parameters == {"parameters.omega": 20.0, "materials.aluminium.E": 4e11} and hard.setting == found.setting
@@ -240,7 +240,10 @@ def test_groups_keep_the_ratios_of_their_numbers() -> None:
     p = press("dry").p
     place = {slot.address: k for k, slot in enumerate(press("dry").source.slots)}
     first, second = p[place["baumgarte.alpha"]], p[place["baumgarte.beta"]]
-    assert gains.parameters(10.0) == {"baumgarte.alpha": 10.0, "baumgarte.beta": pytest.approx(10.0 * second / first)}
+    assert gains.build_parameters(10.0) == {
+        "baumgarte.alpha": 10.0,
+        "baumgarte.beta": pytest.approx(10.0 * second / first),
+    }
     assert parse_axis(press("dry"), "clearance=.05mm..1mm:3").values == pytest.approx(
         (5e-5, math.sqrt(5e-8), 1e-3), rel=1e-5
     )

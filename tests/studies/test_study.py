@@ -21,7 +21,7 @@ from gudgeon.errors import BadValueError, InputError
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.studies.ensemble import final, resolve
 from gudgeon.studies.ensemble.final import split_into_boxes
-from gudgeon.studies.ensemble.notes import reduce_to_kind
+from gudgeon.studies.ensemble.notes import get_message_kind
 from gudgeon.studies.ensemble.study import resolve_plans
 from tests.programs import needs_compiler
 from tests.pump import Gudgeon
@@ -130,7 +130,7 @@ def test_an_executors_processes_make_the_same_dataset(crank: gudgeon.Study) -> N
 
 def test_blocks_and_threads_change_nothing(crank: gudgeon.Study, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(resolve, "BLOCK", 5)
-    monkeypatch.setattr(final, "TOGETHER", 0)  # each written to the file by itself
+    monkeypatch.setattr(final, "JOINED_BYTES", 0)  # each written to the file by itself
     message: list[float] = []
     found = gudgeon.study(CRANK, threads=1, progress=lambda fraction, text: message.append(fraction))
     assert message == sorted(message) and message[-1] == 1.0
@@ -346,7 +346,7 @@ def test_failures_are_rows_with_their_reason(call: Gudgeon, tmp_path: Path, monk
 )
 def test_runs_that_failed_of_the_same_are_one_kind(message: str, kind: str) -> None:
     """Without the numbers of each; digits of names and units stay."""
-    assert reduce_to_kind(message) == kind
+    assert get_message_kind(message) == kind
 
 
 def test_a_run_that_leaves_its_laws_domain_is_a_row_up_to_there() -> None:
@@ -436,7 +436,7 @@ def test_slabs_are_boxes_that_cover_a_range_once() -> None:
 
 def test_a_block_holds_as_many_samples_as_fit(monkeypatch: pytest.MonkeyPatch) -> None:
     """However many runs there are: memory is that of a block."""
-    monkeypatch.setattr(resolve, "BYTES", 100_000)
+    monkeypatch.setattr(resolve, "MAX_BLOCK_BYTES", 100_000)
     draw = {"count": 1000, "parameters": {"g": {"from": 5, "to": 10}}}
     plan = resolve_plans({"mechanism": "pendulum", "draw": draw, "output": 99, "keep": ["bob.x"]}).each[""]
     assert plan.runs == 1000 and plan.parts[0].block == 100_000 // (8 * 3 * 100)

@@ -225,12 +225,12 @@ def test_a_mistake_is_told_at_its_place(old: str, new: str, place: str, words: s
     ("some", "most"),
     [
         (50, 1000),
-        pytest.param(500, claims.MOST_COMPARED, marks=pytest.mark.slow),
+        pytest.param(500, claims.MAX_COMPARED, marks=pytest.mark.slow),
     ],
 )
 def test_a_claim_compares_no_more_than_can_be_judged(some: int, most: int, monkeypatch: pytest.MonkeyPatch) -> None:
     """Any two of 50 values are 1225 pairs, of 500 124 750; the same values one by one are few, a million too many."""
-    monkeypatch.setattr(claims, "MOST_COMPARED", most)
+    monkeypatch.setattr(claims, "MAX_COMPARED", most)
     study: dict[str, Any] = {"mechanism": "pendulum", "measures": {"x": {"final": "bob.x"}}}
     for count, kind, words in (
         (some, "alike_along", f"more than {most} pairs"),

@@ -15,7 +15,7 @@ import gudgeon
 from gudgeon.errors import InputError
 from gudgeon.loading.kernel_sources import is_source_cached
 from gudgeon.studies.ensemble import libraries
-from gudgeon.studies.ensemble.libraries import Structure, compile_in_second_process
+from gudgeon.studies.ensemble.libraries import Structure, compile_libraries_in_second_process
 from gudgeon.waiting.programs import Programs
 from tests.programs import needs_compiler
 from tests.slow import slow_but
@@ -66,7 +66,7 @@ def check_nothing_is_left(begun: list[subprocess.Popen[str]], folder: Path) -> N
 def test_the_other_process_makes_what_this_one_does_not_come_to(
     begun: list[subprocess.Popen[str]], tmp_path: Path
 ) -> None:
-    with compile_in_second_process(STRUCTURES):
+    with compile_libraries_in_second_process(STRUCTURES):
         assert not any(known())
         assert begun[0].communicate(timeout=100) == ("", "")
     assert begun[0].returncode == 0 and all(known())
@@ -76,7 +76,7 @@ def test_the_other_process_makes_what_this_one_does_not_come_to(
 # s, about: while it begins, derives, compiles, or has done
 @pytest.mark.parametrize("moment", slow_but([0.9], [0.1, 0.9, 1.3]))
 def test_it_ends_where_this_one_does(moment: float, begun: list[subprocess.Popen[str]], tmp_path: Path) -> None:
-    with pytest.raises(KeyboardInterrupt), compile_in_second_process(STRUCTURES):
+    with pytest.raises(KeyboardInterrupt), compile_libraries_in_second_process(STRUCTURES):
         with suppress(subprocess.TimeoutExpired):
             begun[0].communicate(timeout=moment)
         raise KeyboardInterrupt

@@ -16,7 +16,7 @@ from gudgeon.errors import InputError
 from gudgeon.generator.study.read import KEYS, read_studies, read_study
 from gudgeon.generator.study.schema import make_schema
 from gudgeon.generator.study.spec import COUNTED_PARTS, KINDS, SAMPLING_METHODS, STATISTICS
-from gudgeon.studies.ensemble.names import collect_names, format_typographically
+from gudgeon.studies.ensemble.names import collect_names, typeset_quantity
 from gudgeon.studies.ensemble.resolve import BLOCK
 from gudgeon.studies.ensemble.study import resolve_plans
 from tests.programs import needs_compiler
@@ -148,7 +148,7 @@ def test_people_read_titles_and_numbers_as_they_are_written(tmp_path: Path) -> N
     ],
 )
 def test_a_number_as_people_write_it(text: str, shown: str) -> None:
-    assert format_typographically(text) == shown
+    assert typeset_quantity(text) == shown
 
 
 @pytest.mark.parametrize(

@@ -15,7 +15,7 @@ import gudgeon  # noqa: E402
 from gudgeon.errors import BadValueError, UnknownNameError  # noqa: E402
 from gudgeon.studies.show import study_plots  # noqa: E402
 from gudgeon.studies.show.study_data import describe_changes  # noqa: E402
-from gudgeon.studies.show.study_signals import find_section_crossings, have_equal_times, resample_over_fractions  # noqa: E402
+from gudgeon.studies.show.study_signals import find_values_at_crossings, have_equal_times, resample_over_fractions  # noqa: E402
 from tests.programs import needs_compiler  # noqa: E402
 
 pytestmark = needs_compiler
@@ -176,11 +176,11 @@ def test_a_section_of_an_oscillator_is_a_point_a_run(study: gudgeon.Study) -> No
 
 def test_crossings_are_found_between_samples() -> None:
     t = np.linspace(0.0, 10.0, 401)
-    (rising,) = find_section_crossings(t, np.sin(t), [t], 0.5, False, 0.0)
+    (rising,) = find_values_at_crossings(t, np.sin(t), [t], 0.5, False, 0.0)
     np.testing.assert_allclose(rising, [np.pi / 6, np.pi / 6 + 2 * np.pi], atol=1e-4)
-    (falling,) = find_section_crossings(t, np.sin(t), [t], 0.5, True, 3.0)
+    (falling,) = find_values_at_crossings(t, np.sin(t), [t], 0.5, True, 3.0)
     np.testing.assert_allclose(falling, [5 * np.pi / 6 + 2 * np.pi], atol=1e-4)
-    assert find_section_crossings(t, np.full(401, np.nan), [t], 0.0, False, 0.0)[0].size == 0
+    assert find_values_at_crossings(t, np.full(401, np.nan), [t], 0.0, False, 0.0)[0].size == 0
 
 
 def test_curves_and_phases_have_a_colour_a_value(study: gudgeon.Study, tmp_path: Path) -> None:

@@ -24,7 +24,7 @@ from gudgeon.errors import GudgeonError  # noqa: E402
 from gudgeon.studies.ensemble.claim_tables import Claimed  # noqa: E402
 from gudgeon.studies.show import pictures  # noqa: E402
 from gudgeon.studies.show.claims import build_claims_sections  # noqa: E402
-from gudgeon.studies.show.pictures import Pictures  # noqa: E402
+from gudgeon.studies.show.pictures import PageFigures  # noqa: E402
 from gudgeon.studies.show.study_data import StudyData
 from gudgeon.studies.show.study_page import StudyReport  # noqa: E402
 from tests.programs import needs_compiler  # noqa: E402
@@ -154,7 +154,7 @@ def test_claims_and_parts_are_shown_where_there_are_any(folder: Path) -> None:
     claims = Claimed(*tables, "a paper & more")
     whole: Any = SimpleNamespace(claims=claims, parts={"one": study, "two": study})
     parts = {name: StudyData(study) for name in whole.parts}
-    (heading, inside), (trends, judgement), (ours, alone) = build_claims_sections(whole, parts, Pictures())
+    (heading, inside), (trends, judgement), (ours, alone) = build_claims_sections(whole, parts, PageFigures())
     assert (heading, trends, ours) == ("Published numbers", "Published trends", "Ours alone")
     assert "&lt;i&gt;peak" in inside
     cells = "2.5 mm", "2 mm (1.9 … 2.1)", "3 mm (2 … 4)", "−20.0 … +20.0 %"
@@ -173,7 +173,9 @@ def test_claims_and_parts_are_shown_where_there_are_any(folder: Path) -> None:
             raise GudgeonError("none")
 
     nothing: Any = NoClaims()
-    assert build_claims_sections(nothing, parts, Pictures()) == [] == build_claims_sections(study, parts, Pictures())
+    assert (
+        build_claims_sections(nothing, parts, PageFigures()) == [] == build_claims_sections(study, parts, PageFigures())
+    )
 
 
 def test_claims_stand_under_headings_and_where_the_source_has_them(folder: Path) -> None:
@@ -217,13 +219,13 @@ def test_claims_stand_under_headings_and_where_the_source_has_them(folder: Path)
     }
     claims = Claimed(pandas.DataFrame([row, other, drawn_only, ours]), pandas.DataFrame([trend]), "")
     whole: Any = SimpleNamespace(claims=claims, parts={"": study})
-    pictures = Pictures()
+    pictures = PageFigures()
     (heading, inside), (own, below) = build_claims_sections(whole, {"": StudyData(study)}, pictures)
     assert (heading, own) == ("Published numbers", "Not <printed>")
     assert inside.index("<td>N1</td>") < inside.index("<td>D1</td>") and "<td>28.65°</td>" in inside
     assert "<td>−60.0 %</td>" in inside and ">note</th>" not in inside  # both round to it
     assert "<td>not so</td>" in below and "<td>why</td>" in below and "<td>it holds</td>" in below
-    ((_, draw),) = pictures.expected
+    ((_, draw),) = pictures.figures
     ax: Any = draw()
     assert [word.get_text() for word in ax.get_xticklabels()] == ["N1\none place", "D1\none place"]
     labels = [word.get_text() for word in ax.get_legend().get_texts()]
@@ -241,13 +243,13 @@ def test_processes_draw_what_this_one_would(monkeypatch: pytest.MonkeyPatch) -> 
         ax.plot([0.0, 1.0], [0.0, k])
         return ax
 
-    shown = Pictures()
+    shown = PageFigures()
     places = "".join(shown.add_placeholder(f"p-{k}", partial(drawn, k)) for k in range(pictures.MANY))
     monkeypatch.setattr(pictures, "available_threads", lambda: 1)
     here = shown.insert_figures(places)
     monkeypatch.setattr(pictures, "available_threads", lambda: 2)
     assert shown.insert_figures(places) == here
-    monkeypatch.setattr(pictures, "_draw_all", lambda end, expected: os._exit(1))  # a process that dies
+    monkeypatch.setattr(pictures, "_send_drawn_figures", lambda connection, figures: os._exit(1))  # a process that dies
     assert shown.insert_figures(places) == here
     assert here.count("<svg") == pictures.MANY - 1 and "not drawn: nothing to draw" in here
 

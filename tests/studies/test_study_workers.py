@@ -95,9 +95,9 @@ def test_workers_that_die_at_every_block_end_the_study(tmp_path: Path) -> None:
 
         renewed = 0
 
-        def renew(self) -> None:
+        def replace_processes(self) -> None:
             self.renewed += 1
-            super().renew()
+            super().replace_processes()
 
         def submit(self, work: Any, /, *args: Any, **kwargs: Any) -> Any:
             return self.pool.submit(os._exit, 3)

@@ -20,16 +20,16 @@ from gudgeon.simulation.arguments import DEFAULT_OUTPUT
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.simulation.wear import parse_wear_rate
 from gudgeon.simulation.wear_loop import WearLoop, WearModel, scale_progress
-from gudgeon.studies.ensemble.exponents import measure_neighbours
+from gudgeon.studies.ensemble.exponents import compute_neighbour_measures
 from gudgeon.studies.ensemble.libraries import choose_method, load_library
 from gudgeon.studies.ensemble.measures import (
     Spans,
+    evaluate_measure,
     find_sampled_interval,
     is_within,
     list_peak_series,
     list_sampled_series,
     list_sliding_requests,
-    measure_runs,
 )
 from gudgeon.studies.ensemble.notes import Note, collect_guess_notes, group_notes, merge_notes
 from gudgeon.studies.ensemble.origins import (
@@ -39,8 +39,8 @@ from gudgeon.studies.ensemble.origins import (
 )
 from gudgeon.studies.ensemble.parameter_values import (
     ROUNDING,
-    evaluate_for_runs,
-    find_impossible,
+    evaluate_expression_for_runs,
+    find_impossible_values,
     find_parameter,
     find_parameter_key,
     parse_real_value,
@@ -53,7 +53,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class Expected:
+class RunSettings:
     """Requested outputs and settings of every run of a study."""
 
     t_end: Expr | None
@@ -85,7 +85,7 @@ class Job:
     columns: Mapping[str, Array]
     relative: Mapping[str, Array]
     absolute: Mapping[str, Array]
-    expected: Expected
+    run_settings: RunSettings
     threads: int | None
     later: int = 0  # runs of the same scene in later blocks
 
@@ -117,9 +117,9 @@ def run_block(job: Job, progress: Progress | None = None, simulation: Simulation
     Raises KeyboardInterrupt if Ctrl-C ended a run.
     """
     simulation = simulation or load_library(job.mechanism, job.scene, job.overrides, job.sha256)
-    table = Table(simulation, job)
-    failures = [table.bad.get(i, "") for i in range(job.n)]
-    valid_runs = np.array([i for i in range(job.n) if i not in table.bad], dtype=int)
+    table = RunTable(simulation, job)
+    failures = [table.invalid_runs.get(i, "") for i in range(job.n)]
+    valid_runs = np.array([i for i in range(job.n) if i not in table.invalid_runs], dtype=int)
     collector = _Collector(job, table)
     with collect_guess_notes(simulation.source, job.first) as guess_notes, announce_later_runs(job.later):
         try:
@@ -134,11 +134,13 @@ def run_block(job: Job, progress: Progress | None = None, simulation: Simulation
                 except InputError as error:
                     failures[i] = str(error)
     collector.notes.append(guess_notes)
-    collector.add_measures(measure_neighbours(simulation, job, table, collector.t_last, failures, progress), failures)
+    collector.add_measures(
+        compute_neighbour_measures(simulation, job, table, collector.t_last, failures, progress), failures
+    )
     return collector.build_block(failures)
 
 
-class Table:
+class RunTable:
     """Parameters of all runs of a job, with their ends, outputs, steps and windows, and reasons why some cannot
     begin.
     """
@@ -146,38 +148,41 @@ class Table:
     def __init__(self, simulation: Simulation, job: Job) -> None:
         """Evaluate parameters, end time, output, step and windows of all runs of a job.
 
-        Invalid values do not raise: `bad` maps the index of such a run to the reason.
+        Invalid values do not raise: `invalid_runs` maps the index of such a run to the reason.
         """
-        self.source, self.compiled, expected = simulation.source, simulation.compiled, job.expected
-        self.bad: dict[int, str] = {}
+        self.source, self.compiled, settings = simulation.source, simulation.compiled, job.run_settings
+        self.invalid_runs: dict[int, str] = {}
         self.columns = {
             key: values for name, values in job.columns.items() if (key := find_parameter_key(self.source, name))
         }
-        self.p, errors = self._fill_parameter_table(job.n)
-        if perturbed_columns := self._perturb_parameters(job):
+        self.p, errors = self._prepare_parameter_vectors(job.n)
+        if perturbed_columns := self._compute_perturbed_parameters(job):
             self.columns |= perturbed_columns
-            self.p, errors = self._fill_parameter_table(job.n)
-        self.bad |= {i: str(error) for i, error in errors.items() if i not in self.bad}
-        self.t_end = self._evaluate_end_times(expected.t_end)
+            self.p, errors = self._prepare_parameter_vectors(job.n)
+        self.invalid_runs |= {i: str(error) for i, error in errors.items() if i not in self.invalid_runs}
+        self.t_end = self._evaluate_end_times(settings.t_end)
         values_by_name = {"t_end": self.t_end}
-        self.output = self._evaluate_output_counts(expected.output, values_by_name)
+        self.output = self._evaluate_output_counts(settings.output, values_by_name)
         self.step: Array | None = None
-        if expected.step is not None and self.source.degrees_of_freedom:
-            self.step = evaluate_for_runs(self.source, expected.step, self.p, values_by_name)
-            self._mark_impossible("step", self.step)
-        self.spans = self._evaluate_windows(expected.windows, values_by_name)
+        if settings.step is not None and self.source.degrees_of_freedom:
+            self.step = evaluate_expression_for_runs(self.source, settings.step, self.p, values_by_name)
+            self._mark_impossible_runs("step", self.step)
+        self.spans = self._evaluate_windows(settings.windows, values_by_name)
 
-    def _perturb_parameters(self, job: Job) -> dict[str, Array]:
-        """Return the parameters of perturbed starts by address: p (1 + relative) + absolute, (n,) each.
+    def _compute_perturbed_parameters(self, job: Job) -> dict[str, Array]:
+        """Return the values of the perturbed parameters by key, p (1 + relative) + absolute, (n,) each.
 
         Parameters that the scene lacks are left out; the result is empty for a job without deviations.
         """
-        index_of_address, parameters = {slot.address: k for k, slot in enumerate(self.source.slots)}, dict[str, Array]()
+        index_of_address, parameters = (
+            {parameter.address: k for k, parameter in enumerate(self.source.slots)},
+            dict[str, Array](),
+        )
         for name in dict.fromkeys((*job.relative, *job.absolute)):
-            if (slot := find_parameter(self.source, name)) is None:
+            if (parameter := find_parameter(self.source, name)) is None:
                 continue
             base, key, zero = (
-                self.p[:, index_of_address[slot.address]],
+                self.p[:, index_of_address[parameter.address]],
                 find_parameter_key(self.source, name),
                 np.zeros(job.n),
             )
@@ -185,18 +190,18 @@ class Table:
             parameters[key] = parameters.get(key, base) + deviation  # another ensemble may spell it otherwise
         return parameters
 
-    def _fill_parameter_table(self, n: int) -> tuple[Array, Mapping[int, GudgeonError]]:
-        """Return the parameter vectors p of all runs, (n, n_p), and the errors of invalid ones by run.
+    def _prepare_parameter_vectors(self, n_runs: int) -> tuple[Array, Mapping[int, GudgeonError]]:
+        """Return the parameter vectors p of all runs, (n_runs, n_p), and the errors of invalid ones by run.
 
-        A value that is not finite is replaced by the default, and its run is entered in `bad`.
+        A value that is not finite is replaced by the default, and its run is entered in `invalid_runs`.
         """
-        rows: list[dict[str, float | str]] = [{} for _ in range(n)]
+        rows: list[dict[str, float | str]] = [{} for _ in range(n_runs)]
         for name, column in self.columns.items():
             for i, value in enumerate(map(_to_python_value, column)):
                 if isinstance(value, str) or math.isfinite(value):
                     rows[i][name] = value
                 else:
-                    self.bad.setdefault(i, f"{name} is {value}: expected a finite number")
+                    self.invalid_runs.setdefault(i, f"{name} is {value}: expected a finite number")
         given, is_given = read_given_parameters_of_runs(self.source, rows)
         p, _, errors = prepare_values_of_runs(self.compiled, given, is_given, False)
         return p, errors
@@ -207,40 +212,41 @@ class Table:
         """Return begin and end of each window, (n,) s each; None for an end that the study leaves open.
 
         known_values: names besides parameters in the expressions, such as t_end. A run that does not contain its window
-        is entered in `bad`.
+        is entered in `invalid_runs`.
         """
         spans: dict[str, tuple[Array | None, ...]] = {}
         for name, ends in windows.items():
             ends_of_runs = [
-                None if expr is None else evaluate_for_runs(self.source, expr, self.p, known_values) for expr in ends
+                None if expr is None else evaluate_expression_for_runs(self.source, expr, self.p, known_values)
+                for expr in ends
             ]
             limits = zip(ends_of_runs, (np.zeros_like(self.t_end), self.t_end), strict=True)
             begin, end = (limit if x is None else x for x, limit in limits)
             is_valid = (begin <= end) & (begin <= self.t_end * (1 + ROUNDING)) & (end >= 0.0)
             for i in np.flatnonzero(~is_valid).tolist():
                 message = f"window {name} goes from {begin[i]:g} s to {end[i]:g} s with this run's numbers"
-                self.bad.setdefault(i, f"{message}: expected a part of the run, to {self.t_end[i]:g} s")
+                self.invalid_runs.setdefault(i, f"{message}: expected a part of the run, to {self.t_end[i]:g} s")
             spans[name] = tuple(ends_of_runs)
         return spans
 
-    def _mark_impossible(self, name: str, values: Array) -> None:
-        """Enter the runs with an impossible value of `name` (t_end, output or step) in `bad`, with value and
+    def _mark_impossible_runs(self, name: str, values: Array) -> None:
+        """Enter the runs with an impossible value of `name` (t_end, output or step) in `invalid_runs`, with value and
         expectation.
 
         Runs that are entered already keep their first reason.
         """
-        is_impossible, expected = find_impossible(name, values)
+        is_impossible, expected = find_impossible_values(name, values)
         for i in np.flatnonzero(is_impossible).tolist():
-            self.bad.setdefault(i, f"{name} is {values[i]:g} with this run's numbers: expected {expected}")
+            self.invalid_runs.setdefault(i, f"{name} is {values[i]:g} with this run's numbers: expected {expected}")
 
     def _evaluate_end_times(self, expr: Expr | None) -> Array:
         """Return the end time of each run, (n,) s, from the study's expression, or from the scene if `expr` is None.
 
-        Runs with an impossible end are entered in `bad`.
+        Runs with an impossible end are entered in `invalid_runs`.
         """
         if expr is not None:
-            end_times = evaluate_for_runs(self.source, expr, self.p, {})
-            self._mark_impossible("t_end", end_times)
+            end_times = evaluate_expression_for_runs(self.source, expr, self.p, {})
+            self._mark_impossible_runs("t_end", end_times)
             return end_times
         return self._evaluate_for_each_run(lambda p: evaluate_scene_end(self.source, p))
 
@@ -248,28 +254,28 @@ class Table:
         """Return the number of output intervals of each run, (n,), as floats with integer values.
 
         expr: expression of the study, rounded; None takes the scene's number. known_values: names besides parameters.
-        Runs with an impossible number are entered in `bad`.
+        Runs with an impossible number are entered in `invalid_runs`.
         """
         if expr is None:
             return self._evaluate_for_each_run(
                 lambda p: evaluate_scene_number(self.source, "output", p, DEFAULT_OUTPUT)
             )
-        counts = np.rint(evaluate_for_runs(self.source, expr, self.p, known_values))
-        self._mark_impossible("output", counts)
+        counts = np.rint(evaluate_expression_for_runs(self.source, expr, self.p, known_values))
+        self._mark_impossible_runs("output", counts)
         return counts
 
-    def _evaluate_for_each_run(self, compute: Any) -> Array:
-        """Return `compute(p)` for the parameter vector of each run, (n,); NaN for runs in `bad`.
+    def _evaluate_for_each_run(self, compute_value: Any) -> Array:
+        """Return `compute_value(p)` for the parameter vector of each run, (n,); NaN for runs in `invalid_runs`.
 
-        A BadValueError of a run enters it in `bad`.
+        A BadValueError of a run enters it in `invalid_runs`.
         """
         values = np.full(len(self.p), np.nan)
         for i in range(len(self.p)):
             try:
-                if i not in self.bad:
-                    values[i] = compute(self.p[i])
+                if i not in self.invalid_runs:
+                    values[i] = compute_value(self.p[i])
             except BadValueError as error:
-                self.bad[i] = str(error)
+                self.invalid_runs[i] = str(error)
         return values
 
 
@@ -278,14 +284,14 @@ def _to_python_value(value: Any) -> float | str:
     return value if isinstance(value, str) else float(value)
 
 
-def _run_batch(simulation: Simulation, job: Job, table: Table, runs: Array, progress: Progress | None) -> Batch:
+def _run_batch(simulation: Simulation, job: Job, table: RunTable, runs: Array, progress: Progress | None) -> Batch:
     """Simulate some runs of a job as one batch, after its rounds of wear, and return the batch.
 
     runs: indices within the job. If no measure needs whole runs, only samples within the windows are stored. Raises
     KeyboardInterrupt if Ctrl-C ended a run, InputError for invalid parameters.
     """
-    expected, ends, counts = job.expected, table.t_end[runs], table.output[runs].astype(int)
-    spans = None if expected.keep else find_sampled_interval(expected.measures, table.spans, runs)
+    settings, ends, counts = job.run_settings, table.t_end[runs], table.output[runs].astype(int)
+    spans = None if settings.keep else find_sampled_interval(settings.measures, table.spans, runs)
     same_times = spans is None and len(set(counts.tolist())) == 1
     output: Any = int(counts[0])
     if not same_times:
@@ -300,18 +306,18 @@ def _run_batch(simulation: Simulation, job: Job, table: Table, runs: Array, prog
     parameters: Any = {name: list(map(_to_python_value, values[runs])) for name, values in table.columns.items()}
     source, step = simulation.source, None if table.step is None else table.step[runs]
     origin, sliding = (
-        find_scene_subtracted_over_steps(expected.measures, source),
-        list_sliding_requests(expected.measures, source),
+        find_scene_subtracted_over_steps(settings.measures, source),
+        list_sliding_requests(settings.measures, source),
     )
     options: dict[str, Any] = {
-        "method": choose_method(source, expected.method),
-        "rtol": expected.rtol if source.degrees_of_freedom else None,
+        "method": choose_method(source, settings.method),
+        "rtol": settings.rtol if source.degrees_of_freedom else None,
         "step": step,
         "threads": job.threads,
-        "stop": expected.stop,
+        "stop": settings.stop,
     }
     parameters = parameters or [{}] * len(runs)
-    contour, progress = run_wear_rounds(simulation, expected.wear, expected.rounds, parameters, ends, options, progress)
+    contour, progress = run_wear_rounds(simulation, settings.wear, settings.rounds, parameters, ends, options, progress)
     batch = simulation.simulate_many(
         parameters,
         t_end,
@@ -319,8 +325,8 @@ def _run_batch(simulation: Simulation, job: Job, table: Table, runs: Array, prog
         **options,
         progress=progress,
         contour=contour,
-        keep=list_sampled_series(expected.measures, expected.keep, source),
-        peaks=(*list_peak_series(expected.measures, source), *sliding),
+        keep=list_sampled_series(settings.measures, settings.keep, source),
+        peaks=(*list_peak_series(settings.measures, source), *sliding),
         against=load_subtracted_scene(job, origin) if origin else None,
     )
     if batch.interrupted:
@@ -336,10 +342,10 @@ def _select_stored_times(t: Array, begin: float, end: float) -> Array:
 class _Collector:
     """Collector of measures and series of the runs of a job; runs without results have NaN."""
 
-    def __init__(self, job: Job, table: Table) -> None:
+    def __init__(self, job: Job, table: RunTable) -> None:
         """Create NaN measures and end times for all runs of a job."""
         self.job, self.table, n = job, table, job.n
-        self.measures = {measure.name: np.full(n, np.nan) for measure in job.expected.measures}
+        self.measures = {measure.name: np.full(n, np.nan) for measure in job.run_settings.measures}
         self.t_last = np.full(n, np.nan)
         self.kept: list[tuple[Array, Array, Mapping[str, Array]]] = []
         self.notes: list[Mapping[str, Note]] = []
@@ -358,13 +364,15 @@ class _Collector:
             failures[runs[i]] = message
         origins = compute_subtracted_series(self.job, self.table, runs, batch, failures)
         is_valid = np.array([not failures[i] for i in runs])
-        for measure in self.job.expected.measures:
-            self.measures[measure.name][runs] = np.where(is_valid, measure_runs(batch, measure, spans, origins), np.nan)
+        for measure in self.job.run_settings.measures:
+            self.measures[measure.name][runs] = np.where(
+                is_valid, evaluate_measure(batch, measure, spans, origins), np.nan
+            )
         has_begun = np.asarray(batch.samples) > 0
         self.t_last[runs] = np.where(has_begun, batch.t_last, np.nan)
         notes_by_run = batch.result.notes()
         self.notes.append(group_notes((self.job.first + int(runs[i]), notes_by_run[i]) for i in sorted(notes_by_run)))
-        if self.job.expected.keep:
+        if self.job.run_settings.keep:
             self.kept.append((runs, batch.t, batch.kept))  # the batch itself holds what C has stored
 
     def add_measures(self, values: Mapping[str, Array], failures: list[str]) -> None:
@@ -377,7 +385,7 @@ class _Collector:
 
         Series of shorter runs are padded with NaN.
         """
-        job, keep = self.job, self.job.expected.keep
+        job, keep = self.job, self.job.run_settings.keep
         N = max((requested.shape[-1] for _, requested, _ in self.kept), default=0)
         t = np.full((job.n, N), np.nan)
         series = {name: np.full((job.n, N), np.nan) for name in keep}
@@ -395,7 +403,7 @@ class _Collector:
         return Block(job.number, job.first, self.measures, tuple(failures), self.t_last, t, series, notes)
 
 
-def resolve_wear(wear: WearRounds, sources: Sequence[KernelSource]) -> WearModel:
+def resolve_wear_model(wear: WearRounds, sources: Sequence[KernelSource]) -> WearModel:
     """Return the wear model of a study, with the wear rate from k and hardness in SI.
 
     sources: all scenes of the study. Raises UnknownNameError for a joint without a contour in any scene, InputError for
@@ -427,9 +435,9 @@ def resolve_wear(wear: WearRounds, sources: Sequence[KernelSource]) -> WearModel
 def run_wear_rounds(
     simulation: Simulation,
     wear: WearModel | None,
-    rounds: int,
+    n_rounds: int,
     parameters: Any,
-    ends: Array,
+    end_times: Array,
     options: dict[str, Any],
     progress: Progress | None,
 ) -> tuple[dict[str, Array], Progress | None]:
@@ -441,9 +449,9 @@ def run_wear_rounds(
     joints_with_contour = {contour.joint for contour in simulation.source.contours}
     if wear is None or not joints_with_contour.intersection(wear.joints):
         return {}, progress
-    loop = WearLoop(
+    wear_loop = WearLoop(
         simulation, replace(wear, joints=tuple(joint for joint in wear.joints if joint in joints_with_contour)), {}
     )
-    for k in range(rounds):
-        loop.run_round(parameters, ends, progress=scale_progress(progress, k, rounds + 1), **options)
-    return loop.given, scale_progress(progress, rounds, rounds + 1)
+    for k in range(n_rounds):
+        wear_loop.run_round(parameters, end_times, progress=scale_progress(progress, k, n_rounds + 1), **options)
+    return wear_loop.given, scale_progress(progress, n_rounds, n_rounds + 1)

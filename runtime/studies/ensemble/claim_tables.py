@@ -17,12 +17,12 @@ from gudgeon.language.plot_units import format_quantity
 from gudgeon.language.text_output import escape_for_spreadsheet, format_count
 from gudgeon.results.batch import Array
 from gudgeon.studies.ensemble.judge import Cell, judge_claim, merge_verdicts
-from gudgeon.studies.ensemble.names import collect_names, format_typographically
+from gudgeon.studies.ensemble.names import collect_names, typeset_quantity
 
 if TYPE_CHECKING:
     import pandas
 
-    from gudgeon.studies.ensemble.claims import Known, KnownNumber, KnownTrend
+    from gudgeon.studies.ensemble.claims import ResolvedClaims, ResolvedNumber, ResolvedTrend
     from gudgeon.studies.ensemble.finished import Study
     from gudgeon.studies.ensemble.plan import Plan, Plans
 
@@ -71,14 +71,14 @@ class Claimed(NamedTuple):
         return text_lines
 
 
-def _describe_deviations(printed: pandas.DataFrame) -> str:
+def _describe_deviations(printed_rows: pandas.DataFrame) -> str:
     """Return a sentence on how far the computed medians deviate from the printed numbers.
 
-    printed: rows of the table of numbers that have a printed value. A printed 0 has no relative deviation; a claim with
-    several ensembles counts by the median of theirs.
+    printed_rows: rows of the table of numbers that have a printed value. A printed 0 has no relative deviation; a claim
+    with several ensembles counts by the median of theirs.
     """
-    each = printed.groupby("claim")
-    off = printed["deviation"].abs().groupby(printed["claim"]).median().dropna()
+    each = printed_rows.groupby("claim")
+    off = printed_rows["deviation"].abs().groupby(printed_rows["claim"]).median().dropna()
     computed = int(each["median"].count().gt(0).sum())
     numbers = format_count(each.ngroups, "printed number")
     if not computed:
@@ -93,7 +93,7 @@ def _describe_deviations(printed: pandas.DataFrame) -> str:
     return f"{count_text}: {sentence}"
 
 
-def write_claims(folder: Path, plans: Plans, claims: Known, study: Study) -> None:
+def write_claims(folder: Path, plans: Plans, claims: ResolvedClaims, study: Study) -> None:
     """Judge all claims by the finished runs, and write them as claims.json and as two CSV files into the study's
     folder.
 
@@ -166,10 +166,8 @@ class _FinishedRuns:
         self.plans, self.study, self.written = plans, study, value_texts
         self.cached_values: dict[tuple[str, str], Array] = {}
 
-    def ensembles(self, cells: list[Cell]) -> list[str]:
-        """Return the names of the ensembles of the parts of these cells, without repetitions; [UNNAMED] if there are
-        none.
-        """
+    def list_ensembles(self, cells: list[Cell]) -> list[str]:
+        """Return the names of the ensembles of the parts of these cells, each once; [""] if there are none."""
         names = [
             name for part in dict.fromkeys(cell.part for cell in cells) for name in self._list_ensemble_names(part)
         ]
@@ -186,7 +184,7 @@ class _FinishedRuns:
             str(name) for coordinate in plan.coordinates if coordinate.name == "ensemble" for name in coordinate.values
         ]
 
-    def values(self, cell: Cell, measure: str, ensemble: str) -> Array:
+    def read_values(self, cell: Cell, measure: str, ensemble: str) -> Array:
         """Return a measure of the runs of a cell in an ensemble, (n,).
 
         If the cell does not have this ensemble, all its runs are returned. The array of the part is read once and
@@ -203,29 +201,31 @@ class _FinishedRuns:
         return np.asarray(cell_values).ravel()
 
 
-def _judge_number(number: KnownNumber, runs: _FinishedRuns, cells: Mapping[str, Cell]) -> Iterator[dict[str, Any]]:
+def _judge_number(
+    number: ResolvedNumber, finished_runs: _FinishedRuns, cells: Mapping[str, Cell]
+) -> Iterator[dict[str, Any]]:
     """Yield the table row of a published number for each ensemble: quartiles of its runs, and the deviation in %.
 
     cells: cells of all numbers by the name of their claim. The deviation is from the printed value, or from the median
     of the number in `beside`; null without runs or for a base of 0.
     """
     claim = number.claim
-    for ensemble in runs.ensembles([number.cell]):
-        values = runs.values(number.cell, str(claim.measure), ensemble)
+    for ensemble in finished_runs.list_ensembles([number.cell]):
+        values = finished_runs.read_values(number.cell, str(claim.measure), ensemble)
         finite_values = values[np.isfinite(values)]
         quartiles = np.quantile(finite_values, [0.25, 0.5, 0.75]) if len(finite_values) else np.full(3, np.nan)
         base = number.printed
         if claim.beside is not None:
-            others = runs.values(cells[claim.beside], str(claim.measure), ensemble)
+            others = finished_runs.read_values(cells[claim.beside], str(claim.measure), ensemble)
             base = float(np.median(others[np.isfinite(others)])) if np.isfinite(others).any() else math.nan
         deviation = 100.0 * (quartiles[1] / base - 1.0) if base else math.nan
-        plan = runs.plans.each[number.cell.part]
+        plan = finished_runs.plans.each[number.cell.part]
         yield {
             "claim": str(claim.name),
             "figure": claim.figure,
             "says": claim.says,
             "part": number.cell.part,
-            "at": _describe_cell(plan, number, runs.written[number.cell.part]),
+            "at": _describe_cell(plan, number, finished_runs.written[number.cell.part]),
             "place": json.dumps(dict(zip(_list_cell_dimensions(plan), number.cell.index, strict=True))),
             "measure": str(claim.measure),
             "unit": number.unit,
@@ -242,14 +242,14 @@ def _judge_number(number: KnownNumber, runs: _FinishedRuns, cells: Mapping[str, 
         }
 
 
-def _describe_cell(plan: Plan, number: KnownNumber, value_texts: Mapping[str, tuple[str, ...]]) -> str:
+def _describe_cell(plan: Plan, number: ResolvedNumber, value_texts: Mapping[str, tuple[str, ...]]) -> str:
     """Return the coordinates of a number's cell in words: "scene dry, c 0.3 mm".
 
     Texts of the claim take precedence over those of the file (`value_texts`), and these over formatted values.
     """
     texts, words = (
         [],
-        {str(name): format_typographically(str(text)) for name, text in number.claim.selection.at.items()},
+        {str(name): typeset_quantity(str(text)) for name, text in number.claim.selection.at.items()},
     )
     for name, k in zip(_list_cell_dimensions(plan), number.cell.index, strict=True):
         for coordinate in (coordinate for coordinate in plan.coordinates if coordinate.over == (name,)):
@@ -266,7 +266,7 @@ def _list_cell_dimensions(plan: Plan) -> list[str]:
     return [name for name in plan.dims if name not in ("ensemble", "start")]
 
 
-def _judge_trend(trend: KnownTrend, runs: _FinishedRuns) -> Iterator[dict[str, Any]]:
+def _judge_trend(trend: ResolvedTrend, finished_runs: _FinishedRuns) -> Iterator[dict[str, Any]]:
     """Yield the table row of a trend for each ensemble: the verdict of all ensembles, its own, and probabilities.
 
     A trend that the study does not compute has one row with the verdict "not computed".
@@ -286,12 +286,16 @@ def _judge_trend(trend: KnownTrend, runs: _FinishedRuns) -> Iterator[dict[str, A
         return
     cells = list(dict.fromkeys(cell for check in trend.checks for cell in check.cells))
     measures = list(dict.fromkeys(name for check in trend.checks for name in check.measures))
-    certain_cells = [cell for cell in cells if "start" not in runs.plans.each[cell.part].dims]
-    judged_by_ensemble, ensembles = {}, runs.ensembles(cells)
-    shared_cells = [cell for cell in cells if not runs.has_separate_runs(cell, ensembles)]
+    certain_cells = [cell for cell in cells if "start" not in finished_runs.plans.each[cell.part].dims]
+    judged_by_ensemble, ensembles = {}, finished_runs.list_ensembles(cells)
+    shared_cells = [cell for cell in cells if not finished_runs.has_separate_runs(cell, ensembles)]
     for ensemble in ensembles:
         verdicts = {
-            cell: {name: runs.values(cell, name, ensemble) for name in measures if _has_measure(runs, cell, name)}
+            cell: {
+                name: finished_runs.read_values(cell, name, ensemble)
+                for name in measures
+                if _has_measure(finished_runs, cell, name)
+            }
             for cell in cells
         }
         judged_by_ensemble[ensemble] = judge_claim(trend.checks, verdicts, certain_cells, shared_cells)
@@ -308,9 +312,9 @@ def _judge_trend(trend: KnownTrend, runs: _FinishedRuns) -> Iterator[dict[str, A
         }
 
 
-def _has_measure(runs: _FinishedRuns, cell: Cell, measure: str) -> bool:
+def _has_measure(finished_runs: _FinishedRuns, cell: Cell, measure: str) -> bool:
     """Return whether the part that a cell belongs to has a measure of this name."""
-    return any(expected.name == measure for expected in runs.plans.each[cell.part].expected.measures)
+    return any(expected.name == measure for expected in finished_runs.plans.each[cell.part].run_settings.measures)
 
 
 def _replace_nonfinite(value: float | None) -> float | None:

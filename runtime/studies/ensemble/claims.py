@@ -25,26 +25,26 @@ if TYPE_CHECKING:
     from gudgeon.generator.yaml import Text
 
 
-MOST_COMPARED = 100_000  # cells of runs, or pairs of them, that one claim compares: each is judged alone
-FEWER = f"expected {MOST_COMPARED} at most: select some with at:, or vary less"
+MAX_COMPARED = 100_000  # cells of runs, or pairs of them, that one claim compares: each is judged alone
+FEWER = f"expected {MAX_COMPARED} at most: select some with at:, or vary less"
 STARTS = ("ensemble", "start")  # dimensions that no claim selects: it is about all of them
-SAME = 1e-9  # relative tolerance of a coordinate's value in a claim
-MOST_LISTED = 8
+VALUE_RTOL = 1e-9  # relative tolerance of a coordinate's value in a claim
+MAX_LISTED = 8
 
 
-def limit_checks(checks: Iterable[Check], name: Text) -> tuple[Check, ...]:
-    """Return the checks of a claim as a tuple, at most MOST_COMPARED.
+def limit_checks(checks: Iterable[Check], claim_name: Text) -> tuple[Check, ...]:
+    """Return the checks of a claim as a tuple, at most MAX_COMPARED.
 
     Raises BadValueError at the name of the claim if there are more.
     """
-    first_checks = tuple(itertools.islice(checks, MOST_COMPARED + 1))
-    if len(first_checks) > MOST_COMPARED:
-        raise BadValueError(f"{name} compares more than {MOST_COMPARED} pairs of runs", name.where, FEWER)
+    first_checks = tuple(itertools.islice(checks, MAX_COMPARED + 1))
+    if len(first_checks) > MAX_COMPARED:
+        raise BadValueError(f"{claim_name} compares more than {MAX_COMPARED} pairs of runs", claim_name.where, FEWER)
     return first_checks
 
 
 @dataclass(frozen=True, eq=False)
-class Selected:
+class ResolvedSelection:
     """The indices along each dimension of a part that a selection allows, without starts."""
 
     part: str
@@ -52,21 +52,24 @@ class Selected:
     indices_by_dimension: Mapping[str, tuple[int, ...]]
     where: Text
 
-    def cells(self, fixed: Mapping[str, int]) -> Iterator[tuple[tuple[Any, ...], Cell]]:
+    def iterate_cells(self, fixed_indices: Mapping[str, int]) -> Iterator[tuple[tuple[Any, ...], Cell]]:
         """Yield all selected cells, each after its key: pairs (dimension, value) of the dimensions that vary and are
         not fixed.
 
-        fixed: dimension → index. Raises BadValueError for more than MOST_COMPARED cells.
+        fixed_indices: dimension → index. Raises BadValueError for more than MAX_COMPARED cells.
         """
-        if (count := math.prod(len(indices) for indices in self.indices_by_dimension.values())) > MOST_COMPARED:
+        if (count := math.prod(len(indices) for indices in self.indices_by_dimension.values())) > MAX_COMPARED:
             raise BadValueError(f"the claim is about {count} values of coordinates", self.where.where, FEWER)
         for index in itertools.product(
-            *([fixed[name]] if name in fixed else indices for name, indices in self.indices_by_dimension.items())
+            *(
+                [fixed_indices[name]] if name in fixed_indices else indices
+                for name, indices in self.indices_by_dimension.items()
+            )
         ):
             free = [
                 (name, k)
                 for name, k in zip(self.indices_by_dimension, index, strict=True)
-                if self._is_free(name, fixed)
+                if self._is_free(name, fixed_indices)
             ]
             yield tuple((name, self._get_coordinate_value(name, k)) for name, k in free), Cell(self.part, index)
 
@@ -74,25 +77,26 @@ class Selected:
         """Return whether a dimension has several selected values and is not fixed."""
         return name not in fixed and len(self.indices_by_dimension[name]) > 1
 
-    def _get_coordinate_value(self, name: str, k: int) -> Any:
-        """Return the value of the coordinate along a dimension at index k, as a Python value; k itself without a
-        coordinate.
+    def _get_coordinate_value(self, name: str, index: int) -> Any:
+        """Return the value of the coordinate along a dimension at an index, as a Python value.
+
+        name: of the dimension. A dimension without a coordinate gives the index itself.
         """
         coordinate = next(
             (candidate for candidate in self.plan.coordinates if candidate.name == name and candidate.over == (name,)),
             None,
         )
         return (
-            k
+            index
             if coordinate is None
-            else coordinate.values[k].item()
-            if hasattr(coordinate.values[k], "item")
-            else coordinate.values[k]
+            else coordinate.values[index].item()
+            if hasattr(coordinate.values[index], "item")
+            else coordinate.values[index]
         )
 
 
 @dataclass(frozen=True, eq=False)
-class KnownNumber:
+class ResolvedNumber:
     """A published number and the cell of runs that it describes."""
 
     claim: NumberClaim
@@ -102,7 +106,7 @@ class KnownNumber:
 
 
 @dataclass(frozen=True, eq=False)
-class KnownTrend:
+class ResolvedTrend:
     """A published trend and its checks."""
 
     claim: TrendClaim
@@ -110,20 +114,20 @@ class KnownTrend:
 
 
 @dataclass(frozen=True, eq=False)
-class Known:
+class ResolvedClaims:
     """All claims of a file."""
 
-    numbers: tuple[KnownNumber, ...] = ()
-    trends: tuple[KnownTrend, ...] = ()
+    numbers: tuple[ResolvedNumber, ...] = ()
+    trends: tuple[ResolvedTrend, ...] = ()
 
 
-def resolve_claims(plans: Plans) -> Known:
+def resolve_claims(plans: Plans) -> ResolvedClaims:
     """Return all claims of a file with their cells and checks.
 
     Raises InputErrors with the errors of all claims that do not fit the runs, each at its location.
     """
     claims, errors = plans.file.claims, list[InputError]()
-    numbers, trends = list[KnownNumber](), list[KnownTrend]()
+    numbers, trends = list[ResolvedNumber](), list[ResolvedTrend]()
     for number in claims.numbers:
         try:
             numbers.append(_resolve_number(plans, number))
@@ -131,43 +135,43 @@ def resolve_claims(plans: Plans) -> Known:
             errors.append(error)
     for trend in claims.trends:
         try:
-            every = (check for trial in trend.trials for check in _build_checks(plans, trial))
-            trends.append(KnownTrend(trend, limit_checks(every, trend.name)))
+            every = (check for statement in trend.trials for check in _build_checks(plans, statement))
+            trends.append(ResolvedTrend(trend, limit_checks(every, trend.name)))
         except InputError as error:
             errors.append(error)
     if errors:
         raise combine_errors(errors)
-    return Known(tuple(numbers), tuple(trends))
+    return ResolvedClaims(tuple(numbers), tuple(trends))
 
 
-def _resolve_number(plans: Plans, claim: NumberClaim) -> KnownNumber:
+def _resolve_number(plans: Plans, claim: NumberClaim) -> ResolvedNumber:
     """Return a published number with its cell, its unit, and its printed value in SI (None if it has none).
 
     Raises BadValueError if the claim selects several cells, an InputError for unknown names or units.
     """
-    selected = _select(plans, claim.selection)
-    cells = [cell for _, cell in selected.cells({})]
+    selected = _resolve_selection(plans, claim.selection)
+    cells = [cell for _, cell in selected.iterate_cells({})]
     if len(cells) > 1:
         varying = [
             f"{name} ({len(indices)})" for name, indices in selected.indices_by_dimension.items() if len(indices) > 1
         ]
         hint = f"say in at: which value of {', '.join(varying)}"
         raise BadValueError(f"{claim.name} is about {len(cells)} scenes", claim.name.where, hint)
-    unit_text = _find_unit(selected.plan, claim.measure)
-    return KnownNumber(
-        claim, cells[0], unit_text, None if claim.value is None else _parse_value_in(claim.value, unit_text)
+    unit_text = _find_measure_unit(selected.plan, claim.measure)
+    return ResolvedNumber(
+        claim, cells[0], unit_text, None if claim.value is None else _parse_value_with_unit(claim.value, unit_text)
     )
 
 
-def _find_unit(plan: Plan, measure: Text) -> str:
+def _find_measure_unit(plan: Plan, measure: Text) -> str:
     """Return the SI unit of a measure in a plan. Raises UnknownNameError at the measure if the plan lacks it."""
-    known_names = [candidate.name for candidate in plan.expected.measures]
+    known_names = [candidate.name for candidate in plan.run_settings.measures]
     if measure not in known_names:
         raise make_unknown_name_error("measure", measure, known_names, measure.where)
     return plan.units[str(measure)]
 
 
-def _parse_value_in(text: Text, unit_text: str) -> float:
+def _parse_value_with_unit(text: Text, unit_text: str) -> float:
     """Return the value in SI of a text with the dimension of `unit_text`, an SI unit or "" for a pure number.
 
     Raises an InputError at the text for another dimension or no number.
@@ -181,7 +185,7 @@ def _parse_value_in(text: Text, unit_text: str) -> float:
     return parse_real_value(text, RuntimeParameter("value", unit_text, 0.0, False, exponents))
 
 
-def _select(plans: Plans, selection: Selection) -> Selected:
+def _resolve_selection(plans: Plans, selection: Selection) -> ResolvedSelection:
     """Return the part of a selection and the indices that it allows along each dimension other than those of starts.
 
     Raises an InputError at its location for an unknown or missing part, an unknown coordinate, or a value that no run
@@ -200,14 +204,14 @@ def _select(plans: Plans, selection: Selection) -> Selected:
     indices_by_dimension = {name: tuple(range(length)) for name, length in zip(plan.dims, plan.shape, strict=True)}
     for name, value in selection.at.items():
         coordinate = _find_coordinate(plan, name)
-        matching = _find_indices(coordinate, value)
+        matching = _find_value_indices(coordinate, value)
         if coordinate.over:
             indices_by_dimension[coordinate.over[0]] = tuple(
                 k for k in indices_by_dimension[coordinate.over[0]] if k in matching
             )
         if not matching or coordinate.over and not indices_by_dimension[coordinate.over[0]]:
-            raise BadValueError(f"no run has {name} {str(value)[:60]!r}", value.where, _list_values(coordinate))
-    return Selected(
+            raise BadValueError(f"no run has {name} {str(value)[:60]!r}", value.where, _format_values_hint(coordinate))
+    return ResolvedSelection(
         part,
         plan,
         {name: matching for name, matching in indices_by_dimension.items() if name not in STARTS},
@@ -231,85 +235,85 @@ def _find_coordinate(plan: Plan, name: Text) -> Coordinate:
     return coordinate
 
 
-def _find_indices(coordinate: Coordinate, value: Text) -> set[int]:
-    """Return the indices at which a coordinate has a value, equal as text or to the relative tolerance SAME.
+def _find_value_indices(coordinate: Coordinate, value: Text) -> set[int]:
+    """Return the indices at which a coordinate has a value, equal as text or to the relative tolerance VALUE_RTOL.
 
     Raises an InputError at the value for a text that is no number with the coordinate's unit.
     """
     values = np.atleast_1d(np.asarray(coordinate.values))
     if values.dtype.kind in "OU":
         return {k for k, own_text in enumerate(values.tolist()) if str(own_text) == value.strip()}
-    expected = _parse_value_in(value, coordinate.unit)
-    return set(np.flatnonzero(np.abs(values - expected) <= SAME * np.abs(values)).tolist())
+    expected = _parse_value_with_unit(value, coordinate.unit)
+    return set(np.flatnonzero(np.abs(values - expected) <= VALUE_RTOL * np.abs(values)).tolist())
 
 
-def _list_values(coordinate: Coordinate) -> str:
+def _format_values_hint(coordinate: Coordinate) -> str:
     """Return a hint that lists the first values of a coordinate with its unit: "expected one of: 1, 2, …"."""
     values = [
         str(value) if isinstance(value, str) else f"{value:.6g}" for value in np.atleast_1d(coordinate.values).tolist()
     ]
-    more = ", …" if len(values) > MOST_LISTED else ""
+    more = ", …" if len(values) > MAX_LISTED else ""
     shown = f" ({coordinate.unit})" if coordinate.unit else ""
-    return f"expected one of: {', '.join(values[:MOST_LISTED])}{more}{shown}"
+    return f"expected one of: {', '.join(values[:MAX_LISTED])}{more}{shown}"
 
 
-def _build_checks(plans: Plans, trial: Trial) -> Iterator[Check]:
+def _build_checks(plans: Plans, statement: Trial) -> Iterator[Check]:
     """Yield the checks of one statement of a trend.
 
-    The kind of the statement decides: counts of components, a course along a dimension, a comparison of two selections,
-    or cells alone. Raises an InputError at its location for unknown names.
+    Its kind decides: counts of components, a trend along a dimension, a comparison of two selections, or single cells.
+    Raises an InputError at its location for unknown names.
     """
-    selected = _select(plans, trial.selection)
-    if trial.kind == COUNTS:
-        yield _build_count_check(selected, trial)
+    selection = _resolve_selection(plans, statement.selection)
+    if statement.kind == COUNTS:
+        yield _build_count_check(selection, statement)
         return
-    for measure in (*trial.measures, *trial.others):
-        _find_unit(selected.plan, measure)
-    if trial.kind in TRENDS_ALONG_DIMENSION:
-        yield from _build_checks_along(selected, trial)
-    elif trial.than is not None:
-        yield from _build_checks_between(selected, _select(plans, trial.than), trial)
+    for measure in (*statement.measures, *statement.others):
+        _find_measure_unit(selection.plan, measure)
+    if statement.kind in TRENDS_ALONG_DIMENSION:
+        yield from _build_checks_along_dimension(selection, statement)
+    elif statement.than is not None:
+        yield from _build_comparison_checks(selection, _resolve_selection(plans, statement.than), statement)
     else:
-        yield from _build_checks_of_cells(selected, trial)
+        yield from _build_checks_of_cells(selection, statement)
 
 
-def _parse_fraction(trial: Trial, otherwise: float) -> float:
-    """Return the value of `by` of a statement, a fraction or factor, or the default `otherwise` if it has none."""
-    return otherwise if trial.by is None else _parse_value_in(trial.by, "")
+def _parse_fraction(statement: Trial, default: float) -> float:
+    """Return the fraction or factor `by` of a statement, or `default` if it has none."""
+    return default if statement.by is None else _parse_value_with_unit(statement.by, "")
 
 
-def _build_checks_along(selected: Selected, trial: Trial) -> Iterator[Check]:
+def _build_checks_along_dimension(selection: ResolvedSelection, statement: Trial) -> Iterator[Check]:
     """Yield the checks of a statement along a dimension, for each combination of the other dimensions.
 
     Cells are sorted by the coordinate if its values are numbers. Raises BadValueError if only one value is selected.
     """
-    coordinate = _find_coordinate(selected.plan, trial.text)
-    if not coordinate.over or len(selected.indices_by_dimension[coordinate.over[0]]) < 2:
-        message = f"nothing to compare along {str(trial.text)[:60]!r}: it has one value here"
-        raise BadValueError(message, trial.text.where, "leave it out of at:, or take another dimension")
+    coordinate = _find_coordinate(selection.plan, statement.text)
+    if not coordinate.over or len(selection.indices_by_dimension[coordinate.over[0]]) < 2:
+        message = f"nothing to compare along {str(statement.text)[:60]!r}: it has one value here"
+        raise BadValueError(message, statement.text.where, "leave it out of at:, or take another dimension")
     (dimension,) = coordinate.over
-    order = selected.indices_by_dimension[dimension]
+    order = selection.indices_by_dimension[dimension]
     if np.asarray(coordinate.values).dtype.kind not in "OU":
         order = tuple(sorted(order, key=lambda k: float(coordinate.values[k])))
-    cells_by_index = [dict(selected.cells({dimension: k})) for k in order]
+    cells_by_index = [dict(selection.iterate_cells({dimension: k})) for k in order]
     for key in cells_by_index[0]:
-        yield from _build_checks_of_row([row[key] for row in cells_by_index], trial)
+        yield from _build_checks_of_ordered_cells([row[key] for row in cells_by_index], statement)
 
 
-def _build_checks_of_row(cells: list[Cell], trial: Trial) -> Iterator[Check]:
+def _build_checks_of_ordered_cells(cells: list[Cell], statement: Trial) -> Iterator[Check]:
     """Yield the checks of cells in order along a dimension: neighbours, all pairs, or all cells at once.
 
     `grows_along` compares neighbours, `alike_along` all pairs, and the remaining kind the ranges of two measures.
     """
-    for k, measure in enumerate(map(str, trial.measures)):
-        if trial.kind == "grows_along":
+    for k, measure in enumerate(map(str, statement.measures)):
+        if statement.kind == "grows_along":
             for pair in itertools.pairwise(cells):
-                yield Check(pair, (measure,), _make_larger_condition(measure, _parse_fraction(trial, 1.0)))
-        elif trial.kind == "alike_along":
+                yield Check(pair, (measure,), _make_larger_condition(measure, _parse_fraction(statement, 1.0)))
+        elif statement.kind == "alike_along":
             for two in itertools.combinations(cells, 2):
-                yield Check(two, (measure,), _make_alike_condition(measure, _parse_fraction(trial, 0.0)))
+                yield Check(two, (measure,), _make_equality_condition(measure, _parse_fraction(statement, 0.0)))
         else:
-            other = str(trial.others[k])
+            other = str(statement.others[k])
             yield Check(tuple(cells), (measure, other), _make_range_condition(measure, other, len(cells)))
 
 
@@ -318,86 +322,96 @@ def _make_larger_condition(measure: str, factor: float) -> Callable[[ReadMeasure
 
     It is a function of `ReadMeasure` that returns whether each combination of runs meets it.
     """
-    return lambda x: x(1, measure) > factor * x(0, measure)
+    return lambda read_measure: read_measure(1, measure) > factor * read_measure(0, measure)
 
 
-def _make_alike_condition(measure: str, tolerance: float) -> Callable[[ReadMeasure], Array]:
+def _make_equality_condition(measure: str, tolerance: float) -> Callable[[ReadMeasure], Array]:
     """Return the condition that a measure differs between two cells by at most the fraction `tolerance` of the larger
     value.
     """
 
-    def shows(x: ReadMeasure) -> Array:
+    def is_met(read_measure: ReadMeasure) -> Array:
         """Return for each combination of runs whether both values are alike."""
-        a, b = x(0, measure), x(1, measure)
+        a, b = read_measure(0, measure), read_measure(1, measure)
         return np.asarray(np.abs(a - b) <= tolerance * np.maximum(np.abs(a), np.abs(b)))
 
-    return shows
+    return is_met
 
 
-def _make_range_condition(measure: str, other_measure: str, n: int) -> Callable[[ReadMeasure], Array]:
+def _make_range_condition(measure: str, other_measure: str, n_cells: int) -> Callable[[ReadMeasure], Array]:
     """Return the condition that the range of a measure over n cells exceeds the range of another measure."""
 
-    def spread(x: ReadMeasure, name: str) -> Array:
+    def compute_range(read_measure: ReadMeasure, name: str) -> Array:
         """Return the largest less the smallest value of a measure over the cells, for each combination of runs."""
-        values = [x(k, name) for k in range(n)]
+        values = [read_measure(k, name) for k in range(n_cells)]
         return np.asarray(reduce(np.maximum, values) - reduce(np.minimum, values))
 
-    return lambda x: spread(x, measure) > spread(x, other_measure)
+    return lambda read_measure: compute_range(read_measure, measure) > compute_range(read_measure, other_measure)
 
 
-def _build_checks_between(first: Selected, second: Selected, trial: Trial) -> Iterator[Check]:
+def _build_comparison_checks(
+    first_selection: ResolvedSelection, second_selection: ResolvedSelection, statement: Trial
+) -> Iterator[Check]:
     """Yield the checks that compare two selections cell by cell, for each measure of the statement.
 
     Raises BadValueError if both do not vary in the same values, UnknownNameError for a measure that the second lacks.
     """
-    for name in (*trial.measures, *trial.others):
-        _find_unit(second.plan, name)
-    first_cells, second_cells = dict(first.cells({})), dict(second.cells({}))
+    for name in (*statement.measures, *statement.others):
+        _find_measure_unit(second_selection.plan, name)
+    first_cells, second_cells = dict(first_selection.iterate_cells({})), dict(second_selection.iterate_cells({}))
     if first_cells.keys() != second_cells.keys():
-        message = f"{trial.text} and what it is compared with are not about the same runs"
+        message = f"{statement.text} and what it is compared with are not about the same runs"
         hint = "what neither selects must have the same values in both"
-        raise BadValueError(message, trial.text.where, hint)
+        raise BadValueError(message, statement.text.where, hint)
     for key, cell in first_cells.items():
-        for measure in [str(name) for name in trial.measures]:
-            if trial.kind == "larger":
+        for measure in [str(name) for name in statement.measures]:
+            if statement.kind == "larger":
                 yield Check(
-                    (second_cells[key], cell), (measure,), _make_larger_condition(measure, _parse_fraction(trial, 1.0))
+                    (second_cells[key], cell),
+                    (measure,),
+                    _make_larger_condition(measure, _parse_fraction(statement, 1.0)),
                 )
-            for other in [str(name) for name in trial.others]:
-                yield Check((cell, second_cells[key]), (measure, other), _make_fall_condition(measure, other))
+            for other in [str(name) for name in statement.others]:
+                yield Check((cell, second_cells[key]), (measure, other), _make_decrease_condition(measure, other))
 
 
-def _make_fall_condition(measure: str, other_measure: str) -> Callable[[ReadMeasure], Array]:
+def _make_decrease_condition(measure: str, other_measure: str) -> Callable[[ReadMeasure], Array]:
     """Return the condition that a measure falls by a larger factor than another one from the first cell to the
     second.
     """
-    return lambda x: np.abs(x(1, measure) * x(0, other_measure)) < np.abs(x(1, other_measure) * x(0, measure))
+    return lambda read_measure: (
+        np.abs(read_measure(1, measure) * read_measure(0, other_measure))
+        < np.abs(read_measure(1, other_measure) * read_measure(0, measure))
+    )
 
 
-def _build_checks_of_cells(selected: Selected, trial: Trial) -> Iterator[Check]:
+def _build_checks_of_cells(selection: ResolvedSelection, statement: Trial) -> Iterator[Check]:
     """Yield the checks of each cell alone, against another measure of the same run or against a number.
 
     The kind of the statement is "above", "below" or "near" a number; `by` is the relative tolerance of "near".
     """
-    for _, cell in selected.cells({}):
-        for name in trial.measures:
+    for _, cell in selection.iterate_cells({}):
+        for name in statement.measures:
             measure = str(name)
-            if trial.others:
+            if statement.others:
                 yield Check(
                     (cell,),
-                    (measure, str(trial.others[0])),
-                    _make_excess_condition(measure, str(trial.others[0]), _parse_fraction(trial, 1.0)),
+                    (measure, str(statement.others[0])),
+                    _make_excess_condition(measure, str(statement.others[0]), _parse_fraction(statement, 1.0)),
                 )
                 continue
-            number, within = _parse_value_in(trial.text, _find_unit(selected.plan, name)), _parse_fraction(trial, 0.0)
-            low = {"above": number, "near": number - within * abs(number)}.get(trial.kind, -np.inf)
-            high = {"below": number, "near": number + within * abs(number)}.get(trial.kind, np.inf)
-            yield Check((cell,), (measure,), _make_interval_condition(measure, low, high, trial.kind == "near"))
+            number, within = (
+                _parse_value_with_unit(statement.text, _find_measure_unit(selection.plan, name)),
+                _parse_fraction(statement, 0.0),
+            )
+            low = {"above": number, "near": number - within * abs(number)}.get(statement.kind, -np.inf)
+            high = {"below": number, "near": number + within * abs(number)}.get(statement.kind, np.inf)
+            yield Check((cell,), (measure,), _make_interval_condition(measure, low, high, statement.kind == "near"))
 
 
 def _make_excess_condition(measure: str, other_measure: str, factor: float) -> Callable[[ReadMeasure], Array]:
     """Return the condition that a measure exceeds `factor` times another one of the same run."""
-    return lambda x: x(0, measure) > factor * x(0, other_measure)
+    return lambda read_measure: read_measure(0, measure) > factor * read_measure(0, other_measure)
 
 
 def _make_interval_condition(
@@ -407,26 +421,26 @@ def _make_interval_condition(
     True.
     """
 
-    def shows(x: ReadMeasure) -> Array:
+    def is_met(read_measure: ReadMeasure) -> Array:
         """Return for each run whether its value lies in the interval."""
-        own = x(0, measure)
+        own = read_measure(0, measure)
         return np.asarray((own >= low) & (own <= high) if includes_ends else (own > low) & (own < high))
 
-    return shows
+    return is_met
 
 
-def _build_count_check(selected: Selected, trial: Trial) -> Check:
+def _build_count_check(selection: ResolvedSelection, statement: Trial) -> Check:
     """Return the check that scenes have the claimed numbers of components, which is the same in every run."""
-    structure = [coordinate.length for coordinate in selected.plan.structure]
-    indices_by_dimension = [cell.index[: len(structure)] for _, cell in selected.cells({})]
+    structure = [coordinate.length for coordinate in selection.plan.structure]
+    indices_by_dimension = [cell.index[: len(structure)] for _, cell in selection.iterate_cells({})]
     parts = {
         int(np.ravel_multi_index(cell_index, structure)) if structure else 0 for cell_index in indices_by_dimension
     }
-    sources = [selected.plan.parts[k].simulation.source for k in sorted(parts)]
+    sources = [selection.plan.parts[k].simulation.source for k in sorted(parts)]
     is_true = all(
-        _count_components(source)[str(name)] == count for source in sources for name, count in trial.counts.items()
+        _count_components(source)[str(name)] == count for source in sources for name, count in statement.counts.items()
     )
-    return Check((), (), lambda x: np.array(is_true))
+    return Check((), (), lambda read_measure: np.array(is_true))
 
 
 def _count_components(source: KernelSource) -> dict[str, int]:

@@ -18,22 +18,22 @@ from gudgeon.results.batch import find_evaluation_parts
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.studies.ensemble.block import Block, Job, run_block
 from gudgeon.studies.ensemble.folder import block_to_bytes
-from gudgeon.studies.ensemble.loop import SIDE_BY_SIDE
+from gudgeon.studies.ensemble.loop import MAX_CONCURRENT_BLOCKS
 from gudgeon.studies.ensemble.measures import list_sampled_series
 from gudgeon.studies.ensemble.plan import Part, Plan, Plans
 
 READ = 3  # times a series is there while it is measured: kept, read, and what is between
 OF_A_BLOCK = 250  # bytes, about, of the notes of a block during a study
 TRIALS = 4  # runs a thread of each part, evenly over the part
-FIRST = 1.0  # s; a shorter trial is repeated, since most of a first time is start-up
+MIN_TRIAL_S = 1.0  # s; a shorter trial is repeated, since most of a first time is start-up
 
 
-def check_needs(plans: Plans, folder: Path, threads: int | None, in_process: bool) -> None:
+def check_disk_and_memory(plans: Plans, folder: Path, threads: int | None, in_process: bool) -> None:
     """Check disk and memory before a study begins: blocks and datasets of all parts.
 
-    threads: None means the number of cores. here: whether runs are simulated in this process, whose memory is then
-    checked, too. Raises OutputError if blocks and datasets do not fit on the disk besides existing ones, MemoryError if
-    notes or samples do not fit into memory.
+    threads: None means the number of cores. in_process: whether runs are simulated in this process, whose memory is
+    then checked, too. Raises OutputError if blocks and datasets do not fit on the disk besides existing ones,
+    MemoryError if notes or samples do not fit into memory.
     """
     cores = threads or available_threads()
     for plan in plans.each.values():
@@ -48,14 +48,14 @@ def estimate_disk_bytes(plan: Plan) -> float:
     """Return the least size of all blocks and of the dataset of a plan, bytes: measures, ends of runs and stored
     series.
     """
-    numbers, kept = len(plan.expected.measures) + 2, len(plan.expected.keep)
+    numbers, kept = len(plan.run_settings.measures) + 2, len(plan.run_settings.keep)
     return sum(8.0 * plan.each * (2 * numbers + kept * (part.samples + part.most)) for part in plan.parts)
 
 
 def _check_block_memory(plan: Plan, part: Part, cores: int) -> None:
     """Raise MemoryError if states and series of the blocks of a part that run at the same time do not fit."""
-    compiled, most = part.simulation.compiled, min(cores, SIDE_BY_SIDE, plan.count_of_blocks)
-    names = list_sampled_series(plan.expected.measures, plan.expected.keep, compiled.source)
+    compiled, most = part.simulation.compiled, min(cores, MAX_CONCURRENT_BLOCKS, plan.count_of_blocks)
+    names = list_sampled_series(plan.run_settings.measures, plan.run_settings.keep, compiled.source)
     state = compute_sample_bytes(compiled) + compute_evaluation_bytes(
         compiled, find_evaluation_parts(compiled.source, names)
     )
@@ -90,7 +90,7 @@ class Estimate:
 def estimate_study(plan: Plan, threads: int | None) -> Estimate:
     """Return size and run time of a study, extrapolated from a few runs of each part, which are not stored.
 
-    threads: None means the number of cores. A trial shorter than FIRST seconds is repeated, since the first time
+    threads: None means the number of cores. A trial shorter than MIN_TRIAL_S seconds is repeated, since the first time
     includes the start-up.
     """
     count = min(plan.each, TRIALS * (threads or available_threads()))
@@ -99,10 +99,10 @@ def estimate_study(plan: Plan, threads: int | None) -> Estimate:
     for k, part in enumerate(plan.parts):
         job = plan.make_job(0, k, runs, threads)
         block, used = _run_timed_block(job, part.simulation)
-        if used < FIRST:
+        if used < MIN_TRIAL_S:
             block, used = _run_timed_block(job, part.simulation)
         seconds += used * plan.each / len(runs)
-        numbers = len(plan.expected.measures) + 3 + (len(plan.expected.keep) + 1) * block.t.shape[-1]
+        numbers = len(plan.run_settings.measures) + 3 + (len(plan.run_settings.keep) + 1) * block.t.shape[-1]
         more = max(0, len(block_to_bytes(block, plan.digest)) - 8 * numbers * len(runs))  # overhead of a file
         size += 2 * 8 * numbers * plan.each + more * math.ceil(plan.each / part.block)  # in blocks, and in the dataset
         failures += filter(None, block.failures)

@@ -24,14 +24,14 @@ from gudgeon.results.motion import CHAOTIC, PERIODIC, QUASI, UNDECIDED
 from gudgeon.simulation.lyapunov import limit_rtol_of_neighbours
 from gudgeon.studies.ensemble.libraries import choose_method
 from gudgeon.studies.ensemble.notes import collect_guess_notes
-from gudgeon.studies.ensemble.parameter_values import ROUNDING, check_expression, evaluate_for_runs
+from gudgeon.studies.ensemble.parameter_values import ROUNDING, check_expression, evaluate_expression_for_runs
 
 if TYPE_CHECKING:
     from gudgeon.generator.study.spec import Measure, StudyFile
     from gudgeon.integrators.trajectory import Progress
     from gudgeon.results.lyapunov import Lyapunov
     from gudgeon.simulation.simulation import Simulation
-    from gudgeon.studies.ensemble.block import Job, Table
+    from gudgeon.studies.ensemble.block import Job, RunTable
 
 WHOLE = "run"  # in the place of a section
 OF_SECTION = ("lyapunov_per_return", "motion", "motion_confidence")
@@ -62,7 +62,7 @@ def check_neighbour_measures(study: StudyFile, source: KernelSource) -> None:
             message = f"{owner}: {measure.statistic.replace('_', ' ')} is of returns to a section"
             raise BadValueError(message, where, "expected an event of the file, or a period: 2*pi/omega")
         if measure.of != WHOLE and not _is_event_section(measure, source):
-            _check_period(measure, source)
+            _check_period_expression(measure, source)
 
 
 def _is_event_section(measure: Measure, source: KernelSource) -> bool:
@@ -70,7 +70,7 @@ def _is_event_section(measure: Measure, source: KernelSource) -> bool:
     return measure.of in [event.name for event in source.events]
 
 
-def _check_period(measure: Measure, source: KernelSource) -> None:
+def _check_period_expression(measure: Measure, source: KernelSource) -> None:
     """Raise an InputError unless the section of a measure is an expression with the dimension of time."""
     from gudgeon.generator.study.spec import ParsedExpression
 
@@ -83,8 +83,8 @@ def _check_period(measure: Measure, source: KernelSource) -> None:
         raise type(error)(error.message, error.where, hint) from None
 
 
-def measure_neighbours(
-    simulation: Simulation, job: Job, table: Table, t_last: Array, failures: list[str], progress: Progress | None
+def compute_neighbour_measures(
+    simulation: Simulation, job: Job, table: RunTable, t_last: Array, failures: list[str], progress: Progress | None
 ) -> dict[str, Array]:
     """Compute the measures of neighbouring trajectories of all runs that have not failed, (n,) by name.
 
@@ -92,7 +92,7 @@ def measure_neighbours(
     are spread over threads. All values are NaN in a scene without degrees of freedom; the result is empty without such
     measures.
     """
-    measures = [measure for measure in job.expected.measures if measure.statistic in NEIGHBOUR_STATISTICS]
+    measures = [measure for measure in job.run_settings.measures if measure.statistic in NEIGHBOUR_STATISTICS]
     values = {measure.name: np.full(job.n, np.nan) for measure in measures}
     if not measures or simulation.source.degrees_of_freedom <= 0:
         return values
@@ -112,12 +112,12 @@ class _NeighbourComputation:
     """Computation of the neighbouring trajectories of one run, section by section."""
 
     def __init__(
-        self, simulation: Simulation, job: Job, table: Table, t_last: Array, progress: Progress | None
+        self, simulation: Simulation, job: Job, table: RunTable, t_last: Array, progress: Progress | None
     ) -> None:
         """Store the job, its parameters, and the end of each run, t_last or the requested end."""
         self.simulation, self.job, self.table, self.progress = simulation, job, table, progress
-        self.error = RTOL if job.expected.rtol is None else job.expected.rtol
-        self.rtol = limit_rtol_of_neighbours(simulation.source, job.expected.rtol)
+        self.error = RTOL if job.run_settings.rtol is None else job.run_settings.rtol
+        self.rtol = limit_rtol_of_neighbours(simulation.source, job.run_settings.rtol)
         is_cut = t_last < table.t_end * (1.0 - ROUNDING)
         self.t_last = np.where(is_cut, t_last, table.t_end)
 
@@ -146,7 +146,7 @@ class _NeighbourComputation:
 
         None if an event ended the run before the window or before one period of the section. Raises GudgeonError.
         """
-        table, expected, source = self.table, self.job.expected, self.simulation.source
+        table, settings, source = self.table, self.job.run_settings, self.simulation.source
         begin, end = (
             None if limit is None else float(limit[i]) for limit in table.spans.get(measure.window, (None, None))
         )
@@ -162,7 +162,7 @@ class _NeighbourComputation:
             last if end is None else min(end, last),
             section=section,
             skip=max(begin or 0.0, 0.0),
-            method=choose_method(source, expected.method),
+            method=choose_method(source, settings.method),
             rtol=self.rtol,
             parameters=parameters,
             step=None if table.step is None else float(table.step[i]),
@@ -178,7 +178,7 @@ class _NeighbourComputation:
         if _is_event_section(measure, self.simulation.source):
             return str(measure.of)
         expr, values_by_name = parse(measure.of, measure.of.where), {"t_end": self.table.t_end}
-        return float(evaluate_for_runs(self.simulation.source, expr, self.table.p, values_by_name)[i])
+        return float(evaluate_expression_for_runs(self.simulation.source, expr, self.table.p, values_by_name)[i])
 
     def _report_progress(self, fraction: float, text: str) -> None:
         """Call the progress function with fraction 1, so that the caller may cancel; the runs themselves are
@@ -188,16 +188,16 @@ class _NeighbourComputation:
             self.progress(1.0, text)
 
 
-def _read_statistic(statistic: str, lyapunov: Lyapunov | None, error: float) -> float:
+def _read_statistic(statistic: str, lyapunov: Lyapunov | None, initial_error: float) -> float:
     """Return the value of a statistic from a computed Lyapunov exponent; NaN for None.
 
-    error: relative error of the initial state for the predictability horizon. A periodic motion is its period in
-    returns, other kinds of motion are codes (KINDS).
+    initial_error: relative error of the initial state for the predictability horizon. A periodic motion is its period
+    in returns, other kinds of motion are codes (KINDS).
     """
     if lyapunov is None:
         return math.nan
     if statistic == "believable":
-        return lyapunov.believable(error)
+        return lyapunov.believable(initial_error)
     if statistic == "motion":
         motion = lyapunov.motion
         return float(motion.period) if motion.kind == PERIODIC else KINDS[motion.kind]

@@ -15,12 +15,12 @@ from gudgeon.results.batch import Array
 from gudgeon.studies.ensemble.block import Block
 from gudgeon.studies.ensemble.folder import DATASET, StudyFolder, import_h5py
 from gudgeon.studies.ensemble.measures import describe_measure
-from gudgeon.studies.ensemble.notes import MOST, Note, merge_notes, reduce_to_kind
+from gudgeon.studies.ensemble.notes import MAX_NOTES, Note, get_message_kind, merge_notes
 from gudgeon.studies.ensemble.plan import Coordinate, Plan
 
-TOGETHER = 1 << 20  # bytes of blocks that are written at once
+JOINED_BYTES = 1 << 20  # bytes of blocks that are written at once
 MOST_COORDINATES = 6  # that name a run
-MOST_KINDS, MOST_TEXT = 50, 50_000  # kinds of failures, characters of an attribute: HDF5 has no longer ones
+MOST_KINDS, MAX_TEXT_LENGTH = 50, 50_000  # kinds of failures, characters of an attribute: HDF5 has no longer ones
 
 
 def write_dataset(folder: StudyFolder) -> None:
@@ -43,14 +43,14 @@ def _read_blocks(folder: StudyFolder) -> Iterator[Block]:
 
 
 def _join_small_blocks(blocks: Iterable[Block]) -> Iterator[Block]:
-    """Yield the blocks, neighbouring ones joined up to about TOGETHER bytes, since a write costs about the same for any
-    size.
+    """Yield the blocks, neighbouring ones joined up to about JOINED_BYTES bytes, since a write costs about the same for
+    any size.
 
     Blocks with different numbers of samples are not joined.
     """
     pending, pending_bytes = list[Block](), 0
     for block in blocks:
-        if pending and (pending_bytes > TOGETHER or block.t.shape[-1] != pending[0].t.shape[-1]):
+        if pending and (pending_bytes > JOINED_BYTES or block.t.shape[-1] != pending[0].t.shape[-1]):
             yield _concatenate_blocks(pending)
             pending, pending_bytes = [], 0
         pending.append(block)
@@ -86,7 +86,7 @@ def _find_common_times(folder: StudyFolder) -> tuple[Array, bool]:
     """
     common: Array | None = None
     is_common, max_samples = True, 0
-    for block in _read_blocks(folder) if folder.plan.expected.keep else ():
+    for block in _read_blocks(folder) if folder.plan.run_settings.keep else ():
         max_samples = max(max_samples, block.t.shape[-1])
         if not block.t.size:  # no run began
             continue
@@ -95,10 +95,11 @@ def _find_common_times(folder: StudyFolder) -> tuple[Array, bool]:
     return (common, True) if is_common and common is not None else (np.full(max_samples, np.nan), False)
 
 
-def _write_blocks(binary_file: BinaryIO, folder: StudyFolder, t: Array, common: bool) -> None:
+def _write_blocks(binary_file: BinaryIO, folder: StudyFolder, t: Array, has_common_times: bool) -> None:
     """Write coordinates, variables, notes and counts of failures of all blocks to an open file, block by block.
 
-    t (N,): common sample times, or NaN if `common` is False; then the samples are numbered and each run has its times.
+    t (N,): common sample times, or NaN if `has_common_times` is False; then the samples are numbered and each run has
+    its times.
     """
     h5py, plan = import_h5py(), folder.plan
     kinds: Counter[str] = Counter()
@@ -114,21 +115,23 @@ def _write_blocks(binary_file: BinaryIO, folder: StudyFolder, t: Array, common: 
             *(coordinate for coordinate in plan.coordinates if coordinate.name not in scales),
         ]:
             _write_coordinate(h5py, file, coordinate)
-        if plan.expected.keep:
-            time = np.arange(len(t)) if not common else t
-            message = ("time", "s", "time of the sample") if common else ("sample", "", "number of the sample")
+        if plan.run_settings.keep:
+            time = np.arange(len(t)) if not has_common_times else t
+            message = (
+                ("time", "s", "time of the sample") if has_common_times else ("sample", "", "number of the sample")
+            )
             _write_coordinate(h5py, file, Coordinate(message[0], (message[0],), time, *message[1:]))
-        variables = _create_variables(h5py, file, plan, len(t), common)
+        variables = _create_variables(h5py, file, plan, len(t), has_common_times)
         for block in _join_small_blocks(_read_blocks(folder)):
-            _write_values(variables, plan, block, common)
+            _write_values(variables, plan, block, has_common_times)
             notes = merge_notes((notes, block.notes))
             for run, why in enumerate(block.failures, block.first):
                 if why:
-                    kinds[kind := reduce_to_kind(why)] += 1
+                    kinds[kind := get_message_kind(why)] += 1
                     first.setdefault(kind, run)
-        frequent = sorted(notes.values(), key=lambda note: (-note.runs, note.run, note.text))[:MOST]
+        frequent = sorted(notes.values(), key=lambda note: (-note.runs, note.run, note.text))[:MAX_NOTES]
         lines = (*plan.notes, *(_format_note(plan, note) for note in frequent))
-        file.attrs["notes"] = "\n".join(lines)[: MOST_TEXT // 4]
+        file.attrs["notes"] = "\n".join(lines)[: MAX_TEXT_LENGTH // 4]
         file.attrs["failed"] = sum(kinds.values())
         file.attrs["failure_kinds"] = json.dumps(often := dict(kinds.most_common(MOST_KINDS)))
         file.attrs["failure_first"] = json.dumps([first[kind] for kind in often])
@@ -158,7 +161,7 @@ def _format_value(value: Any) -> str:
 def _write_attributes(file: Any, plan: Plan) -> None:
     """Write title, mechanism, version, digests and the study itself as attributes of the dataset.
 
-    A study of more than MOST_TEXT characters is left out.
+    A study of more than MAX_TEXT_LENGTH characters is left out.
     """
     import gudgeon
 
@@ -169,7 +172,7 @@ def _write_attributes(file: Any, plan: Plan) -> None:
         "mechanism": source.mechanism,
         "gudgeon": gudgeon.__version__,
         "sha256": source.whole_sha256,
-        "study": specified if len(specified) < MOST_TEXT else "",
+        "study": specified if len(specified) < MAX_TEXT_LENGTH else "",
         "plan": plan.identity,
         "runs": plan.runs,
     }
@@ -210,25 +213,25 @@ def _create_variables(h5py: Any, file: Any, plan: Plan, n_samples: int, has_comm
     """
     variables: dict[str, Any] = {}
 
-    def add(name: str, dimensions: tuple[str, ...], kind: Any, unit: str, message: str) -> None:
-        """Create one variable over these dimensions, filled with NaN if it is a float."""
+    def add_variable(name: str, dimensions: tuple[str, ...], dtype: Any, unit: str, description: str) -> None:
+        """Create one variable over these dimensions, filled with NaN if its type is float."""
         shape = tuple(len(file[dimension]) for dimension in dimensions)
-        more = {} if kind is not float else {"fillvalue": np.nan}
-        variables[name] = file.create_dataset(name, shape, dtype=kind, **more)
-        _set_attributes(variables[name], unit, message)
+        more = {} if dtype is not float else {"fillvalue": np.nan}
+        variables[name] = file.create_dataset(name, shape, dtype=dtype, **more)
+        _set_attributes(variables[name], unit, description)
         for k, dimension in enumerate(dimensions):
             variables[name].dims[k].attach_scale(file[dimension])
 
-    for measure in plan.expected.measures:
-        add(measure.name, plan.dims, float, plan.units[measure.name], describe_measure(measure))
-    add("t_last", plan.dims, float, "s", "where the run ended")
-    add("failure", plan.dims, h5py.string_dtype(), "", "why the run failed, empty where it did not")
+    for measure in plan.run_settings.measures:
+        add_variable(measure.name, plan.dims, float, plan.units[measure.name], describe_measure(measure))
+    add_variable("t_last", plan.dims, float, "s", "where the run ended")
+    add_variable("failure", plan.dims, h5py.string_dtype(), "", "why the run failed, empty where it did not")
     auxiliary = " ".join(measure.name for measure in plan.coordinates if measure.over != (measure.name,))
     over = (*plan.dims, "time" if has_common_times else "sample")
-    for name in plan.expected.keep:
-        add(name, over, float, plan.units[name], f"series {name}")
-    if plan.expected.keep and not has_common_times:
-        add("t", over, float, "s", "time of the sample")
+    for name in plan.run_settings.keep:
+        add_variable(name, over, float, plan.units[name], f"series {name}")
+    if plan.run_settings.keep and not has_common_times:
+        add_variable("t", over, float, "s", "time of the sample")
     for variable in variables.values() if auxiliary else ():
         variable.attrs["coordinates"] = auxiliary  # as CF has it
     return variables
@@ -239,7 +242,7 @@ def _write_values(variables: dict[str, Any], plan: Plan, block: Block, has_commo
     n = len(block.t_last)
     values: dict[str, Any] = {**block.measures, "t_last": block.t_last, "failure": np.array(block.failures, object)}
     values |= block.series
-    if plan.expected.keep and not has_common_times:
+    if plan.run_settings.keep and not has_common_times:
         began = ~np.isnan(block.t_last)[:, None]
         values["t"] = np.where(began, np.broadcast_to(block.t, (n, block.t.shape[-1])), np.nan)
     for name, column in values.items():

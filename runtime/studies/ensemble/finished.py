@@ -33,13 +33,17 @@ class Study:
     """A finished study in its folder, from which datasets and tables are read on request."""
 
     def __init__(
-        self, folder: Path, keeps: tempfile.TemporaryDirectory[str] | None = None, parent_study: Study | None = None
+        self,
+        folder: Path,
+        temporary_folder: tempfile.TemporaryDirectory[str] | None = None,
+        parent_study: Study | None = None,
     ) -> None:
         """Open a study in a folder, without access to the disk.
 
-        keeps: temporary folder that lives as long as the study. parent_study: the study of which this is a part.
+        temporary_folder: temporary folder that lives as long as the study. parent_study: the study of which this is a
+        part.
         """
-        self.folder, self._keeps, self._whole = folder, keeps, parent_study
+        self.folder, self._temporary_folder, self._whole = folder, temporary_folder, parent_study
 
     def __repr__(self) -> str:
         """Return mechanism, number of runs, dimensions and number of failures in one line."""
@@ -61,7 +65,7 @@ class Study:
         with convert_read_errors(path := self.folder / DATASET):
             opened = xarray.open_dataset(path, engine="h5netcdf", decode_times=False, decode_timedelta=False)
         return (
-            opened if self._keeps is None else opened.load()
+            opened if self._temporary_folder is None else opened.load()
         )  # a temporary folder may be deleted before the dataset is used
 
     @property
@@ -182,14 +186,14 @@ class StudyOfParts(Study):
     """A finished study whose file has parts: each part is a Study, all of them together one DataTree."""
 
     def __init__(
-        self, folder: Path, parts: Sequence[str], keeps: tempfile.TemporaryDirectory[str] | None = None
+        self, folder: Path, parts: Sequence[str], temporary_folder: tempfile.TemporaryDirectory[str] | None = None
     ) -> None:
         """Open the studies of all parts in the subfolders of a folder.
 
-        parts: names of the subfolders. keeps: temporary folder that lives as long as the study.
+        parts: names of the subfolders. temporary_folder: temporary folder that lives as long as the study.
         """
-        super().__init__(folder, keeps)
-        self._parts = {name: Study(folder / name, keeps, self) for name in parts}
+        super().__init__(folder, temporary_folder)
+        self._parts = {name: Study(folder / name, temporary_folder, self) for name in parts}
 
     def __repr__(self) -> str:
         """Return the parts with their numbers of runs, and the number of failures, in one line."""

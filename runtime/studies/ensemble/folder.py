@@ -30,8 +30,8 @@ if TYPE_CHECKING:
 
 MANIFEST, DATASET, LOCK = "study.json", "study.nc", ".lock"
 _BLOCK = re.compile(r"block-[0-9]{6,9}\.nc")
-_MOST_TOLD = 6
-RECENT = 4 << 20  # bytes of blocks that stay in memory
+_MAX_LISTED = 6
+MAX_RECENT_BYTES = 4 << 20  # bytes of blocks that stay in memory
 
 
 class StudyFolder:
@@ -85,8 +85,8 @@ class StudyFolder:
                 (self.path / name).unlink(missing_ok=True)
         blocks = [part.block for part in self.plan.parts]
         if old_manifest is not None and not restart:
-            if old_manifest.get("said") != self.plan.specified:
-                what = "\n  ".join(_describe_differences(old_manifest.get("said"), self.plan.specified))
+            if old_manifest.get("said") != self.plan.input_description:
+                what = "\n  ".join(_describe_differences(old_manifest.get("said"), self.plan.input_description))
                 hint = "begin anew with --restart (restart=True), or name another folder"
                 raise InputError(f"{shorten_path(self.path)} holds another study:\n  {what}", hint=hint)
             if old_manifest.get("blocks") == blocks:
@@ -94,7 +94,7 @@ class StudyFolder:
         for name in [name for name in file_names if name in (MANIFEST, DATASET) or _BLOCK.fullmatch(name)]:
             with convert_os_errors(self.path / name):
                 (self.path / name).unlink(missing_ok=True)
-        text = json.dumps({"said": self.plan.specified, "blocks": blocks, "plan": self.plan.identity}, indent=1)
+        text = json.dumps({"said": self.plan.input_description, "blocks": blocks, "plan": self.plan.identity}, indent=1)
         with open_atomic(self.path / MANIFEST, sync=True) as file:
             file.write(text.encode())
 
@@ -112,12 +112,12 @@ class StudyFolder:
     def write_block(self, block: Block) -> None:
         """Write a block as one file, complete on the disk on return. Raises OutputError.
 
-        Small blocks also stay in memory, up to RECENT bytes in total.
+        Small blocks also stay in memory, up to MAX_RECENT_BYTES bytes in total.
         """
         data = block_to_bytes(block, self.plan.digest)
         with open_atomic(self._get_block_path(block.number), sync=True) as file:
             file.write(data)
-        if self.held + block.nbytes <= RECENT:
+        if self.held + block.nbytes <= MAX_RECENT_BYTES:
             self.recent[block.number] = block
             self.held += block.nbytes
 
@@ -148,7 +148,7 @@ def read_manifest(folder: Path) -> dict[str, Any] | None:
     return manifest if isinstance(manifest, dict) else None
 
 
-def open_parts(path: Path, parts: Sequence[str], restart: bool) -> None:
+def create_parts_folder(path: Path, part_names: Sequence[str], restart: bool) -> None:
     """Create the folder of a study with parts and write its manifest; each part gets a subfolder later.
 
     restart: replace a study without parts. Raises InputError for a folder with other contents, OutputError.
@@ -165,24 +165,24 @@ def open_parts(path: Path, parts: Sequence[str], restart: bool) -> None:
         hint = "begin anew with --restart (restart=True), or name another folder"
         raise InputError(f"{shorten_path(path)} holds a study without parts", hint=hint)
     with open_atomic(path / MANIFEST, sync=True) as file:
-        file.write(json.dumps({"format": FOLDER_FORMAT, "parts": list(parts)}, indent=1).encode())
+        file.write(json.dumps({"format": FOLDER_FORMAT, "parts": list(part_names)}, indent=1).encode())
 
 
-def list_part_names(manifest_: Mapping[str, Any]) -> list[str]:
+def list_part_names(manifest: Mapping[str, Any]) -> list[str]:
     """Return the names of the parts in a manifest; invalid names are left out, and without parts the list is empty."""
-    names = manifest_.get("parts")
+    names = manifest.get("parts")
     part_names = names if isinstance(names, list) else []
     return [name for name in part_names if isinstance(name, str) and re.fullmatch(LABEL, name)]
 
 
-def check_dataset(folder: Path, plan: Any) -> None:
+def check_dataset(folder: Path, plan_digest: Any) -> None:
     """Raise InputError if the dataset study.nc of a folder cannot be opened or was written for another plan.
 
-    plan: digest of the plan, as the manifest has it.
+    plan_digest: digest of the plan, as the manifest has it.
     """
     path = folder / DATASET
     with convert_read_errors(path), import_h5py().File(path, "r") as file:
-        is_complete = file.attrs["plan"] == plan and len(file["failure"].shape) >= 0
+        is_complete = file.attrs["plan"] == plan_digest and len(file["failure"].shape) >= 0
     if not is_complete:
         raise InputError(f"{shorten_path(path)} is of another study", hint="remove it: it is written anew")
 
@@ -198,7 +198,10 @@ def convert_read_errors(path: Path) -> Iterator[None]:
 
 
 def _describe_differences(old_inputs: Any, new_inputs: Any) -> list[str]:
-    """Return a line for each input that differs between two studies: "name was …, is …", at most _MOST_TOLD of them."""
+    """Return a line for each input that differs between two studies: "name was …, is …".
+
+    Beyond _MAX_LISTED lines, a last one has the number of further differences.
+    """
     old, new = dict(_iterate_leaves(old_inputs)), dict(_iterate_leaves(new_inputs))
     lines = []
     for key in dict.fromkeys([*old, *new]):
@@ -207,8 +210,8 @@ def _describe_differences(old_inputs: Any, new_inputs: Any) -> list[str]:
                 shorten_value(manifest[key]) if key in manifest else "not said" for manifest in (old, new)
             )
             lines.append(f"{key.removeprefix('study.')} was {old_text}, is {new_text}")
-    rest = [f"and {len(lines) - _MOST_TOLD} more"] if len(lines) > _MOST_TOLD else []
-    return lines[:_MOST_TOLD] + rest
+    rest = [f"and {len(lines) - _MAX_LISTED} more"] if len(lines) > _MAX_LISTED else []
+    return lines[:_MAX_LISTED] + rest
 
 
 def _iterate_leaves(node: Any, key: str = "") -> Iterator[tuple[str, Any]]:
@@ -261,7 +264,7 @@ def block_from_bytes(data: bytes, plan: Plan, number: int) -> Block | None:
     with h5py.File(io.BytesIO(data), "r") as file:
         if file.attrs["digest"] != plan.digest or file.attrs["number"] != number:
             return None
-        names, keep = [measure.name for measure in plan.expected.measures], plan.expected.keep
+        names, keep = [measure.name for measure in plan.run_settings.measures], plan.run_settings.keep
         t_last, *measures = _read_array(file, "runs", (1 + len(names), description.runs))
         t, series = np.zeros(0), np.zeros((0, description.runs, 0))
         if keep:

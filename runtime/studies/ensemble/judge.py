@@ -19,9 +19,9 @@ import numpy as np
 from gudgeon.results.batch import Array
 
 HOLDS, FAILS = 0.8, 1.0 / 3.0  # probabilities from and up to which a claim holds, and fails
-MOST = 1 << 20  # combinations that are evaluated one by one; of more, so many random ones
-DOUBT = 0.05  # probability beyond each end of an interval
-PLACES = ""  # in place of a measure: indices of the runs of a cell that have all measures
+MAX_COMBINATIONS = 1 << 20  # combinations that are evaluated one by one; of more, so many random ones
+TAIL_PROBABILITY = 0.05  # probability beyond each end of an interval
+RUN_INDICES = ""  # in place of a measure: indices of the runs of a cell that have all measures
 VERDICTS = ("holds", "fails", "undecided")
 
 
@@ -47,7 +47,7 @@ class Check:
 
 
 @dataclass(frozen=True)
-class Judged:
+class ClaimVerdict:
     """Verdict on a claim of several checks: the least of their probabilities, and the chance that single runs meet all.
 
     `low`, `high`: the interval of the least likely check. `denied`: verdicts that the intervals rule out.
@@ -59,35 +59,35 @@ class Judged:
     high: float
     chance: float
     denied: frozenset[str]
-    estimates: tuple[Estimate, ...]  # of each check
+    estimates: tuple[ProbabilityEstimate, ...]  # of each check
 
 
 @dataclass(frozen=True)
-class Estimate:
+class ProbabilityEstimate:
     """A probability with the equivalent number of independent trials; infinite if the runs do not scatter.
 
-    `runs`: runs of the smallest cell. `again`, `again_runs`: trials and runs of those cells alone whose runs are the
-    same in every ensemble.
+    `runs`: runs of the smallest cell. `shared_trials`, `n_shared_runs`: trials and runs of those cells alone whose runs
+    are the same in every ensemble.
     """
 
     p: float
     trials: float
     runs: float = math.inf
-    again: float = math.inf
-    again_runs: float = math.inf
+    shared_trials: float = math.inf
+    n_shared_runs: float = math.inf
 
-    def bound(self, sign: float, doubt: float = DOUBT) -> float:
-        """Return the lower (sign −1) or upper (1) end of the confidence interval; each is missed with probability
-        `doubt`.
+    def compute_bound(self, sign: float, tail_probability: float = TAIL_PROBABILITY) -> float:
+        """Return the lower (sign −1) or upper (1) end of the confidence interval of the probability.
 
-        E. B. Wilson, J. Am. Stat. Assoc. 22, 1927. The interval is at least as wide as that of runs that all, or none,
-        meet the condition. Without scatter (infinite trials) or for NaN it is p itself.
+        tail_probability: that the true value lies beyond this end. E. B. Wilson, J. Am. Stat. Assoc. 22, 1927. The
+        interval is at least as wide as that of runs that all, or none, meet the condition. Without scatter (infinite
+        trials) or for NaN it is p itself.
         """
         if not math.isfinite(self.trials) or math.isnan(self.p):
             return self.p
         ends = (
-            _compute_wilson_bound(self.p, self.trials, sign, doubt),
-            _compute_wilson_bound(0.5 - 0.5 * sign, self.runs, sign, doubt),
+            _compute_wilson_bound(self.p, self.trials, sign, tail_probability),
+            _compute_wilson_bound(0.5 - 0.5 * sign, self.runs, sign, tail_probability),
         )
         return max(ends) if sign > 0 else min(ends)
 
@@ -103,21 +103,24 @@ def _compute_wilson_bound(p: float, n: float, sign: float, tail_probability: flo
 
 
 def judge_claim(
-    checks: Sequence[Check], runs: Runs, certain: Container[Cell] = (), shared: Container[Cell] = ()
-) -> Judged:
+    checks: Sequence[Check], runs: Runs, deterministic_cells: Container[Cell] = (), shared_cells: Container[Cell] = ()
+) -> ClaimVerdict:
     """Return the verdict on a claim: it holds if each of its checks is likely, and fails if one is unlikely.
 
     A probability is that of independent runs, one of each cell, estimated from all combinations of runs: for two cells
     from all pairs (H. B. Mann, D. R. Whitney, Ann. Math. Stat. 18, 1947); ties count as not larger. It is NaN, and the
-    verdict undecided, if a cell has no run with all measures. certain: cells whose runs do not scatter; again: cells
-    whose runs other ensembles share.
+    verdict undecided, if a cell has no run with all measures. deterministic_cells: cells whose runs do not scatter;
+    shared_cells: cells whose runs other ensembles share.
     """
     complete_runs = _select_complete_runs(checks, runs)
     chance = math.prod(_evaluate_combinations(group, complete_runs)[0] for group in _group_checks(checks))
-    return _combine_estimates([_estimate_check(check, complete_runs, certain, shared) for check in checks], chance)
+    return _combine_estimates(
+        [_estimate_check_probability(check, complete_runs, deterministic_cells, shared_cells) for check in checks],
+        chance,
+    )
 
 
-def merge_verdicts(verdicts: Sequence[Judged]) -> tuple[Judged, bool]:
+def merge_verdicts(verdicts: Sequence[ClaimVerdict]) -> tuple[ClaimVerdict, bool]:
     """Return the common verdict of several ensembles on one claim, and whether no ensemble rules out the verdict of
     another.
 
@@ -133,44 +136,59 @@ def merge_verdicts(verdicts: Sequence[Judged]) -> tuple[Judged, bool]:
     return (common if agreed else replace(common, verdict="undecided")), agreed
 
 
-def _average_estimates(estimates: Sequence[Estimate]) -> Estimate:
+def _average_estimates(estimates: Sequence[ProbabilityEstimate]) -> ProbabilityEstimate:
     """Return the mean of the estimates of one check in several ensembles.
 
-    The variances of the ensembles' separate runs, 1/trials − 1/again, decrease with their number; those of shared runs
-    do not.
+    The variances of the ensembles' separate runs, 1/trials − 1/shared_trials, decrease with their number; those of
+    shared runs do not.
     """
-    p, again = (math.fsum(values) / len(estimates) for values in zip(*((x.p, x.again) for x in estimates), strict=True))
-    separate_variances = [1.0 / estimate.trials - 1.0 / estimate.again for estimate in estimates]
+    p, shared_trials = (
+        math.fsum(values) / len(estimates) for values in zip(*((x.p, x.shared_trials) for x in estimates), strict=True)
+    )
+    separate_variances = [1.0 / estimate.trials - 1.0 / estimate.shared_trials for estimate in estimates]
     separate_trials = (
         math.inf if min(separate_variances) <= 0.0 else math.fsum(1.0 / rest for rest in separate_variances)
     )
-    trials = math.inf if separate_trials == again == math.inf else 1.0 / (1.0 / separate_trials + 1.0 / again)
-    again_runs = min(estimate.again_runs for estimate in estimates)
-    return Estimate(p, trials, min(math.fsum(estimate.runs for estimate in estimates), again_runs), again, again_runs)
+    trials = (
+        math.inf
+        if separate_trials == shared_trials == math.inf
+        else 1.0 / (1.0 / separate_trials + 1.0 / shared_trials)
+    )
+    n_shared_runs = min(estimate.n_shared_runs for estimate in estimates)
+    return ProbabilityEstimate(
+        p, trials, min(math.fsum(estimate.runs for estimate in estimates), n_shared_runs), shared_trials, n_shared_runs
+    )
 
 
-def _combine_estimates(estimates: Sequence[Estimate], chance: float) -> Judged:
-    """Return the verdict on a claim from the estimates of all its checks; `chance`: that single runs meet all.
+def _combine_estimates(estimates: Sequence[ProbabilityEstimate], chance: float) -> ClaimVerdict:
+    """Return the verdict on a claim from the estimates of all its checks.
 
-    The claim holds if each check is likely. To fail, the bound of each check is corrected for their number
-    (Bonferroni). It is undecided without checks or with a NaN.
+    chance: probability that one run of each cell meets all checks; it is only stored. The claim holds if each check is
+    likely. To fail, the bound of each check is corrected for their number (Bonferroni). It is undecided without checks
+    or with a NaN.
     """
     if not estimates or any(math.isnan(one.p) for one in estimates):
-        return Judged("undecided", math.nan, math.nan, math.nan, chance, frozenset(), tuple(estimates))
-    low = min(one.bound(-1.0) for one in estimates)
-    high = min(one.bound(1.0, DOUBT / len(estimates)) for one in estimates)
+        return ClaimVerdict("undecided", math.nan, math.nan, math.nan, chance, frozenset(), tuple(estimates))
+    low = min(one.compute_bound(-1.0) for one in estimates)
+    high = min(one.compute_bound(1.0, TAIL_PROBABILITY / len(estimates)) for one in estimates)
     least_likely = min(estimates, key=lambda one: one.p)
     verdict = "fails" if high <= FAILS else "holds" if low >= HOLDS else "undecided"
     denied = frozenset(name for name, is_so in (("holds", high < HOLDS), ("fails", low > FAILS)) if is_so)
-    return Judged(
-        verdict, least_likely.p, least_likely.bound(-1.0), least_likely.bound(1.0), chance, denied, tuple(estimates)
+    return ClaimVerdict(
+        verdict,
+        least_likely.p,
+        least_likely.compute_bound(-1.0),
+        least_likely.compute_bound(1.0),
+        chance,
+        denied,
+        tuple(estimates),
     )
 
 
 def _select_complete_runs(checks: Sequence[Check], runs: Runs) -> Runs:
     """Return for each cell of the checks the runs that have finite values of all measures that the checks need there.
 
-    The entry PLACES of a cell has the indices of these runs.
+    The entry RUN_INDICES of a cell has the indices of these runs.
     """
     measures_by_cell: dict[Cell, dict[str, None]] = {}
     for check in checks:
@@ -181,12 +199,14 @@ def _select_complete_runs(checks: Sequence[Check], runs: Runs) -> Runs:
         cell_values = {name: runs[cell][name] for name in measures}
         is_complete = np.logical_and.reduce([np.isfinite(values) for values in cell_values.values()])
         complete_runs[cell] = {name: values[is_complete] for name, values in cell_values.items()} | {
-            PLACES: np.flatnonzero(is_complete)
+            RUN_INDICES: np.flatnonzero(is_complete)
         }
     return complete_runs
 
 
-def _estimate_check(check: Check, runs: Runs, certain: Container[Cell], shared: Container[Cell]) -> Estimate:
+def _estimate_check_probability(
+    check: Check, runs: Runs, deterministic_cells: Container[Cell], shared_cells: Container[Cell]
+) -> ProbabilityEstimate:
     """Return the probability of a check and the number of independent trials that it is worth.
 
     The trials follow from the variance of the fractions of single runs of each cell (W. Hoeffding, Ann. Math. Stat.
@@ -194,30 +214,30 @@ def _estimate_check(check: Check, runs: Runs, certain: Container[Cell], shared: 
     """
     p, is_met, selected = _evaluate_combinations([check], runs)
     fractions = {
-        cell: _compute_fractions_by_run(cell_values, is_met, runs[cell][PLACES])
+        cell: _compute_fractions_by_run(cell_values, is_met, runs[cell][RUN_INDICES])
         for cell, cell_values in selected.items()
-        if cell not in certain
+        if cell not in deterministic_cells
     }
     if not fractions or math.isnan(p):
-        return Estimate(p, math.inf)
+        return ProbabilityEstimate(p, math.inf)
     max_trials = sum(int(np.isfinite(cell_values).sum()) for cell_values in fractions.values())
-    shared_fractions = [cell_values for cell, cell_values in fractions.items() if cell in shared]
-    return Estimate(
+    shared_fractions = [cell_values for cell, cell_values in fractions.items() if cell in shared_cells]
+    return ProbabilityEstimate(
         p,
         *_estimate_trials(p, list(fractions.values()), max_trials),
         *_estimate_trials(p, shared_fractions, max_trials),
     )
 
 
-def _compute_fractions_by_run(selected: Array, is_met: Array, indices: Array) -> Array:
+def _compute_fractions_by_run(run_numbers: Array, is_met: Array, indices: Array) -> Array:
     """Return for each run of a cell the fraction of its combinations that meets the check; NaN for a run left out.
 
-    selected (n_combinations,): number of the cell's run in each combination. is_met (n_combinations,): whether it
+    run_numbers (n_combinations,): number of the cell's run in each combination. is_met (n_combinations,): whether it
     meets the check. indices: index of each numbered run in the cell.
     """
-    fractions, counts = np.full(int(indices.max()) + 1, np.nan), np.bincount(selected, minlength=len(indices))
+    fractions, counts = np.full(int(indices.max()) + 1, np.nan), np.bincount(run_numbers, minlength=len(indices))
     with np.errstate(invalid="ignore"):
-        fractions[indices] = np.bincount(selected, is_met, len(indices)) / counts
+        fractions[indices] = np.bincount(run_numbers, is_met, len(indices)) / counts
     return fractions
 
 
@@ -267,26 +287,26 @@ def _evaluate_combinations(checks: Sequence[Check], runs: Runs) -> tuple[float, 
     is_met = np.ones(len(selected[cells[0]]) if cells else 1, dtype=bool)
     for check in checks:
 
-        def look(k: int, name: str, check: Check = check) -> Array:
+        def read_measure(k: int, name: str, check: Check = check) -> Array:
             """Return a measure of cell k of the check for all combinations."""
             cell = check.cells[k]
             return runs[cell][name][selected[cell]]
 
-        is_met = is_met & check.meets_condition(look)
+        is_met = is_met & check.meets_condition(read_measure)
     return float(np.mean(is_met)), is_met, selected
 
 
-def _draw_combinations(sizes: Sequence[int]) -> Sequence[Array]:
-    """Return for each cell the number of its run in each combination: all combinations, or MOST random ones (fixed
-    seed).
+def _draw_combinations(run_counts: Sequence[int]) -> Sequence[Array]:
+    """Return for each cell the number of its run in each combination: all combinations, or MAX_COMBINATIONS random ones
+    (fixed seed).
 
-    sizes: number of runs of each cell.
+    run_counts: number of runs of each cell.
     """
-    count = math.prod(sizes)
-    if count <= MOST:
-        return np.unravel_index(np.arange(count), tuple(sizes)) if sizes else ()
+    count = math.prod(run_counts)
+    if count <= MAX_COMBINATIONS:
+        return np.unravel_index(np.arange(count), tuple(run_counts)) if run_counts else ()
     rng = np.random.default_rng(0)
-    return [rng.integers(0, size, MOST) for size in sizes]
+    return [rng.integers(0, size, MAX_COMBINATIONS) for size in run_counts]
 
 
 def _group_checks(checks: Sequence[Check]) -> list[list[Check]]:

@@ -19,7 +19,7 @@ from gudgeon.integrators.threads import available_threads
 from gudgeon.loading.kernel_sources import find_mechanism, is_source_cached
 from gudgeon.simulation.from_file import load
 from gudgeon.simulation.simulation import Simulation
-from gudgeon.studies.ensemble.workers import begin_worker, list_law_files
+from gudgeon.studies.ensemble.workers import initialize_worker, list_law_files
 from gudgeon.waiting.programs import Programs
 
 if TYPE_CHECKING:
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
 FEWEST = 3  # libraries to make, from which on a second process pays: it begins with loading SymPy
 MOST = 64  # libraries that are left to it: more do not fit into its command line
-COMPILE_CODE = f"from {__name__} import compile_from_command_line as run; run()"
+COMPILE_CODE = f"from {__name__} import compile_listed_libraries as run; run()"
 
 
 class Structure(NamedTuple):
@@ -72,7 +72,7 @@ def iterate_structures(study: StudyFile) -> Iterator[tuple[Text, dict[str, Text]
         yield scene, texts, tuple(sorted((address, str(text)) for address, text in texts.items()))
 
 
-def list_origins(study: StudyFile) -> list[Text]:
+def list_scenes_to_subtract(study: StudyFile) -> list[Text]:
     """Return the scenes whose series measures of a study subtract, without repetitions."""
     return list(dict.fromkeys(measure.origin for measure in study.measures if measure.origin is not None))
 
@@ -89,13 +89,13 @@ def list_libraries(studies: Iterable[StudyFile]) -> list[Structure]:
         except InputError:  # reported when it is resolved
             continue
         for scene, _, overrides in iterate_structures(study):
-            for name in (*list_origins(study), scene):
+            for name in (*list_scenes_to_subtract(study), scene):
                 libraries[Structure(mechanism, str(name), overrides)] = None
     return list(libraries)
 
 
 @contextmanager
-def compile_in_second_process(structures: Sequence[Structure]) -> Iterator[None]:
+def compile_libraries_in_second_process(structures: Sequence[Structure]) -> Iterator[None]:
     """Compile libraries in another process, from the last on, while the code in the context loads them from the first
     on.
 
@@ -123,14 +123,14 @@ def compile_in_second_process(structures: Sequence[Structure]) -> Iterator[None]
                 programs.wait(process)
 
 
-def compile_from_command_line() -> None:
+def compile_listed_libraries() -> None:
     """Compile the libraries that the command line lists, as the second process of a study.
 
     Errors are ignored, since the process that needs a library reports them. SIGTERM ends it.
     """
     signal.signal(signal.SIGTERM, lambda *_: sys.exit())  # compilers and folders of what is under way go with it
     laws, structures = json.loads(sys.argv[1])
-    begin_worker(laws)
+    initialize_worker(laws)
     try:
         for mechanism, scene, overrides in structures:
             with suppress(GudgeonError):

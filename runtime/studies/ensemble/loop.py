@@ -15,14 +15,16 @@ from gudgeon.integrators.threads import POLL_INTERVAL_S, available_threads
 from gudgeon.studies.ensemble.block import Block, run_block
 from gudgeon.studies.ensemble.final import write_dataset
 from gudgeon.studies.ensemble.folder import DATASET, StudyFolder, check_dataset
-from gudgeon.studies.ensemble.workers import Processes, is_lost_worker, max_submitted
+from gudgeon.studies.ensemble.workers import Processes, compute_max_submitted_blocks, is_lost_worker_error
 
 if TYPE_CHECKING:
     from gudgeon.integrators.trajectory import Progress
-    from gudgeon.studies.ensemble.plan import BlockOf
+    from gudgeon.studies.ensemble.plan import BlockRange
 
-SIDE_BY_SIDE = 4  # blocks at once here, at most: while Python has one, and the last runs of another end, cores work
-FUTILE = 3  # times that workers die one after the other, and no block is done
+MAX_CONCURRENT_BLOCKS = (
+    4  # blocks at once here, at most: while Python has one, and the last runs of another end, cores work
+)
+MAX_FUTILE_RESTARTS = 3  # times that workers die one after the other, and no block is done
 
 
 class _StudyProgress:
@@ -31,17 +33,20 @@ class _StudyProgress:
     def __init__(self, runs: int, n_done: int, progress: Progress | None) -> None:
         """Begin with `n_done` of `runs` runs done; `progress` is None or the caller's progress function."""
         self.runs, self.done, self.progress = runs, n_done, progress
-        self.shares: dict[int, float] = {}  # of blocks by their number, in runs
+        self.partial_runs: dict[int, float] = {}  # of running blocks by their number: fraction × runs
 
-    def add(self, block: BlockOf) -> None:
+    def add_block(self, block: BlockRange) -> None:
         """Count the runs of a written block as done."""
-        self.shares.pop(block.number, None)
+        self.partial_runs.pop(block.number, None)
         self.done += block.runs
 
     def report_progress(self) -> None:
-        """Call the progress function, if there is one, with done runs and fractions of running blocks."""
+        """Call the progress function, if there is one, with the fraction of runs that are done and a text.
+
+        Running blocks count by the fraction of their runs that is done.
+        """
         if self.progress:
-            under_way = sum(self.shares.copy().values())
+            under_way = sum(self.partial_runs.copy().values())
             self.progress((self.done + under_way) / self.runs, f"{self.done} of {self.runs} runs")
 
 
@@ -50,9 +55,9 @@ def finish_study(
 ) -> None:
     """Run the missing blocks of a study, then write the dataset; nothing is done if a valid dataset exists.
 
-    executor: None runs the blocks in threads of this process. Local worker processes that end early are replaced, up
-    to FUTILE times without a new block; then GudgeonError is raised. KeyboardInterrupt leaves the finished blocks in
-    the folder.
+    executor: None runs the blocks in threads of this process. Local worker processes that end early are replaced, up to
+    MAX_FUTILE_RESTARTS times without a new block; then GudgeonError is raised. KeyboardInterrupt leaves the finished
+    blocks in the folder.
     """
     plan, n_futile = folder.plan, 0
     while True:
@@ -66,94 +71,108 @@ def finish_study(
             study_progress.report_progress()
         try:
             if executor is None:
-                _run_in_threads(folder, missing, study_progress, threads)
+                _run_blocks_in_threads(folder, missing, study_progress, threads)
             else:
-                _run_by_executor(folder, missing, study_progress, threads, executor)
+                _run_blocks_by_executor(folder, missing, study_progress, threads, executor)
         except Exception as error:
-            if not is_lost_worker(error):
+            if not is_lost_worker_error(error):
                 raise
             n_futile = 0 if any(folder.has_block(block.number) for block in missing) else n_futile + 1
-            if not isinstance(executor, Processes) or n_futile >= FUTILE:
+            if not isinstance(executor, Processes) or n_futile >= MAX_FUTILE_RESTARTS:
                 raise _make_lost_worker_error(folder, error) from error
-            executor.renew()
+            executor.replace_processes()
             continue
         with suppress(LookupError):  # a block that was taken away meanwhile
             write_dataset(folder)
             return
 
 
-def _run_in_threads(
-    folder: StudyFolder, missing: list[BlockOf], study_progress: _StudyProgress, threads: int | None
+def _run_blocks_in_threads(
+    folder: StudyFolder, missing_blocks: list[BlockRange], study_progress: _StudyProgress, threads: int | None
 ) -> None:
     """Run blocks in threads of this process and write each when it is finished; an exception stops all runs.
 
-    A block has few threads, since its lanes are partly empty at its end. Only the last blocks have all cores.
+    threads: in total, None for the number of cores. A block has few threads, since its lanes are partly empty at its
+    end. Only the last blocks have all cores.
     """
     cores, ended = threads or available_threads(), Event()
-    n_blocks = min(cores, SIDE_BY_SIDE)  # more threads than cores cost more than they save: they change places
-    last_blocks = {block.number for block in missing[-n_blocks:]}
+    n_blocks = min(cores, MAX_CONCURRENT_BLOCKS)  # more threads than cores cost more than they save: they change places
+    last_blocks = {block.number for block in missing_blocks[-n_blocks:]}
 
-    def run(block: BlockOf) -> Block:
+    def run_one_block(block: BlockRange) -> Block:
         """Run one block in a thread of the pool and return its results."""
         n_threads = cores if block.number in last_blocks else math.ceil(cores / n_blocks)
 
-        def report(fraction: float, text: str) -> None:
+        def store_progress(fraction: float, text: str) -> None:
             """Store the progress of the block for the calling thread. Raises KeyboardInterrupt after the end."""
             if ended.is_set():
                 raise KeyboardInterrupt
-            study_progress.shares[block.number] = fraction * block.runs
+            study_progress.partial_runs[block.number] = fraction * block.runs
 
-        return run_block(folder.plan.make_block_job(block, n_threads), report, folder.plan.parts[block.part].simulation)
+        return run_block(
+            folder.plan.make_block_job(block, n_threads), store_progress, folder.plan.parts[block.part].simulation
+        )
 
     with ThreadPoolExecutor(n_blocks, thread_name_prefix="gudgeon") as pool:
         try:
-            _run_blocks(folder, missing, study_progress, lambda block: pool.submit(run, block), lambda: n_blocks)
+            _run_blocks(
+                folder,
+                missing_blocks,
+                study_progress,
+                lambda block: pool.submit(run_one_block, block),
+                lambda: n_blocks,
+            )
         finally:
             ended.set()
 
 
-def _run_by_executor(
-    folder: StudyFolder, missing: list[BlockOf], study_progress: _StudyProgress, threads: int | None, executor: Executor
+def _run_blocks_by_executor(
+    folder: StudyFolder,
+    missing_blocks: list[BlockRange],
+    study_progress: _StudyProgress,
+    threads: int | None,
+    executor: Executor,
 ) -> None:
-    """Run blocks by the workers of an executor and write each when it is finished. Raises GudgeonError if it takes no
-    work.
+    """Run blocks by the workers of an executor, and write each when it is finished.
+
+    threads: of each block, None for 1. Raises GudgeonError if the executor accepts no work.
     """
 
-    def submit(block: BlockOf) -> Future[Block]:
+    def submit_block(block: BlockRange) -> Future[Block]:
         """Submit one block to the executor and return its future."""
         try:
             return executor.submit(run_block, folder.plan.make_block_job(block, threads or 1))
         except RuntimeError as error:  # one that was shut down, or that cannot
-            if is_lost_worker(error):
+            if is_lost_worker_error(error):
                 raise
             raise GudgeonError(f"the executor takes no work: {error or type(error).__name__}") from error
 
-    _run_blocks(folder, missing, study_progress, submit, lambda: max_submitted(executor))
+    _run_blocks(folder, missing_blocks, study_progress, submit_block, lambda: compute_max_submitted_blocks(executor))
 
 
 def _run_blocks(
     folder: StudyFolder,
-    missing: list[BlockOf],
+    missing_blocks: list[BlockRange],
     study_progress: _StudyProgress,
-    submit: Callable[[BlockOf], Future[Block]],
-    max_running: Callable[[], int],
+    submit_block: Callable[[BlockRange], Future[Block]],
+    get_max_running: Callable[[], int],
 ) -> None:
     """Submit blocks as workers become free, write each when it is finished, and report the progress.
 
-    submit: starts a block and returns its future. max_running: returns the number of blocks to submit at once. Good
-    results are written before the error of another block is raised.
+    submit_block: starts a block and returns its future. get_max_running: returns the number of blocks to submit at
+    once. Good results are written before the error of another block is raised.
     """
-    remaining = iter(missing)
-    running: dict[Future[Block], BlockOf] = {}
-    with _cancel_on_exit(running):
-        finished: list[tuple[Future[Block], BlockOf]] = []
+    remaining = iter(missing_blocks)
+    running: dict[Future[Block], BlockRange] = {}
+    with _cancel_futures_on_exit(running):
+        finished: list[tuple[Future[Block], BlockRange]] = []
         while True:
             if finished or not running:
-                for block in islice(remaining, max(0, max_running() - len(running))):
-                    running[submit(block)] = block
+                for block in islice(remaining, max(0, get_max_running() - len(running))):
+                    running[submit_block(block)] = block
             for future, block in sorted(finished, key=lambda one: one[0].cancelled() or one[0].exception() is not None):
                 folder.write_block(future.result())  # what is good first: the others raise
-                study_progress.add(block)
+                study_progress.add_block(block)
             study_progress.report_progress()
             if not running:
                 return
@@ -164,12 +183,12 @@ def _run_blocks(
 
 
 @contextmanager
-def _cancel_on_exit(running: dict[Future[Block], BlockOf]) -> Iterator[None]:
-    """Cancel the blocks of `running` that have not begun, at the end of the context, also after an exception."""
+def _cancel_futures_on_exit(futures: dict[Future[Block], BlockRange]) -> Iterator[None]:
+    """Cancel the blocks of `futures` that have not begun, at the end of the context, also after an exception."""
     try:
         yield
     finally:
-        for future in running:
+        for future in futures:
             future.cancel()
 
 

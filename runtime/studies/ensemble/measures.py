@@ -20,7 +20,9 @@ if TYPE_CHECKING:
     from gudgeon.generator.study.spec import Measure
     from gudgeon.results.batch import Batch
 
-Origins: TypeAlias = Mapping[str, Mapping[str, Array]]  # scene -> series of runs, (n, N) each, at their own samples
+SubtractedSeries: TypeAlias = Mapping[
+    str, Mapping[str, Array]
+]  # scene -> series of runs, (n, N) each, at their own samples
 Spans: TypeAlias = Mapping[str, tuple[Array | None, ...]]  # window -> begin and end (s) of each run, None: its own
 
 STEPS: Mapping[str, str] = {
@@ -46,14 +48,16 @@ UNITS = {
 }
 
 
-def list_sampled_series(measures: tuple[Measure, ...], keep: tuple[str, ...], source: KernelSource) -> list[str]:
+def list_sampled_series(
+    measures: tuple[Measure, ...], stored_names: tuple[str, ...], source: KernelSource
+) -> list[str]:
     """Return the names of the series of a scene whose samples are needed, for measures and for stored series.
 
     Names that the scene lacks are left out; measures of contacts, events, steps and neighbours need no samples.
     """
     catalogue = get_catalogue(source)
     others = (*OF_JOINTS, *CROSSINGS, *STEPS, *NEIGHBOUR_STATISTICS)
-    expected = [*(str(measure.of) for measure in measures if measure.statistic not in others), *keep]
+    expected = [*(str(measure.of) for measure in measures if measure.statistic not in others), *stored_names]
     return [name for name in dict.fromkeys(expected) if name in catalogue]
 
 
@@ -112,7 +116,7 @@ def make_unknown_measure_error(measure: Measure, source: KernelSource) -> InputE
     raise AssertionError(measure)
 
 
-def check_origin(measures: Iterable[Measure], source: KernelSource) -> None:
+def check_subtracted_series(measures: Iterable[Measure], source: KernelSource) -> None:
     """Raise UnknownNameError at the first measure whose series is missing in `source`, the subtracted scene.
 
     Measures that subtract another scene, or none, are not checked.
@@ -148,17 +152,17 @@ def describe_measure(measure: Measure) -> str:
     return f"{message} in window {measure.window}" if measure.window else message
 
 
-def measure_runs(batch: Batch, measure: Measure, spans: Spans, origins: Origins) -> Array:
+def evaluate_measure(batch: Batch, measure: Measure, spans: Spans, subtracted_series: SubtractedSeries) -> Array:
     """Return the values of a measure for all runs of a batch, (n,); NaN for a run without one.
 
-    spans: begin and end of each window. origins: series of other scenes to subtract. All values are NaN if the scene
-    lacks the measure's object, and for measures of neighbours, which are computed elsewhere.
+    spans: begin and end of each window. subtracted_series: series of other scenes to subtract. All values are NaN if
+    the scene lacks the measure's object, and for measures of neighbours, which are computed elsewhere.
     """
-    source, none = batch.source, np.full(len(batch), np.nan)
+    source, missing_values = batch.source, np.full(len(batch), np.nan)
     if (
         find_measure_unit(measure, source) is None or measure.statistic in NEIGHBOUR_STATISTICS
     ):  # which exponents.py has
-        return none
+        return missing_values
     begin, end = spans.get(measure.window, (None, None))
     begin = np.full(len(batch), -np.inf) if begin is None else begin
     end = np.full(len(batch), np.inf) if end is None else end
@@ -169,12 +173,12 @@ def measure_runs(batch: Batch, measure: Measure, spans: Spans, origins: Origins)
     if measure.statistic in WEAR:
         return _compute_bearing_wear(batch, measure)
     if measure.statistic in CONTACTS:
-        return _evaluate_contacts(batch, measure, begin, end)
+        return _evaluate_contact_measure(batch, measure, begin, end)
     if measure.statistic in CROSSINGS:
-        return _evaluate_events(batch, measure, begin, end)
+        return _evaluate_event_measure(batch, measure, begin, end)
     values = batch.kept[str(measure.of)]
     if measure.origin is not None:
-        values = values - (values if measure.origin == source.scene else origins[measure.origin][measure.of])
+        values = values - (values if measure.origin == source.scene else subtracted_series[measure.origin][measure.of])
     return STATISTICS[measure.statistic](batch.kept["t"], values, begin, end)
 
 
@@ -201,14 +205,14 @@ def _compute_bearing_wear(batch: Batch, measure: Measure) -> Array:
     return out
 
 
-def _evaluate_contacts(batch: Batch, measure: Measure, begin: Array, end: Array) -> Array:
+def _evaluate_contact_measure(batch: Batch, measure: Measure, begin: Array, end: Array) -> Array:
     """Return number, first time (s) or largest approach speed (m/s) of the contacts of a joint in each run's window,
     (n,).
 
     Runs without contact have 0 as number, else NaN.
     """
     joint, is_count = _list_joints(batch.source).index(measure.of), measure.statistic == "impacts"
-    out = _fill_without_occurrence(batch, is_count, begin)
+    out = _make_default_values(batch, is_count, begin)
     for i, impacts in ((i, impacts) for i, impacts in enumerate(batch.impacts) if len(impacts)):
         t_on = impacts["t_on"]
         contacts = impacts[(impacts["joint"] == joint) & (t_on >= begin[i]) & (t_on <= end[i])]
@@ -221,10 +225,10 @@ def _evaluate_contacts(batch: Batch, measure: Measure, begin: Array, end: Array)
     return out
 
 
-def _evaluate_events(batch: Batch, measure: Measure, begin: Array, end: Array) -> Array:
+def _evaluate_event_measure(batch: Batch, measure: Measure, begin: Array, end: Array) -> Array:
     """Return number or first time (s) of an event in each run's window, (n,); without occurrence 0 or NaN."""
     number, is_count = _list_events(batch.source).index(measure.of), measure.statistic == "crossings"
-    out = _fill_without_occurrence(batch, is_count, begin)
+    out = _make_default_values(batch, is_count, begin)
     for i, events in ((i, events) for i, events in enumerate(batch.events) if len(events)):
         t = events["t"][events["event"] == number]
         t = t[(t >= begin[i]) & (t <= end[i])]
@@ -235,8 +239,8 @@ def _evaluate_events(batch: Batch, measure: Measure, begin: Array, end: Array) -
     return out
 
 
-def _fill_without_occurrence(batch: Batch, is_count: bool, begin: Array) -> Array:
-    """Return the values of runs without an occurrence, (n,): 0 for counts, NaN for times.
+def _make_default_values(batch: Batch, is_count: bool, begin: Array) -> Array:
+    """Return the default values of runs without a contact or event, (n,): 0 for counts, NaN for times.
 
     Runs that ended before the window have NaN, too.
     """
@@ -247,7 +251,8 @@ def _fill_without_occurrence(batch: Batch, is_count: bool, begin: Array) -> Arra
 def find_sampled_interval(measures: Iterable[Measure], spans: Spans, runs: Array) -> tuple[Array, Array] | None:
     """Return begin and end (s) of the interval in which samples of these runs are needed, (n,) each.
 
-    None if no measure needs samples, or one needs the whole run.
+    spans: begin and end of each window by its name. runs: indices (n,) of the runs in these. None if no measure needs
+    samples, or one needs the whole run.
     """
     windows = {measure.window for measure in measures if measure.statistic in STATISTICS}
     if not (windows and all(windows)):
@@ -270,18 +275,18 @@ def _is_in_window(t: Array, x: Array, begin: Array, end: Array) -> Array:
 
 
 def _make_extreme_statistic(
-    reduce: Callable[..., Array], outside: float, change: Callable[[Array], Array]
+    reduce: Callable[..., Array], fill_value: float, transform: Callable[[Array], Array]
 ) -> Callable[..., Array]:
-    """Return a statistic that reduces the samples of each run in its window, such as a maximum.
+    """Return a function of t, x, begin and end that reduces the samples of each run in its window, such as a maximum.
 
-    reduce: reduction over an axis. outside: value in place of samples outside the window. change: applied to the
-    samples first. The statistic is NaN without samples.
+    reduce: reduction over an axis. fill_value: value in place of samples outside the window. transform: applied to the
+    samples first. The function returns NaN for a run without samples.
     """
 
     def statistic(t: Array, x: Array, begin: Array, end: Array) -> Array:
         """Return the reduced value of each run, (n,); NaN for a run without samples in its window."""
         inside = _is_in_window(t, x, begin, end)
-        values = reduce(np.where(inside, change(x), outside), axis=1)
+        values = reduce(np.where(inside, transform(x), fill_value), axis=1)
         return np.asarray(np.where(inside.any(axis=1), values, np.nan))
 
     return statistic
@@ -308,7 +313,7 @@ def _compute_mean(t: Array, x: Array, begin: Array, end: Array) -> Array:
     middle = np.where(both, (x[:, 1:] + x[:, :-1]) / 2, 0.0)
     span = dt.sum(axis=1)
     with np.errstate(invalid="ignore", divide="ignore"):
-        return np.asarray(np.where(span > 0.0, (dt * middle).sum(axis=1) / span, _find_final(t, x, begin, end)))
+        return np.asarray(np.where(span > 0.0, (dt * middle).sum(axis=1) / span, _find_final_sample(t, x, begin, end)))
 
 
 def _compute_rms(t: Array, x: Array, begin: Array, end: Array) -> Array:
@@ -316,7 +321,7 @@ def _compute_rms(t: Array, x: Array, begin: Array, end: Array) -> Array:
     return np.asarray(np.sqrt(_compute_mean(t, x * x, begin, end)))
 
 
-def _find_final(t: Array, x: Array, begin: Array, end: Array) -> Array:
+def _find_final_sample(t: Array, x: Array, begin: Array, end: Array) -> Array:
     """Return the last sample of each run in its window, (n,); NaN without samples."""
     inside = _is_in_window(t, x, begin, end)
     last = inside.shape[1] - 1 - np.argmax(inside[:, ::-1], axis=1)
@@ -330,6 +335,6 @@ STATISTICS: Mapping[str, Callable[[Array, Array, Array, Array], Array]] = {
     "range": _compute_range,
     "mean": _compute_mean,
     "rms": _compute_rms,
-    "final": _find_final,
+    "final": _find_final_sample,
     "deviation": _compute_peak,
 }

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 FILE = "names.json"
 _PI = re.compile(r"^([-+]?)(?:pi|π)(?=\s)")  # alone, without a number before it
 _QUANTITY = re.compile(r"([-+]?(?:\d+\.?\d*|\.\d+))(?:[eE]([-+]?\d+))?\s*(\*\s*pi|\*?\s*π)?\s+([A-Za-zµΩ°][^\s()]*)")
-MOST_IN_A_ROW, NOTHING = 1000, 1e-12  # values of which texts are made; of the largest one: so small a value is 0
+MAX_SPACED_VALUES, NOTHING = 1000, 1e-12  # values of which texts are made; of the largest one: so small a value is 0
 
 
 class Names(NamedTuple):
@@ -35,7 +35,7 @@ class Names(NamedTuple):
     about: tuple[str, ...] = ()
 
 
-NONE = Names({}, {})
+EMPTY_NAMES = Names({}, {})
 
 
 def _match_quantity(text: str) -> re.Match[str] | None:
@@ -46,7 +46,7 @@ def _match_quantity(text: str) -> re.Match[str] | None:
     return _QUANTITY.fullmatch(_PI.sub(r"\g<1>1*pi", text.strip()))
 
 
-def format_typographically(text: str) -> str:
+def typeset_quantity(text: str) -> str:
     """Return a number with unit in typographic form: "3*pi rad/s" as "3π rad/s"; "" for any other text."""
     match = _match_quantity(text)
     if match is None:
@@ -63,22 +63,22 @@ def format_typographically(text: str) -> str:
     return f"{number.replace('-', '−')}{'π' if pi else ''} {shown}"
 
 
-def _format_spaced_values(numbers: ParameterValues) -> tuple[str, ...]:
+def _format_spaced_values(parameter_values: ParameterValues) -> tuple[str, ...]:
     """Return the texts of evenly (or geometrically) spaced values between two texts, in their common unit.
 
-    The ends stay as written. Empty if the ends are no quantities in the same unit, or for more than MOST_IN_A_ROW
+    The ends stay as written. Empty if the ends are no quantities in the same unit, or for more than MAX_SPACED_VALUES
     values.
     """
-    ends = [_match_quantity(text) for text in numbers.texts]
+    ends = [_match_quantity(text) for text in parameter_values.texts]
     units_of_ends = {(bool(end[3]), end[4]) for end in ends if end}
-    if None in ends or len(units_of_ends) > 1 or numbers.count > MOST_IN_A_ROW:
+    if None in ends or len(units_of_ends) > 1 or parameter_values.count > MAX_SPACED_VALUES:
         return ()
     ((pi, unit),) = units_of_ends
     first, last = (float(f"{end[1]}e{end[2] or 0}") for end in ends if end)
-    row = (np.geomspace if numbers.spacing == GEOMETRIC else np.linspace)(first, last, numbers.count)
+    row = (np.geomspace if parameter_values.spacing == GEOMETRIC else np.linspace)(first, last, parameter_values.count)
     row[np.abs(row) < NOTHING * np.abs(row).max()] = 0.0
     between = (f"{value:.6g}{'*pi' if pi else ''} {unit}" for value in row[1:-1])
-    return str(numbers.texts[0]), *between, str(numbers.texts[1])
+    return str(parameter_values.texts[0]), *between, str(parameter_values.texts[1])
 
 
 def collect_names(plans: Plans) -> Names:
@@ -96,7 +96,7 @@ def collect_names(plans: Plans) -> Names:
                 else tuple(map(str, texts_of_column.texts))
                 for name, texts_of_column in axis.columns.items()
             }
-        shown = {name: tuple(map(format_typographically, texts)) for name, texts in every.items()}
+        shown = {name: tuple(map(typeset_quantity, texts)) for name, texts in every.items()}
         values[part] = {name: texts for name, texts in shown.items() if texts and all(texts)}
     return Names(plans.file.titles, values, plans.file.about)
 
@@ -111,7 +111,7 @@ def write_names(folder: Path, plans: Plans) -> None:
 
 
 def read_names(folder: Path) -> Names:
-    """Return the titles and value texts of a study's folder; NONE if names.json is missing or damaged."""
+    """Return the titles and value texts of a study's folder; all are empty if names.json is missing or damaged."""
     try:
         data = read_regular(folder / FILE)
         document = {} if data is None else json.loads(data)
@@ -122,5 +122,5 @@ def read_names(folder: Path) -> Names:
         }
         about = tuple(map(str, document.get("about", ())))
     except (OSError, ValueError, AttributeError, TypeError, RecursionError):
-        return NONE
+        return EMPTY_NAMES
     return Names(titles, values, about)

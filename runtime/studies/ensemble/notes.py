@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 # not the digits of a name or of a unit: S9, m/s^2, 1/s
 _NUMBER = re.compile(r"(?<![\w.^])(?<!\^-)(?!1/[^\W\d_])[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
 _WITH = re.compile(r" with [\w.]+ = [^:]*(?=:)")  # the numbers of one run
-MOST = 50  # kinds that are reported
+MAX_NOTES = 50  # kinds that are reported
 
 
 @dataclass(frozen=True)
@@ -31,7 +31,7 @@ class Note:
     text: str
 
 
-def reduce_to_kind(message: str) -> str:
+def get_message_kind(message: str) -> str:
     """Return the kind of a message: its first line without numbers, by which equal notes of many runs are
     recognised.
     """
@@ -45,7 +45,7 @@ def group_notes(texts_by_run: Iterable[tuple[int, Sequence[str]]]) -> dict[str, 
     Notes on choices are left out, since coordinates show them.
     """
     noted = ((run, text) for run, texts in texts_by_run for text in texts if not is_choice_note(text))
-    return merge_notes({reduce_to_kind(text): Note(1, run, text)} for run, text in noted)
+    return merge_notes({get_message_kind(text): Note(1, run, text)} for run, text in noted)
 
 
 def merge_notes(note_tables: Iterable[Mapping[str, Note]]) -> dict[str, Note]:
@@ -61,10 +61,11 @@ def merge_notes(note_tables: Iterable[Mapping[str, Note]]) -> dict[str, Note]:
 
 
 @contextmanager
-def collect_guess_notes(source: KernelSource, run: int) -> Iterator[dict[str, Note]]:
+def collect_guess_notes(source: KernelSource, first_run: int) -> Iterator[dict[str, Note]]:
     """Yield a table that is filled at the end of the context with notes on runs that do not start near their guesses.
 
-    This replaces a warning for each block. run: number of the first run of the block, which notes give as example.
+    This replaces a warning for each block. first_run: number of the first run of the block, which notes give as
+    example.
     """
     noted: list[Mapping[str, float]] = []
     notes: dict[str, Note] = {}
@@ -79,4 +80,4 @@ def collect_guess_notes(source: KernelSource, run: int) -> Iterator[dict[str, No
             f"{name} begins {format_guess_difference(name, deviations[0])} from its guess: "
             f"{describe_missing_assembly(source)}; {LISTED}"
         )
-        notes[reduce_to_kind(text)] = Note(len(deviations), run, text)
+        notes[get_message_kind(text)] = Note(len(deviations), first_run, text)

@@ -30,16 +30,18 @@ if TYPE_CHECKING:
     from gudgeon.contract.kernel_source import KernelSource
     from gudgeon.generator.study.spec import Measure
     from gudgeon.results.batch import Batch
-    from gudgeon.studies.ensemble.block import Job, Table
+    from gudgeon.studies.ensemble.block import Job, RunTable
 
-KEPT = 1 << 26  # bytes of series in the cache, which next blocks of a process may need
+MAX_CACHE_BYTES = 1 << 26  # bytes of series in the cache, which next blocks of a process may need
 
 
-def list_subtracted_scenes(measures: Iterable[Measure], scene: str = "") -> tuple[str, ...]:
-    """Return the scenes whose series measures subtract, without repetitions and without `scene` itself."""
+def list_subtracted_scenes(measures: Iterable[Measure], excluded_scene: str = "") -> tuple[str, ...]:
+    """Return the scenes whose series measures subtract, without repetitions and without `excluded_scene` itself."""
     return tuple(
         dict.fromkeys(
-            str(measure.origin) for measure in measures if measure.origin is not None and measure.origin != scene
+            str(measure.origin)
+            for measure in measures
+            if measure.origin is not None and measure.origin != excluded_scene
         )
     )
 
@@ -57,11 +59,11 @@ def load_subtracted_scene(job: Job, scene: str) -> Simulation:
     return load_library(job.mechanism, scene, job.overrides, job.sha256)
 
 
-def is_passive(source: KernelSource) -> Array:
-    """Return for each entry of p, (n_p,), whether it does not affect the motion: parameters in no expression of t or
-    motion.
+def find_passive_parameters(source: KernelSource) -> Array:
+    """Return a flag for each entry of p, (n_p,): whether it is a parameter that does not affect the motion.
 
-    Lengths or masses that depend on them are entries of p themselves.
+    Such parameters occur in no expression of t or of the motion. Lengths or masses that depend on them are entries of
+    p themselves.
     """
     trees = [json.loads(expression.tree) for expression in source.written] + list(source.outputs.values())
     read = {
@@ -69,7 +71,9 @@ def is_passive(source: KernelSource) -> Array:
         for tree in trees
         for name in iterate_names(from_json(tree))
     }
-    is_unread = [slot.address.startswith("parameters.") and slot.address not in read for slot in source.slots]
+    is_unread = [
+        parameter.address.startswith("parameters.") and parameter.address not in read for parameter in source.slots
+    ]
     return np.array(is_unread + [False] * len(source.derived), dtype=bool)
 
 
@@ -78,17 +82,17 @@ class RunKeys:
     """Runs of another scene with keys by which equal runs are recognised."""
 
     columns: Mapping[str, Array]  # its own numbers, (n,)
-    whole: Array  # p, (n, ...)
-    p: Array  # the same without what decides nothing
+    full_p: Array  # (n, n_p)
+    p: Array  # the same with 0 for parameters that do not affect the motion
     t: tuple[Array, ...]  # samples of each
     step: Array | None
 
-    def key(self, i: int) -> tuple[bytes, bytes, float]:
+    def build_key(self, i: int) -> tuple[bytes, bytes, float]:
         """Return the key of run i, from its parameters, sample times and step; equal runs have equal keys."""
         return self.p[i].tobytes(), self.t[i].tobytes(), 0.0 if self.step is None else float(self.step[i])
 
 
-class Recent:
+class SeriesCache:
     """Cache of the most recently used series, with a limit of bytes."""
 
     def __init__(self) -> None:
@@ -104,23 +108,23 @@ class Recent:
             return self._held.get(key)
 
     def put(self, key: Any, series: Mapping[str, Array]) -> None:
-        """Store the series of a key, and remove the least recently used ones beyond KEPT bytes; an existing key is
-        left as it is.
+        """Store the series of a key, and remove the least recently used ones beyond MAX_CACHE_BYTES bytes; an existing
+        key is left as it is.
         """
         with self._lock:
             if key in self._held:
                 return
             self._held[key] = series
             self._bytes += sum(array.nbytes for array in series.values())
-            while self._bytes > KEPT:
+            while self._bytes > MAX_CACHE_BYTES:
                 self._bytes -= sum(array.nbytes for array in self._held.popitem(last=False)[1].values())
 
 
-_recent, _making = Recent(), Lock()
+_recent, _making = SeriesCache(), Lock()
 
 
 def compute_subtracted_series(
-    job: Job, table: Table, runs: Array, batch: Batch, failures: list[str]
+    job: Job, table: RunTable, runs: Array, batch: Batch, failures: list[str]
 ) -> dict[str, dict[str, Array]]:
     """Return for each scene to subtract its series at the samples of these runs, (n, N) by name, NaN where missing.
 
@@ -128,7 +132,7 @@ def compute_subtracted_series(
     `failures`.
     """
     series_by_scene: dict[str, dict[str, Array]] = {}
-    expected = [measure for measure in job.expected.measures if measure.statistic not in STEPS]
+    expected = [measure for measure in job.run_settings.measures if measure.statistic not in STEPS]
     for scene in list_subtracted_scenes(expected, batch.source.scene):
         simulation = load_subtracted_scene(job, scene)
         common_names = get_catalogue(simulation.source).keys() & get_catalogue(batch.source).keys()
@@ -136,12 +140,14 @@ def compute_subtracted_series(
             str(measure.of) for measure in expected if measure.origin == scene and measure.of in common_names
         )
         if names:
-            series_by_scene[scene] = _find_series_at_samples(job, simulation, table, runs, batch, list(names), failures)
+            series_by_scene[scene] = _compute_series_at_samples(
+                job, simulation, table, runs, batch, list(names), failures
+            )
     return series_by_scene
 
 
-def _find_series_at_samples(
-    job: Job, simulation: Simulation, table: Table, runs: Array, batch: Batch, names: list[str], failures: list[str]
+def _compute_series_at_samples(
+    job: Job, simulation: Simulation, table: RunTable, runs: Array, batch: Batch, names: list[str], failures: list[str]
 ) -> dict[str, Array]:
     """Return the series `names` of another scene at the samples of these runs, (n, N) each, NaN where missing.
 
@@ -157,17 +163,17 @@ def _find_series_at_samples(
         job.overrides,
         job.sha256,
         simulation.source.scene,
-        job.expected.method,
-        job.expected.rtol,
+        job.run_settings.method,
+        job.run_settings.rtol,
         tuple(names),
     )
-    keys = [(common_key, run_keys.key(i)) for i in range(len(runs))]
+    keys = [(common_key, run_keys.build_key(i)) for i in range(len(runs))]
     with _making:  # another block in another thread may be about to need the same ones
         cached = {keys[i]: _recent.get(keys[i]) for i in valid_runs}
         missing = [i for i in {keys[i]: i for i in reversed(valid_runs)}.values() if cached[keys[i]] is None]
-        computed = _compute_kinematic(job, simulation, run_keys, sorted(missing), names)
+        computed = _compute_kinematic_series(job, simulation, run_keys, sorted(missing), names)
         for i, series in (
-            computed | _simulate_runs(job, simulation, run_keys, sorted({*missing} - {*computed}), names)
+            computed | _simulate_series(job, simulation, run_keys, sorted({*missing} - {*computed}), names)
         ).items():
             if isinstance(series, str):
                 for k in (k for k in valid_runs if keys[k] == keys[i]):
@@ -181,7 +187,7 @@ def _find_series_at_samples(
     return out
 
 
-def _build_run_keys(simulation: Simulation, table: Table, runs: Array, times: list[Array]) -> RunKeys:
+def _build_run_keys(simulation: Simulation, table: RunTable, runs: Array, times: list[Array]) -> RunKeys:
     """Return the runs of another scene with the parameters of these runs and the sample times `times`, one array
     each.
     """
@@ -191,7 +197,7 @@ def _build_run_keys(simulation: Simulation, table: Table, runs: Array, times: li
     given, is_given = read_given_parameters_of_runs(source, rows)
     p, _, _ = prepare_values_of_runs(simulation.compiled, given, is_given, False)
     step = table.step[runs] if table.step is not None and source.degrees_of_freedom else None
-    return RunKeys(columns, p, np.where(is_passive(source), 0.0, p), tuple(times), step)
+    return RunKeys(columns, p, np.where(find_passive_parameters(source), 0.0, p), tuple(times), step)
 
 
 def _to_python_value(value: Any) -> float | str:
@@ -199,7 +205,7 @@ def _to_python_value(value: Any) -> float | str:
     return value if isinstance(value, str) else float(value)
 
 
-def _compute_kinematic(
+def _compute_kinematic_series(
     job: Job, simulation: Simulation, run_keys: RunKeys, runs: list[int], series_names: list[str]
 ) -> dict[int, Mapping[str, Array] | str]:
     """Return the series of kinematically driven runs from their motion alone, by run; runs that fail are left out.
@@ -215,15 +221,15 @@ def _compute_kinematic(
     if source.degrees_of_freedom or not runs:
         return {}
 
-    def follow(i: int) -> Mapping[str, Array] | None:
+    def compute_series(i: int) -> Mapping[str, Array] | None:
         """Return the series of run i; None if they cannot be computed from the motion alone or are not finite."""
-        t, p = run_keys.t[i], run_keys.whole[i]
+        t, p = run_keys.t[i], run_keys.full_p[i]
         try:
             start = assemble_start(compiled, p)
             q, v = compute_motion_at(compiled, p, t, start.q, start.v)
-            none = np.zeros((len(t), 0))
+            no_states = np.zeros((len(t), 0))
             run = make_evaluated_samples(
-                source, compiled, p, t, q, v, np.full((len(t), 3), np.nan), none, none.astype(np.int8), parts
+                source, compiled, p, t, q, v, np.full((len(t), 3), np.nan), no_states, no_states.astype(np.int8), parts
             )
             series_by_run = (
                 {name: np.array(run[name]) for name in series_names} if np.isfinite(q).all() and t[0] == 0.0 else {}
@@ -237,11 +243,11 @@ def _compute_kinematic(
         )
 
     with ThreadPoolExecutor(job.threads or available_threads(), thread_name_prefix="gudgeon") as pool:
-        series_by_run = dict(zip(runs, pool.map(follow, runs), strict=True))
+        series_by_run = dict(zip(runs, pool.map(compute_series, runs), strict=True))
     return {i: series for i, series in series_by_run.items() if series is not None}
 
 
-def _simulate_runs(
+def _simulate_series(
     job: Job, simulation: Simulation, run_keys: RunKeys, runs: list[int], names: list[str]
 ) -> dict[int, Mapping[str, Array] | str]:
     """Return the series of each run from a simulation, by run, or the reason (a text) why there are none.
@@ -258,8 +264,8 @@ def _simulate_runs(
             {name: [_to_python_value(values[i]) for i in runs] for name, values in run_keys.columns.items()}
             or [{}] * len(runs),
             output=t[0] if has_common_times else t,
-            method=choose_method(source, job.expected.method),
-            rtol=job.expected.rtol if is_dynamic else None,
+            method=choose_method(source, job.run_settings.method),
+            rtol=job.run_settings.rtol if is_dynamic else None,
             step=None if run_keys.step is None else run_keys.step[runs],
             threads=job.threads,
             stop=False,
@@ -269,7 +275,7 @@ def _simulate_runs(
     except InputError as error:
         if len(runs) == 1:
             return {runs[0]: str(error)}
-        each = [_simulate_runs(job, simulation, run_keys, [i], names) for i in runs]
+        each = [_simulate_series(job, simulation, run_keys, [i], names) for i in runs]
         return {i: series for series_by_run in each for i, series in series_by_run.items()}
     if batch.interrupted:
         raise KeyboardInterrupt

@@ -33,7 +33,7 @@ def find_parameter(source: KernelSource, name: str) -> RuntimeParameter | None:
 
     Of a group it is the first member.
     """
-    by_address = {slot.address: slot for slot in source.slots}
+    by_address = {parameter.address: parameter for parameter in source.slots}
     called = (name, f"parameters.{name}", *PARAMETER_GROUPS.get(name, ()))
     return next((by_address[address] for address in called if address in by_address), None)
 
@@ -42,13 +42,13 @@ def find_parameter_key(source: KernelSource, name: str) -> str:
     """Return the name by which runs of a scene are given a parameter: a group name or an address; "" if the scene
     lacks it.
     """
-    slot = find_parameter(source, name)
+    parameter = find_parameter(source, name)
     return (
         ""
-        if slot is None
+        if parameter is None
         else name
-        if name in PARAMETER_GROUPS and slot.address in PARAMETER_GROUPS[name]
-        else slot.address
+        if name in PARAMETER_GROUPS and parameter.address in PARAMETER_GROUPS[name]
+        else parameter.address
     )
 
 
@@ -70,15 +70,15 @@ def find_parameter_in_scenes(sources: Sequence[KernelSource], name: Text) -> Run
     raise make_unknown_name_error("number", name, every, name.where)
 
 
-def parse_parameter_value(text: Text, slot: RuntimeParameter) -> float | str:
+def parse_parameter_value(text: Text, parameter: RuntimeParameter) -> float | str:
     """Return the value of a text for a parameter in SI, or the stripped text for a choice.
 
     Raises an InputError at the text for an unknown word, a wrong dimension, a name in the expression, or a value that
     is not finite.
     """
-    if slot.words:
+    if parameter.words:
         try:
-            find_word_index(str(text), slot)
+            find_word_index(str(text), parameter)
         except InputError as error:
             raise type(error)(error.message, text.where, error.hint) from None
         return text.strip()
@@ -88,59 +88,60 @@ def parse_parameter_value(text: Text, slot: RuntimeParameter) -> float | str:
         raise BadValueError(
             f"{name.path!r} stands in a number of a study", offset_location(text.where, name.offset), hint
         )
-    check_dimension(expr, make_dimension(*slot.dimension), lambda path: None, text.where)
+    check_dimension(expr, make_dimension(*parameter.dimension), lambda path: None, text.where)
     value = float(evaluate(expr, lambda path: None))
     if not math.isfinite(value):
         raise BadValueError(f"{str(text)[:60]!r} is {value}", text.where, "expected a finite number")
     return value
 
 
-def parse_real_value(text: Text, slot: RuntimeParameter) -> float:
+def parse_real_value(text: Text, parameter: RuntimeParameter) -> float:
     """Return the value in SI of a text for a parameter. Raises BadValueError at the text if it is a choice."""
-    value = parse_parameter_value(text, slot)
+    value = parse_parameter_value(text, parameter)
     if isinstance(value, str):
         hint = "list the names that it takes, under parameters:"
-        raise BadValueError(f"{slot.address} is a choice by name, there is nothing between", text.where, hint)
+        raise BadValueError(f"{parameter.address} is a choice by name, there is nothing between", text.where, hint)
     return value
 
 
-def parse_values(numbers: ParameterValues, slot: RuntimeParameter, may_repeat: bool) -> Array:
+def parse_dimension_values(parameter_values: ParameterValues, parameter: RuntimeParameter, may_repeat: bool) -> Array:
     """Return all values of a dimension, (n,), in SI or as words: a list of texts, or a count of spaced values between
     two.
 
     may_repeat: whether listed values may be equal. Raises an InputError at the text for equal ends, repeated values,
     or ends of different sign with geometric spacing.
     """
-    if not numbers.count:
-        values = [parse_parameter_value(text, slot) for text in numbers.texts]
+    if not parameter_values.count:
+        values = [parse_parameter_value(text, parameter) for text in parameter_values.texts]
         first_of = {value: k for k, value in reversed(list(enumerate(values)))}
         repeated = next((k for k, value in enumerate(values) if first_of[value] < k and not may_repeat), None)
         if repeated is not None:
-            text = numbers.texts[repeated]
+            text = parameter_values.texts[repeated]
             raise BadValueError(f"{str(text)[:60]!r} stands there twice", text.where, "expected each value once")
-        return np.array(values, dtype=object if slot.words else float)
-    first, last = (parse_real_value(text, slot) for text in numbers.texts)
-    if numbers.spacing == GEOMETRIC and not first * last > 0.0:
+        return np.array(values, dtype=object if parameter.words else float)
+    first, last = (parse_real_value(text, parameter) for text in parameter_values.texts)
+    if parameter_values.spacing == GEOMETRIC and not first * last > 0.0:
         message = f"a geometric row from {first:g} to {last:g}"
-        raise BadValueError(message, numbers.texts[0].where, "expected both ends positive, or both negative")
+        raise BadValueError(message, parameter_values.texts[0].where, "expected both ends positive, or both negative")
     if first == last:
-        raise BadValueError(f"a row from {first:g} to {last:g}", numbers.texts[1].where, "expected two ends")
-    spaced_values = np.geomspace if numbers.spacing == GEOMETRIC else np.linspace
+        raise BadValueError(f"a row from {first:g} to {last:g}", parameter_values.texts[1].where, "expected two ends")
+    spaced_values = np.geomspace if parameter_values.spacing == GEOMETRIC else np.linspace
     with np.errstate(over="ignore", invalid="ignore"):
-        return check_finite(np.asarray(spaced_values(first, last, numbers.count)), numbers.texts[1])
+        return check_finite(np.asarray(spaced_values(first, last, parameter_values.count)), parameter_values.texts[1])
 
 
 def check_finite(values: Array, text: Text) -> Array:
-    """Return the array `values` unchanged. Raises BadValueError at `text`, the second end, unless all are
-    finite.
-    """
+    """Return the array `values` unchanged. Raises BadValueError at `text` unless all values are finite."""
     if not np.isfinite(values).all():
         raise BadValueError("the values between are beyond the largest double", text.where, "expected ends closer by")
     return values
 
 
 def check_expression(
-    source: KernelSource, written: ParsedExpression, expected: Dimension, extra_dimensions: Mapping[str, Dimension]
+    source: KernelSource,
+    expression: ParsedExpression,
+    expected_dimension: Dimension,
+    extra_dimensions: Mapping[str, Dimension],
 ) -> None:
     """Raise an InputError at its location for an expression of a study with another dimension than expected.
 
@@ -148,48 +149,49 @@ def check_expression(
     choices and units that are also parameters are refused, too.
     """
 
-    def dimension_of(path: str) -> Dimension | None:
+    def find_dimension(path: str) -> Dimension | None:
         """Return the dimension of a name in the expression; None for an unknown name."""
         if path in extra_dimensions:
             return extra_dimensions[path]
-        slot = find_parameter(source, path)
-        return None if slot is None else make_dimension(*slot.dimension)
+        parameter = find_parameter(source, path)
+        return None if parameter is None else make_dimension(*parameter.dimension)
 
-    for name in iterate_names(written.expr):
-        slot = find_parameter(source, name.path)
-        if name.path not in extra_dimensions and (slot is None or slot.words):
+    for name in iterate_names(expression.expr):
+        parameter = find_parameter(source, name.path)
+        if name.path not in extra_dimensions and (parameter is None or parameter.words):
             known_names = [*extra_dimensions, *list_addresses(source)]
-            location: Location = offset_location(written.text.where, name.offset)
+            location: Location = offset_location(expression.text.where, name.offset)
             raise make_unknown_name_error(f"name (in scene {source.scene})", name.path, known_names, location)
     _check_ambiguous_units(
-        written, [*extra_dimensions, *(address.removeprefix("parameters.") for address in list_addresses(source))]
+        expression, [*extra_dimensions, *(address.removeprefix("parameters.") for address in list_addresses(source))]
     )
-    check_dimension(written.expr, expected, dimension_of, written.text.where)
+    check_dimension(expression.expr, expected_dimension, find_dimension, expression.text.where)
 
 
-def _check_ambiguous_units(written: ParsedExpression, known_names: Sequence[str]) -> None:
+def _check_ambiguous_units(expression: ParsedExpression, known_names: Sequence[str]) -> None:
     """Raise ExpressionError for a unit in a product that is also the name of a parameter: `2 rad/s` with a parameter
     s.
     """
-    text, by_name = written.text, parse(written.text, written.text.where, known_names)
-    for name in find_names_over_units(by_name) if by_name != written.expr else ():
+    text, by_name = expression.text, parse(expression.text, expression.text.where, known_names)
+    for name in find_names_over_units(by_name) if by_name != expression.expr else ():
         message = f"{str(text)!r} can mean two things: {name} is a unit, and a number of the scene"
         raise ExpressionError(message, text.where, f"write {name}^1 for the unit, ({name}) for the number")
 
 
-def evaluate_constant(written: ParsedExpression | None, known_values: Mapping[str, float]) -> float | None:
+def evaluate_constant(expression: ParsedExpression | None, known_values: Mapping[str, float]) -> float | None:
     """Return the value of an expression that is the same in all runs; None for None or an unknown name in it.
 
     known_values: values of names, such as t_end.
     """
-    if written is None or any(name.path not in known_values for name in iterate_names(written.expr)):
+    if expression is None or any(name.path not in known_values for name in iterate_names(expression.expr)):
         return None
-    return float(evaluate(written.expr, known_values.get))
+    return float(evaluate(expression.expr, known_values.get))
 
 
-def find_impossible(name: str, values: Array) -> tuple[Array, str]:
-    """Return a flag for each value of t_end, step or (rounded) output that no run can have, and a text of what is
-    expected.
+def find_impossible_values(name: str, values: Array) -> tuple[Array, str]:
+    """Return a flag for each value that no run can have, and a text of what is expected.
+
+    name: of the quantity: t_end, step, or output (rounded values).
     """
     if name == "output":
         expected = f"a number of intervals from 1 to {MAX_OUTPUT:.0e}"
@@ -197,7 +199,7 @@ def find_impossible(name: str, values: Array) -> tuple[Array, str]:
     return ~((values > 0.0) & np.isfinite(values)), "a positive time (s)"
 
 
-def check_constants(study: StudyFile) -> None:
+def check_constant_settings(study: StudyFile) -> None:
     """Raise BadValueError at its location for an end, output, step or window of a study that no run can have.
 
     Only expressions that are the same in all runs are checked here.
@@ -206,7 +208,7 @@ def check_constants(study: StudyFile) -> None:
     for name, written in (("t_end", study.t_end), ("output", study.output), ("step", study.step)):
         if written is None or (value := evaluate_constant(written, constants)) is None:
             continue
-        wrong, expected = find_impossible(name, np.rint([value]) if name == "output" else np.array([value]))
+        wrong, expected = find_impossible_values(name, np.rint([value]) if name == "output" else np.array([value]))
         if wrong.any():
             raise BadValueError(f"{name} is {value:g}", written.text.where, f"expected {expected}")
         constants |= {name: value} if name == "t_end" else {}
@@ -222,20 +224,20 @@ def check_constants(study: StudyFile) -> None:
             )
 
 
-def evaluate_for_runs(source: KernelSource, expr: Expr, p: Array, extra_values: Mapping[str, Any]) -> Array:
+def evaluate_expression_for_runs(source: KernelSource, expr: Expr, p: Array, extra_values: Mapping[str, Any]) -> Array:
     """Return the values of an expression for all runs, (n,), from their parameter vectors p (n, n_p).
 
     extra_values: values of further names, scalar or (n,). Values are NaN or infinite where the expression is
     undefined.
     """
-    index_of_address = {slot.address: k for k, slot in enumerate(source.slots)}
+    index_of_address = {parameter.address: k for k, parameter in enumerate(source.slots)}
 
-    def value_of(path: str) -> Any:
-        """Return the value or values of a name in the expression."""
+    def get_values(path: str) -> Any:
+        """Return the values (n,) of a name in the expression, or a scalar."""
         if path in extra_values:
             return extra_values[path]
-        slot = find_parameter(source, path)
-        assert slot is not None, path
-        return p[:, index_of_address[slot.address]]
+        parameter = find_parameter(source, path)
+        assert parameter is not None, path
+        return p[:, index_of_address[parameter.address]]
 
-    return np.array(np.broadcast_to(np.asarray(evaluate(expr, value_of), dtype=float), (len(p),)))
+    return np.array(np.broadcast_to(np.asarray(evaluate(expr, get_values), dtype=float), (len(p),)))

@@ -14,12 +14,12 @@ import numpy as np
 
 from gudgeon.errors import BadValueError
 from gudgeon.results.batch import Array
-from gudgeon.studies.ensemble.block import Expected, Job
+from gudgeon.studies.ensemble.block import Job, RunSettings
 
 if TYPE_CHECKING:
     from gudgeon.generator.study.spec import StudyFile, StudySet
     from gudgeon.simulation.simulation import Simulation
-    from gudgeon.studies.ensemble.claims import Known
+    from gudgeon.studies.ensemble.claims import ResolvedClaims
 
 FOLDER_FORMAT = "gudgeon-study-folder/1"
 MOST_RUNS, MOST_STRUCTURES = 100_000_000, 10_000
@@ -70,7 +70,7 @@ class Part:
         return self.simulation.source.whole_sha256
 
 
-class BlockOf(NamedTuple):
+class BlockRange(NamedTuple):
     """The runs of a block: a range of the runs of a part."""
 
     number: int
@@ -90,7 +90,7 @@ class Plan:
     deviations: Deviations | None
     coordinates: tuple[Coordinate, ...]
     parts: tuple[Part, ...]
-    expected: Expected
+    run_settings: RunSettings
     units: Mapping[str, str]  # of measures and series
     notes: tuple[str, ...] = ()
 
@@ -120,7 +120,7 @@ class Plan:
         return sum(-(-self.each // part.block) for part in self.parts)
 
     @cached_property
-    def blocks(self) -> tuple[BlockOf, ...]:
+    def blocks(self) -> tuple[BlockRange, ...]:
         """Return all blocks, part by part, each with its range of runs."""
         each = self.each
         ranges = (
@@ -128,20 +128,22 @@ class Plan:
             for k, part in enumerate(self.parts)
             for first in range(0, each, part.block)
         )
-        return tuple(BlockOf(number, *range_) for number, range_ in enumerate(ranges))
+        return tuple(BlockRange(number, *range_) for number, range_ in enumerate(ranges))
 
-    def make_block_job(self, block: BlockOf, threads: int | None) -> Job:
+    def make_block_job(self, block: BlockRange, threads: int | None) -> Job:
         """Return the job of a block, which contains all that a process needs to run it; `threads` as in `study`."""
         runs = np.arange(block.first, block.first + block.runs)
         return self.make_job(block.number, block.part, runs, threads, self.each - block.first - block.runs)
 
-    def make_job(self, number: int, k: int, runs: Array, threads: int | None, later: int = 0) -> Job:
+    def make_job(
+        self, block_number: int, part_index: int, runs: Array, threads: int | None, n_later_runs: int = 0
+    ) -> Job:
         """Return the job of any runs of part k with their parameters and deviations.
 
-        number: of the block. runs: indices in the part. threads: None for the number of cores. later: number of runs
-        of the part in later blocks.
+        block_number: of the block. runs: indices in the part. threads: None for the number of cores. n_later_runs:
+        number of runs of the part in later blocks.
         """
-        part, shape = self.parts[k], tuple(coordinate.length for coordinate in self.numbers)
+        part, shape = self.parts[part_index], tuple(coordinate.length for coordinate in self.numbers)
         index = np.unravel_index(runs, shape) if shape else ()
         columns: dict[str, Array] = {name: np.array([value] * len(runs)) for name, value in self.fixed.items()}
         for coordinate, indices in zip(self.numbers, index, strict=True):
@@ -153,31 +155,33 @@ class Plan:
             part.simulation.source.scene,
             part.overrides,
             part.sha256,
-            number,
-            k * self.each + int(runs[0]),
+            block_number,
+            part_index * self.each + int(runs[0]),
             len(runs),
             columns,
             relative,
             absolute,
-            self.expected,
+            self.run_settings,
             threads,
-            later,
+            n_later_runs,
         )
 
-    def _select_deviations(self, index: Mapping[str, Array], n: int) -> tuple[dict[str, Array], dict[str, Array]]:
+    def _select_deviations(
+        self, indices_by_dimension: Mapping[str, Array], n_runs: int
+    ) -> tuple[dict[str, Array], dict[str, Array]]:
         """Return relative and absolute deviations of runs by parameter, (n,) each; empty without perturbed starts.
 
-        index: indices of the n runs along each dimension.
+        indices_by_dimension: indices of the runs along each dimension, (n_runs,) each.
         """
         if self.deviations is None:
             return {}, {}
-        cell = index.get("ensemble", np.zeros(n, dtype=int)), index["start"]
+        cell = indices_by_dimension.get("ensemble", np.zeros(n_runs, dtype=int)), indices_by_dimension["start"]
         several = self.deviations.relative, self.deviations.absolute
         relative, absolute = ({name: values[cell] for name, values in ensemble.items()} for ensemble in several)
         return relative, absolute
 
     @cached_property
-    def specified(self) -> dict[str, Any]:
+    def input_description(self) -> dict[str, Any]:
         """Return a description of all inputs of the results as JSON data; two studies are the same if it is equal."""
         import gudgeon
 
@@ -194,13 +198,13 @@ class Plan:
 
     @cached_property
     def identity(self) -> str:
-        """Return the SHA-256 of `specified`."""
-        return _compute_sha256(self.specified)
+        """Return the SHA-256 of `input_description`."""
+        return _compute_sha256(self.input_description)
 
     @cached_property
     def digest(self) -> str:
-        """Return the SHA-256 of `specified` and of the block sizes, by which files of blocks are recognised."""
-        return _compute_sha256([self.specified, [part.block for part in self.parts]])
+        """Return the SHA-256 of `input_description` and of the block sizes, by which files of blocks are recognised."""
+        return _compute_sha256([self.input_description, [part.block for part in self.parts]])
 
 
 @dataclass(frozen=True, eq=False)
@@ -209,7 +213,7 @@ class Plans:
 
     file: StudySet
     each: Mapping[str, Plan]
-    claims: Known | None = None
+    claims: ResolvedClaims | None = None
 
     @property
     def named(self) -> bool:
@@ -222,8 +226,11 @@ class Plans:
         return sum(plan.runs for plan in self.each.values())
 
 
-def check_size(study: StudyFile) -> None:
-    """Raise BadValueError at the longest dimension for too many runs or structures, before any mechanism is loaded."""
+def check_study_size(study: StudyFile) -> None:
+    """Raise BadValueError at the longest dimension for too many runs or structures of a study.
+
+    The check needs no loaded mechanism. A structure is a scene with one option of each choice.
+    """
     structures = [(len(study.scenes), study.scenes[0].where)]
     structures += [(len(choice.options), choice.where) for choice in study.choices]
     numbers = [(axis.length, axis.where) for axis in study.axes]

@@ -19,27 +19,32 @@ from gudgeon.results.series import check_series, get_catalogue
 from gudgeon.simulation.arguments import select_method
 from gudgeon.simulation.from_file import load
 from gudgeon.simulation.simulation import Simulation
-from gudgeon.studies.ensemble.block import Expected, Job, Table, resolve_wear
+from gudgeon.studies.ensemble.block import Job, RunSettings, RunTable, resolve_wear_model
 from gudgeon.studies.ensemble.exponents import check_neighbour_measures
-from gudgeon.studies.ensemble.libraries import choose_method, find_study_mechanism, iterate_structures, list_origins
+from gudgeon.studies.ensemble.libraries import (
+    choose_method,
+    find_study_mechanism,
+    iterate_structures,
+    list_scenes_to_subtract,
+)
 from gudgeon.studies.ensemble.measures import (
-    check_origin,
+    check_subtracted_series,
     describe_measure,
     find_measure_unit,
     list_sampled_series,
     make_unknown_measure_error,
 )
 from gudgeon.studies.ensemble.parameter_values import (
-    check_constants,
+    check_constant_settings,
     check_expression,
     check_finite,
     find_parameter,
     find_parameter_in_scenes,
+    parse_dimension_values,
     parse_parameter_value,
     parse_real_value,
-    parse_values,
 )
-from gudgeon.studies.ensemble.plan import Coordinate, Deviations, Dimension, Part, Plan, check_size
+from gudgeon.studies.ensemble.plan import Coordinate, Deviations, Dimension, Part, Plan, check_study_size
 
 if TYPE_CHECKING:
     from gudgeon.generator.study.spec import Deviation, Distribution, Draw, Starts, StudyFile
@@ -47,8 +52,8 @@ if TYPE_CHECKING:
 
 
 BLOCK = 128  # runs of a block at most
-BYTES = 1 << 26  # of states and series of a block, about
-LOOKED_AT = 64  # runs of a part whose samples are counted to size its blocks
+MAX_BLOCK_BYTES = 1 << 26  # of states and series of a block, about
+N_SIZING_RUNS = 64  # runs of a part whose samples are counted to size its blocks
 RANDOM, LATIN, HALTON = "random", "latin_hypercube", "halton"
 NORMAL, GEOMETRIC = "normal", "geometric"
 
@@ -58,14 +63,14 @@ def resolve_study(study: StudyFile) -> Plan:
 
     Raises an InputError at its location in the file.
     """
-    check_size(study)
+    check_study_size(study)
     structure, coordinates = _resolve_structure(study)
-    parts = tuple(_load_parts(study, structure))
+    parts = tuple(_load_parts(study))
     sources = [part.simulation.source for part in parts]
     numbers, parameter_coordinates = _resolve_parameters(study, sources)
     deviations, start_coordinates, start_dimensions = _resolve_starts(study.starts, sources)
     coordinates += parameter_coordinates + start_coordinates
-    expected = _resolve_expected(study, parts)
+    expected = _resolve_run_settings(study, parts)
     fixed = {
         str(name): parse_parameter_value(text, find_parameter_in_scenes(sources, name))
         for name, text in study.fixed.items()
@@ -84,9 +89,9 @@ def resolve_study(study: StudyFile) -> Plan:
         parts,
         expected,
         _resolve_units(study, sources),
-        tuple(_find_notes(study, sources)),
+        tuple(_describe_ineffective_settings(study, sources)),
     )
-    return replace(plan, parts=tuple(_size_blocks(plan, k) for k in range(len(parts))))
+    return replace(plan, parts=tuple(_choose_block_size(plan, k) for k in range(len(parts))))
 
 
 def _resolve_structure(study: StudyFile) -> tuple[list[Dimension], list[Coordinate]]:
@@ -104,15 +109,15 @@ def _resolve_structure(study: StudyFile) -> tuple[list[Dimension], list[Coordina
     return [Dimension(name, len(words)) for name, words, _ in named], coordinates
 
 
-def _load_parts(study: StudyFile, structure: Sequence[Dimension]) -> Iterator[Part]:
+def _load_parts(study: StudyFile) -> Iterator[Part]:
     """Yield a part with its loaded library for every combination of scene and options.
 
     Scenes that measures subtract are loaded and checked, too. Raises an InputError at its location.
     """
     mechanism = find_study_mechanism(study)
     for scene, texts, overrides in iterate_structures(study):
-        for origin in list_origins(study):
-            check_origin(study.measures, _load_scene(mechanism, origin, texts, overrides).source)
+        for origin in list_scenes_to_subtract(study):
+            check_subtracted_series(study.measures, _load_scene(mechanism, origin, texts, overrides).source)
         yield Part(_load_scene(mechanism, scene, texts, overrides), mechanism, overrides)
 
 
@@ -145,9 +150,11 @@ def _resolve_parameters(study: StudyFile, sources: Sequence[KernelSource]) -> tu
     for axis in study.axes:
         columns = {}
         for name, numbers in axis.columns.items():
-            slot = find_parameter_in_scenes(sources, name)
-            columns[str(name)] = parse_values(numbers, slot, may_repeat=axis.grouped)
-            coordinates.append(Coordinate(str(name), (axis.name,), columns[str(name)], slot.unit, slot.address))
+            parameter = find_parameter_in_scenes(sources, name)
+            columns[str(name)] = parse_dimension_values(numbers, parameter, may_repeat=axis.grouped)
+            coordinates.append(
+                Coordinate(str(name), (axis.name,), columns[str(name)], parameter.unit, parameter.address)
+            )
         length = len(next(iter(columns.values())))
         if axis.grouped:
             coordinates.append(Coordinate(axis.name, (axis.name,), np.arange(length), "", f"place in zip {axis.name}"))
@@ -158,8 +165,8 @@ def _resolve_parameters(study: StudyFile, sources: Sequence[KernelSource]) -> tu
         message = f"point of {study.draw.method}, seed {study.draw.seed}"
         coordinates.append(Coordinate("draw", ("draw",), np.arange(study.draw.count), "", message))
         for name in study.draw.numbers:
-            slot = find_parameter_in_scenes(sources, name)
-            coordinates.append(Coordinate(str(name), ("draw",), columns[str(name)], slot.unit, slot.address))
+            parameter = find_parameter_in_scenes(sources, name)
+            coordinates.append(Coordinate(str(name), ("draw",), columns[str(name)], parameter.unit, parameter.address))
     return dimensions, coordinates
 
 
@@ -171,13 +178,13 @@ def _draw_values(draw: Draw, sources: Sequence[KernelSource]) -> dict[str, Any]:
     points = sample_unit_cube(draw.method, draw.count, len(draw.names), draw.seed)
     drawn_values = {}
     for name, spread in draw.numbers.items():
-        slot = find_parameter_in_scenes(sources, name)
-        first, second = (parse_real_value(text, slot) for text in spread.ends)
+        parameter = find_parameter_in_scenes(sources, name)
+        first, second = (parse_real_value(text, parameter) for text in spread.ends)
         where = spread.ends[1].where
         if spread.kind == NORMAL and not second > 0.0:
             raise BadValueError(f"a standard deviation of {second:g}", where, "expected a positive one")
         if spread.kind != NORMAL and not first < second:
-            raise BadValueError(f"from {first:g} to {second:g} {slot.unit}", where, "expected from < to")
+            raise BadValueError(f"from {first:g} to {second:g} {parameter.unit}", where, "expected from < to")
         if spread.kind not in (NORMAL, "uniform") and not first > 0.0:
             raise BadValueError(f"a geometric spread from {first:g}", spread.ends[0].where, "expected positive ends")
         with np.errstate(over="ignore", invalid="ignore"):
@@ -209,15 +216,15 @@ def _resolve_starts(
         named = np.array(list(starts.ensembles), object)
         coordinates.append(Coordinate("ensemble", ensemble_dimension, named, "", "ensemble of starts"))
     for k, name in enumerate(names):
-        slot = find_parameter_in_scenes(sources, name)
+        parameter = find_parameter_in_scenes(sources, name)
         for relative, column in ((True, deviations_.relative), (False, deviations_.absolute)):
             sizes = _parse_deviation_sizes(
-                ensembles, name, replace(slot, unit="", dimension=(0, 0, 0)) if relative else slot, relative
+                ensembles, name, replace(parameter, unit="", dimension=(0, 0, 0)) if relative else parameter, relative
             )
             if sizes is None:
                 continue
             column[str(name)] = values = sizes[:, None] * points[:, :, k]
-            kind, unit = ("relative", "") if relative else ("absolute", slot.unit)
+            kind, unit = ("relative", "") if relative else ("absolute", parameter.unit)
             size, values = (sizes, values) if starts.named else (sizes[0], values[0])
             coordinates += [
                 Coordinate(
@@ -236,24 +243,24 @@ def _resolve_starts(
 
 
 def _parse_deviation_sizes(
-    ensembles: Sequence[Mapping[Text, Deviation]], name: Text, slot: RuntimeParameter, relative: bool
+    ensembles: Sequence[Mapping[Text, Deviation]], name: Text, parameter: RuntimeParameter, is_relative: bool
 ) -> Array | None:
     """Return the size of the deviation of a parameter in each ensemble (SI), 0 for an ensemble without it.
 
-    relative: which kind of deviation. None if no ensemble has this kind. Raises BadValueError for a size that is not
+    is_relative: which kind of deviation. None if no ensemble has this kind. Raises BadValueError for a size that is not
     positive.
     """
     sizes, is_found = np.zeros(len(ensembles)), False
     for k, ensemble in enumerate(ensembles):
-        if name in ensemble and ensemble[name].relative == relative:
+        if name in ensemble and ensemble[name].relative == is_relative:
             text, is_found = ensemble[name].size, True
-            sizes[k] = parse_real_value(text, slot)
+            sizes[k] = parse_real_value(text, parameter)
             if not sizes[k] > 0.0:
                 raise BadValueError(f"a size of {str(text)!r}", text.where, "expected a positive one")
     return sizes if is_found else None
 
 
-def _resolve_expected(study: StudyFile, parts: Sequence[Part]) -> Expected:
+def _resolve_run_settings(study: StudyFile, parts: Sequence[Part]) -> RunSettings:
     """Return the requested outputs and settings of the runs, with expressions and methods checked in every scene.
 
     Raises an InputError at its location.
@@ -273,7 +280,7 @@ def _resolve_expected(study: StudyFile, parts: Sequence[Part]) -> Expected:
         _check_method(study, source, rtol)
         if source.degrees_of_freedom > 0:
             check_neighbour_measures(study, source)
-    check_constants(study)
+    check_constant_settings(study)
     windows = {
         name: tuple(None if end is None else end.expr for end in (window.begin, window.end))
         for name, window in study.windows.items()
@@ -282,9 +289,9 @@ def _resolve_expected(study: StudyFile, parts: Sequence[Part]) -> Expected:
         None if quantity is None else quantity.expr for quantity in (study.t_end, study.output, study.step)
     )
     keep, method = tuple(map(str, study.keep)), str(study.method)
-    wear = resolve_wear(study.wear, [part.simulation.source for part in parts]) if study.wear else None
+    wear = resolve_wear_model(study.wear, [part.simulation.source for part in parts]) if study.wear else None
     rounds = study.wear.rounds if study.wear else 0
-    return Expected(t_end, output, step, windows, study.measures, keep, method, rtol, study.stop, wear, rounds)
+    return RunSettings(t_end, output, step, windows, study.measures, keep, method, rtol, study.stop, wear, rounds)
 
 
 def _check_method(study: StudyFile, source: KernelSource, rtol: float | None) -> None:
@@ -330,7 +337,7 @@ def _resolve_units(study: StudyFile, sources: Sequence[KernelSource]) -> dict[st
     return unit_by_name
 
 
-def _find_notes(study: StudyFile, sources: Sequence[KernelSource]) -> Iterator[str]:
+def _describe_ineffective_settings(study: StudyFile, sources: Sequence[KernelSource]) -> Iterator[str]:
     """Yield a sentence for each parameter, measure, series or setting of a study that has no effect in some scenes."""
     names = [*study.fixed, *(name for axis in study.axes for name in axis.columns)]
     names += [*study.draw.numbers] if study.draw else []
@@ -358,22 +365,26 @@ def _find_notes(study: StudyFile, sources: Sequence[KernelSource]) -> Iterator[s
             yield f"{name} is NaN in scene {', '.join(lacking)}, which has no such series"
 
 
-def _size_blocks(plan: Plan, k: int) -> Part:
-    """Return part k with a number of runs per block whose samples fit into BYTES, and the mean and largest number of
-    samples.
+def _choose_block_size(plan: Plan, part_index: int) -> Part:
+    """Return a part with its number of runs per block, and with the mean and largest number of samples of a run.
 
-    Both are estimated from at most LOOKED_AT of its runs.
+    The samples of a block fit into MAX_BLOCK_BYTES. The numbers of samples are estimated from at most N_SIZING_RUNS of
+    the runs. part_index: of the part in the plan.
     """
-    runs = np.unique(np.linspace(0, plan.each - 1, min(plan.each, LOOKED_AT)).astype(int))
-    job: Job = plan.make_job(0, k, runs, None)
-    counts = Table(plan.parts[k].simulation, job).output
+    runs = np.unique(np.linspace(0, plan.each - 1, min(plan.each, N_SIZING_RUNS)).astype(int))
+    job: Job = plan.make_job(0, part_index, runs, None)
+    counts = RunTable(plan.parts[part_index].simulation, job).output
     valid_counts = counts[~np.isnan(counts)] + 1.0
     max_samples, mean_samples = (
         (float(valid_counts.max()), float(valid_counts.mean())) if valid_counts.size else (2.0, 2.0)
     )
-    width = 2 + len(list_sampled_series(plan.expected.measures, plan.expected.keep, plan.parts[k].simulation.source))
-    block = int(max(1, min(BLOCK, BYTES // (8 * width * max(max_samples, 2.0)))))
-    return replace(plan.parts[k], block=block, samples=mean_samples, most=max_samples)
+    width = 2 + len(
+        list_sampled_series(
+            plan.run_settings.measures, plan.run_settings.keep, plan.parts[part_index].simulation.source
+        )
+    )
+    block = int(max(1, min(BLOCK, MAX_BLOCK_BYTES // (8 * width * max(max_samples, 2.0)))))
+    return replace(plan.parts[part_index], block=block, samples=mean_samples, most=max_samples)
 
 
 def sample_unit_cube(method: str, count: int, n_dimensions: int, seed: int) -> Array:
@@ -393,16 +404,18 @@ def sample_unit_cube(method: str, count: int, n_dimensions: int, seed: int) -> A
     return np.asarray(qmc.Sobol(n_dimensions, seed=seed).random_base2(math.ceil(math.log2(count)))[:count])
 
 
-def map_to_distribution(spread: Distribution, mean_or_low: float, deviation_or_high: float, fractions: Array) -> Array:
+def map_to_distribution(
+    distribution: Distribution, mean_or_low: float, deviation_or_high: float, fractions: Array
+) -> Array:
     """Return the values (SI) at fractions (n,) in [0, 1] of a normal, geometric or uniform distribution.
 
     mean_or_low, deviation_or_high: mean and standard deviation of a normal distribution, else the two ends.
     """
-    if spread.kind == NORMAL:
+    if distribution.kind == NORMAL:
         from scipy.special import ndtri
 
         return np.asarray(mean_or_low + deviation_or_high * ndtri(fractions))
-    if spread.kind == GEOMETRIC:
+    if distribution.kind == GEOMETRIC:
         return np.asarray(mean_or_low * (deviation_or_high / mean_or_low) ** fractions)
     return np.asarray(mean_or_low + (deviation_or_high - mean_or_low) * fractions)
 

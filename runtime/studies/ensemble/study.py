@@ -15,21 +15,21 @@ from gudgeon.files.reading import MAX_BYTES, read_user_file
 from gudgeon.language.argument_checks import check_callable, check_flag, check_integer, check_mapping, check_path
 from gudgeon.loading.shipped import find_shipped_study
 from gudgeon.studies.ensemble.claim_tables import write_claims
-from gudgeon.studies.ensemble.estimate import check_needs
+from gudgeon.studies.ensemble.estimate import check_disk_and_memory
 from gudgeon.studies.ensemble.finished import Study, StudyOfParts
 from gudgeon.studies.ensemble.folder import (
     DATASET,
     MANIFEST,
     StudyFolder,
     check_dataset,
+    create_parts_folder,
     import_h5py,
     list_part_names,
-    open_parts,
     read_manifest,
 )
 from gudgeon.studies.ensemble.loop import finish_study
 from gudgeon.studies.ensemble.names import write_names
-from gudgeon.studies.ensemble.workers import to_executor
+from gudgeon.studies.ensemble.workers import convert_to_executor
 
 if TYPE_CHECKING:
     import distributed
@@ -75,13 +75,13 @@ def _resolve_parts(studies: StudySet) -> Plans:
     Raises the errors of all parts together, without repetitions.
     """
     from gudgeon.studies.ensemble.claims import resolve_claims
-    from gudgeon.studies.ensemble.libraries import compile_in_second_process, list_libraries
+    from gudgeon.studies.ensemble.libraries import compile_libraries_in_second_process, list_libraries
     from gudgeon.studies.ensemble.plan import Plans
     from gudgeon.studies.ensemble.resolve import resolve_study
 
     plans: dict[str, Plan] = {}
     errors: list[InputError] = []
-    with compile_in_second_process(list_libraries(studies.parts.values())):
+    with compile_libraries_in_second_process(list_libraries(studies.parts.values())):
         for name, part in studies.parts.items():
             try:
                 plans[name] = resolve_study(part)
@@ -122,7 +122,7 @@ def study(
     disk. Ctrl-C is passed on, and finished blocks stay in the folder.
     """
     threads = None if threads is None else check_integer(threads, "threads", 1, MOST_THREADS)
-    pool, progress = to_executor(executor), check_callable(progress, "progress")
+    pool, progress = convert_to_executor(executor), check_callable(progress, "progress")
     restart, plans = check_flag(restart, "restart"), resolve_plans(study, settings, starts, seed)
     if folder is None:
         kept = tempfile.TemporaryDirectory(prefix="gudgeon-study-")
@@ -137,16 +137,17 @@ def run_plans(
     executor: Executor | None = None,
     progress: Progress | None = None,
     restart: bool = False,
-    keeps: tempfile.TemporaryDirectory[str] | None = None,
+    temporary_folder: tempfile.TemporaryDirectory[str] | None = None,
 ) -> Study:
     """Run the plans of a study file in a folder, write claims and names, and return the finished study.
 
-    Each part of a file with parts has a subfolder. keeps: temporary folder that lives as long as the study. Raises
-    OutputError or MemoryError before the first run if disk or memory do not suffice.
+    Each part of a file with parts has a subfolder. Other arguments are those of `study`, but `executor` must be one of
+    concurrent.futures. temporary_folder: temporary folder that lives as long as the study.
+    Raises OutputError or MemoryError before the first run if disk or memory do not suffice.
     """
-    check_needs(plans, folder, threads, executor is None)
+    check_disk_and_memory(plans, folder, threads, executor is None)
     if plans.named:
-        open_parts(folder, list(plans.each), restart)
+        create_parts_folder(folder, list(plans.each), restart)
     done = 0
     for name, plan in plans.each.items():
 
@@ -158,7 +159,7 @@ def run_plans(
         with StudyFolder(folder / name, plan).open_locked(restart) as opened:
             finish_study(opened, threads, executor, report if progress else None)
         done += plan.runs
-    study = StudyOfParts(folder, list(plans.each), keeps) if plans.named else Study(folder, keeps)
+    study = StudyOfParts(folder, list(plans.each), temporary_folder) if plans.named else Study(folder, temporary_folder)
     write_names(folder, plans)
     if plans.claims is not None:
         write_claims(folder, plans, plans.claims, study)

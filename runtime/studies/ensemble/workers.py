@@ -15,14 +15,14 @@ from typing import Any
 from gudgeon.errors import GudgeonError, InputError, escape_line_breaks
 from gudgeon.language.argument_checks import check_instance
 
-AHEAD = 2  # blocks for each worker that wait or run
-UNKNOWN = 4  # assumed workers of an executor whose number is not known
+BLOCKS_PER_WORKER = 2  # blocks for each worker that wait or run
+DEFAULT_N_WORKERS = 4  # assumed workers of an executor whose number is not known
 PATIENCE = 10  # s, timeout of a cluster
 
 
 class Processes(Executor):
-    """Executor with spawned worker processes, each of which loads its own libraries; `renew` replaces them after a
-    death.
+    """Executor with spawned worker processes, each of which loads its own libraries; `replace_processes` replaces them
+    after a death.
     """
 
     def __init__(self, count: int, laws: tuple[str, ...] = ()) -> None:
@@ -32,11 +32,11 @@ class Processes(Executor):
 
     def _create_pool(self) -> ProcessPoolExecutor:
         """Return a pool of new spawned processes; they start at the first submission."""
-        return ProcessPoolExecutor(self.count, get_context("spawn"), begin_worker, (self.laws,))
+        return ProcessPoolExecutor(self.count, get_context("spawn"), initialize_worker, (self.laws,))
 
-    def renew(self) -> None:
+    def replace_processes(self) -> None:
         """Replace all processes by new ones after one of them died, so that unfinished work can be submitted again."""
-        self._terminate()
+        self._terminate_processes()
         self.pool = self._create_pool()
 
     def submit(self, function: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
@@ -45,9 +45,9 @@ class Processes(Executor):
 
     def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
         """Terminate the processes at once, also running ones; the arguments are ignored."""
-        self._terminate()
+        self._terminate_processes()
 
-    def _terminate(self) -> None:
+    def _terminate_processes(self) -> None:
         """Terminate all processes and cancel the waiting work."""
         processes = dict(getattr(self.pool, "_processes", None) or {})
         for process in processes.values():
@@ -55,20 +55,20 @@ class Processes(Executor):
         self.pool.shutdown(cancel_futures=True)
 
 
-def begin_worker(laws: tuple[str, ...]) -> None:
+def initialize_worker(law_files: tuple[str, ...]) -> None:
     """Prepare a new worker process: it ignores Ctrl-C, ends with its parent, and knows the user-defined laws.
 
-    laws: files of the laws.
+    law_files: files of the laws.
     """
     signal.signal(signal.SIGINT, signal.SIG_IGN)
-    Thread(target=_end_with_parent, daemon=True).start()
-    for law in laws:
+    Thread(target=_exit_after_parent, daemon=True).start()
+    for law in law_files:
         from gudgeon.generator.kinds.laws.registered import register
 
         register(law)
 
 
-def _end_with_parent() -> None:
+def _exit_after_parent() -> None:
     """Wait until the parent process ends, for example because it is killed, and end this process; for a thread of its
     own.
     """
@@ -77,30 +77,31 @@ def _end_with_parent() -> None:
         os._exit(1)
 
 
-def to_executor(executor: Any) -> Executor | None:
-    """Return an executor of concurrent.futures: the argument itself, or that of a dask Client; None for None.
+def convert_to_executor(executor_or_client: Any) -> Executor | None:
+    """Return an executor of concurrent.futures: the argument itself, or the executor of a dask Client; None for None.
 
     Raises BadValueError for anything else.
     """
     distributed = sys.modules.get("distributed")
-    if distributed is not None and isinstance(executor, distributed.Client):
-        pool_executor: Executor = executor.get_executor(pure=False)
+    if distributed is not None and isinstance(executor_or_client, distributed.Client):
+        pool_executor: Executor = executor_or_client.get_executor(pure=False)
         return pool_executor
-    return None if executor is None else check_instance(executor, "executor", Executor)
+    return None if executor_or_client is None else check_instance(executor_or_client, "executor", Executor)
 
 
-def max_submitted(executor: Executor) -> int:
-    """Return the number of blocks to submit at once to an executor, AHEAD per worker.
+def compute_max_submitted_blocks(executor: Executor) -> int:
+    """Return the number of blocks to submit at once to an executor, BLOCKS_PER_WORKER per worker.
 
-    More would cost memory, fewer would let workers wait. UNKNOWN workers are assumed if their number is not known.
+    More would cost memory, fewer would let workers wait. DEFAULT_N_WORKERS workers are assumed if their number is not
+    known.
     """
     count = getattr(executor, "count", None) or getattr(executor, "_max_workers", None)
     if count is None and (client := getattr(executor, "_connect", None)) is not None:
         count = sum(client.ncores().values())  # of a cluster that grows and shrinks
-    return AHEAD * max(1, UNKNOWN if count is None else count)
+    return BLOCKS_PER_WORKER * max(1, DEFAULT_N_WORKERS if count is None else count)
 
 
-def is_lost_worker(error: BaseException) -> bool:
+def is_lost_worker_error(error: BaseException) -> bool:
     """Return whether an error means that a worker process ended before its work did."""
     distributed = sys.modules.get("distributed")
     killed = (distributed.KilledWorker,) if distributed is not None else ()
@@ -108,19 +109,20 @@ def is_lost_worker(error: BaseException) -> bool:
 
 
 @contextmanager
-def open_workers(count: int | None, cluster: str | None) -> Iterator[Executor | None]:
-    """Yield an executor with `count` processes, or of the dask cluster at the address `cluster`; None for neither.
+def open_workers(n_processes: int | None, cluster_address: str | None) -> Iterator[Executor | None]:
+    """Yield an executor with `n_processes` processes, or of the dask cluster at the address `cluster_address`; None for
+    neither.
 
     It is shut down at the end of the context. Raises InputError for both or no answer, GudgeonError without dask.
     """
-    if count is not None and cluster is not None:
+    if n_processes is not None and cluster_address is not None:
         raise InputError("--workers and --dask: a cluster has its own workers", hint="give one of them")
-    if count is not None:
-        with Processes(count, list_law_files()) as executor:
+    if n_processes is not None:
+        with Processes(n_processes, list_law_files()) as executor:
             yield executor
-    elif cluster is not None:
-        with _connect_to_cluster(cluster) as client:
-            yield to_executor(client)
+    elif cluster_address is not None:
+        with _connect_to_cluster(cluster_address) as client:
+            yield convert_to_executor(client)
     else:
         yield None
 

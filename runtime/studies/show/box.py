@@ -21,41 +21,48 @@ from gudgeon.studies.show.map import (
     list_cell_rows,
     print_failures,
 )
-from gudgeon.studies.show.tables import format_fraction, format_seconds, make_console, make_table, write_files
+from gudgeon.studies.show.tables import (
+    format_fraction,
+    format_seconds,
+    make_console,
+    make_table,
+    write_table_and_figure,
+)
 from gudgeon.studies.verdicts import SEVERITY, Cell, Status
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from rich.table import Table
 
-WORST = 8  # points that are printed with their command; the others are in the table on disk
+MAX_WORST_POINTS = 8  # points that are printed with their command; the others are in the table on disk
 _NUMBER = re.compile(r"(?:[<>] ?)?\d[\d.,]*(?:e[-+]?\d+)?(?: %)?")
 
 
 def report_box(
-    source: KernelSource, file: str, boxes: Sequence[VerdictBox], table: Path, as_json: bool = False
+    source: KernelSource, mechanism: str, boxes: Sequence[VerdictBox], table_path: Path, as_json: bool = False
 ) -> None:
     """Print the verdicts of `gudgeon map --box` (with `as_json` as JSON), and write the table as CSV and the figure
     next to it.
 
-    file: mechanism as typed, for the commands that repeat runs. An OutputError for a file is raised after printing.
+    mechanism: name or file as typed, for the commands that repeat runs. An OutputError for a file is raised after
+    printing.
     """
     rows = [row for box in boxes for row in list_cell_rows(box)]
 
-    def draw() -> Figure:
+    def draw_figure() -> Figure:
         """Return the figure of the boxes."""
         from gudgeon.studies.show.box_figure import draw_box_figure
 
         return draw_box_figure(source.title or source.mechanism, boxes)
 
-    written, failed = write_files(table, rows, draw)
-    _print_box(source, file, boxes, written, as_json)
+    written, failed = write_table_and_figure(table_path, rows, draw_figure)
+    _print_box(source, mechanism, boxes, written, as_json)
     if failed:
         raise failed
 
 
 def _print_box(
-    source: KernelSource, file: str, boxes: Sequence[VerdictBox], written: Sequence[Path], as_json: bool
+    source: KernelSource, mechanism: str, boxes: Sequence[VerdictBox], written: Sequence[Path], as_json: bool
 ) -> None:
     """Print counts, tables of verdicts, the worst points with their commands, and written files; or one JSON
     document.
@@ -78,17 +85,17 @@ def _print_box(
         out.print(title + describe_interruption(box), style="bold")
         if box.full:
             out.print(f"  {FULL}")
-        out.print(f"  {count_verdicts(box.cells)}")
+        out.print(f"  {describe_verdict_counts(box.cells)}")
         out.print(f"  {describe_comparison(box)}")
         out.print(_build_verdict_table(box.cells))
         if worst := select_worst_cells(box.cells):
             out.print("  the worst points, and what runs them again")
-            print_failures(out, file, box, worst)
+            print_failures(out, mechanism, box, worst)
     for path in written:
         out.print(f"wrote {format_path(path)}")
 
 
-def count_verdicts(cells: Sequence[Cell]) -> str:
+def describe_verdict_counts(cells: Sequence[Cell]) -> str:
     """Return the numbers of points by verdict in words: "28 points: 27 stable, 1 outside the model; slowest 0.3 s"."""
     counts = Counter(cell.status for cell in cells)
     message = ", ".join(f"{counts[status]} {status.value}" for status in Status if counts[status])
@@ -114,23 +121,23 @@ def remove_numbers(reason: str) -> str:
 
 
 def select_worst_cells(cells: Sequence[Cell]) -> list[Cell]:
-    """Return at most WORST failed cells, one of each reason before a second of any.
+    """Return at most MAX_WORST_POINTS failed cells, one of each reason before a second of any.
 
-    Without failures they are the WORST // 2 cells with the largest errors, largest first.
+    Without failures they are the MAX_WORST_POINTS // 2 cells with the largest errors, largest first.
     """
     if not any(cell.failed for cell in cells):
         finite_cells = [cell for cell in cells if math.isfinite(cell.error.largest)]
-        return sorted(finite_cells, key=lambda cell: -cell.error.largest)[: WORST // 2]
+        return sorted(finite_cells, key=lambda cell: -cell.error.largest)[: MAX_WORST_POINTS // 2]
     groups = [failed_cells for status, _, failed_cells in group_cells([cell for cell in cells if cell.failed])]
-    rounds = [group[k] for k in range(WORST) for group in groups if k < len(group)]
-    return rounds[:WORST]
+    rounds = [group[k] for k in range(MAX_WORST_POINTS) for group in groups if k < len(group)]
+    return rounds[:MAX_WORST_POINTS]
 
 
 def _build_verdict_table(cells: Sequence[Cell]) -> Table:
     """Return the table of verdicts and reasons with the number of points and the largest error."""
     from rich.text import Text
 
-    table = make_table(("verdict", "points", "largest error", "reason"), left=("verdict", "reason"))
+    table = make_table(("verdict", "points", "largest error", "reason"), left_aligned=("verdict", "reason"))
     for status, reason, cells_of_group in group_cells(cells):
         errors = [cell.error.largest for cell in cells_of_group if math.isfinite(cell.error.largest)]
         sign = Text(f"{SIGNS[status]} {status.value}", COLOURS[status])

@@ -17,7 +17,7 @@ from gudgeon.model.compiled import Array
 from gudgeon.results.figures.plots import IDEAL, STYLE
 from gudgeon.studies.box import Range
 from gudgeon.studies.map import VerdictBox
-from gudgeon.studies.show.box import count_verdicts
+from gudgeon.studies.show.box import describe_verdict_counts
 from gudgeon.studies.show.tables import format_seconds
 from gudgeon.studies.verdicts import SEVERITY, Status
 
@@ -47,7 +47,7 @@ def draw_box_figure(title: str, boxes: Sequence[VerdictBox]) -> Figure:
         for row, box in zip(axes, boxes, strict=True):
             _draw_scatter(row[0], box)
             if wide:
-                _draw_parallel_axes(row[1], box)
+                _draw_parallel_coordinates(row[1], box)
         used = [s for s in reversed(SEVERITY) if any(cell.status is s for box in boxes for cell in box.cells)]
         handles = [Line2D([], [], color=LOOK[s][0], marker=LOOK[s][1], ls="", ms=6, label=s.value) for s in used]
         handles.append(Line2D([], [], color="white", mec=IDEAL, marker="o", ls="", ms=7, label="a corner of the box"))
@@ -126,7 +126,7 @@ def _draw_scatter(ax: Axes, box: VerdictBox) -> None:
     )
     ax.set_title(
         f"{box.scene}, {box.setting.method} at {box.setting}, {format_seconds(box.t_long)} a point\n"
-        f"{count_verdicts(box.cells).partition(';')[0]}",
+        f"{describe_verdict_counts(box.cells).partition(';')[0]}",
         loc="left",
     )
     if len(box.ranges) > 2:
@@ -140,7 +140,7 @@ def _draw_scatter(ax: Axes, box: VerdictBox) -> None:
         )
 
 
-def _draw_parallel_axes(ax: Axes, box: VerdictBox) -> None:
+def _draw_parallel_coordinates(ax: Axes, box: VerdictBox) -> None:
     """Draw a vertical axis for each range of a box, and for each point a line across all of them in its verdict's
     colour.
     """

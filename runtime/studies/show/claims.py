@@ -13,7 +13,7 @@ import numpy as np
 from gudgeon.errors import GudgeonError
 from gudgeon.language.plot_units import choose_plot_unit
 from gudgeon.results.reports.html_page import Section, build_paragraphs, build_table
-from gudgeon.studies.show.pictures import Draw, Pictures, format_gallery
+from gudgeon.studies.show.pictures import CaptionedFigure, PageFigures, format_gallery
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -22,23 +22,23 @@ if TYPE_CHECKING:
     from gudgeon.studies.show.study_data import StudyData
 
 Row = Mapping[str, Any]  # of a table of claims: a claim and an ensemble
-LARGE = 30.0  # times the least, from which on an axis of values is logarithmic
-SHORT, MOST_LINES = 22, 4  # characters of a line of where a number was taken, and lines, that stand under it
+LOG_SCALE_RATIO = 30.0  # times the least, from which on an axis of values is logarithmic
+SHORT, MAX_LINES = 22, 4  # characters of a line of where a number was taken, and lines, that stand under it
 NOTE = "note"
 NUMBERS, TRENDS, ALONE = "Published numbers", "Published trends", "Ours alone"  # headings of claims without one
 
 
-def build_claims_sections(study: Study, parts: Mapping[str, StudyData], pictures: Pictures) -> list[Section]:
+def build_claims_sections(study: Study, parts: Mapping[str, StudyData], page_figures: PageFigures) -> list[Section]:
     """Return the sections of a page on the claims of a study: published numbers with figures, trends, headings of the
     file.
 
-    parts: data of the study's parts. pictures: receives the figures. Empty for a study without claims.
+    parts: data of the study's parts. page_figures: receives the figures. Empty for a study without claims.
     """
     try:
         claims = study.claims
     except GudgeonError:  # its file makes no claims
         return []
-    names_of = _ClaimNames(parts)
+    claim_names = _ClaimNames(parts)
     numbers, trends = (list(_group_by_claim(table.to_dict("records"))) for table in (claims.numbers, claims.trends))
     source = build_paragraphs([claims.source] * bool(claims.source), "g-quiet")
     number_headings = [_choose_heading(rows[0], NUMBERS if _is_published(rows[0]) else ALONE) for rows in numbers]
@@ -47,18 +47,18 @@ def build_claims_sections(study: Study, parts: Mapping[str, StudyData], pictures
     for k, heading in enumerate(_order_headings(number_headings + trend_headings)):
         number_rows = [rows for rows, name in zip(numbers, number_headings, strict=True) if name == heading]
         published = [rows for rows in number_rows if _is_published(rows[0])]
-        figures_html = format_gallery(_iterate_claim_figures(published, names_of), f"claims{k or ''}", pictures)
+        figures_html = format_gallery(_iterate_claim_figures(published, claim_names), f"claims{k or ''}", page_figures)
         unpublished_html = _format_unpublished_table(
-            [rows for rows in number_rows if not _is_published(rows[0])], names_of
+            [rows for rows in number_rows if not _is_published(rows[0])], claim_names
         )
         trend_html = _format_trend_table(
-            [rows for rows, name in zip(trends, trend_headings, strict=True) if name == heading], names_of
+            [rows for rows, name in zip(trends, trend_headings, strict=True) if name == heading], claim_names
         )
         sections.append(
             (
                 heading,
                 source * (heading in (NUMBERS, TRENDS))
-                + _format_number_table(published, names_of)
+                + _format_number_table(published, claim_names)
                 + figures_html
                 + unpublished_html
                 + trend_html,
@@ -91,7 +91,7 @@ class _ClaimNames:
     def __init__(self, parts: Mapping[str, StudyData]) -> None:
         """Store the data of the parts, by name; titles are those of the first part."""
         self.parts = parts
-        self.shown = next(iter(parts.values())).title_of
+        self.get_title = next(iter(parts.values())).get_title
 
     def describe_cell(self, row: Row) -> str:
         """Return the coordinates of a number's cell in words: "c = 0.3 mm"; the stored text in folders of earlier
@@ -106,12 +106,18 @@ class _ClaimNames:
         scene_coordinate = (
             self.parts[str(row["part"])].dataset.coords.get("scene") if str(row["part"]) in self.parts else None
         )
-        return self.shown(scene_coordinate.item()) if scene_coordinate is not None and not scene_coordinate.ndim else ""
+        return (
+            self.get_title(scene_coordinate.item())
+            if scene_coordinate is not None and not scene_coordinate.ndim
+            else ""
+        )
 
     def describe_number(self, row: Row) -> str:
         """Return a description of a number: the text of the claim, or measure, part and coordinates."""
-        part = [self.shown(row["part"])] * bool(row["part"])
-        return str(row["says"]) or ", ".join(filter(None, (self.shown(row["measure"]), *part, self.describe_cell(row))))
+        part = [self.get_title(row["part"])] * bool(row["part"])
+        return str(row["says"]) or ", ".join(
+            filter(None, (self.get_title(row["measure"]), *part, self.describe_cell(row)))
+        )
 
 
 def _group_by_claim(rows: Iterable[Row]) -> Iterator[list[Row]]:
@@ -127,24 +133,24 @@ def _list_ensembles(claims: list[list[Row]]) -> list[str]:
     return list(dict.fromkeys(str(row["ensemble"]) for rows in claims for row in rows if row["ensemble"]))
 
 
-def _format_number_table(claims: list[list[Row]], names_of: _ClaimNames) -> str:
+def _format_number_table(claims: list[list[Row]], claim_names: _ClaimNames) -> str:
     """Return the HTML table of published numbers: printed value, median and quartiles of each ensemble, deviation,
     note.
 
     Without ensembles there is one column for all runs. Below the table stands a footnote.
     """
-    names = _list_ensembles(claims) or [""]
-    ours = (f"ours, {names_of.shown(name)}" if name else "ours" for name in names)
+    ensembles = _list_ensembles(claims) or [""]
+    ours = (f"ours, {claim_names.get_title(name)}" if name else "ours" for name in ensembles)
     head = ["", "figure", "what", "printed", *ours, "off by", "note"]
     footnote = ["ours: median (quartiles); off by: of the medians from what is printed"]
     every = (
-        _format_number_cells(rows, names, names_of, *_choose_unit(_select_same_measure(claims, rows)))
+        _format_number_cells(rows, ensembles, claim_names, *_choose_unit(_select_claims_of_same_measure(claims, rows)))
         for rows in claims
     )
-    return _format_table_without_empty(head, every) + build_paragraphs(footnote * bool(claims), "g-quiet")
+    return _format_table_without_empty_columns(head, every) + build_paragraphs(footnote * bool(claims), "g-quiet")
 
 
-def _select_same_measure(claims: list[list[Row]], claim_rows: list[Row]) -> list[list[Row]]:
+def _select_claims_of_same_measure(claims: list[list[Row]], claim_rows: list[Row]) -> list[list[Row]]:
     """Return the claims with the same figure and measure as the claim of `claim_rows`; they share a unit."""
     return [rows for rows in claims if all(rows[0][key] == claim_rows[0][key] for key in ("figure", "measure"))]
 
@@ -155,17 +161,17 @@ def _choose_unit(claims: list[list[Row]]) -> tuple[float, str]:
 
 
 def _format_number_cells(
-    rows: list[Row], names: list[str], names_of: _ClaimNames, factor: float, unit: str
+    rows: list[Row], ensembles: list[str], claim_names: _ClaimNames, factor: float, unit: str
 ) -> list[str]:
     """Return the cells of the table row of a published number.
 
-    rows: one for each ensemble. names: ensembles with a column each. factor, unit: of all values.
+    rows: one for each ensemble. ensembles: their names, with a column each. factor, unit: of all values.
     """
     first, row_by_ensemble = rows[0], {str(row["ensemble"]): row for row in rows}
     printed = "–" if _is_missing(first["printed"]) else _append_unit(first["printed"] * factor, unit)
     cells = [
         _format_median_cell(row_by_ensemble.get(name) or (rows[0] if len(rows) == 1 and k == 0 else None), factor, unit)
-        for k, name in enumerate(names)
+        for k, name in enumerate(ensembles)
     ]
     deviations = sorted(row["deviation"] for row in rows if not _is_missing(row["deviation"]))
     ends = list(dict.fromkeys(f"{value:+.1f}".replace("-", "−") for value in (*deviations[:1], *deviations[-1:])))
@@ -173,7 +179,7 @@ def _format_number_cells(
     return [
         str(first["claim"]),
         str(first["figure"]),
-        names_of.describe_number(first),
+        claim_names.describe_number(first),
         printed,
         *cells,
         deviation_text,
@@ -181,7 +187,7 @@ def _format_number_cells(
     ]
 
 
-def _format_unpublished_table(claims: list[list[Row]], names_of: _ClaimNames) -> str:
+def _format_unpublished_table(claims: list[list[Row]], claim_names: _ClaimNames) -> str:
     """Return the HTML table of unpublished numbers: a row for each cell of runs with all its measures.
 
     A value that the claim compares with another one (`beside`) has the deviation from it in %.
@@ -193,7 +199,7 @@ def _format_unpublished_table(claims: list[list[Row]], names_of: _ClaimNames) ->
         first = rows[0]
         factor, unit = units[str(first["measure"])]
         deviation = "" if _is_missing(first["deviation"]) else f", {first['deviation']:+.1f} %".replace("-", "−")
-        what = str(first["says"]) or names_of.describe_cell(first), names_of.shown(first["part"])
+        what = str(first["says"]) or claim_names.describe_cell(first), claim_names.get_title(first["part"])
         cells_by_name = cells_by_key.setdefault(what, {})
         cells_by_name[str(first["measure"])] = _format_median_cell(first, factor, unit) + deviation
         cells_by_name[NOTE] = "; ".join(filter(None, (cells_by_name.get(NOTE), str(first.get("note") or ""))))
@@ -202,8 +208,8 @@ def _format_unpublished_table(claims: list[list[Row]], names_of: _ClaimNames) ->
         [*what, *(cells_by_name.get(name, "") for name in (*measures, NOTE))]
         for what, cells_by_name in cells_by_key.items()
     )
-    return _format_table_without_empty(
-        ["what", "part", *map(names_of.shown, measures), NOTE], cells
+    return _format_table_without_empty_columns(
+        ["what", "part", *map(claim_names.get_title, measures), NOTE], cells
     ) + build_paragraphs(footnote * bool(claims), "g-quiet")
 
 
@@ -225,14 +231,14 @@ def _append_unit(value: float, unit: str) -> str:
     return f"{value:.4g}{'' if unit == '°' else chr(160)}{unit}".strip()
 
 
-def _format_table_without_empty(head: list[str], rows: Iterable[list[str]]) -> str:
+def _format_table_without_empty_columns(head: list[str], rows: Iterable[list[str]]) -> str:
     """Return an HTML table without the columns that have a head but no text in any row."""
     every = list(rows)
     kept = [k for k, name in enumerate(head) if not name or any(row[k] for row in every)]
     return build_table([head[k] for k in kept], ([row[k] for k in kept] for row in every), True)
 
 
-def _format_trend_table(claims: list[list[Row]], names_of: _ClaimNames) -> str:
+def _format_trend_table(claims: list[list[Row]], claim_names: _ClaimNames) -> str:
     """Return the HTML table of trends with verdict, probability and note, and a footnote that defines them."""
     head = ["", "figure", "what", "verdict", "probability", "one run shows it", "note"]
     footnote = [
@@ -240,18 +246,18 @@ def _format_trend_table(claims: list[list[Row]], names_of: _ClaimNames) -> str:
         " it is known (5 % beyond each end), ensemble by ensemble; holds: all of the interval of all runs lies at"
         " 0.8 or above, fails: at 1/3 or below, undecided: neither"
     ]
-    return _format_table_without_empty(
-        head, (_format_trend_cells(rows, names_of) for rows in claims)
+    return _format_table_without_empty_columns(
+        head, (_format_trend_cells(rows, claim_names) for rows in claims)
     ) + build_paragraphs(footnote * bool(claims), "g-quiet")
 
 
-def _format_trend_cells(rows: list[Row], names_of: _ClaimNames) -> list[str]:
+def _format_trend_cells(rows: list[Row], claim_names: _ClaimNames) -> list[str]:
     """Return the cells of the table row of a trend; `rows` has one row for each ensemble.
 
     If ensembles contradict each other, the verdict lists that of each.
     """
     first = rows[0]
-    each = ", ".join(f"{names_of.shown(row['ensemble'])} {row['alone']}" for row in rows)
+    each = ", ".join(f"{claim_names.get_title(row['ensemble'])} {row['alone']}" for row in rows)
     verdict = str(first["verdict"]) if first["agreed"] else f"not agreed: {each}"
     odds = (
         _join_distinct(map(_format_probability_cell, rows)),
@@ -279,7 +285,7 @@ def _join_distinct(values: Iterable[str]) -> str:
     return shown[0] if len(set(shown)) == 1 else ", ".join(shown)
 
 
-def _iterate_claim_figures(claims: list[list[Row]], names_of: _ClaimNames) -> Iterator[Draw]:
+def _iterate_claim_figures(claims: list[list[Row]], claim_names: _ClaimNames) -> Iterator[CaptionedFigure]:
     """Yield caption and drawing function for each figure and measure of the publication, in the order of the claims.
 
     Claims without a figure have none.
@@ -290,14 +296,14 @@ def _iterate_claim_figures(claims: list[list[Row]], names_of: _ClaimNames) -> It
             groups.setdefault((str(rows[0]["figure"]), str(rows[0]["measure"])), []).append(rows)
     for (figure, measure), claim_rows in groups.items():
         printed = "ours alone" if all(_is_missing(rows[0]["printed"]) for rows in claim_rows) else "printed and ours"
-        yield f"{figure}: {names_of.shown(measure)}, {printed}", partial(_draw_claims, claim_rows, names_of)
+        yield f"{figure}: {claim_names.get_title(measure)}, {printed}", partial(_draw_claims, claim_rows, claim_names)
 
 
-def _draw_claims(claims: list[list[Row]], names_of: _ClaimNames) -> Axes:
+def _draw_claims(claims: list[list[Row]], claim_names: _ClaimNames) -> Axes:
     """Draw the medians with quartiles of each ensemble for several claims, with printed values as black marks, on new
     axes.
 
-    The axis of values is logarithmic if magnitudes differ by more than LARGE.
+    The axis of values is logarithmic if magnitudes differ by more than LOG_SCALE_RATIO.
     """
     import matplotlib
 
@@ -305,7 +311,7 @@ def _draw_claims(claims: list[list[Row]], names_of: _ClaimNames) -> Axes:
     from gudgeon.results.figures.run_plots import create_axes
 
     factor, unit = _choose_unit(claims)
-    measure = names_of.shown(claims[0][0]["measure"])
+    measure = claim_names.get_title(claims[0][0]["measure"])
     names = _list_ensembles(claims) or [""]
     with matplotlib.rc_context(STYLE):
         ax = create_axes(5.6, 3.2)
@@ -332,7 +338,7 @@ def _draw_claims(claims: list[list[Row]], names_of: _ClaimNames) -> Axes:
                 ms=3.5,
                 capsize=2.0,
                 lw=1.0,
-                label=names_of.shown(name) if name else "ours" if names == [""] else "ours, one run",
+                label=claim_names.get_title(name) if name else "ours" if names == [""] else "ours, one run",
             )
         printed = [rows[0]["printed"] * factor for rows in claims if not _is_missing(rows[0]["printed"])]
         printed_positions = [k for k, rows in enumerate(claims) if not _is_missing(rows[0]["printed"])]
@@ -340,14 +346,14 @@ def _draw_claims(claims: list[list[Row]], names_of: _ClaimNames) -> Axes:
         has_several_parts = len({str(rows[0]["part"]) for rows in claims}) > 1
         ax.set_xticks(
             range(len(claims)),
-            [_format_tick_label(rows[0], names_of, has_several_parts) for rows in claims],
+            [_format_tick_label(rows[0], claim_names, has_several_parts) for rows in claims],
             fontsize=7,
         )
         ax.set_xlim(-0.6, len(claims) - 0.4)
         ax.grid(False, axis="x")
         medians = (row["median"] * factor for rows in claims for row in rows if not _is_missing(row["median"]))
         magnitudes = [abs(value) for value in (*printed, *medians) if value]
-        if magnitudes and min(magnitudes) > 0.0 and max(magnitudes) > LARGE * min(magnitudes):
+        if magnitudes and min(magnitudes) > 0.0 and max(magnitudes) > LOG_SCALE_RATIO * min(magnitudes):
             ax.set_yscale("log")
         else:
             ax.set_ylim(bottom=min(0.0, ax.get_ylim()[0]))
@@ -356,16 +362,16 @@ def _draw_claims(claims: list[list[Row]], names_of: _ClaimNames) -> Axes:
     return ax
 
 
-def _format_tick_label(row: Row, names_of: _ClaimNames, with_scene: bool) -> str:
+def _format_tick_label(row: Row, claim_names: _ClaimNames, with_scene: bool) -> str:
     """Return the label of a claim at the axis, on several lines: name, with `with_scene` the scene, and short
     coordinates.
     """
-    coordinate_texts = names_of.describe_cell(row).split(", ")
+    coordinate_texts = claim_names.describe_cell(row).split(", ")
     coordinates = (
-        coordinate_texts if max(map(len, coordinate_texts)) <= SHORT and len(coordinate_texts) <= MOST_LINES else []
+        coordinate_texts if max(map(len, coordinate_texts)) <= SHORT and len(coordinate_texts) <= MAX_LINES else []
     )
     return "\n".join(
-        filter(None, (str(row["claim"]), names_of.find_scene_title(row) if with_scene else "", *coordinates))
+        filter(None, (str(row["claim"]), claim_names.find_scene_title(row) if with_scene else "", *coordinates))
     )
 
 

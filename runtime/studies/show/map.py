@@ -21,7 +21,7 @@ from gudgeon.studies.show.tables import (
     format_seconds,
     make_console,
     make_table,
-    write_files,
+    write_table_and_figure,
 )
 from gudgeon.studies.verdicts import Cell, Status
 
@@ -59,37 +59,37 @@ LABELS = {
 
 def report_map(
     source: KernelSource,
-    file: str,
+    mechanism: str,
     maps: Sequence[VerdictMap],
-    table: Path,
-    mark_step: float | None,
+    table_path: Path,
+    marked_step: float | None,
     as_json: bool = False,
 ) -> None:
     """Print the maps of `gudgeon map` (with `as_json` as JSON), and write the table as CSV and the figure next to it.
 
-    file: mechanism as typed, for the commands that repeat runs. mark_step (s): step that is marked, or None. An
-    OutputError for a file is raised after printing.
+    mechanism: name or file as typed, for the commands that repeat runs. marked_step (s): step that is marked, or None.
+    An OutputError for a file is raised after printing.
     """
-    rows = [row for scene in maps for row in list_cell_rows(scene)]
+    rows = [row for verdict_map in maps for row in list_cell_rows(verdict_map)]
 
-    def draw() -> Figure:
+    def draw_figure() -> Figure:
         """Return the figure of the maps."""
         from gudgeon.studies.show.map_figure import draw_map_figure
 
-        return draw_map_figure(source.title or source.mechanism, maps, mark_step)
+        return draw_map_figure(source.title or source.mechanism, maps, marked_step)
 
-    written, failed = write_files(table, rows, draw)
-    _print_maps(source, file, maps, written, mark_step, as_json)
+    written, failed = write_table_and_figure(table_path, rows, draw_figure)
+    _print_maps(source, mechanism, maps, written, marked_step, as_json)
     if failed:
         raise failed
 
 
 def _print_maps(
     source: KernelSource,
-    file: str,
+    mechanism: str,
     maps: Sequence[VerdictMap],
     written: Sequence[Path],
-    mark_step: float | None,
+    marked_step: float | None,
     as_json: bool,
 ) -> None:
     """Print the maps with stability limits or failures, legend, the marked step and written files; or one JSON
@@ -100,77 +100,77 @@ def _print_maps(
         print_json(
             {
                 "mechanism": source.mechanism,
-                "interrupted": any(scene.interrupted for scene in maps),
+                "interrupted": any(verdict_map.interrupted for verdict_map in maps),
                 "cells": rows,
                 "files": [str(path) for path in written],
             }
         )
         return
     out = make_console()
-    for scene in maps:
+    for verdict_map in maps:
         title = (
-            f"{scene.scene}, {scene.setting.method}: sane over {format_seconds(scene.t_long)}, "
-            f"{describe_comparison(scene)}"
+            f"{verdict_map.scene}, {verdict_map.setting.method}: sane over {format_seconds(verdict_map.t_long)}, "
+            f"{describe_comparison(verdict_map)}"
         )
-        out.print(title + describe_interruption(scene), style="bold")
-        if scene.full:
+        out.print(title + describe_interruption(verdict_map), style="bold")
+        if verdict_map.full:
             out.print(f"  {FULL}")
-        if scene.columns.ratios:
-            out.print(f"  {scene.rows.name} down, {scene.columns.name} across")
-        out.print(_build_map_table(scene))
-        if scene.rows.name == "step":
-            out.print(_build_boundary_table(scene))
-        elif failures := [cell for cell in scene.cells if cell.failed]:
+        if verdict_map.columns.ratios:
+            out.print(f"  {verdict_map.rows.name} down, {verdict_map.columns.name} across")
+        out.print(_build_map_table(verdict_map))
+        if verdict_map.rows.name == "step":
+            out.print(_build_boundary_table(verdict_map))
+        elif failures := [cell for cell in verdict_map.cells if cell.failed]:
             out.print("  what failed, and what runs it again")
-            print_failures(out, file, scene, failures)
+            print_failures(out, mechanism, verdict_map, failures)
     out.print(make_legend(maps))
     for line in explain_labels(maps).splitlines():
         out.print(f"  {line}")
-    for line in describe_marked_step(maps, mark_step):
+    for line in describe_marked_step(maps, marked_step):
         out.print(line)
     for path in written:
         out.print(f"wrote {format_path(path)}")
 
 
-def _build_map_table(scene: VerdictMap) -> Table:
+def _build_map_table(verdict_map: VerdictMap) -> Table:
     """Return the table of a map; each cell has the sign of its verdict and its label."""
     from rich.text import Text
 
-    heads = [format_axis_value(scene.columns, x) for x in scene.columns.values]
-    table = make_table([scene.rows.name, *heads])
-    for row in scene.rows.values:
-        cells = (scene.cell(row, x) for x in scene.columns.values)
+    heads = [format_axis_value(verdict_map.columns, x) for x in verdict_map.columns.values]
+    table = make_table([verdict_map.rows.name, *heads])
+    for row in verdict_map.rows.values:
+        cells = (verdict_map.get_cell(row, x) for x in verdict_map.columns.values)
         marked = (Text(f"{SIGNS[cell.status]} {cell.label}", COLOURS[cell.status]) for cell in cells)
-        table.add_row(format_axis_value(scene.rows, row), *marked)
+        table.add_row(format_axis_value(verdict_map.rows, row), *marked)
     return table
 
 
-def _build_boundary_table(scene: VerdictMap) -> Table:
+def _build_boundary_table(verdict_map: VerdictMap) -> Table:
     """Return the table of the largest stable step for each column, with the fault of the next longer step."""
-    name = scene.columns.name
-    table = make_table((name, "largest stable step", "the next one"), left=("the next one",))
-    for x in scene.columns.values:
-        largest = scene.find_largest_stable_row(x)
-        next_step = next((step for step in scene.rows.values if not step <= largest), None)
-        cell = scene.cell(next_step, x) if next_step is not None else None
+    name = verdict_map.columns.name
+    table = make_table((name, "largest stable step", "the next one"), left_aligned=("the next one",))
+    for x in verdict_map.columns.values:
+        largest = verdict_map.find_largest_stable_row(x)
+        next_step = next((step for step in verdict_map.rows.values if not step <= largest), None)
+        cell = verdict_map.get_cell(next_step, x) if next_step is not None else None
         after = f"{cell.setting}, {cell.status.value}: {cell.reason}" if cell else "the grid ends"
         table.add_row(
-            format_axis_value(scene.columns, x), format_seconds(largest) if largest == largest else "none", after
+            format_axis_value(verdict_map.columns, x), format_seconds(largest) if largest == largest else "none", after
         )
     return table
 
 
-def print_failures(out: Console, file: str, verdicts: VerdictMap | VerdictBox, cells: Sequence[Cell]) -> None:
+def print_failures(console: Console, mechanism: str, verdicts: VerdictMap | VerdictBox, cells: Sequence[Cell]) -> None:
     """Print the reasons of cells and the command that repeats each, on one line so that it can be copied.
 
-    file: mechanism as typed. A cell without a reason is shown with its largest error.
+    mechanism: name or file as typed. A cell without a reason is shown with its largest error.
     """
     laws = list_law_files()
     for cell in cells:
         specified = cell.reason or f"largest error {format_fraction(cell.error.largest)}"
-        out.print(f"  {SIGNS[cell.status]} {specified}", markup=False, emoji=False)
-        again = format_run_command(file, verdicts.scene, cell, verdicts.t_long, verdicts.full, laws)
-        out.print(f"    {again}", markup=False, emoji=False, soft_wrap=True)
+        console.print(f"  {SIGNS[cell.status]} {specified}", markup=False, emoji=False)
+        again = format_run_command(mechanism, verdicts.scene, cell, verdicts.t_long, verdicts.full, laws)
+        console.print(f"    {again}", markup=False, emoji=False, soft_wrap=True)
 
 
 def describe_interruption(verdicts: VerdictMap | VerdictBox) -> str:
@@ -182,19 +182,19 @@ def make_legend(verdicts: Sequence[VerdictMap | VerdictBox]) -> Text:
     """Return the signs and names of all verdicts in colour; "not judged" only after Ctrl-C."""
     from rich.text import Text
 
-    shown = [s for s in Status if s is not Status.MISSING or any(scene.interrupted for scene in verdicts)]
+    shown = [s for s in Status if s is not Status.MISSING or any(verdict_map.interrupted for verdict_map in verdicts)]
     return Text("   ").join(Text(f"{SIGNS[status]} {status.value}", COLOURS[status]) for status in shown)
 
 
 def format_run_command(
-    file: str, scene: str, cell: Cell, t_end: float, full: bool = False, laws: Sequence[str] = ()
+    mechanism: str, scene: str, cell: Cell, t_end: float, full: bool = False, laws: Sequence[str] = ()
 ) -> str:
     """Return the shell command that repeats the run of a cell: `gudgeon run` with scene, setting, parameters and end
     time.
 
-    file: mechanism as typed. full: in the full formulation. laws: files of user-defined laws.
+    mechanism: name or file as typed. full: in the full formulation. laws: files of user-defined laws.
     """
-    words = ["gudgeon", "run", f"./{file}" if file.startswith("-") else file, "--scene", scene]
+    words = ["gudgeon", "run", f"./{mechanism}" if mechanism.startswith("-") else mechanism, "--scene", scene]
     words += [
         "--method",
         cell.setting.method,
@@ -218,24 +218,27 @@ def list_law_files() -> list[str]:
     return [origin.typed for origin in ORIGINS.values() if origin.typed]
 
 
-def describe_marked_step(maps: Sequence[VerdictMap], mark_step: float | None) -> list[str]:
+def describe_marked_step(maps: Sequence[VerdictMap], marked_step: float | None) -> list[str]:
     """Return a line for each map over steps on the marked step: counts of its verdicts, and the step that suits all
     columns.
 
     Empty without a marked step, or if no map has it.
     """
     lines = []
-    for scene in (s for s in maps if s.rows.name == "step"):
-        step = next((x for x in scene.rows.values if mark_step is not None and math.isclose(x, mark_step)), None)
+    for verdict_map in (s for s in maps if s.rows.name == "step"):
+        step = next(
+            (x for x in verdict_map.rows.values if marked_step is not None and math.isclose(x, marked_step)), None
+        )
         if step is None:
             continue
-        cells = [scene.cell(step, x) for x in scene.columns.values]
+        cells = [verdict_map.get_cell(step, x) for x in verdict_map.columns.values]
         counts = Counter(cell.status for cell in cells)
         message = ", ".join(f"{counts[status]} {status.value}" for status in Status if counts[status])
-        best = [x for x in map(scene.find_largest_stable_row, scene.columns.values) if x == x]
+        best = [x for x in map(verdict_map.find_largest_stable_row, verdict_map.columns.values) if x == x]
         shortest = format_seconds(min(best)) if len(best) == len(cells) else "below the grid"
         lines.append(
-            f"step {format_seconds(step)}, {scene.scene}: of {len(cells)} columns {message}; a step for all: {shortest}"
+            f"step {format_seconds(step)}, {verdict_map.scene}: of {len(cells)} columns {message}; "
+            f"a step for all: {shortest}"
         )
     return lines
 
@@ -279,7 +282,7 @@ def format_axis_value(axis: Axis, x: float) -> str:
 
 def explain_labels(maps: Sequence[VerdictMap]) -> str:
     """Return lines with the meaning of the labels that occur in the cells, two explanations in each."""
-    used = {cell.label.split(" ")[0] for scene in maps for cell in scene.cells}
+    used = {cell.label.split(" ")[0] for verdict_map in maps for cell in verdict_map.cells}
     message = dict.fromkeys(text for word, text in LABELS.items() if word in used)
     parts = ["a number: largest error against a finer run, over the time compared", *message]
     return "\n".join(" · ".join(parts[k : k + 2]) for k in range(0, len(parts), 2))

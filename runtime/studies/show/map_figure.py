@@ -30,30 +30,35 @@ FILL = {
 NAMES = {"step": "step", "rtol": "tolerance", "clearance": "radial clearance"}
 
 
-def draw_map_figure(title: str, maps: Sequence[VerdictMap], mark_step: float | None = None) -> Figure:
+def draw_map_figure(title: str, maps: Sequence[VerdictMap], marked_step: float | None = None) -> Figure:
     """Return the figure with a panel for each scene; each cell has the colour of its verdict and its label.
 
-    mark_step (s): step whose row gets a frame, or None.
+    marked_step (s): step whose row gets a frame, or None.
     """
-    columns = max(len(scene.columns.values) for scene in maps)
-    rows = max(len(scene.rows.values) for scene in maps)
+    columns = max(len(verdict_map.columns.values) for verdict_map in maps)
+    rows = max(len(verdict_map.rows.values) for verdict_map in maps)
     with matplotlib.rc_context(STYLE):
         width = max(6.5, len(maps) * (1.1 + 0.82 * columns))
         picture = Figure(figsize=(width, 2.0 + 0.42 * rows), dpi=120, layout="constrained")
         axes = picture.subplots(1, len(maps), squeeze=False)[0]
-        for ax, scene in zip(axes, maps, strict=True):
-            _draw_map(ax, scene, mark_step)
+        for ax, verdict_map in zip(axes, maps, strict=True):
+            _draw_map(ax, verdict_map, marked_step)
         axes[0].set_ylabel(NAMES.get(maps[0].rows.name, maps[0].rows.name))
-        used = {cell.status for scene in maps for cell in scene.cells}
+        used = {cell.status for verdict_map in maps for cell in verdict_map.cells}
         handles: list[Any] = [Patch(facecolor=FILL[s], label=s.value) for s in Status if s in used]
-        if mark_step is not None and any(_is_marked(scene, y, mark_step) for scene in maps for y in scene.rows.values):
-            handles.append(Patch(facecolor="none", edgecolor=IDEAL, lw=1.6, label=f"step {format_seconds(mark_step)}"))
+        if marked_step is not None and any(
+            _is_marked(verdict_map, y, marked_step) for verdict_map in maps for y in verdict_map.rows.values
+        ):
+            handles.append(
+                Patch(facecolor="none", edgecolor=IDEAL, lw=1.6, label=f"step {format_seconds(marked_step)}")
+            )
         question = "which step will do?" if maps[0].rows.name == "step" else "where does it fail?"
-        part = " (partial: interrupted)" if any(scene.interrupted for scene in maps) else ""
+        part = " (partial: interrupted)" if any(verdict_map.interrupted for verdict_map in maps) else ""
         head = format_figure_title(f"{title}: {question}{part}", int(10 * width))
         picture.suptitle(head, fontsize=12, fontweight="bold", x=0.012, ha="left")
         over = (
-            f"{scene.scene}: sane over {format_seconds(scene.t_long)}, {describe_comparison(scene)}" for scene in maps
+            f"{verdict_map.scene}: sane over {format_seconds(verdict_map.t_long)}, {describe_comparison(verdict_map)}"
+            for verdict_map in maps
         )
         message = "\n".join([explain_labels(maps), *over])
         picture.legend(
@@ -62,27 +67,29 @@ def draw_map_figure(title: str, maps: Sequence[VerdictMap], mark_step: float | N
     return picture
 
 
-def _draw_map(ax: Axes, scene: VerdictMap, mark_step: float | None) -> None:
+def _draw_map(ax: Axes, verdict_map: VerdictMap, marked_step: float | None) -> None:
     """Draw the cells of one map with ticks and title, and a frame around the row of the marked step (s)."""
-    rows, columns = scene.rows.values, scene.columns.values
+    rows, columns = verdict_map.rows.values, verdict_map.columns.values
     for i, y in enumerate(rows):
         for j, x in enumerate(columns):
-            _draw_cell(ax, i, j, scene.cell(y, x))
-        if _is_marked(scene, y, mark_step):
+            _draw_cell(ax, i, j, verdict_map.get_cell(y, x))
+        if _is_marked(verdict_map, y, marked_step):
             ax.add_patch(Rectangle((-0.5, i - 0.5), len(columns), 1, fill=False, ec=IDEAL, lw=1.8, zorder=4))
     limits = {"xlim": (-0.5, len(columns) - 0.5), "ylim": (-0.5, len(rows) - 0.5)}
-    ax.set(**limits, title=f"{scene.scene}, {scene.setting.method}")
-    ax.set_yticks(range(len(rows)), [format_axis_value(scene.rows, y) for y in rows])
-    ax.set_xticks(range(len(columns)), [format_axis_value(scene.columns, x) for x in columns])
-    ax.set_xlabel(NAMES.get(scene.columns.name, scene.columns.name) if scene.columns.ratios else "no play")
+    ax.set(**limits, title=f"{verdict_map.scene}, {verdict_map.setting.method}")
+    ax.set_yticks(range(len(rows)), [format_axis_value(verdict_map.rows, y) for y in rows])
+    ax.set_xticks(range(len(columns)), [format_axis_value(verdict_map.columns, x) for x in columns])
+    ax.set_xlabel(
+        NAMES.get(verdict_map.columns.name, verdict_map.columns.name) if verdict_map.columns.ratios else "no play"
+    )
     ax.grid(False)
     ax.tick_params(length=0)
     ax.spines[:].set_visible(False)
 
 
-def _is_marked(scene: VerdictMap, row: float, step: float | None) -> bool:
+def _is_marked(verdict_map: VerdictMap, row: float, step: float | None) -> bool:
     """Return whether the rows of a map are steps and this row is the marked one; False for None."""
-    return scene.rows.name == "step" and step is not None and math.isclose(row, step)
+    return verdict_map.rows.name == "step" and step is not None and math.isclose(row, step)
 
 
 def _draw_cell(ax: Axes, row: int, column: int, cell: Cell) -> None:

@@ -23,47 +23,48 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-MOST_FIGURES = 40
+MAX_FIGURES = 40
 MANY = 12  # figures, from which on it is worth while to begin a process for them
 FEW = 4  # figures, for which no core is taken
 _AROUND = re.compile(r"^.*?(?=<svg)|<metadata>.*?</metadata>|<!--.*?-->", re.DOTALL)
 _IDS = re.compile(r'(\bid="|xlink:href="#|url\(#)')
 _PLACE = re.compile(r"<!--picture (\d+)-->")
-Draw = tuple[str, Callable[[], "Axes"]]  # what it shows, and how it is drawn
+CaptionedFigure = tuple[str, Callable[[], "Axes"]]  # what it shows, and how it is drawn
 
 
-class Pictures:
+class PageFigures:
     """Figures of a page by number: placeholders are written first and replaced when all figures are known."""
 
     def __init__(self) -> None:
         """Create an empty list of figures."""
-        self.expected: list[tuple[str, Callable[[], Axes]]] = []
+        self.figures: list[tuple[str, Callable[[], Axes]]] = []
 
-    def add_placeholder(self, name: str, draw: Callable[[], Axes]) -> str:
-        """Register a figure and return its placeholder, an HTML comment; `draw` is called later. `name` must be
+    def add_placeholder(self, name: str, draw_axes: Callable[[], Axes]) -> str:
+        """Register a figure and return its placeholder, an HTML comment; `draw_axes` is called later. `name` must be
         unique.
         """
-        self.expected.append((name, draw))
-        return f"<!--picture {len(self.expected) - 1}-->"
+        self.figures.append((name, draw_axes))
+        return f"<!--picture {len(self.figures) - 1}-->"
 
     def insert_figures(self, page: str) -> str:
         """Draw all registered figures and return the page with their SVG in place of the placeholders."""
-        drawn = _draw_in_processes(self.expected)
+        drawn = _draw_in_processes(self.figures)
         return _PLACE.sub(lambda place: drawn[int(place[1])], page)
 
 
-def format_gallery(figures: Iterable[Draw], kind: str, pictures: Pictures) -> str:
-    """Return an HTML grid of figures with captions; of more than MOST_FIGURES only the first ones and a line on the
+def format_gallery(figures: Iterable[CaptionedFigure], name_prefix: str, page_figures: PageFigures) -> str:
+    """Return an HTML grid of figures with captions; of more than MAX_FIGURES only the first ones and a line on the
     others.
 
-    kind: prefix of the figures' names. "" without figures.
+    name_prefix: prefix of the figures' names. page_figures: receives the figures, which are drawn later. "" without
+    figures.
     """
     parts, omitted = [], 0
-    for k, (caption, draw) in enumerate(figures):
-        if k >= MOST_FIGURES:
+    for k, (caption, draw_axes) in enumerate(figures):
+        if k >= MAX_FIGURES:
             omitted += 1
             continue
-        placeholder = pictures.add_placeholder(f"{kind}-{k}", draw)
+        placeholder = page_figures.add_placeholder(f"{name_prefix}-{k}", draw_axes)
         parts.append(f"<figure>{placeholder}<figcaption>{escape_line(caption)}</figcaption></figure>")
     more = build_paragraphs([f"{omitted} more figures: study.plot draws them"] * bool(omitted), "g-quiet")
     return f"<div class='g-figures'>{''.join(parts)}</div>{more}" if parts else ""
@@ -92,11 +93,11 @@ def _draw_in_processes(figures: list[tuple[str, Callable[[], Any]]]) -> list[str
 class _DrawingProcess:
     """A process that draws some of the figures; if it dies, they are drawn here."""
 
-    def __init__(self, expected: list[tuple[str, Callable[[], Any]]]) -> None:
-        """Start a forked process that draws the figures of `expected`, pairs of name and drawing function."""
-        self.expected, context = expected, get_context("fork")
+    def __init__(self, figures: list[tuple[str, Callable[[], Any]]]) -> None:
+        """Start a forked process that draws figures, given as pairs of name and drawing function."""
+        self.figures, context = figures, get_context("fork")
         self.end, begin = context.Pipe(duplex=False)
-        self.process = context.Process(target=_draw_all, args=(begin, expected), daemon=True)
+        self.process = context.Process(target=_send_drawn_figures, args=(begin, figures), daemon=True)
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", DeprecationWarning)  # of threads of BLAS, which expect it
             self.process.start()
@@ -107,24 +108,24 @@ class _DrawingProcess:
         try:
             figures: list[str] = self.end.recv()
         except (EOFError, OSError):
-            return [_draw_figure(*arguments) for arguments in self.expected]
+            return [_draw_figure(*arguments) for arguments in self.figures]
         return figures
 
 
-def _draw_all(end: Connection, figures: list[tuple[str, Callable[[], Any]]]) -> None:
+def _send_drawn_figures(connection: Connection, figures: list[tuple[str, Callable[[], Any]]]) -> None:
     """Draw figures in the child process and send their SVG as one list; after an error nothing is sent."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is the calling process's own
     with suppress(Exception):  # errors are reported when the figure is drawn again
-        end.send([_draw_figure(*arguments) for arguments in figures])
+        connection.send([_draw_figure(*arguments) for arguments in figures])
 
 
-def _draw_figure(name: str, draw: Callable[[], Axes]) -> str:
+def _draw_figure(name: str, draw_axes: Callable[[], Axes]) -> str:
     """Return a figure as SVG, or an HTML line with the reason if it cannot be drawn."""
     from gudgeon.results.figures.run_plots import suppress_figure_display
 
     try:
         with suppress_figure_display():
-            return _convert_to_svg(draw(), name)
+            return _convert_to_svg(draw_axes(), name)
     except (GudgeonError, ValueError, ArithmeticError) as error:
         return build_paragraphs([f"not drawn: {error}"], "g-quiet")
 
@@ -140,14 +141,14 @@ def _convert_to_svg(ax: Axes, name: str) -> str:
     with matplotlib.rc_context({"svg.hashsalt": name, "svg.fonttype": "none"}):
         figure: Any = ax.figure
         canvas = FigureCanvasSVG(figure)
-        _compute_layout(figure)
+        _apply_layout(figure)
         canvas.print_svg(target, metadata={"Date": None, "Creator": None})
     svg = _AROUND.sub("", target.getvalue().decode())
     return _IDS.sub(lambda own: f"{own[1]}{name}-", svg)
 
 
-def _compute_layout(figure: Figure) -> None:
-    """Compute the layout of a figure once, since `savefig` would draw everything twice for it.
+def _apply_layout(figure: Figure) -> None:
+    """Apply the layout of a figure once and remove its layout engine, with which `savefig` would draw it twice.
 
     A single axes needs only a margin. With a rectangle, even that of the figure, matplotlib would measure all texts
     again.

@@ -19,8 +19,8 @@ from gudgeon.studies.ensemble.plan import Plan, Plans
 from gudgeon.studies.show.study_data import StudyData
 from gudgeon.studies.show.tables import format_seconds, make_console, make_table
 
-MOST_KINDS = 8
-MOST_TRENDS = 16  # trends that are printed one by one
+MAX_KINDS = 8
+MAX_TRENDS = 16  # trends that are printed one by one
 QUANTILES = {"min": 0.0, "median": 0.5, "max": 1.0}
 
 
@@ -30,12 +30,12 @@ def describe_runs(plan: Plan, runs: int) -> str:
     return format_count(runs, "run") + f" ({escape_invisible(shape)})" * bool(shape)
 
 
-def report_estimates(plans: Plans, estimates: Mapping[str, Estimate], json: bool) -> None:
+def report_estimates(plans: Plans, estimates: Mapping[str, Estimate], as_json: bool) -> None:
     """Print for each part the number of runs, disk space and time that trial runs predict, or one JSON document.
 
     estimates: by the name of the part, "" for a file without parts.
     """
-    if json:
+    if as_json:
         each = {name: _estimate_to_json(plan, estimates[name]) for name, plan in plans.each.items()}
         print_json({"parts": each} if plans.named else each[""])
         return
@@ -79,10 +79,10 @@ def _print_estimate(plan: Plan, estimate: Estimate) -> None:
         print(f"note: {escape_invisible(note)}")
 
 
-def report_studies(plans: Plans, study: Study, json: bool) -> None:
+def report_studies(plans: Plans, study: Study, as_json: bool) -> None:
     """Print the measures, failures and notes of all parts of a finished study, and its claims; or one JSON document."""
     parts = study.parts or {"": study}
-    if json:
+    if as_json:
         each = {name: _convert_study_to_json(plan, parts[name]) for name, plan in plans.each.items()}
         whole = {"folder": str(study.folder), "runs": study.runs, "failed": study.failed, "parts": each}
         claims = read_claims_json(study.folder)
@@ -98,14 +98,14 @@ def report_studies(plans: Plans, study: Study, json: bool) -> None:
 
 def _convert_study_to_json(plan: Plan, study: Study) -> dict[str, Any]:
     """Return folder, runs, failures, measures and notes of one part as JSON data."""
-    measures = {name: {"unit": unit, **row} for name, unit, row in _compute_spreads(plan, study)}
+    measures = {name: {"unit": unit, **row} for name, unit, row in _iterate_measure_spreads(plan, study)}
     return {
         "folder": str(study.folder),
         "dataset": str(study.folder / DATASET),
         "runs": study.runs,
         "failed": study.failed,
         "failures": study.failures,
-        "first_failures": {kind: message for kind, _, message in StudyData(study).failures()},
+        "first_failures": {kind: message for kind, _, message in StudyData(study).iterate_failures()},
         "measures": measures,
         "notes": list(study.notes),
     }
@@ -113,7 +113,7 @@ def _convert_study_to_json(plan: Plan, study: Study) -> dict[str, Any]:
 
 def _print_study(plan: Plan, study: Study) -> None:
     """Print number of runs, a table of measures, the most frequent failures, notes and the file of one part."""
-    spread = {name: (unit, row) for name, unit, row in _compute_spreads(plan, study)}
+    spread = {name: (unit, row) for name, unit, row in _iterate_measure_spreads(plan, study)}
     print(describe_runs(plan, study.runs))
     if spread:
         table = make_table(["measure", *QUANTILES, "unit", "NaN"], ["measure", "unit"])
@@ -123,12 +123,12 @@ def _print_study(plan: Plan, study: Study) -> None:
         make_console().print(table)
     if study.failed:
         print(f"{study.failed} of {format_count(study.runs, 'run')} failed:")
-        for kind, count, message in itertools.islice(StudyData(study).failures(), MOST_KINDS):
+        for kind, count, message in itertools.islice(StudyData(study).iterate_failures(), MAX_KINDS):
             print(
                 f"  {count} × {escape_invisible(kind)}"
                 + f"\n    the first: {escape_invisible(message)}" * bool(message)
             )
-        if (more := len(study.failures) - MOST_KINDS) > 0:
+        if (more := len(study.failures) - MAX_KINDS) > 0:
             print(f"  and {more} other reasons")
     for note in study.notes:
         print(f"note: {escape_invisible(note)}")
@@ -136,7 +136,7 @@ def _print_study(plan: Plan, study: Study) -> None:
 
 
 def _print_claims(study: Study) -> None:
-    """Print the verdict of each trend unless there are more than MOST_TRENDS, totals, and the deviation from printed
+    """Print the verdict of each trend unless there are more than MAX_TRENDS, totals, and the deviation from printed
     numbers.
     """
     claims = study.claims
@@ -146,7 +146,7 @@ def _print_claims(study: Study) -> None:
             name: claim_rows["verdict"].iloc[0] if claim_rows["agreed"].all() else "not the same in all ensembles"
             for name, claim_rows in trends.groupby("claim", sort=False)
         }
-        if len(message) <= MOST_TRENDS:
+        if len(message) <= MAX_TRENDS:
             says = trends.drop_duplicates("claim").set_index("claim")["says"]
             print(
                 "\n".join(f"{name} {verdict}: {escape_invisible(str(says[name]))}" for name, verdict in message.items())
@@ -155,9 +155,9 @@ def _print_claims(study: Study) -> None:
     print(f"wrote {format_path(Path(study.folder) / FILE)}")
 
 
-def _compute_spreads(plan: Plan, study: Study) -> Iterator[tuple[str, str, dict[str, Any]]]:
-    """Yield name, unit, and minimum, median, maximum and number of NaN of each measure over all runs."""
-    for name in (measure.name for measure in plan.expected.measures):
+def _iterate_measure_spreads(plan: Plan, study: Study) -> Iterator[tuple[str, str, dict[str, Any]]]:
+    """Yield name, unit and spread of each measure over all runs: a dict of min, median, max, nan (their number)."""
+    for name in (measure.name for measure in plan.run_settings.measures):
         values = study.dataset[name].values
         finite_values = values[np.isfinite(values)]
         row = {

@@ -12,9 +12,9 @@ import numpy as np
 from gudgeon.errors import BadValueError, GudgeonError, UnknownNameError
 from gudgeon.language.argument_checks import check_flag, check_mapping, check_number, check_text, shorten_value
 from gudgeon.language.names import make_unknown_error
-from gudgeon.language.plot_units import choose_plot_unit, choose_prefix, format_label, format_unit
+from gudgeon.language.plot_units import choose_plot_unit, choose_prefix, format_label
 from gudgeon.language.text_output import format_one_line
-from gudgeon.studies.show.study_signals import find_section_crossings, have_equal_times
+from gudgeon.studies.show.study_signals import find_values_at_crossings, have_equal_times
 
 if TYPE_CHECKING:
     from gudgeon.studies.ensemble.finished import Study
@@ -37,7 +37,7 @@ class StudyData:
         values = self.names.values
         self.texts = values.get(study.folder.name if "" not in values else "", {})  # numbers as the file has them
 
-    def title_of(self, name: Any) -> str:
+    def get_title(self, name: Any) -> str:
         """Return the title of a name that the file defines, else the name itself, on one line."""
         return format_one_line(self.names.titles.get(str(name), str(name)))
 
@@ -50,25 +50,27 @@ class StudyData:
             if variable.dims and variable.dims[-1] in SAMPLES and name != OWN_TIMES
         )
 
-    def unit(self, name: str) -> str:
+    def get_unit(self, name: str) -> str:
         """Return the SI unit of a variable or coordinate; "" if it has none."""
         return str(self.dataset[name].attrs.get("units", ""))
 
-    def measure(self, name: str, at: Coords | None = None) -> Any:
-        """Return a measure as a DataArray, restricted to the runs at the coordinates `at`. Raises UnknownNameError."""
+    def select_measure(self, name: str, coordinates: Coords | None = None) -> Any:
+        """Return a measure as a DataArray, restricted to the runs at these coordinates; None means all runs.
+
+        Raises UnknownNameError.
+        """
         if check_text(name, "a measure", "the name of a measure") not in self.study.measures:
             raise make_unknown_error(f"the study has no measure {name!r}", name, self.study.measures)
-        return self._select(self.dataset[name], at)
+        return self._select_runs(self.dataset[name], coordinates)
 
     def find_claimed_numbers(
-        self, name: str, over: str, by: str | None, at: Coords | None, axis: str
+        self, name: str, axis_dimension: str, line_dimension: str | None, coordinates: Coords | None, axis_name: str
     ) -> list[tuple[float, float, int]]:
-        """Return the printed numbers of a measure that a figure shows: position on the axis, value (SI), index of the
-        line.
+        """Return the printed numbers of a measure in a figure: position on the axis, value (SI), index of the line.
 
-        over: dimension of the axis. by: dimension of the lines, or None (index −1). at: selected coordinates. axis:
-        coordinate of the axis. Claims about fewer runs than a point of the figure pools are left out, since they do
-        not compare with its median. Empty without claims.
+        line_dimension: None gives the index −1. coordinates: selected runs, {name: value}. axis_name: coordinate along
+        `axis_dimension` that has the positions. Claims about fewer runs than a point of the figure pools are left out,
+        since they do not compare with its median. Empty without claims.
         """
         try:
             numbers = self.study.claims.numbers
@@ -77,49 +79,54 @@ class StudyData:
         if "place" not in numbers:  # nothing, or a folder that an earlier version judged
             return []
         claims_of_measure = numbers[(numbers["measure"] == name) & numbers["printed"].notna()].drop_duplicates("claim")
-        variable, selected, positions = self.dataset[name], dict[str, int](), self.axis(axis)[0]
-        for key, value in (at or {}).items():
-            dimension = self.dimension(variable, key)
+        variable, selected, positions = self.dataset[name], dict[str, int](), self.describe_axis(axis_name)[0]
+        for key, value in (coordinates or {}).items():
+            dimension = self.find_dimension(variable, key)
             selected[dimension] = self.find_nearest_index(key, value)
         each = [
-            (json.loads(coordinates), float(value))
-            for coordinates, value in zip(claims_of_measure["place"], claims_of_measure["printed"], strict=True)
+            (json.loads(cell_text), float(value))
+            for cell_text, value in zip(claims_of_measure["place"], claims_of_measure["printed"], strict=True)
         ]
-        pooled = {dim for dim, n in variable.sizes.items() if n > 1 and dim not in (over, by, *selected)}
+        pooled = {
+            dim for dim, n in variable.sizes.items() if n > 1 and dim not in (axis_dimension, line_dimension, *selected)
+        }
         return [
-            (float(positions[coordinates[over]]), value, -1 if by is None else coordinates.get(by, -1))
-            for coordinates, value in each
-            if over in coordinates
-            and not pooled & {*coordinates}
-            and all(coordinates.get(dim, k) == k for dim, k in selected.items())
+            (
+                float(positions[cell[axis_dimension]]),
+                value,
+                -1 if line_dimension is None else cell.get(line_dimension, -1),
+            )
+            for cell, value in each
+            if axis_dimension in cell
+            and not pooled & {*cell}
+            and all(cell.get(dim, k) == k for dim, k in selected.items())
         ]
 
-    def series(self, name: str, at: Coords | None = None) -> tuple[Any, Any]:
-        """Return times and a stored series (…, N) of the runs at `at`; times are (N,) if all runs share them, else (…,
-        N).
+    def select_series(self, name: str, coordinates: Coords | None = None) -> tuple[Any, Any]:
+        """Return times and a stored series (…, N) of the runs at these coordinates; None means all runs.
 
-        Raises UnknownNameError.
+        Times are (N,) if all runs share them, else (…, N). Raises UnknownNameError.
         """
         if check_text(name, "a series", "the name of a kept series") not in self.stored_series:
             raise make_unknown_error(f"the study kept no series {name!r}", name, self.stored_series)
-        values = self._select(self.dataset[name], at)
+        values = self._select_runs(self.dataset[name], coordinates)
         if OWN_TIMES not in self.dataset:
             return self.dataset["time"].values, values
-        t = self._select(self.dataset[OWN_TIMES], at).values
+        t = self._select_runs(self.dataset[OWN_TIMES], coordinates).values
         rows = t.reshape(-1, t.shape[-1])
         rows = rows[np.isfinite(rows[:, 0])]
         if len(rows) and have_equal_times(rows):
             return rows[0], values
         return t, values
 
-    def _select(self, variable: Any, at: Coords | None) -> Any:
-        """Return a variable restricted to the runs at the coordinates `at`, the nearest value for a number."""
-        for name, value in check_mapping(at, "at", "expected {coordinate: value}").items():
-            dimension = self.dimension(variable, name)
+    def _select_runs(self, variable: Any, coordinates: Coords | None) -> Any:
+        """Return a variable restricted to the runs at these coordinates, the nearest value for a number."""
+        for name, value in check_mapping(coordinates, "at", "expected {coordinate: value}").items():
+            dimension = self.find_dimension(variable, name)
             variable = variable.isel({dimension: self.find_nearest_index(name, value)})
         return variable
 
-    def dimension(self, variable: Any, name: str) -> str:
+    def find_dimension(self, variable: Any, name: str) -> str:
         """Return the dimension of a variable along which the coordinate `name` varies.
 
         Raises BadValueError for a coordinate that does not vary there, UnknownNameError for an unknown one.
@@ -171,94 +178,94 @@ class StudyData:
         """Return whether the values of a dimension are numbers, not texts."""
         return self.dataset[dimension].values.dtype.kind in "fiu"
 
-    def choose_line_dimension(self, variable: Any, over: str) -> str | None:
-        """Return the default dimension whose values are separate lines of a figure over `over`: scenes, else the first
-        with texts.
+    def choose_line_dimension(self, variable: Any, axis_dimension: str) -> str | None:
+        """Return the default dimension whose values are separate lines of a figure over `axis_dimension`: scenes, else
+        the first with texts.
 
         None if there is neither.
         """
-        dims = [str(dim) for dim in variable.dims if dim != over]
+        dims = [str(dim) for dim in variable.dims if dim != axis_dimension]
         words = [dim for dim in dims if not self._is_number(dim)]
         return "scene" if "scene" in dims else next(iter(words), None)
 
-    def split(self, variable: Any, by: str | None) -> list[tuple[str, Any]]:
-        """Return pairs of label and runs for each value of the dimension `by`; "" and all runs for None."""
-        if by is None:
+    def split_runs(self, variable: Any, dimension: str | None) -> list[tuple[str, Any]]:
+        """Return pairs of label and runs for each value of a dimension; "" and all runs for None."""
+        if dimension is None:
             return [("", variable)]
-        words, _ = self.labels(variable, by, named=True)
-        return [(word, variable.isel({by: k})) for k, word in enumerate(words)]
+        words, _ = self.format_value_labels(dimension, with_name=True)
+        return [(word, variable.isel({dimension: k})) for k, word in enumerate(words)]
 
-    def rows(self, variable: Any, *last_dimensions: str) -> Any:
-        """Return the values of a variable as an array (runs, …), with the dimensions `last_dimensions` last and all
-        others joined.
-        """
+    def flatten_runs(self, variable: Any, *last_dimensions: str) -> Any:
+        """Return the values of a variable as an array (runs, …): `last_dimensions` last, all others joined."""
         others = [dim for dim in variable.dims if dim not in last_dimensions]
         values = variable.transpose(*others, *last_dimensions).values
         return values.reshape(-1, *values.shape[len(others) :])
 
-    def axis(self, name: str) -> tuple[Any, str, list[str] | None]:
-        """Return the positions of a coordinate's values on an axis, its label, and texts for ticks, or None for plain
-        numbers.
+    def describe_axis(self, name: str) -> tuple[Any, str, list[str] | None]:
+        """Return the positions of a coordinate's values on an axis, the label of the axis, and texts for its ticks.
 
-        Texts have positions 0, 1, …; numbers are in a suitable unit.
+        Texts have positions 0, 1, …; numbers are in a suitable unit and have None instead of texts.
         """
         values = self.dataset[name].values
         if values.dtype.kind in "OU":
-            return np.arange(len(values)), self.title_of(name), [self.title_of(value) for value in values]
-        factor, shown = choose_plot_unit(float(np.abs(values).max(initial=0.0)), self.unit(name))
-        ticks = list(self.written_values(name)) if len(values) <= MOST_TICKS else []
+            return np.arange(len(values)), self.get_title(name), [self.get_title(value) for value in values]
+        factor, shown = choose_plot_unit(float(np.abs(values).max(initial=0.0)), self.get_unit(name))
+        ticks = list(self.get_written_values(name)) if len(values) <= MOST_TICKS else []
         return (
             values * factor,
-            format_label(self.title_of(name), "" if ticks else shown),
+            format_label(self.get_title(name), "" if ticks else shown),
             ticks or self._describe_zip(name),
         )
 
-    def place(self, name: str, value: Any) -> float:
-        """Return the position of a value on the axis of a coordinate, as `axis` has them. Raises UnknownNameError for
-        a text.
+    def find_axis_position(self, name: str, value: Any) -> float:
+        """Return the position of a value on the axis of a coordinate, among those of `describe_axis`.
+
+        Raises UnknownNameError for an unknown text.
         """
         values = self.dataset[name].values
         if values.dtype.kind in "OU":
             return float(self.find_nearest_index(name, value))
-        return check_number(value, name) * choose_plot_unit(float(np.abs(values).max(initial=0.0)), self.unit(name))[0]
+        return (
+            check_number(value, name) * choose_plot_unit(float(np.abs(values).max(initial=0.0)), self.get_unit(name))[0]
+        )
 
-    def labels(self, variable: Any, dimension: str, named: bool = False) -> tuple[list[str], str]:
+    def format_value_labels(self, dimension: str, with_name: bool = False) -> tuple[list[str], str]:
         """Return a text for each value of a dimension, and the label of the dimension.
 
-        named: "c = 0.3 mm" instead of "0.3", for numbers. Values are written as in the file if possible. `variable` is
-        not used.
+        with_name: "c = 0.3 mm" instead of "0.3", for numbers. Values are written as in the file if possible.
         """
         values = self.dataset[dimension].values
         if values.dtype.kind in "OU":
-            return [self.title_of(text) for text in values], self.title_of(dimension)
+            return [self.get_title(text) for text in values], self.get_title(dimension)
         if (words := self._describe_zip(dimension)) is not None:
-            return words, self.title_of(dimension)
-        if written := self.written_values(dimension):
-            return [f"{self.title_of(dimension)} = {text}" if named else text for text in written], self.title_of(
+            return words, self.get_title(dimension)
+        if written := self.get_written_values(dimension):
+            return [f"{self.get_title(dimension)} = {text}" if with_name else text for text in written], self.get_title(
                 dimension
             )
-        factor, unit = choose_prefix(float(np.abs(values).max(initial=0.0)), self.unit(dimension))
+        factor, unit = choose_prefix(float(np.abs(values).max(initial=0.0)), self.get_unit(dimension))
         words = [f"{float(value) * factor:.4g}" for value in values]
-        if named:
-            words = [f"{self.title_of(dimension)} = {word} {unit}".strip() for word in words]
-        return words, format_label(self.title_of(dimension), unit)
+        if with_name:
+            words = [f"{self.get_title(dimension)} = {word} {unit}".strip() for word in words]
+        return words, format_label(self.get_title(dimension), unit)
 
-    def written_values(self, name: str) -> tuple[str, ...]:
+    def get_written_values(self, name: str) -> tuple[str, ...]:
         """Return the values of a coordinate as the file writes them, with units; empty if the file does not list
         them.
         """
         texts = self.texts.get(name, ())
         return texts if len(texts) == np.size(self.dataset[name].values) else ()
 
-    def at(self, name: str, value: Any) -> str:
+    def describe_coordinate(self, name: str, value: Any) -> str:
         """Return a selected coordinate in words: "scene = without oil", or the nearest number: "c = 0.3 mm"."""
-        word = self.labels(None, name, named=True)[0][self.find_nearest_index(name, value)]
-        return word if word.startswith(f"{self.title_of(name)} = ") else f"{self.title_of(name)} = {word}"
+        word = self.format_value_labels(name, with_name=True)[0][self.find_nearest_index(name, value)]
+        return word if word.startswith(f"{self.get_title(name)} = ") else f"{self.get_title(name)} = {word}"
 
     def _describe_zip(self, dimension: str) -> list[str] | None:
-        """Return for each index of a zip its parameters in words, or those that differ from most other indices.
+        """Return for each index of a zip (parameters that vary together) their values in words.
 
-        None for another dimension, and if neither text is short and unique.
+        If that text is too long, it has only values that differ from the most frequent one. None for another
+        dimension, and if neither text is short and unique.
         """
         if not self._is_zip(dimension):
             return None
@@ -266,7 +273,8 @@ class StudyData:
         for name, coordinate in self.dataset.coords.items():
             if coordinate.dims == (dimension,) and name != dimension and len(set(coordinate.values.tolist())) > 1:
                 columns.setdefault(
-                    tuple(self.written_values(str(name)) or map(self.title_of, coordinate.values)), self.title_of(name)
+                    tuple(self.get_written_values(str(name)) or map(self.get_title, coordinate.values)),
+                    self.get_title(name),
                 )
         whole = [", ".join(row) for row in zip(*columns, strict=True)]
         for words, most in (
@@ -279,10 +287,10 @@ class StudyData:
 
     def describe_cell(self, indices: Mapping[str, int]) -> str:
         """Return a cell in words from its indices by dimension: "c = 0.3 mm, ω = 2π rad/s"."""
-        labelled_indices = ((name, k, self.labels(None, name, named=True)[0]) for name, k in indices.items())
+        labelled_indices = ((name, k, self.format_value_labels(name, with_name=True)[0]) for name, k in indices.items())
         return ", ".join(words[k] for _, k, words in labelled_indices)
 
-    def failures(self) -> Iterator[tuple[str, int, str]]:
+    def iterate_failures(self) -> Iterator[tuple[str, int, str]]:
         """Yield each kind of failure, its number of runs, and a text with coordinates and message of the first of
         them.
 
@@ -291,31 +299,37 @@ class StudyData:
         if not (kinds := self.study.failures):
             return
         failure_array, first = self.dataset["failure"], self.study.first_failures
-        words = {str(dim): self.labels(None, str(dim), named=True)[0] for dim in failure_array.dims}
+        words = {str(dim): self.format_value_labels(str(dim), with_name=True)[0] for dim in failure_array.dims}
         for kind, count in kinds.items():
             if (run := first.get(kind)) is None:  # a folder of an earlier version
                 yield kind, count, ""
                 continue
             coordinates = dict(zip(words, np.unravel_index(run, failure_array.shape), strict=True)) if words else {}
             labels = ((name, words[name][k]) for name, k in coordinates.items())
-            location = ", ".join(word if " = " in word else f"{self.title_of(name)} {word}" for name, word in labels)
+            location = ", ".join(word if " = " in word else f"{self.get_title(name)} {word}" for name, word in labels)
             message = str(failure_array.isel(coordinates).values).partition("\n")[0]
             yield kind, count, f"{location}: {message}" if location else message
 
     def find_section_values(
-        self, section: str, names: list[str], level: float, falling: bool, after: float, at: Coords | None
+        self,
+        section: str,
+        names: list[str],
+        level: float,
+        is_falling: bool,
+        min_time: float,
+        coordinates: Coords | None,
     ) -> list[tuple[tuple[int, ...], list[Any]]]:
-        """Return for each selected run its index and the values of the series `names` where the series `section`
-        crosses a level.
+        """Return for each selected run its index, and the values of other series where `section` crosses a level.
 
-        level: SI. falling: crossings from above instead of from below. after (s): earlier crossings are left out.
+        names: of the other series. level: SI. is_falling: crossings from above instead of from below. min_time (s):
+        earlier crossings are left out.
         """
-        t, section_series = self.series(section, at)
-        others = [self.series(name, at)[1].values for name in names]
-        level, after, falling = (
+        t, section_series = self.select_series(section, coordinates)
+        others = [self.select_series(name, coordinates)[1].values for name in names]
+        level, min_time, is_falling = (
             check_number(level, "level"),
-            check_number(after, "after"),
-            check_flag(falling, "falling"),
+            check_number(min_time, "after"),
+            check_flag(is_falling, "falling"),
         )
         times, sections = np.broadcast_to(t, section_series.shape), []
         for where in np.ndindex(section_series.shape[:-1]):
@@ -323,7 +337,9 @@ class StudyData:
             sections.append(
                 (
                     where,
-                    find_section_crossings(times[where], section_series.values[where], values, level, falling, after),
+                    find_values_at_crossings(
+                        times[where], section_series.values[where], values, level, is_falling, min_time
+                    ),
                 )
             )
         return sections
@@ -334,14 +350,10 @@ class StudyData:
         """
         variable = self.dataset[name]
         dims = [str(dim) for dim in variable.dims if dim not in MANY]
-        words = {dim: self.labels(variable, dim)[0] for dim in dims}
+        words = {dim: self.format_value_labels(dim)[0] for dim in dims}
         values = variable.transpose(*dims, *(dim for dim in variable.dims if dim in MANY)).values
         for where in np.ndindex(values.shape[: len(dims)]):
             yield {dim: words[dim][k] for dim, k in zip(dims, where, strict=True)}, np.ravel(values[where])
-
-    def shown_unit(self, name: str) -> str:
-        """Return the unit of a variable in typographic form, such as "m/s²"."""
-        return format_unit(self.unit(name))
 
 
 def describe_changes(columns: Mapping[tuple[str, ...], str]) -> list[str]:

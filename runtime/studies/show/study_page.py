@@ -21,13 +21,13 @@ from gudgeon.results.reports.html_page import (
     escape_line,
 )
 from gudgeon.studies.show.claims import build_claims_sections
-from gudgeon.studies.show.pictures import Draw, Pictures, format_gallery
+from gudgeon.studies.show.pictures import CaptionedFigure, PageFigures, format_gallery
 from gudgeon.studies.show.study_data import MANY, StudyData
 
 if TYPE_CHECKING:
     from gudgeon.studies.ensemble.finished import Study
 
-MOST_ROWS, MOST_NUMBERS, MOST_SAMPLES = 500, 30_000_000, 20_000
+MAX_ROWS, MOST_NUMBERS, MOST_SAMPLES = 500, 30_000_000, 20_000
 SHOWN_VALUES = 8  # of what varied, in full
 
 
@@ -39,17 +39,17 @@ class StudyReport:
 
     def to_html(self) -> str:
         """Return the report as a self-contained HTML file, with its figures as SVG."""
-        parts, pictures = _load_parts(self.study), Pictures()
+        parts, page_figures = _load_parts(self.study), PageFigures()
         first = next(iter(parts.values()))
-        every = list(_iterate_sections(self.study, parts, pictures))
-        chapters = _list_chapters(every, parts) if len(parts) > 1 else ()
-        return pictures.insert_figures(build_page(first.title, _describe_study(parts), every, chapters))
+        sections = list(_iterate_sections(self.study, parts, page_figures))
+        chapters = _list_chapters(sections, parts) if len(parts) > 1 else ()
+        return page_figures.insert_figures(build_page(first.title, _describe_study(parts), sections, chapters))
 
     def _repr_html_(self) -> str:
         """Return the report as an HTML fragment for a notebook, which calls this method."""
-        parts, pictures = _load_parts(self.study), Pictures()
+        parts, page_figures = _load_parts(self.study), PageFigures()
         title = f"<h1>{escape_line(next(iter(parts.values())).title)}</h1>"
-        return pictures.insert_figures(build_article(_iterate_sections(self.study, parts, pictures), title))
+        return page_figures.insert_figures(build_article(_iterate_sections(self.study, parts, page_figures), title))
 
 
 def _load_parts(study: Study) -> dict[str, StudyData]:
@@ -57,28 +57,28 @@ def _load_parts(study: Study) -> dict[str, StudyData]:
     return {name: StudyData(part) for name, part in (getattr(study, "parts", None) or {"": study}).items()}
 
 
-def _iterate_sections(study: Study, parts: dict[str, StudyData], pictures: Pictures) -> Iterator[Section]:
+def _iterate_sections(study: Study, parts: dict[str, StudyData], page_figures: PageFigures) -> Iterator[Section]:
     """Yield heading and HTML of all sections: the summary, the claims, then those of each part."""
     yield "In short", build_paragraphs([*next(iter(parts.values())).names.about, *_read_claim_totals(study)])
-    yield from build_claims_sections(study, parts, pictures)
+    yield from build_claims_sections(study, parts, page_figures)
     for name, data in parts.items():
-        before = f"{data.title_of(name)}: " if name else ""
+        before = f"{data.get_title(name)}: " if name else ""
         if name:
             yield _format_part_heading(data, name), build_paragraphs([_describe_counts(data)])
         yield from (
-            (before + heading, inside) for heading, inside in iterate_part_sections(data, pictures, name or "study")
+            (before + heading, inside) for heading, inside in iterate_part_sections(data, page_figures, name or "study")
         )
 
 
 def _format_part_heading(data: StudyData, name: str) -> str:
     """Return the heading of a part with its title."""
-    return f"Part {data.title_of(name)}"
+    return f"Part {data.get_title(name)}"
 
 
-def _list_chapters(every: list[Section], parts: dict[str, StudyData]) -> list[str]:
+def _list_chapters(sections: list[Section], parts: dict[str, StudyData]) -> list[str]:
     """Return the headings that the page links to: those before the first part, and that of each part."""
     part_headings = [_format_part_heading(data, name) for name, data in parts.items()]
-    return [name for name, _ in every[: [name for name, _ in every].index(part_headings[0])]] + part_headings
+    return [name for name, _ in sections[: [name for name, _ in sections].index(part_headings[0])]] + part_headings
 
 
 def _read_claim_totals(study: Study) -> list[str]:
@@ -91,15 +91,18 @@ def _read_claim_totals(study: Study) -> list[str]:
         return []
 
 
-def iterate_part_sections(data: StudyData, pictures: Pictures, name: str = "study") -> Iterator[Section]:
+def iterate_part_sections(
+    data: StudyData, page_figures: PageFigures, figure_prefix: str = "study"
+) -> Iterator[Section]:
     """Yield heading and HTML of each section of a part: variations, failures, notes, measures, figures of measures and
     series.
 
-    name: prefix of the figures' names. Without matplotlib the figures are replaced by a line on how to install it.
+    figure_prefix: prefix of the figures' names. Without matplotlib the figures are replaced by a line on how to install
+    it.
     """
     study = data.study
     yield "What varied", build_table(("", "over", "values", "unit", ""), _iterate_coordinate_rows(data), True)
-    failed = ((str(count), kind, message) for kind, count, message in data.failures())
+    failed = ((str(count), kind, message) for kind, count, message in data.iterate_failures())
     yield "Failed runs", build_table(("runs", "failed of", "the first of them"), failed, True)
     yield "Notes", build_paragraphs(study.notes)
     yield "Measures", _format_measure_table(data)
@@ -108,8 +111,8 @@ def iterate_part_sections(data: StudyData, pictures: Pictures, name: str = "stud
     except GudgeonError as error:
         yield "Figures", build_paragraphs([str(error)])
         return
-    yield "Figures", format_gallery(_iterate_measure_figures(data), f"{name}-measure", pictures)
-    yield "Series", format_gallery(_iterate_series_figures(data), f"{name}-series", pictures)
+    yield "Figures", format_gallery(_iterate_measure_figures(data), f"{figure_prefix}-measure", page_figures)
+    yield "Series", format_gallery(_iterate_series_figures(data), f"{figure_prefix}-series", page_figures)
 
 
 def _describe_study(parts: dict[str, StudyData]) -> str:
@@ -125,7 +128,7 @@ def _describe_study(parts: dict[str, StudyData]) -> str:
 def _describe_counts(data: StudyData) -> str:
     """Return runs, dimensions and failures of a part in one line."""
     study = data.study
-    sizes = " × ".join(f"{data.title_of(name)} {size}" for name, size in data.dataset["t_last"].sizes.items())
+    sizes = " × ".join(f"{data.get_title(name)} {size}" for name, size in data.dataset["t_last"].sizes.items())
     failed = f", {study.failed} failed" if study.failed else ", none failed"
     return f"{format_count(study.runs, 'run')}{f' ({sizes})' if sizes else ''}{failed}"
 
@@ -138,21 +141,21 @@ def _iterate_coordinate_rows(data: StudyData) -> Iterator[tuple[str, ...]]:
     for name, coordinate in data.dataset.coords.items():
         if name in ("time", "sample"):
             continue
-        over = ", ".join(map(data.title_of, coordinate.dims)) if coordinate.dims != (name,) else ""
+        over = ", ".join(map(data.get_title, coordinate.dims)) if coordinate.dims != (name,) else ""
         unit, message = str(coordinate.attrs.get("units", "")), str(coordinate.attrs.get("long_name", ""))
         values = np.ravel(coordinate.values)
         if values.dtype.kind in "OU":
-            yield data.title_of(name), over, _list_values([data.title_of(value) for value in values]), "", message
+            yield data.get_title(name), over, _list_values([data.get_title(value) for value in values]), "", message
             continue
-        if written := data.written_values(str(name)):
-            yield data.title_of(name), over, _list_values(list(written)), "", message
+        if written := data.get_written_values(str(name)):
+            yield data.get_title(name), over, _list_values(list(written)), "", message
             continue
         factor, unit_text = choose_plot_unit(float(np.abs(values).max(initial=0.0)), unit)
         is_short = len(values) <= SHOWN_VALUES and not (values.dtype.kind == "i" and len(values) > 2)
         shown_values = values if is_short or not values.size else np.array([values.min(), values.max()])
         words = [f"{float(value) * factor + 0.0:.6g}" for value in shown_values]
         listed = ", ".join(words) if is_short else f"{' … '.join(words)}, {len(values)} of them"
-        yield data.title_of(name), over, listed, unit_text, message
+        yield data.get_title(name), over, listed, unit_text, message
 
 
 def _list_values(words: list[str]) -> str:
@@ -163,7 +166,7 @@ def _list_values(words: list[str]) -> str:
 def _format_measure_table(data: StudyData) -> str:
     """Return the HTML table of measures: a row for each combination of coordinates, with lines below it.
 
-    Over starts and draws the cells have median and quartiles. Rows beyond MOST_ROWS are only counted. "" without
+    Over starts and draws the cells have median and quartiles. Rows beyond MAX_ROWS are only counted. "" without
     measures.
     """
     names, rows, omitted = data.study.measures, dict[tuple[str, ...], list[str]](), 0
@@ -175,18 +178,18 @@ def _format_measure_table(data: StudyData) -> str:
         dims = [str(dim) for dim in shape.dims if dim not in MANY]
         has_spread = any(dim in MANY for dim in shape.dims)
         factor, unit = choose_plot_unit(
-            float(np.nanmax(np.abs(np.nan_to_num(shape.values)), initial=0.0)), data.unit(name)
+            float(np.nanmax(np.abs(np.nan_to_num(shape.values)), initial=0.0)), data.get_unit(name)
         )
         units.append(unit)
         for coordinates, values in data.iterate_spreads(name):
             key = tuple(coordinates.values())
-            if key not in rows and len(rows) >= MOST_ROWS:
+            if key not in rows and len(rows) >= MAX_ROWS:
                 omitted += name == names[0]
                 continue
             rows.setdefault(key, []).append(_format_spread(values * factor, has_spread))
-    head = [data.labels(data.dataset[names[0]], dim)[1] for dim in dims]
-    head += [format_label(data.title_of(name), unit) for name, unit in zip(names, units, strict=True)]
-    over = [data.title_of(dim) for dim in data.dataset[names[0]].dims if dim in MANY]
+    head = [data.format_value_labels(dim)[1] for dim in dims]
+    head += [format_label(data.get_title(name), unit) for name, unit in zip(names, units, strict=True)]
+    over = [data.get_title(dim) for dim in data.dataset[names[0]].dims if dim in MANY]
     message = [
         f"median (quartiles) over {', '.join(over)}; n: the number of these runs, where some have none"
     ] * has_spread
@@ -209,7 +212,7 @@ def _format_spread(values: Any, has_spread: bool) -> str:
     return f"{middle:.4g} ({q1:.4g} … {q3:.4g}){count_text}"
 
 
-def _iterate_measure_figures(data: StudyData) -> Iterator[Draw]:
+def _iterate_measure_figures(data: StudyData) -> Iterator[CaptionedFigure]:
     """Yield caption and drawing function of each measure over its first dimension, and of maps over its first two.
 
     Measures without dimensions or finite values are left out; maps are drawn for each scene.
@@ -222,7 +225,7 @@ def _iterate_measure_figures(data: StudyData) -> Iterator[Draw]:
         if not variable.dims or not np.isfinite(variable.values).any():
             continue
         yield (
-            f"{data.title_of(name)}: {_describe_pooled_runs(data, variable)}",
+            f"{data.get_title(name)}: {_describe_pooled_runs(data, variable)}",
             partial(plot.measure, name, published=True),
         )
         varied = [str(dim) for dim in variable.dims if dim != "scene" and dim not in MANY]
@@ -230,9 +233,11 @@ def _iterate_measure_figures(data: StudyData) -> Iterator[Draw]:
             continue
         for scene in [str(dim) for dim in data.dataset["scene"].values] if "scene" in variable.dims else [""]:
             coordinates = {"scene": scene} if scene else {}
-            if not np.nan_to_num(data.measure(name, coordinates).values).any():  # nothing, or what is 0 everywhere
+            if not np.nan_to_num(
+                data.select_measure(name, coordinates).values
+            ).any():  # nothing, or what is 0 everywhere
                 continue
-            message = ", ".join(filter(None, (f"{data.title_of(name)}: median", data.title_of(scene))))
+            message = ", ".join(filter(None, (f"{data.get_title(name)}: median", data.get_title(scene))))
             yield message, partial(plot.heat_map, name, *varied[:2], at=coordinates)
 
 
@@ -240,10 +245,10 @@ def _describe_pooled_runs(data: StudyData, measure: Any) -> str:
     """Return in words over which dimensions the statistics of a measure's figure are computed."""
     over = data.choose_axis_dimension(measure)
     others = [str(dim) for dim in measure.dims if dim not in (over, data.choose_line_dimension(measure, over))]
-    return f"median, quartiles and extremes over {', '.join(map(data.title_of, others))}" if others else "of each run"
+    return f"median, quartiles and extremes over {', '.join(map(data.get_title, others))}" if others else "of each run"
 
 
-def _iterate_series_figures(data: StudyData) -> Iterator[Draw]:
+def _iterate_series_figures(data: StudyData) -> Iterator[CaptionedFigure]:
     """Yield caption and drawing function of bands of each stored series over time.
 
     If runs have different times, they are drawn over fractions of each run. Very large or empty series are left out.
@@ -255,13 +260,13 @@ def _iterate_series_figures(data: StudyData) -> Iterator[Draw]:
         variable = data.dataset[name]
         if variable.size > MOST_NUMBERS or variable.shape[-1] > MOST_SAMPLES or not variable.size:
             continue
-        t, _ = data.series(name)
+        t, _ = data.select_series(name)
         runs = variable.size // variable.shape[-1]
         line_dimension = "scene" if "scene" in variable.dims else None
         over_fractions = t.ndim > 1
         if over_fractions and not (np.nan_to_num(t) > 0.0).any():  # no run began
             continue
-        message = f"{data.title_of(name)}: median, quartiles and extremes of {format_count(runs, 'run')}"
+        message = f"{data.get_title(name)}: median, quartiles and extremes of {format_count(runs, 'run')}"
         yield (
             message + ", over shares" * over_fractions,
             partial(plot.bands, name, line_dimension, share=over_fractions),

@@ -60,34 +60,34 @@ class StudyPlot:
         bars. published: marks of published values, {coordinate: value, SI}; True: the numbers that the study's file
         claims of these runs, in the lines' colours, except those about a part of the runs of a median.
         """
-        values = self.data.measure(name, at)
+        values = self.data.select_measure(name, at)
         axis = self.data.choose_axis_dimension(values) if over is None else over
-        over = self.data.dimension(values, axis)
-        by = self.data.choose_line_dimension(values, over) if by is None else self.data.dimension(values, by)
+        over = self.data.find_dimension(values, axis)
+        by = self.data.choose_line_dimension(values, over) if by is None else self.data.find_dimension(values, by)
         if by == over:
             raise BadValueError(f"over and by are both {by}", hint="a line for each value of another dimension")
         if isinstance(published, bool):
             claimed = self.data.find_claimed_numbers(name, over, by, at, axis) if published else []
         else:
             stars = {key: check_number(value, "published") for key, value in _convert_to_dict(published).items()}
-            claimed = [(self.data.place(axis, key), value, -1) for key, value in stars.items()]
+            claimed = [(self.data.find_axis_position(axis, key), value, -1) for key, value in stars.items()]
         with matplotlib.rc_context(STYLE):
             ax = create_axes(5.6, 3.6) if ax is None else check_axes(ax)
-            x, x_label, ticks = self.data.axis(axis)
+            x, x_label, ticks = self.data.describe_axis(axis)
             most = [find_largest_magnitude(values.values), *(abs(value) for _, value, _ in claimed)]
             factor, unit = choose_plot_unit(max(most), values.attrs.get("units", ""))
-            parts, course = self.data.split(values, by), self.data.is_ordered_number(axis)
+            parts, course = self.data.split_runs(values, by), self.data.is_ordered_number(axis)
             for k, ((message, part_values), colour) in enumerate(zip(parts, choose_colours(len(parts)), strict=True)):
-                five = compute_quantiles(self.data.rows(part_values, over)) * factor
+                quantiles = compute_quantiles(self.data.flatten_runs(part_values, over)) * factor
                 if course:
-                    draw_band(ax, x, five, colour, message)
+                    draw_band(ax, x, quantiles, colour, message)
                 else:
                     ax.set_xlim(x.min() - 0.5, x.max() + 0.5)
-                    draw_bars(ax, x + BESIDE * (k - 0.5 * (len(parts) - 1)) / len(parts), five, colour, message)
-            draw_published(ax, claimed, factor, choose_colours(len(parts)))
-            ax.set(xlabel=x_label, ylabel=format_label(self.data.title_of(name), unit))
+                    draw_bars(ax, x + BESIDE * (k - 0.5 * (len(parts) - 1)) / len(parts), quantiles, colour, message)
+            draw_published_values(ax, claimed, factor, choose_colours(len(parts)))
+            ax.set(xlabel=x_label, ylabel=format_label(self.data.get_title(name), unit))
             set_ticks(ax, x, ticks)
-            self._finish(ax, at, len(parts) > 1 or bool(claimed))
+            self._set_title_and_legend(ax, at, len(parts) > 1 or bool(claimed))
         return ax
 
     def bands(
@@ -104,7 +104,7 @@ class StudyPlot:
         share: over fractions of each run's duration, 0 to 1, at the samples of the longest run; other runs are
         interpolated linearly. Raises BadValueError for runs with different times without share.
         """
-        t, values = self.data.series(series, at)
+        t, values = self.data.select_series(series, at)
         if check_flag(share, "share"):
             if (shares := resample_over_fractions(t, values)) is None:
                 raise BadValueError(f"{series}: no run has a length of which there are shares")
@@ -112,33 +112,33 @@ class StudyPlot:
         if t.ndim > 1:
             message = f"{series}: the runs have samples at different times, of which there are no bands"
             raise BadValueError(message, hint="pick runs with the same times (at=…), share=True, or draw an overlay")
-        by = self.data.dimension(values, by) if by is not None else None
+        by = self.data.find_dimension(values, by) if by is not None else None
         with matplotlib.rc_context(STYLE):
             ax = create_axes(8.0, 3.6) if ax is None else check_axes(ax)
             factor, unit = choose_plot_unit(find_largest_magnitude(values.values), values.attrs.get("units", ""))
             for (message, part_values), colour in zip(
-                parts := self.data.split(values, by), choose_colours(len(parts)), strict=True
+                parts := self.data.split_runs(values, by), choose_colours(len(parts)), strict=True
             ):
                 draw_band(
                     ax,
                     t,
-                    compute_quantiles(self.data.rows(part_values, values.dims[-1])) * factor,
+                    compute_quantiles(self.data.flatten_runs(part_values, values.dims[-1])) * factor,
                     colour,
                     message,
                     0.0,
                 )
             ax.set(
-                xlabel="share of the run" if share else "t [s]", ylabel=format_label(self.data.title_of(series), unit)
+                xlabel="share of the run" if share else "t [s]", ylabel=format_label(self.data.get_title(series), unit)
             )
-            self._finish(ax, at, len(parts) > 1)
+            self._set_title_and_legend(ax, at, len(parts) > 1)
         return ax
 
     def overlay(self, series: str, by: str | None = None, *, at: Coords | None = None, ax: Axes | None = None) -> Axes:
         """Plot a stored series over time with a curve for every run, in the colour of its value of `by`, and return
         the axes.
         """
-        t, values = self.data.series(series, at)
-        return self._plot_curves([(t, values)], "t [s]", series, by, at, ax)
+        t, values = self.data.select_series(series, at)
+        return self._plot_curves(t, values, "t [s]", series, by, at, ax)
 
     def spectrum(
         self,
@@ -154,19 +154,19 @@ class StudyPlot:
         Median, quartiles and extremes over its runs. Raises BadValueError for uneven samples, or for runs of one value
         with different times.
         """
-        t, values = self.data.series(series, at)
-        by = self.data.dimension(values, by) if by is not None else None
+        t, values = self.data.select_series(series, at)
+        by = self.data.find_dimension(values, by) if by is not None else None
         spectra = compute_spectra(t, values, by, series, window)
         with matplotlib.rc_context(STYLE):
             ax = create_axes(8.0, 3.6) if ax is None else check_axes(ax)
             factor, unit = choose_plot_unit(
                 max(find_largest_magnitude(rows) for _, rows in spectra), values.attrs.get("units", "")
             )
-            message = [word for word, _ in self.data.split(values, by)]
+            message = [word for word, _ in self.data.split_runs(values, by)]
             for word, (f, rows), colour in zip(message, spectra, choose_colours(len(message)), strict=True):
                 draw_band(ax, f, compute_quantiles(rows) * factor, colour, word, 0.0)
-            ax.set(xlabel="f [Hz]", ylabel=format_label(self.data.title_of(series), unit))
-            self._finish(ax, at, len(message) > 1)
+            ax.set(xlabel="f [Hz]", ylabel=format_label(self.data.get_title(series), unit))
+            self._set_title_and_legend(ax, at, len(message) > 1)
         return ax
 
     def low_pass(
@@ -185,23 +185,24 @@ class StudyPlot:
         There is a curve for every run, in the colour of its value of `by`; `order`, `causal`: as in
         `run.plot.low_pass`.
         """
-        t, values = self.data.series(series, at)
+        t, values = self.data.select_series(series, at)
         cutoff = check_positive(cutoff, "cutoff")
-        left = filter_low_pass(t, values, cutoff, order, check_flag(causal, "causal"))
-        ax = self._plot_curves([(t, left)], "t [s]", series, by, at, ax)
+        filtered = filter_low_pass(t, values, cutoff, order, check_flag(causal, "causal"))
+        ax = self._plot_curves(t, filtered, "t [s]", series, by, at, ax)
         message = f"low-pass {cutoff:g} Hz, Butterworth of order {order}, {'causal' if causal else 'zero phase'}"
         ax.set_title(format_figure_title(f"{ax.get_title()}: {message}", TITLE))
         return ax
 
     def phase(self, x: str, y: str, by: str | None = None, *, at: Coords | None = None, ax: Axes | None = None) -> Axes:
         """Plot one stored series over another with a curve for every run, in the colour of its value of `by`."""
-        (_, xs), (_, ys) = self.data.series(x, at), self.data.series(y, at)
+        (_, xs), (_, ys) = self.data.select_series(x, at), self.data.select_series(y, at)
         factor, unit = choose_plot_unit(find_largest_magnitude(xs.values), xs.attrs.get("units", ""))
-        return self._plot_curves([(xs.values * factor, ys)], format_label(self.data.title_of(x), unit), y, by, at, ax)
+        return self._plot_curves(xs.values * factor, ys, format_label(self.data.get_title(x), unit), y, by, at, ax)
 
     def _plot_curves(
         self,
-        pairs: list[tuple[Any, Any]],
+        x: Any,
+        values: Any,
         x_label: str,
         name: str,
         by: str | None,
@@ -210,24 +211,23 @@ class StudyPlot:
     ) -> Axes:
         """Plot a curve for every run, in the colour of its value of `by`, and return the axes.
 
-        pairs: one pair of x values, (N,) or (…, N), and the series over them. name: of the series. ax: None for new
-        axes.
+        x: values on the x axis, (N,) or (…, N). values: the series over them, a DataArray, and `name` its name. ax:
+        None for new axes.
         """
-        ((x, values),) = pairs
-        by = self.data.dimension(values, by) if by is not None else None
+        by = self.data.find_dimension(values, by) if by is not None else None
         with matplotlib.rc_context(STYLE):
             ax = create_axes(8.0, 3.6) if ax is None else check_axes(ax)
             factor, unit = choose_plot_unit(find_largest_magnitude(values.values), values.attrs.get("units", ""))
             x = np.broadcast_to(x, values.shape)
-            parts = self.data.split(values, by)
+            parts = self.data.split_runs(values, by)
             for k, ((message, part_values), colour) in enumerate(zip(parts, choose_colours(len(parts)), strict=True)):
                 own_x = x if by is None else np.take(x, k, axis=values.dims.index(by))
                 rows = zip(own_x.reshape(-1, x.shape[-1]), part_values.values.reshape(-1, x.shape[-1]), strict=True)
                 called = select_legend_label(part_values.values, message)
                 for j, (xs, ys) in enumerate(rows):
                     ax.plot(xs, ys * factor, color=colour, lw=0.8, alpha=0.8, label=called if j == 0 else None)
-            ax.set(xlabel=x_label, ylabel=format_label(self.data.title_of(name), unit))
-            self._finish(ax, at, len(parts) > 1)
+            ax.set(xlabel=x_label, ylabel=format_label(self.data.get_title(name), unit))
+            self._set_title_and_legend(ax, at, len(parts) > 1)
         return ax
 
     def section(
@@ -254,14 +254,14 @@ class StudyPlot:
         with matplotlib.rc_context(STYLE):
             ax = create_axes(5.2, 4.4) if ax is None else check_axes(ax)
             (of_x, x_unit), (of_y, y_unit) = (
-                choose_plot_unit(find_largest_magnitude(values), self.data.unit(name))
+                choose_plot_unit(find_largest_magnitude(values), self.data.get_unit(name))
                 for name, values in ((x, xs), (y, ys))
             )
             ax.plot(xs * of_x, ys * of_y, ".", color=COLOURS[1], ms=3.0)
             ax.set(
-                xlabel=format_label(self.data.title_of(x), x_unit), ylabel=format_label(self.data.title_of(y), y_unit)
+                xlabel=format_label(self.data.get_title(x), x_unit), ylabel=format_label(self.data.get_title(y), y_unit)
             )
-            self._finish(ax, at, False)
+            self._set_title_and_legend(ax, at, False)
         return ax
 
     def bifurcation(
@@ -277,9 +277,9 @@ class StudyPlot:
         ax: Axes | None = None,
     ) -> Axes:
         """Plot the values of a stored series in a section (see `section`) as dots over a parameter."""
-        _, found = self.data.series(series, at)
-        dim_index = found.dims.index(self.data.dimension(found, over))
-        x, x_label, ticks = self.data.axis(over)
+        _, found = self.data.select_series(series, at)
+        dim_index = found.dims.index(self.data.find_dimension(found, over))
+        x, x_label, ticks = self.data.describe_axis(over)
         section_values = self.data.find_section_values(section, [series], level, falling, after, at)
         xs = np.concatenate(
             [np.full(len(values), x[where[dim_index]]) for where, (values,) in section_values] or [np.zeros(0)]
@@ -287,41 +287,41 @@ class StudyPlot:
         ys = np.concatenate([values for _, (values,) in section_values] or [np.zeros(0)])
         with matplotlib.rc_context(STYLE):
             ax = create_axes(6.4, 4.0) if ax is None else check_axes(ax)
-            factor, unit = choose_plot_unit(find_largest_magnitude(ys), self.data.unit(series))
+            factor, unit = choose_plot_unit(find_largest_magnitude(ys), self.data.get_unit(series))
             ax.plot(xs, ys * factor, ".", color=COLOURS[1], ms=2.0)
-            ax.set(xlabel=x_label, ylabel=format_label(self.data.title_of(series), unit))
+            ax.set(xlabel=x_label, ylabel=format_label(self.data.get_title(series), unit))
             set_ticks(ax, x, ticks)
-            self._finish(ax, at, False)
+            self._set_title_and_legend(ax, at, False)
         return ax
 
     def heat_map(self, name: str, x: str, y: str, *, at: Coords | None = None, ax: Axes | None = None) -> Axes:
         """Plot the median of a measure over two dimensions as a map; a cell without a number stays empty."""
-        values = self.data.measure(name, at)
-        x, y = self.data.dimension(values, x), self.data.dimension(values, y)
+        values = self.data.select_measure(name, at)
+        x, y = self.data.find_dimension(values, x), self.data.find_dimension(values, y)
         if x == y:
             raise BadValueError(f"heat_map: {x} is both x and y")
-        middle = compute_quantiles(self.data.rows(values, y, x), (0.5,))[0]
+        middle = compute_quantiles(self.data.flatten_runs(values, y, x), (0.5,))[0]
         with matplotlib.rc_context(STYLE):
             ax = create_axes(5.8, 4.2) if ax is None else check_axes(ax)
             factor, unit = choose_plot_unit(find_largest_magnitude(middle), values.attrs.get("units", ""))
             image = ax.imshow(middle * factor, origin="lower", aspect="auto", cmap="viridis")
-            (words, x_label), (others, y_label) = (self.data.labels(values, name_of) for name_of in (x, y))
+            (words, x_label), (others, y_label) = (self.data.format_value_labels(name_of) for name_of in (x, y))
             below, beside = select_tick_indices(len(words), COLUMNS), select_tick_indices(len(others), ROWS)
             set_ticks(ax, below, [words[k] for k in below])
             ax.set_yticks(beside, [format_figure_title(others[k], LINE) for k in beside])
             ax.set(xlabel=x_label, ylabel=y_label)
             ax.grid(False)
-            ax.figure.colorbar(image, ax=ax, label=format_label(self.data.title_of(name), unit))
+            ax.figure.colorbar(image, ax=ax, label=format_label(self.data.get_title(name), unit))
             if middle.size <= SMALL:
-                write_numbers(ax, middle * factor, image)
-            self._finish(ax, at, False)
+                write_cell_values(ax, middle * factor, image)
+            self._set_title_and_legend(ax, at, False)
         return ax
 
-    def _finish(self, ax: Axes, at: Coords | None, legend: bool) -> None:
-        """Set the title with the selected coordinates and, if `legend` is True and a curve has a label, the legend."""
-        picked = ", ".join(self.data.at(name, value) for name, value in (at or {}).items())
+    def _set_title_and_legend(self, ax: Axes, coordinates: Coords | None, has_legend: bool) -> None:
+        """Set the title with the selected coordinates and, with `has_legend`, a legend if any curve has a label."""
+        picked = ", ".join(self.data.describe_coordinate(name, value) for name, value in (coordinates or {}).items())
         ax.set_title(format_figure_title(": ".join(filter(None, (format_one_line(self.data.title), picked))), TITLE))
-        if legend and ax.get_legend_handles_labels()[0]:
+        if has_legend and ax.get_legend_handles_labels()[0]:
             ax.legend(fontsize=8)
 
 
@@ -345,12 +345,12 @@ def compute_quantiles(rows: ArrayLike, fractions: tuple[float, ...] = QUARTILES)
         return np.nanquantile(np.where(np.isfinite(rows), rows, np.nan), fractions, axis=0)
 
 
-def draw_band(ax: Axes, x: Any, five: Any, colour: str, text: str, size: float = 4.0) -> None:
+def draw_band(ax: Axes, x: Any, quantiles: Any, colour: str, label: str, marker_size: float = 4.0) -> None:
     """Draw median, quartiles and extremes over x as a line with bands; for equal extremes only the line.
 
-    five: minimum, quartiles and maximum, (5, N). size: of the markers, 0 for none.
+    quantiles: minimum, quartiles and maximum, (5, N). marker_size: of the markers, 0 for none.
     """
-    low, q1, middle, q3, high = five
+    low, q1, middle, q3, high = quantiles
     order = np.argsort(x, kind="stable")
     if not np.array_equal(low, high, equal_nan=True):
         ax.fill_between(x[order], low[order], high[order], color=colour, alpha=0.12, lw=0)
@@ -358,28 +358,28 @@ def draw_band(ax: Axes, x: Any, five: Any, colour: str, text: str, size: float =
     ax.plot(
         x[order],
         middle[order],
-        "-o" if size else "-",
-        ms=size,
+        "-o" if marker_size else "-",
+        ms=marker_size,
         color=colour,
         lw=1.1,
-        label=select_legend_label(middle, text),
+        label=select_legend_label(middle, label),
     )
 
 
-def draw_bars(ax: Axes, x: Any, five: Any, colour: str, text: str) -> None:
+def draw_bars(ax: Axes, x: Any, quantiles: Any, colour: str, label: str) -> None:
     """Draw medians as dots with bars of quartiles and extremes, for values that no line may connect.
 
-    five: minimum, quartiles and maximum, (5, N).
+    quantiles: minimum, quartiles and maximum, (5, N).
     """
-    low, q1, middle, q3, high = five
+    low, q1, middle, q3, high = quantiles
     ax.vlines(x, low, high, color=colour, alpha=0.35, lw=1.2)
     ax.vlines(x, q1, q3, color=colour, alpha=0.6, lw=3.5)
-    ax.plot(x, middle, "o", ms=5.0, color=colour, label=select_legend_label(middle, text))
+    ax.plot(x, middle, "o", ms=5.0, color=colour, label=select_legend_label(middle, label))
 
 
-def select_legend_label(values: Any, text: str) -> str | None:
+def select_legend_label(values: Any, label: str) -> str | None:
     """Return the label of a curve for the legend; None if none of its values is finite."""
-    return text if np.isfinite(values).any() else None
+    return label if np.isfinite(values).any() else None
 
 
 def select_tick_indices(n: int, max_count: int) -> range:
@@ -387,11 +387,11 @@ def select_tick_indices(n: int, max_count: int) -> range:
     return range(0, n, -(-n // max_count))
 
 
-def set_ticks(ax: Axes, x: Any, ticks: list[str] | None) -> None:
+def set_ticks(ax: Axes, x: Any, tick_texts: list[str] | None) -> None:
     """Set texts at the x axis, wrapped, and slanted if they would not fit; None changes nothing."""
-    if ticks is None:
+    if tick_texts is None:
         return
-    lines = [format_figure_title(word, LINE) for word in ticks]
+    lines = [format_figure_title(word, LINE) for word in tick_texts]
     ax.set_xticks(x, lines)
     if sum(max(map(len, word.split("\n")), default=0) + 2 for word in lines) > AXIS:
         ax.tick_params(axis="x", rotation=30.0, labelsize=7)
@@ -399,7 +399,9 @@ def set_ticks(ax: Axes, x: Any, ticks: list[str] | None) -> None:
             word.set(ha="right", rotation_mode="anchor")
 
 
-def draw_published(ax: Axes, published: list[tuple[float, float, int]], factor: float, colours: list[str]) -> None:
+def draw_published_values(
+    ax: Axes, published: list[tuple[float, float, int]], factor: float, colours: list[str]
+) -> None:
     """Draw published values as stars in the colours of their lines.
 
     published: position on the axis, value (SI), and index of the line, −1 for none. factor: from SI to the unit of the
@@ -411,7 +413,7 @@ def draw_published(ax: Axes, published: list[tuple[float, float, int]], factor: 
         ax.plot([coordinate], [value * factor], "*", color=colour, mec=IDEAL, mew=0.6, ms=9, label=message)
 
 
-def write_numbers(ax: Axes, values: Any, image: Any) -> None:
+def write_cell_values(ax: Axes, values: Any, image: Any) -> None:
     """Write each finite value into its cell of a heat map, dark on bright colours and white on dark ones."""
     for (row, column), value in np.ndenumerate(values):
         if np.isfinite(value):

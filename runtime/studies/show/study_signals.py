@@ -13,15 +13,15 @@ from gudgeon.errors import BadValueError
 from gudgeon.language.text_output import format_one_line
 from gudgeon.results.series import compute_spectrum, low_pass
 
-NEAR = 0.01  # of the time between two samples: so far apart, samples are of the same time
+TIME_TOL = 0.01  # of the time between two samples: so far apart, samples are of the same time
 SAME = 1e-9  # tolerance of fractions of a run that count as equal
 
 
-def have_equal_times(rows: Any) -> bool:
-    """Return whether all rows of times (runs, N) are equal to the first within NEAR of its shortest interval."""
-    first = rows[0]
+def have_equal_times(times: Any) -> bool:
+    """Return whether all rows of times (runs, N) are equal to the first within TIME_TOL of its shortest interval."""
+    first = times[0]
     step = np.nanmin(np.diff(first)) if np.isfinite(first).sum() > 1 else 0.0
-    return bool(np.isclose(rows, first, rtol=1e-12, atol=NEAR * abs(float(step)), equal_nan=True).all())
+    return bool(np.isclose(times, first, rtol=1e-12, atol=TIME_TOL * abs(float(step)), equal_nan=True).all())
 
 
 def resample_over_fractions(t: Any, series: Any) -> tuple[Any, Any] | None:
@@ -54,16 +54,16 @@ def _scale_times(t: Any) -> Any:
     return (t - t[0]) / (t[-1] - t[0]) if len(t) > 1 and t[-1] > t[0] else np.zeros(0)
 
 
-def compute_spectra(t: Any, series: Any, by: str | None, name: str, window: str) -> list[tuple[Any, Any]]:
-    """Return frequencies (M,) in Hz and amplitudes (runs, M) for each value of the dimension `by`, or for all runs.
+def compute_spectra(t: Any, series: Any, dimension: str | None, name: str, window: str) -> list[tuple[Any, Any]]:
+    """Return frequencies (M,) in Hz and amplitudes (runs, M) for each value of a dimension; None means all runs.
 
     name: of the series, for messages. window: as in `compute_spectrum`. Raises BadValueError if runs of one value have
     different sample times.
     """
     times = np.broadcast_to(t, series.shape)
     values = [(times, series.values)]
-    if by is not None:
-        k = series.dims.index(by)
+    if dimension is not None:
+        k = series.dims.index(dimension)
         values = [(np.take(times, i, axis=k), np.take(series.values, i, axis=k)) for i in range(series.shape[k])]
     return [_compute_spectrum_of_runs(*signals, name, window) for signals in values]
 
@@ -109,28 +109,29 @@ def _iterate_runs(*arrays: Any) -> Any:
     return zip(*(array.reshape(-1, array.shape[-1]) for array in arrays), strict=True)
 
 
-def find_section_crossings(
-    t: Any, section_values: Any, others: list[Any], level: float, falling: bool, after: float
+def find_values_at_crossings(
+    t: Any, section_values: Any, other_series: list[Any], level: float, is_falling: bool, min_time: float
 ) -> list[Any]:
-    """Return the values of other series, (k,) each, where one rises (or falls) through a level after a time.
+    """Return the values of other series, (k,) each, where one series rises (or falls) through a level.
 
-    t, section_values and others: (N,) samples of one run. Between samples all series are monotone cubics (PCHIP).
+    t, section_values and other_series: (N,) samples of one run. is_falling: crossings from above instead of from
+    below. min_time (s): earlier crossings are left out. Between samples all series are monotone cubics (PCHIP).
     Empty for fewer than two finite samples.
     """
     from scipy.interpolate import PchipInterpolator
 
     is_finite = (
-        np.isfinite(t) & np.isfinite(section_values) & np.all([np.isfinite(values) for values in others], axis=0)
+        np.isfinite(t) & np.isfinite(section_values) & np.all([np.isfinite(values) for values in other_series], axis=0)
     )
     if is_finite.sum() < 2:
-        return [np.zeros(0) for _ in others]
-    t, signed_distance = t[is_finite], (section_values[is_finite] - level) * (-1.0 if falling else 1.0)
+        return [np.zeros(0) for _ in other_series]
+    t, signed_distance = t[is_finite], (section_values[is_finite] - level) * (-1.0 if is_falling else 1.0)
     path = PchipInterpolator(t, signed_distance)
     starts = np.flatnonzero((signed_distance[:-1] < 0.0) & (signed_distance[1:] >= 0.0))
     roots = path.roots(discontinuity=False, extrapolate=False)
     times = np.array([_find_root_between(roots, t[k], t[k + 1]) for k in starts])
-    times = times[times >= after] if len(times) else times
-    return [PchipInterpolator(t, values[is_finite])(times) for values in others]
+    times = times[times >= min_time] if len(times) else times
+    return [PchipInterpolator(t, values[is_finite])(times) for values in other_series]
 
 
 def _find_root_between(roots: Any, begin: float, end: float) -> float:

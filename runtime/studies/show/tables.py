@@ -30,16 +30,18 @@ def make_console() -> Console:
     return make_plain_console(None if sys.stdout.isatty() else WIDTH)
 
 
-def make_table(columns: Iterable[str], left: Iterable[str] = ()) -> Table:
-    """Return an empty rich table with these column heads; columns are right-aligned, those in `left` left-aligned and
-    wrapped.
+def make_table(columns: Iterable[str], left_aligned: Iterable[str] = ()) -> Table:
+    """Return an empty rich table with these column heads; columns are right-aligned, those in `left_aligned`
+    left-aligned and wrapped.
     """
     from rich.box import SIMPLE_HEAD
     from rich.table import Table
 
     table = Table(box=SIMPLE_HEAD, pad_edge=False, padding=(0, 1))
     for column in columns:
-        table.add_column(column, justify="left" if column in left else "right", no_wrap=column not in left)
+        table.add_column(
+            column, justify="left" if column in left_aligned else "right", no_wrap=column not in left_aligned
+        )
     return table
 
 
@@ -57,25 +59,25 @@ def write_csv(path: Path, rows: Sequence[dict[str, Any]]) -> None:
     write_text(path, text.getvalue())
 
 
-def write_files(
-    table: Path, rows: Sequence[dict[str, Any]], draw: Callable[[], Figure]
+def write_table_and_figure(
+    table_path: Path, rows: Sequence[dict[str, Any]], draw_figure: Callable[[], Figure]
 ) -> tuple[list[Path], OutputError | None]:
-    """Write the table as CSV and, next to it as PNG, the figure that `draw` returns, if matplotlib is installed.
+    """Write the table as CSV and, next to it as PNG, the figure that `draw_figure` returns, if matplotlib is installed.
 
     Return the written files and the first OutputError, or None. The caller raises it after printing, so that results
     are not lost with a full disk.
     """
     written, failed = [], None
 
-    def picture(path: Path) -> None:
+    def save_png(path: Path) -> None:
         """Draw the figure and save it as PNG."""
         from gudgeon.results.figures.plots import save_figure
 
-        save_figure(draw(), path)
+        save_figure(draw_figure(), path)
 
-    steps: list[tuple[Path, Callable[[Path], None]]] = [(table, lambda path: write_csv(path, rows))]
+    steps: list[tuple[Path, Callable[[Path], None]]] = [(table_path, lambda path: write_csv(path, rows))]
     if find_spec("matplotlib"):
-        steps.append((table.with_suffix(".png"), picture))
+        steps.append((table_path.with_suffix(".png"), save_png))
     for path, write in steps:
         try:
             write(path)
