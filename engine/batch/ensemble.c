@@ -107,14 +107,14 @@ static long find_nonfinite_sample(const Batch *batch, long i)
     return 0;
 }
 
-/* Make at most `limit` steps of run i and store its samples and its time. Return a status of gudgeon_adaptive_run(). */
-static int make_steps(const Batch *batch, long i, long limit, Integrator *run)
+/* Make at most `max_steps` steps of run i and store its samples and its time. Return that of gudgeon_adaptive_run(). */
+static int make_steps(const Batch *batch, long i, long max_steps, Integrator *run)
 {
     const double *p = batch->p_motion + i * batch->numbers, *t = get_sample_times(batch, i);
     const long row = get_first_row(batch, i), n = batch->wanted[i];
     double *y = batch->y + row * N_S, *latched = batch->latched + row * AT_LEAST_ONE(N_DISCRETE);
     signed char *state = batch->state + row * AT_LEAST_ONE(N_CLEARANCES);
-    const int status = gudgeon_adaptive_run(run, p, n, t, limit, y, latched, state, batch->done + i);
+    const int status = gudgeon_adaptive_run(run, p, n, t, max_steps, y, latched, state, batch->done + i);
     batch->t_last[i] = run->t;
     return status;
 }
@@ -151,7 +151,7 @@ static void end_run(const Batch *batch, long i, int status, Integrator *run)
 {
     double *last = batch->last + i * N_S, latched[AT_LEAST_ONE(N_DISCRETE)];
     signed char state[AT_LEAST_ONE(N_CLEARANCES)];
-    const long nonfinite = find_nonfinite_sample(batch, i);
+    const long first_nonfinite = find_nonfinite_sample(batch, i);
     gudgeon_run_sample(run, batch->p_motion + i * batch->numbers, last, latched, state);
     report_audit(run, batch->audited + N_CHECKS * i, batch->audited_t + N_CHECKS * i,
         batch->audited_where + N_CHECKS * i);
@@ -160,16 +160,16 @@ static void end_run(const Batch *batch, long i, int status, Integrator *run)
     report_progress(run, batch->gained + i, batch->paced + 2 * i, batch->ended + N_STEP_ENDS * i);
     if (batch->trace)
         batch->traced[i] = count_envelope_rows(run);
-    if (nonfinite)
-        truncate_samples(batch, i, nonfinite);
+    if (first_nonfinite)
+        truncate_samples(batch, i, first_nonfinite);
     else if (status == ENDED || status == STALLED || (status == STOPPED && batch->done[i] > 0))
         store_last_sample(batch, i, status, run);
-    batch->status[i] = nonfinite ? NOT_FINITE : status;
+    batch->status[i] = first_nonfinite ? NOT_FINITE : status;
     batch->phase[i] = OVER;
 }
 
 /* Return whether contacts (also those that last), events or recorded states of a run wait to be fetched by Python. */
-static int has_unread_lists(const Integrator *run)
+static int has_unread_records(const Integrator *run)
 {
     int is_unread = run->contacts.n_impacts > 0 || run->events.n > 0 || run->step_record.n > 0;
     for (int k = 0; k < N_CLEARANCES; k++)
@@ -204,7 +204,7 @@ int gudgeon_ensemble(const void *batch_data, void *integrator, long *current, lo
         if (!is_over && !find_nonfinite_sample(batch, i))
             return status ? LISTS : GOES_ON;
         end_run(batch, i, status, run);
-        if (has_unread_lists(run))
+        if (has_unread_records(run))
             return RUN_OVER;
     }
     return ALL_OVER;
@@ -238,21 +238,21 @@ static int advance_single_run(const Batch *batch, long i, int trial_result, void
 {
     Integrator *run = integrator;
     const Parameters *p = (const Parameters *)(batch->p_motion + i * batch->numbers);
-    const Samples out = get_samples(batch, i);
+    const Samples samples = get_samples(batch, i);
     int status = 0;
     if (trial_result != NO_TRIAL) {
         run->step.method = run->choice.method;
         if (trial_result != NOT_TRIED)
             reset_singular_policy(run);
-        const int found = trial_result == TRIED ? 0 : trial_result == STAGES_FAILED ? NOT_FOUND
+        const int trial_status = trial_result == TRIED ? 0 : trial_result == STAGES_FAILED ? NOT_FOUND
             : try_step(run, p, &run->step);
-        if (!is_step_accepted(run, found, p, &run->step, &status))
+        if (!is_step_accepted(run, trial_status, p, &run->step, &status))
             return GOES_ON;
         close_attempt(run);
         if (!status)
-            status = accept_step(run, p, &out);
+            status = accept_step(run, p, &samples);
     }
-    if (!status && prepare_step(run, 0, p, &out, &status))
+    if (!status && prepare_step(run, 0, p, &samples, &status))
         return GOES_ON;
     batch->t_last[i] = run->t;
     if (status == EVENTS_FULL)
@@ -265,19 +265,19 @@ static int advance_single_run(const Batch *batch, long i, int trial_result, void
  * Return the number of steps that a run may make in the lanes without a call: until its next progress check or audited
  * step. It is 0 if each step is recorded or audited.
  */
-static long count_local_steps(const void *integrator)
+static long get_max_local_steps(const void *integrator)
 {
     const Integrator *run = integrator;
     const long steps =
         run->step_record.rows || run->envelope.rows ? 0 : count_steps_before_check(&run->progress.monitor);
-    const long checked = run->audit.level == AUDIT_FULL ? 0 : run->audit.due - run->counts.steps;
-    return run->audit.level && checked < steps ? (checked > 0 ? checked : 0) : steps;
+    const long unchecked_steps = run->audit.level == AUDIT_FULL ? 0 : run->audit.due - run->counts.steps;
+    return run->audit.level && unchecked_steps < steps ? (unchecked_steps > 0 ? unchecked_steps : 0) : steps;
 }
 
-/* Return the functions of a single run (Single) that a library of lanes calls. */
+/* Return the functions of a single run that a library of lanes calls. */
 const void *gudgeon_single(void)
 {
-    static const SingleRunFunctions single = {begin_single_run, advance_single_run, count_local_steps};
+    static const SingleRunFunctions single = {begin_single_run, advance_single_run, get_max_local_steps};
     return &single;
 }
 #endif

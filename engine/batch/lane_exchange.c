@@ -14,57 +14,57 @@ enum { MAX_GROUP_RUNS = 4 * LANES };
 /* Several runs under way in lanes: their integrators, numbers and next steps, and the data of the lanes. */
 typedef struct {
     const Batch *batch;
-    const SingleRunFunctions *one;
+    const SingleRunFunctions *single_run;
     Integrator *run[MAX_GROUP_RUNS];
-    long number[MAX_GROUP_RUNS]; /* -1: free */
-    int kind[MAX_GROUP_RUNS];    /* method of the next step of each run; -1: none */
-    int loaded[LANES];    /* run whose parameters a lane holds; -1: none */
+    long run_number[MAX_GROUP_RUNS]; /* -1: free */
+    int next_method[MAX_GROUP_RUNS]; /* method of the next step of each run; -1: none */
+    int loaded_run[LANES];    /* run whose parameters a lane holds; -1: none */
     LaneParameters p;
     Lanes h; /* lengths of the next steps, s */
 #if LOCAL_STEPS
     LocalSteps local_steps;
 #endif
-    LaneIntegrator x;
+    LaneIntegrator integrator;
     LaneStep step;
 } LaneGroup;
-/* Number of bytes of a Flow that are zero at the beginning. */
+/* Number of bytes of a LaneGroup that are zero at the beginning. */
 #if TAYLOR
-#define CLEARED_BYTES (offsetof(LaneGroup, x) + offsetof(LaneIntegrator, series.terms))
+#define CLEARED_BYTES (offsetof(LaneGroup, integrator) + offsetof(LaneIntegrator, series.terms))
 #else
 #define CLEARED_BYTES sizeof(LaneGroup)
 #endif
 
-/* Return whether place i of the runs under way is in use. */
-static int has_run(const LaneGroup *group, int i) { return group->number[i] >= 0; }
+/* Return whether entry i of a group holds a run. */
+static int has_run(const LaneGroup *group, int i) { return group->run_number[i] >= 0; }
 
 /*
- * Load the parameters of the run in place i into lane k, unless they are there. If place i is free, the lane repeats
- * another run under way, so that its numbers are finite; its results are not used.
+ * Load the parameters of the group's run i into lane k, unless they are there. If entry i is free, the lane repeats
+ * another run, so that its numbers are finite; its results are not used.
  */
 static void load_lane_parameters(LaneGroup *group, int k, int i)
 {
     for (int j = 0; j < MAX_GROUP_RUNS && !has_run(group, i); j++)
         i = has_run(group, j) ? j : i;
-    if (group->loaded[k] == i)
+    if (group->loaded_run[k] == i)
         return;
-    const double *p = group->batch->p_motion + group->number[i] * group->batch->numbers;
+    const double *p = group->batch->p_motion + group->run_number[i] * group->batch->numbers;
     for (long j = 0; j < group->batch->numbers; j++)
         ((Lanes *)&group->p)[j][k] = p[j];
-    group->loaded[k] = i;
+    group->loaded_run[k] = i;
 }
 
 #if IMPLICIT_STAGES && !TAYLOR
 /* Load the iteration history of a run into lane k: first guesses of the stages follow from it. */
-static void gather_history(LaneIntegrator *x, int k, Integrator *run)
+static void gather_history(LaneIntegrator *lanes, int k, Integrator *run)
 {
     update_iteration_history(run);
-    x->newton.last_h[k] = run->newton.last_h;
-    x->newton.convergence_rate[k] = run->newton.convergence_rate;
-    x->newton.force_found[k] = run->newton.force_found;
-    x->newton.continues[k] = -run->newton.continues;
+    lanes->newton.last_h[k] = run->newton.last_h;
+    lanes->newton.convergence_rate[k] = run->newton.convergence_rate;
+    lanes->newton.force_found[k] = run->newton.force_found;
+    lanes->newton.continues[k] = -run->newton.continues;
     for (int j = 0; j < N_Y; j++) {
-        x->newton.before_y[j][k] = run->newton.before_y[j];
-        x->newton.before_dy[j][k] = run->newton.before_dy[j];
+        lanes->newton.before_y[j][k] = run->newton.before_y[j];
+        lanes->newton.before_dy[j][k] = run->newton.before_dy[j];
     }
 }
 #endif
@@ -75,73 +75,74 @@ static void gather_history(LaneIntegrator *x, int k, Integrator *run)
  */
 static void gather_state(LaneGroup *group, int k)
 {
-    Integrator *run = group->run[group->loaded[k]];
-    LaneIntegrator *x = &group->x;
+    Integrator *run = group->run[group->loaded_run[k]];
+    LaneIntegrator *lanes = &group->integrator;
 #if LOCAL_STEPS
-    if (has_run(group, k) && group->local_steps.here[k])
+    if (has_run(group, k) && group->local_steps.has_state[k])
         return;
     if (has_run(group, k))
-        load_local_steps(&group->local_steps, x, k, group->batch, group->number[k], group->one, run);
+        load_local_steps(&group->local_steps, lanes, k, group->batch, group->run_number[k], group->single_run, run);
 #endif
     group->h[k] = run->control.attempt.h;
-    x->t[k] = run->t;
-    x->control.accept[k] = run->control.accept;
+    lanes->t[k] = run->t;
+    lanes->control.accept[k] = run->control.accept;
     for (int j = 0; j < N_Y; j++) {
-        x->y[j][k] = run->y[j];
-        x->norm.weight[j][k] = run->norm.weight[j];
+        lanes->y[j][k] = run->y[j];
+        lanes->norm.weight[j][k] = run->norm.weight[j];
     }
 #if TAYLOR
-    x->series.order = run->series.order;
-    x->control.fixed = run->control.fixed;
+    lanes->series.order = run->series.order;
+    lanes->control.fixed = run->control.fixed;
 #else
     for (int j = 0; j < N_Y; j++)
-        x->dy[j][k] = run->dy[j];
+        lanes->dy[j][k] = run->dy[j];
     for (int i = 0; i < N_LOOPS; i++)
-        x->rhs.lambda[i][k] = run->rhs.lambda[i];
+        lanes->rhs.lambda[i][k] = run->rhs.lambda[i];
 #if IMPLICIT_STAGES
     if (run->control.attempt.lane >= BY_RADAU5)
-        gather_history(x, k, run);
+        gather_history(lanes, k, run);
 #endif
 #endif
     for (int i = 0; i < N_CLEARANCES; i++) {
-        x->discrete.contact[i].closed[k] = run->discrete.contact[i].closed;
-        x->discrete.contact[i].deltadot_minus[k] = run->discrete.contact[i].deltadot_minus;
-        x->rhs.clearance[i].Fx[k] = run->rhs.clearance[i].Fx;
-        x->rhs.clearance[i].Fy[k] = run->rhs.clearance[i].Fy;
-        x->rhs.clearance[i].moment_first[k] = run->rhs.clearance[i].moment_first;
-        x->rhs.clearance[i].moment_second[k] = run->rhs.clearance[i].moment_second;
+        lanes->discrete.contact[i].closed[k] = run->discrete.contact[i].closed;
+        lanes->discrete.contact[i].deltadot_minus[k] = run->discrete.contact[i].deltadot_minus;
+        lanes->rhs.clearance[i].Fx[k] = run->rhs.clearance[i].Fx;
+        lanes->rhs.clearance[i].Fy[k] = run->rhs.clearance[i].Fy;
+        lanes->rhs.clearance[i].moment_first[k] = run->rhs.clearance[i].moment_first;
+        lanes->rhs.clearance[i].moment_second[k] = run->rhs.clearance[i].moment_second;
     }
     for (int i = 0; i < N_SWITCHES; i++)
-        x->discrete.branch[i][k] = run->discrete.branch[i];
+        lanes->discrete.branch[i][k] = run->discrete.branch[i];
     for (int i = 0; i < N_USER_EVENTS; i++)
-        x->discrete.event_sign[i][k] = run->discrete.event_sign[i];
+        lanes->discrete.event_sign[i][k] = run->discrete.event_sign[i];
 }
 
 /*
  * Copy the right-hand side's outputs of lane k to those of a single run, `rhs`. Outputs that lanes do not have become
  * 0.
  */
-static void scatter_rhs(const LaneRhsOutputs *x, int k, RhsOutputs *rhs)
+static void scatter_rhs(const LaneRhsOutputs *lane_rhs, int k, RhsOutputs *rhs)
 {
     for (int i = 0; i < N_LOOPS; i++)
-        rhs->lambda[i] = x->lambda[i][k];
+        rhs->lambda[i] = lane_rhs->lambda[i][k];
     for (int i = 0; i < N_WORK; i++)
-        rhs->power[i] = x->power[i][k];
+        rhs->power[i] = lane_rhs->power[i][k];
     for (int i = 0; i < N_CLEARANCES; i++) {
-        const LaneClearance *from = &x->clearance[i];
-        rhs->clearance[i] = (Clearance){.Fx = from->Fx[k], .Fy = from->Fy[k], .F_n = from->F_n[k],
-            .F_t = from->F_t[k], .ex = from->ex[k], .ey = from->ey[k], .e = from->e[k],
-            .deltadot = from->deltadot[k], .v_t = from->v_t[k], .moment_first = from->moment_first[k],
-            .moment_second = from->moment_second[k], .delta = from->delta[k], .power = from->power[k]};
+        const LaneClearance *lane_joint = &lane_rhs->clearance[i];
+        rhs->clearance[i] = (Clearance){.Fx = lane_joint->Fx[k], .Fy = lane_joint->Fy[k], .F_n = lane_joint->F_n[k],
+            .F_t = lane_joint->F_t[k], .ex = lane_joint->ex[k], .ey = lane_joint->ey[k], .e = lane_joint->e[k],
+            .deltadot = lane_joint->deltadot[k], .v_t = lane_joint->v_t[k], .power = lane_joint->power[k],
+            .moment_first = lane_joint->moment_first[k], .moment_second = lane_joint->moment_second[k],
+            .delta = lane_joint->delta[k]};
 #if LAW_STATES
         for (int j = 0; j < LAW_STATES; j++)
-            rhs->clearance[i].state_rate[j] = from->state_rate[j][k];
+            rhs->clearance[i].state_rate[j] = lane_joint->state_rate[j][k];
 #endif
     }
     for (int i = 0; i < N_SWITCHES; i++)
-        rhs->g[i] = x->g[i][k];
+        rhs->g[i] = lane_rhs->g[i][k];
     for (int i = 0; i < N_USER_EVENTS; i++)
-        rhs->event[i] = x->event[i][k];
+        rhs->event[i] = lane_rhs->event[i][k];
 }
 
 /*
@@ -150,32 +151,32 @@ static void scatter_rhs(const LaneRhsOutputs *x, int k, RhsOutputs *rhs)
  */
 static void scatter_step(const LaneGroup *group, int k, Step *step)
 {
-    const LaneStep *x = &group->step;
+    const LaneStep *lane_step = &group->step;
     for (int j = 0; j < N_Y; j++) {
-        step->y[j] = x->y[j][k];
-        step->dy[j] = x->dy[j][k];
+        step->y[j] = lane_step->y[j][k];
+        step->dy[j] = lane_step->dy[j][k];
     }
-    step->stages_lane = (const double *)x->k + k;
-    step->dense_lane = (const double *)x->dense + k;
-    step->stage_values_lane = (const double *)x->stage_values + k;
-    step->dense_ready = x->dense_ready && !x->no_dense[k] ? IN_LANE : 0;
+    step->stages_lane = (const double *)lane_step->k + k;
+    step->dense_lane = (const double *)lane_step->dense + k;
+    step->stage_values_lane = (const double *)lane_step->stage_values + k;
+    step->dense_ready = lane_step->dense_ready && !lane_step->has_no_dense[k] ? IN_LANE : 0;
     step->lanes = LANES;
-    step->n_stored_stages = x->n_stored_stages;
-    for (int s = 0; s < x->n_stored_stages; s++)
-        step->node[s] = x->node[s];
+    step->n_stored_stages = lane_step->n_stored_stages;
+    for (int s = 0; s < lane_step->n_stored_stages; s++)
+        step->node[s] = lane_step->node[s];
     for (int j = 0; j < N_EVENT_FUNCTIONS; j++)
-        step->lowest[j] = x->lowest[j][k];
+        step->lowest[j] = lane_step->lowest[j][k];
     for (int j = 0; j < N_SWITCHES; j++)
         step->passed[j] = 0;
     for (int i = 0; i < N_CLEARANCES; i++) {
-        step->rate[i][0] = x->rate[i][0][k];
-        step->rate[i][1] = x->rate[i][1][k];
+        step->rate[i][0] = lane_step->rate[i][0][k];
+        step->rate[i][1] = lane_step->rate[i][1][k];
     }
     for (int j = 0; j < 2 * N_X && N_WATCHED > 0; j++) {
-        step->least[j] = x->least[j][k];
-        step->most[j] = x->most[j][k];
+        step->least[j] = lane_step->least[j][k];
+        step->most[j] = lane_step->most[j][k];
     }
-    scatter_rhs(&x->rhs, k, &step->rhs);
+    scatter_rhs(&lane_step->rhs, k, &step->rhs);
 }
 
 #if TAYLOR
@@ -188,9 +189,9 @@ static void scatter_trial(const LaneGroup *group, int k, int method, Integrator 
     (void)method;
     run->counts.evaluations += !run->series.ready;
     run->series.ready = IN_LANE;
-    run->series.lane = (const double *)group->x.series.terms + k;
+    run->series.lane = (const double *)group->integrator.series.terms + k;
     run->series.lanes = LANES;
-    run->series.max_step = group->x.series.max_step[k];
+    run->series.max_step = group->integrator.series.max_step[k];
     run->control.attempt.h = group->step.h[k];
 }
 #else
@@ -200,15 +201,15 @@ static void scatter_trial(const LaneGroup *group, int k, int method, Integrator 
  */
 static void scatter_trial(const LaneGroup *group, int k, int method, Integrator *run)
 {
-    static const int of[LANE_KINDS] = {[BY_DOP853] = DOP853_STAGES, [BY_RK4] = RK4_STAGES, [BY_DOPRI5] = DOPRI5_STAGES,
-        [BY_RODAS5P] = RODAS5P_STAGES, [BY_RADAU5] = 3, [BY_RADAU9] = 5};
-    const int stages = of[method];
+    static const int n_stages[LANE_KINDS] = {[BY_DOP853] = DOP853_STAGES, [BY_RK4] = RK4_STAGES,
+        [BY_DOPRI5] = DOPRI5_STAGES, [BY_RODAS5P] = RODAS5P_STAGES, [BY_RADAU5] = 3, [BY_RADAU9] = 5};
+    const int stages = n_stages[method];
     (void)group, (void)k;
     run->counts.evaluations += stages - 1;
 #if IMPLICIT_STAGES
     if (method >= BY_RADAU5) {
-        run->counts.evaluations += (long)group->x.newton.evaluations[k] - stages + 1;
-        run->newton.convergence_rate = group->x.newton.convergence_rate[k];
+        run->counts.evaluations += (long)group->integrator.newton.evaluations[k] - stages + 1;
+        run->newton.convergence_rate = group->integrator.newton.convergence_rate[k];
     }
 #endif
     if (method >= BY_RODAS5P && !run->newton.ready) {
@@ -224,7 +225,7 @@ static void scatter_trial(const LaneGroup *group, int k, int method, Integrator 
  */
 static void scatter_result(const LaneGroup *group, int k, int method)
 {
-    Integrator *run = group->run[group->loaded[k]];
+    Integrator *run = group->run[group->loaded_run[k]];
     Step *step = &run->step;
     step->t = group->step.t[k];
     step->h = group->step.h[k];
@@ -232,13 +233,13 @@ static void scatter_result(const LaneGroup *group, int k, int method)
     step->dense_ready = 0;
     scatter_trial(group, k, method, run);
 #if TAYLOR
-    const int counts = 1;
+    const int counts_end = 1;
 #else
-    const int counts = group->step.taken[k] || method == BY_DOPRI5; /* its error needs the rates at the end */
+    const int counts_end = group->step.is_accepted[k] || method == BY_DOPRI5; /* its error needs the rates at the end */
 #endif
-    run->counts.evaluations += counts; /* a series may be rejected by its end only */
-    if (!group->step.taken[k])
+    run->counts.evaluations += counts_end; /* a series may be rejected by its end only */
+    if (!group->step.is_accepted[k])
         return;
-    run->choice.stability = group->x.choice.stability[k];
+    run->choice.stability = group->integrator.choice.stability[k];
     scatter_step(group, k, step);
 }

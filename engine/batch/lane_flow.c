@@ -10,44 +10,45 @@
 enum { MIN_REPORTED = MAX_GROUP_RUNS / LANES };
 
 /*
- * Store the method that the run in place i needs next, after a call for that run returned `result`. If the run is over,
- * the place becomes free. Return whether Python must be called: unless `result` is GOES_ON.
+ * Store the method that the group's run i needs next, after a call for that run returned `result`. If the run is over,
+ * its entry becomes free. Return whether Python must be called: unless `result` is GOES_ON.
  */
 static int record_run_result(LaneGroup *group, int i, int result)
 {
     if (result == RUN_OVER)
-        group->number[i] = -1;
-    group->kind[i] = result == RUN_OVER ? -1 : group->run[i]->control.attempt.lane;
+        group->run_number[i] = -1;
+    group->next_method[i] = result == RUN_OVER ? -1 : group->run[i]->control.attempt.lane;
     return result != GOES_ON;
 }
 
-/* Copy the steps that lane i accepted itself to the run in place i, before the run is used; else do nothing. */
+/* Copy the steps that lane i accepted itself to run i of the group, before the run is used; else do nothing. */
 static void flush_lane(LaneGroup *group, int i)
 {
 #if LOCAL_STEPS
-    if (has_run(group, i) && group->local_steps.here[i])
-        flush_local_steps(&group->local_steps, &group->x, i, group->h[i], group->run[i]);
+    if (has_run(group, i) && group->local_steps.has_state[i])
+        flush_local_steps(&group->local_steps, &group->integrator, i, group->h[i], group->run[i]);
 #else
     (void)group, (void)i;
 #endif
 }
 
 /*
- * Advance the run in place i to its next attempt at a step, by completing or trying the last one. trial_result: what
+ * Advance run i of the group to its next attempt at a step, by completing or trying the last one. trial_result: what
  * the lanes did of that step (NOT_TRIED, TRIED, STAGES_FAILED). *lists_full is set if the run's lists are full. Return
  * whether Python must be called.
  */
 static int advance_run_to_next_step(LaneGroup *group, int i, int trial_result, int *lists_full)
 {
-    const int result = group->one->advance_single(group->batch, group->number[i], trial_result, group->run[i]);
+    const int result =
+        group->single_run->advance_single(group->batch, group->run_number[i], trial_result, group->run[i]);
     *lists_full |= result == LISTS;
     return record_run_result(group, i, result);
 }
 
-/* Return whether the next step of the run in place i is by this method (BY_...). */
-static int needs_method(const LaneGroup *group, int i, int method) { return group->kind[i] == method; }
+/* Return whether the next step of run i of the group is by this method (BY_...). */
+static int needs_method(const LaneGroup *group, int i, int method) { return group->next_method[i] == method; }
 
-/* Return the number of lanes that have a run whose next step is by this method. Place i belongs to lane i % LANES. */
+/* Return the number of lanes that have a run whose next step is by this method; run i belongs to lane i % LANES. */
 static int count_lanes_of_method(const LaneGroup *group, int method)
 {
     int has_lane[LANES] = {0}, count = 0;
@@ -59,18 +60,18 @@ static int count_lanes_of_method(const LaneGroup *group, int method)
 }
 
 /*
- * Load a run whose next step is by `method` into lane k, preferring the run that is there. Candidates are the places k,
+ * Load a run whose next step is by `method` into lane k, preferring the run that is there. Candidates are the runs k,
  * k + LANES, and so on. If none of their runs needs the method, another run is repeated in the lane. Return whether the
  * lane has a run that needs the step.
  */
 static int load_run_into_lane(LaneGroup *group, int k, int method)
 {
-    const int last = group->loaded[k], is_own = last >= 0 && last % LANES == k && has_run(group, last);
+    const int last = group->loaded_run[k], is_own = last >= 0 && last % LANES == k && has_run(group, last);
     int best = is_own ? last : k;
     for (int i = k; i < MAX_GROUP_RUNS && !needs_method(group, best, method); i += LANES)
         best = needs_method(group, i, method) || !has_run(group, best) ? i : best;
     load_lane_parameters(group, k, best);
-    return group->loaded[k] % LANES == k && needs_method(group, group->loaded[k], method);
+    return group->loaded_run[k] % LANES == k && needs_method(group, group->loaded_run[k], method);
 }
 
 /*
@@ -82,9 +83,9 @@ static int passes_event(const LaneGroup *group, int k)
     int has_event = 0;
 #if !TAYLOR
     Lanes event_functions[AT_LEAST_ONE(N_EVENT_FUNCTIONS)];
-    if (!(group->run[group->loaded[k]]->control.fixed > 0.0))
+    if (!(group->run[group->loaded_run[k]]->control.fixed > 0.0))
         return 0;
-    evaluate_lane_event_functions(&group->x, &group->step.rhs, event_functions);
+    evaluate_lane_event_functions(&group->integrator, &group->step.rhs, event_functions);
     for (int j = 0; j < N_EVENT_FUNCTIONS; j++)
         has_event |= event_functions[j][k] < 0.0 || group->step.lowest[j][k] < 0.0;
 #else
@@ -107,19 +108,19 @@ static int try_lane_steps(LaneGroup *group, int method, int *lists_full)
         requested[k] = load_run_into_lane(group, k, method);
         gather_state(group, k);
     }
-    try_lanes(&group->x, method, group->h, &group->p, &group->step);
+    try_lanes(&group->integrator, method, group->h, &group->p, &group->step);
 #if LOCAL_STEPS
-    local_steps = accept_local_steps(&group->local_steps, &group->x, &group->step, &group->h);
+    local_steps = accept_local_steps(&group->local_steps, &group->integrator, &group->step, &group->h);
 #endif
     for (int k = 0; k < LANES; k++) {
         if (!requested[k] || local_steps[k])
             continue;
-        const int lost = group->step.lost[k] || passes_event(group, k);
+        const int needs_single_run = group->step.is_failed[k] || passes_event(group, k);
         flush_lane(group, k);
-        if (!lost)
+        if (!needs_single_run)
             scatter_result(group, k, method);
-        const int trial = lost ? NOT_TRIED : group->step.missed[k] ? STAGES_FAILED : TRIED;
-        n_reported += advance_run_to_next_step(group, group->loaded[k], trial, lists_full);
+        const int trial = needs_single_run ? NOT_TRIED : group->step.has_no_stages[k] ? STAGES_FAILED : TRIED;
+        n_reported += advance_run_to_next_step(group, group->loaded_run[k], trial, lists_full);
     }
     return n_reported;
 }
@@ -131,13 +132,13 @@ static int try_lane_steps(LaneGroup *group, int method, int *lists_full)
  */
 static int advance_lanes(LaneGroup *group, int *lists_full)
 {
-    int n_reported = 0, most = 0, count[LANE_KINDS];
+    int n_reported = 0, best_method = 0, count[LANE_KINDS];
     for (int method = 0; method < LANE_KINDS; method++) {
         count[method] = count_lanes_of_method(group, method);
-        most = count[method] > count[most] ? method : most;
+        best_method = count[method] > count[best_method] ? method : best_method;
     }
-    if (count[most] > 1)
-        return try_lane_steps(group, most, lists_full);
+    if (count[best_method] > 1)
+        return try_lane_steps(group, best_method, lists_full);
     for (int i = 0; i < MAX_GROUP_RUNS; i++) {
         if (!has_run(group, i))
             continue;
@@ -148,23 +149,23 @@ static int advance_lanes(LaneGroup *group, int *lists_full)
 }
 
 /*
- * Begin the run in place i if it is new, or resume it, up to its first attempt at a step. A failed start is stored in
+ * Begin run i of the group if it is new, or resume it, up to its first attempt at a step. A failed start is stored in
  * the batch's status. Return whether Python must be called.
  */
 static int begin_or_resume_run(LaneGroup *group, int i)
 {
     const Batch *batch = group->batch;
-    const long run = group->number[i];
+    const long run = group->run_number[i];
     if (batch->phase[run] == NEW) {
-        batch->status[run] = group->one->begin(batch, run, group->number, MAX_GROUP_RUNS, group->run[i]);
+        batch->status[run] = group->single_run->begin(batch, run, group->run_number, MAX_GROUP_RUNS, group->run[i]);
         batch->phase[run] = batch->status[run] ? OVER : BEGUN;
     }
     if (batch->phase[run] == OVER)
         return record_run_result(group, i, RUN_OVER);
-    return record_run_result(group, i, group->one->advance_single(batch, run, NO_TRIAL, group->run[i]));
+    return record_run_result(group, i, group->single_run->advance_single(batch, run, NO_TRIAL, group->run[i]));
 }
 
-/* Return the number of places with a run under way. */
+/* Return the number of runs in a group. */
 static int count_runs(const LaneGroup *group)
 {
     int count = 0;
@@ -177,32 +178,32 @@ static int count_runs(const LaneGroup *group)
 int gudgeon_lane_count(void) { return MAX_GROUP_RUNS; }
 
 /*
- * Integrate the runs number[i] (MAX_GROUP_RUNS of them, -1: none) together in lanes, each with its own Integrator
- * run[i]. Return GOES_ON, to be called again, if runs are over (number[i] = -1) or after `limit` steps. Return LISTS if
- * the lists of a run are full, ALL_OVER if fewer than two runs are left or the batch is ending. Unfinished runs then
- * continue alone (gudgeon_ensemble). single: functions of gudgeon_single(). The wall time is shared equally by the
- * runs.
+ * Integrate the runs run_number[i] (MAX_GROUP_RUNS of them, -1: none) of a batch together in lanes, each in its own
+ * Integrator run[i]. Return GOES_ON, to be called again, if runs are over (run_number[i] = -1) or after `limit` steps.
+ * Return LISTS if the lists of a run are full, ALL_OVER if fewer than two runs are left or the batch is
+ * ending. Unfinished runs then continue alone (gudgeon_ensemble). single: the functions that gudgeon_single()
+ * returns. The wall time is shared equally by the runs.
  */
-int gudgeon_lanes(const void *batch, const void *single, void *const *run, long *number)
+int gudgeon_lanes(const void *batch, const void *single, void *const *run, long *run_number)
 {
     LaneGroup group;
     memset(&group, 0, CLEARED_BYTES);
-    group.batch = batch, group.one = single;
+    group.batch = batch, group.single_run = single;
     const double before = read_wall_time();
     int n_reported = 0, lists_full = 0, entered = 0;
     for (int i = 0; i < MAX_GROUP_RUNS; i++) {
         group.run[i] = run[i];
-        group.number[i] = number[i];
-        group.kind[i] = -1;
-        entered += number[i] >= 0;
+        group.run_number[i] = run_number[i];
+        group.next_method[i] = -1;
+        entered += run_number[i] >= 0;
     }
     for (int k = 0; k < LANES; k++)
-        group.loaded[k] = -1;
+        group.loaded_run[k] = -1;
     for (int i = 0; i < MAX_GROUP_RUNS; i++)
         if (has_run(&group, i))
             n_reported += begin_or_resume_run(&group, i);
-    for (long left = group.batch->limit; n_reported < MIN_REPORTED && !lists_full && left > 0
-        && !*group.batch->ending; left--) {
+    for (long steps_left = group.batch->limit; n_reported < MIN_REPORTED && !lists_full && steps_left > 0
+        && !*group.batch->ending; steps_left--) {
         if (count_runs(&group) < 2)
             break;
         n_reported += advance_lanes(&group, &lists_full);
@@ -210,11 +211,11 @@ int gudgeon_lanes(const void *batch, const void *single, void *const *run, long 
     const double fraction = (read_wall_time() - before) / (entered > 0 ? entered : 1);
     for (int i = 0; i < MAX_GROUP_RUNS; i++) {
         flush_lane(&group, i);
-        if (number[i] >= 0)
-            group.batch->seconds[number[i]] += fraction;
+        if (run_number[i] >= 0)
+            group.batch->seconds[run_number[i]] += fraction;
         if (has_run(&group, i))
-            group.batch->t_last[group.number[i]] = group.run[i]->t;
-        number[i] = group.number[i];
+            group.batch->t_last[group.run_number[i]] = group.run[i]->t;
+        run_number[i] = group.run_number[i];
     }
     return lists_full ? LISTS : (n_reported || count_runs(&group) > 1) && !*group.batch->ending ? GOES_ON : ALL_OVER;
 }

@@ -19,7 +19,10 @@ static inline Lanes lanes_max_of(Lanes x, Lanes y) { return EXTREME_OF(max, <); 
 static inline Lanes lanes_min_of(Lanes x, Lanes y) { return EXTREME_OF(min, >); }
 #undef EXTREME_OF
 /* Return sign_of() of each lane. */
-static inline Lanes lanes_sign_of(Lanes x) { return pick(x > 0.0, all_of(1.0), pick(x < 0.0, all_of(-1.0), x)); }
+static inline Lanes lanes_sign_of(Lanes x)
+{
+    return pick(x > 0.0, all_of(1.0), pick(x < 0.0, all_of(-1.0), x));
+}
 /* Return the absolute value of each lane. */
 static inline Lanes lanes_fabs(Lanes x) { return (Lanes)((LaneBits)x & 0x7fffffffffffffffLL); }
 
@@ -181,11 +184,12 @@ static inline Lanes lanes_pow(Lanes x, Lanes y)
     if (!any_of(~(of_root | none)))
         return by_root;
     Lanes rest;
-    const Lanes log_x = lanes_log_in_parts(pick(normal, x, all_of(1.0)), &rest), x_high = lanes_upper_half(log_x);
-    const Lanes y_high = lanes_upper_half(y), high = y_high * x_high;
+    const Lanes log_x = lanes_log_in_parts(pick(normal, x, all_of(1.0)), &rest);
+    const Lanes x_high = lanes_upper_half(log_x), y_high = lanes_upper_half(y), high = y_high * x_high;
     const LaneBits fits = normal & (lanes_fabs(high) < 690.0);
     const Lanes less = (y - y_high) * x_high + y * (log_x - x_high + rest);
-    Lanes found = pick(of_root | none, by_root, lanes_exp_of_parts(pick(fits, high, all_of(0.0)), less));
+    const Lanes by_exponential = lanes_exp_of_parts(pick(fits, high, all_of(0.0)), less);
+    Lanes found = pick(of_root | none, by_root, by_exponential);
     for (int k = 0; any_of(~(fits | none)) && k < LANES; k++)
         found[k] = (fits | none)[k] ? found[k] : pow(x[k], y[k]);
     return found;

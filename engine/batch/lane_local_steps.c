@@ -9,10 +9,10 @@
 
 /* Of each lane: the time of its run's next sample and its end, s; the longest step of the last series, s. */
 typedef struct {
-    Lanes sample, t_end, max_step;
-    LaneBits open;                    /* whether steps may be accepted here */
+    Lanes next_sample, t_end, max_step;
+    LaneBits may_accept;             /* whether steps may be accepted here */
     long steps[LANES], max_local_steps[LANES]; /* steps accepted here; allowed number */
-    int here[LANES];                  /* whether the lane has the run's state */
+    int has_state[LANES]; /* whether the lane has the run's state */
 } LocalSteps;
 
 /*
@@ -21,32 +21,32 @@ typedef struct {
  * rejected attempt.
  */
 static void load_local_steps(
-    LocalSteps *local_steps, LaneIntegrator *x, int k, const Batch *batch, long i, const SingleRunFunctions *single,
+    LocalSteps *local_steps, LaneIntegrator *lanes, int k, const Batch *batch, long i, const SingleRunFunctions *single,
     const Integrator *run)
 {
     const double *t = get_sample_times(batch, i);
-    local_steps->sample[k] = t[batch->done[i]];
+    local_steps->next_sample[k] = t[batch->done[i]];
     local_steps->t_end[k] = get_end_time(batch, i);
     local_steps->steps[k] = 0;
     local_steps->max_local_steps[k] = run->control.fixed > 0.0 || run->control.attempt.again ? 0
         : single->max_local_steps(run);
-    local_steps->open[k] = -(local_steps->max_local_steps[k] > 0);
-    local_steps->here[k] = 1;
-    x->norm.energy_scale[k] = run->norm.energy_scale;
-    x->norm.work_scale[k] = run->norm.work_scale;
+    local_steps->may_accept[k] = -(local_steps->max_local_steps[k] > 0);
+    local_steps->has_state[k] = 1;
+    lanes->norm.energy_scale[k] = run->norm.energy_scale;
+    lanes->norm.work_scale[k] = run->norm.work_scale;
     for (int kind = 0; kind < 2; kind++) {
-        x->norm.speed[kind][k] = run->norm.speed[kind];
-        x->norm.speed_floor[kind][k] = run->norm.speed_floor[kind];
-        x->norm.least[kind][k] = run->norm.least[kind];
+        lanes->norm.speed[kind][k] = run->norm.speed[kind];
+        lanes->norm.speed_floor[kind][k] = run->norm.speed_floor[kind];
+        lanes->norm.least[kind][k] = run->norm.least[kind];
     }
     for (int j = 0; j < 2 * N_X; j++)
-        x->norm.inverse_scale[j][k] = run->norm.inverse_scale[j];
+        lanes->norm.inverse_scale[j][k] = run->norm.inverse_scale[j];
 }
 
 /* Return the magnitude of the times in each lane, s, for rounding, as open_attempt() does for a single run. */
-static Lanes compute_time_scale(const LocalSteps *local_steps, const LaneIntegrator *x)
+static Lanes compute_time_scale(const LocalSteps *local_steps, const LaneIntegrator *lanes)
 {
-    return lanes_max_of(lanes_min_of(lanes_fabs(local_steps->t_end), all_of(MAX_RUN_SCALE_S)), lanes_fabs(x->t));
+    return lanes_max_of(lanes_min_of(lanes_fabs(local_steps->t_end), all_of(MAX_RUN_SCALE_S)), lanes_fabs(lanes->t));
 }
 
 /*
@@ -54,29 +54,29 @@ static Lanes compute_time_scale(const LocalSteps *local_steps, const LaneIntegra
  * mask. These steps end before the next sample and the end of the run, are not too short and are finite. State, speeds,
  * energy scale and error weights of the lanes are updated as after a single step.
  */
-static LaneBits accept_local_steps(LocalSteps *local_steps, LaneIntegrator *x, const LaneStep *step, Lanes *h)
+static LaneBits accept_local_steps(LocalSteps *local_steps, LaneIntegrator *lanes, const LaneStep *step, Lanes *h)
 {
-    const Lanes t = x->t + step->h;
-    const LaneBits accepted = local_steps->open & step->taken & (step->error <= x->control.accept)
-        & (t < local_steps->sample) & (step->h < local_steps->t_end - x->t)
-        & (step->h >= SHORT_STEP_FRACTION * compute_time_scale(local_steps, x))
+    const Lanes t = lanes->t + step->h;
+    const LaneBits accepted = local_steps->may_accept & step->is_accepted & (step->error <= lanes->control.accept)
+        & (t < local_steps->next_sample) & (step->h < local_steps->t_end - lanes->t)
+        & (step->h >= SHORT_STEP_FRACTION * compute_time_scale(local_steps, lanes))
         & ~find_nonfinite_lanes(step->y, step->dy, N_Y);
-    add_works(x, accepted, step->y);
+    update_energy_scale(lanes, accepted, step->y);
     for (int j = 0; j < N_Y; j++) {
-        x->y[j] = pick(accepted, step->y[j], x->y[j]);
-        x->dy[j] = pick(accepted, step->dy[j], x->dy[j]);
+        lanes->y[j] = pick(accepted, step->y[j], lanes->y[j]);
+        lanes->dy[j] = pick(accepted, step->dy[j], lanes->dy[j]);
     }
     for (int j = 0; j < N_WORK; j++)
-        x->rhs.power[j] = pick(accepted, step->rhs.power[j], x->rhs.power[j]);
-    x->t = pick(accepted, t, x->t);
-    update_speeds(x);
-    update_error_weights(x);
-    local_steps->max_step = pick(accepted, x->series.max_step, local_steps->max_step);
-    const Lanes left = local_steps->t_end - x->t, next = TAYLOR_AHEAD * x->series.max_step;
+        lanes->rhs.power[j] = pick(accepted, step->rhs.power[j], lanes->rhs.power[j]);
+    lanes->t = pick(accepted, t, lanes->t);
+    update_speeds(lanes);
+    update_error_weights(lanes);
+    local_steps->max_step = pick(accepted, lanes->series.max_step, local_steps->max_step);
+    const Lanes left = local_steps->t_end - lanes->t, next = TAYLOR_AHEAD * lanes->series.max_step;
     *h = pick(accepted, pick(next > left * EQUAL_LENGTH_RATIO, left, next), *h);
     for (int k = 0; k < LANES; k++) {
         local_steps->steps[k] -= accepted[k];
-        local_steps->open[k] = -(local_steps->steps[k] < local_steps->max_local_steps[k]);
+        local_steps->may_accept[k] = -(local_steps->steps[k] < local_steps->max_local_steps[k]);
     }
     return accepted;
 }
@@ -85,23 +85,23 @@ static LaneBits accept_local_steps(LocalSteps *local_steps, LaneIntegrator *x, c
  * Copy the steps accepted in lane k to its run, with their counts, and open the run's next attempt with length h (s).
  * Copies nothing if the lane has accepted no step since it was loaded.
  */
-static void flush_local_steps(LocalSteps *local_steps, const LaneIntegrator *x, int k, double h, Integrator *run)
+static void flush_local_steps(LocalSteps *local_steps, const LaneIntegrator *lanes, int k, double h, Integrator *run)
 {
     const long steps = local_steps->steps[k];
-    local_steps->here[k] = 0;
+    local_steps->has_state[k] = 0;
     if (!steps)
         return;
     for (int j = 0; j < N_Y; j++) {
-        run->y[j] = x->y[j][k];
-        run->dy[j] = x->dy[j][k];
-        run->norm.weight[j] = x->norm.weight[j][k];
+        run->y[j] = lanes->y[j][k];
+        run->dy[j] = lanes->dy[j][k];
+        run->norm.weight[j] = lanes->norm.weight[j][k];
     }
     for (int j = 0; j < N_WORK; j++)
-        run->rhs.power[j] = x->rhs.power[j][k];
-    run->t = x->t[k];
-    run->norm.energy_scale = x->norm.energy_scale[k];
-    run->norm.speed[0] = x->norm.speed[0][k];
-    run->norm.speed[1] = x->norm.speed[1][k];
+        run->rhs.power[j] = lanes->rhs.power[j][k];
+    run->t = lanes->t[k];
+    run->norm.energy_scale = lanes->norm.energy_scale[k];
+    run->norm.speed[0] = lanes->norm.speed[0][k];
+    run->norm.speed[1] = lanes->norm.speed[1][k];
     run->counts.steps += steps;
     run->counts.evaluations += 2 * steps - !!run->series.ready;
     run->progress.ended[N_EVENT_FUNCTIONS] += steps;
@@ -114,6 +114,6 @@ static void flush_local_steps(LocalSteps *local_steps, const LaneIntegrator *x, 
     run->series.max_step = local_steps->max_step[k];
     run->control.h = TAYLOR_AHEAD * run->series.max_step;
     run->control.attempt = (Attempt){.h = h, .longest = h, .left = local_steps->t_end[k] - run->t,
-        .far = compute_time_scale(local_steps, x)[k], .open = 1};
+        .far = compute_time_scale(local_steps, lanes)[k], .open = 1};
 }
 #endif

@@ -23,7 +23,7 @@ static inline int compute_lane_accelerations(Lanes t, const Lanes *q, const Lane
 }
 
 #define FUNCTION_LINKAGE static inline
-#define MOTION motion
+#define MOTION evaluate_lane_rhs
 #define REDUCED_DYNAMICS compute_lane_accelerations
 #define CLOSURES(t, q, discrete, p, phi) closures(t, q, p, phi, &(discrete)->rare)
 #define CLOSURE_RATES(t, q, v, discrete, p, phi_dot) closure_rates(t, q, v, p, phi_dot, &(discrete)->rare)
@@ -49,7 +49,7 @@ static int evaluate_run_rhs(
     LaneIntegrator *run, Lanes t, const Lanes *y, const LaneParameters *p, Lanes *dy, LaneRhsOutputs *rhs)
 {
     copy_inner_states(&run->discrete, y);
-    motion(t, y, &run->discrete, p, dy, rhs);
+    evaluate_lane_rhs(t, y, &run->discrete, p, dy, rhs);
     copy_inner_rates(rhs, dy);
     return 0;
 }

@@ -28,14 +28,14 @@ static void discard_stages(LaneStep *step)
 static int is_step_rejected(LaneIntegrator *run, LaneStep *step)
 {
 #if IMPLICIT_STAGES && !TAYLOR
-    step->missed = run->newton.missed;
+    step->has_no_stages = run->newton.has_no_stages;
 #else
-    step->missed = (LaneBits){0};
+    step->has_no_stages = (LaneBits){0};
 #endif
-    step->lost = run->discrete.rare & ~step->missed;
-    step->taken = ~(step->error > run->control.accept) & ~step->lost & ~step->missed;
+    step->is_failed = run->discrete.rare & ~step->has_no_stages;
+    step->is_accepted = ~(step->error > run->control.accept) & ~step->is_failed & ~step->has_no_stages;
     run->discrete.rare = (LaneBits){0};
-    return !any_of(step->taken);
+    return !any_of(step->is_accepted);
 }
 
 /*
@@ -205,7 +205,7 @@ static void record_iterated_stage(LaneIntegrator *run, LaneStep *step, LaneBits 
 /* Store the mask of the lanes whose stages were not found (`has_failed`), except those marked as rare. Return 0. */
 static int mark_failed_stages(LaneIntegrator *run, LaneBits has_failed)
 {
-    run->newton.missed = has_failed & ~run->discrete.rare;
+    run->newton.has_no_stages = has_failed & ~run->discrete.rare;
     return 0;
 }
 
@@ -217,7 +217,7 @@ static int try_method(LaneIntegrator *run, int method, Lanes h, const LaneParame
 {
 #if IMPLICIT_STAGES
     run->newton.evaluations = all_of(0.0);
-    run->newton.missed = (LaneBits){0};
+    run->newton.has_no_stages = (LaneBits){0};
     if (method == BY_RADAU5)
         return radau5_try_step(run, h, p, step);
     if (method == BY_RADAU9)
@@ -242,7 +242,7 @@ static int count_lanes_with_events(const LaneIntegrator *run, const LaneStep *st
     evaluate_lane_event_functions(run, &step->rhs, event_functions);
     for (int j = 0; j < N_EVENT_FUNCTIONS; j++)
         may_end |= (event_functions[j] < 0.0) | (step->lowest[j] < 0.0);
-    may_end &= step->taken;
+    may_end &= step->is_accepted;
     for (int k = 0; k < LANES; k++)
         count -= (int)may_end[k];
     return count;
@@ -250,18 +250,18 @@ static int count_lanes_with_events(const LaneIntegrator *run, const LaneStep *st
 
 /*
  * Compute the dense output of a dop853 step in the lanes if more than one lane may need it for an event. Lanes in which
- * it fails are stored in step->no_dense: their runs compute it.
+ * it fails are stored in step->has_no_dense: their runs compute it.
  */
 static void compute_dense_output(LaneIntegrator *run, const LaneParameters *p, LaneStep *step)
 {
     const LaneBits rare = run->discrete.rare;
-    if (!any_of(step->taken) || count_lanes_with_events(run, step) < 2)
+    if (!any_of(step->is_accepted) || count_lanes_with_events(run, step) < 2)
         return;
     run->discrete.rare = (LaneBits){0};
     dop853_compute_dense_output(run, p, step);
-    step->no_dense = run->discrete.rare;
+    step->has_no_dense = run->discrete.rare;
     for (int k = 0; k < N_DENSE; k++)
-        step->no_dense |= find_nonfinite_lanes(step->dense[k], NULL, N_Y);
+        step->has_no_dense |= find_nonfinite_lanes(step->dense[k], NULL, N_Y);
     step->dense_ready = 1;
     run->discrete.rare = rare;
 }
@@ -275,8 +275,8 @@ static void try_lanes(LaneIntegrator *run, int method, Lanes h, const LaneParame
 {
     run->discrete.rare = (LaneBits){0};
     try_method(run, method, h, p, step);
-    step->lost |= run->discrete.rare & step->taken;
-    step->taken &= ~step->lost;
+    step->is_failed |= run->discrete.rare & step->is_accepted;
+    step->is_accepted &= ~step->is_failed;
 #if !TAYLOR
     if (method == BY_DOP853)
         compute_dense_output(run, p, step);

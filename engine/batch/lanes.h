@@ -28,7 +28,7 @@ static inline Lanes pick(LaneBits mask, Lanes a, Lanes b)
 }
 
 /* Return the complement of a mask. */
-static inline LaneBits is_not(LaneBits mask) { return ~mask; }
+static inline LaneBits invert_mask(LaneBits mask) { return ~mask; }
 
 /* Return whether a mask contains any lane. */
 static inline int any_of(LaneBits mask)
@@ -83,8 +83,10 @@ static inline void set_aside(Lanes *g, Lanes *film_switches, int first, int last
 static inline void put_together(Lanes *g, const Lanes *film_switches, int first, int last,
     LaneBits is_touching_mask, LaneBits is_mixed)
 {
-    for (int k = first; k < last; k++)
-        g[k] = pick(is_touching_mask, pick(is_mixed & (g[k] != g[k]), film_switches[k], g[k]), film_switches[k]);
+    for (int k = first; k < last; k++) {
+        const Lanes touching_switch = pick(is_mixed & (g[k] != g[k]), film_switches[k], g[k]);
+        g[k] = pick(is_touching_mask, touching_switch, film_switches[k]);
+    }
 }
 
 /* Types and operations that the text of scalar_simd/ uses for lanes. */
@@ -99,7 +101,7 @@ static inline void put_together(Lanes *g, const Lanes *film_switches, int first,
 #define NormOf LaneNorm
 #define ComplexLinearOf LaneComplexLinear
 /* Return a constant in all lanes. */
-static inline Lanes real_of(double x) { return all_of(x); }
+static inline Lanes make_real(double x) { return all_of(x); }
 /* Return the larger number of each lane; a NaN in x is propagated. */
 static inline Lanes real_max(Lanes x, Lanes y) { return lanes_max_of(x, y); }
 /* Return the smaller number of each lane; a NaN in x is propagated. */
@@ -220,15 +222,15 @@ typedef struct {
 #if IMPLICIT_STAGES
         Lanes last_h, before_y[N_Y], before_dy[N_Y], convergence_rate, force_found;
         Lanes evaluations; /* right-hand sides of the trial step */
-        LaneBits continues, missed;
+        LaneBits continues, has_no_stages;
 #endif
     } newton;
 #endif
 } LaneIntegrator;
 
 /*
- * Step of several runs, with masks of lanes: `taken` accept it; `lost` leave it to their run; `missed` did not find its
- * stages; `no_dense` have no dense output.
+ * Step of several runs, with masks of lanes: lanes that accept it, that leave it to their run,
+ * that did not find its stages, and that have no dense output.
  */
 typedef struct {
     Lanes t, h, error, y[N_Y], dy[N_Y], k[N_STAGES][N_Y];
@@ -239,7 +241,7 @@ typedef struct {
     Lanes stage_values[N_STAGES][AT_LEAST_ONE(N_STAGE_VALUES)], lowest[AT_LEAST_ONE(N_EVENT_FUNCTIONS)],
         rate[AT_LEAST_ONE(N_CLEARANCES)][2];
     Lanes least[2 * N_X + 1], most[2 * N_X + 1];
-    LaneBits taken, lost, missed, no_dense;
+    LaneBits is_accepted, is_failed, has_no_stages, has_no_dense;
 } LaneStep;
 
 #endif

@@ -10,13 +10,13 @@ static int is_relation_satisfied(const char *relation, double value, double boun
 
 /*
  * Write " with parameters.c = -0.0001 m" for a value that depends on given parameters into `text` of `size` bytes, else
- * an empty text. slot: index of the value. Parameters that no longer fit are omitted.
+ * an empty text. value_index: index of the value. Parameters that no longer fit are omitted.
  */
-static void format_given_values(const Model *model, int slot, char *text, size_t size)
+static void format_given_values(const Model *model, int value_index, char *text, size_t size)
 {
     const char *before = " with ";
     text[0] = 0;
-    for (int k = 0; fmu_slots[slot].follows && k < FMU_SLOTS_USED; k++)
+    for (int k = 0; fmu_slots[value_index].follows && k < FMU_SLOTS_USED; k++)
         if (model->is_given[k] && !strncmp(fmu_slots[k].address, "parameters.", 11) && strlen(text) + 100 < size) {
             const size_t n = strlen(text);
             snprintf(text + n, size - n, "%s%s = %.6g%s%s", before, fmu_slots[k].address, model->p[k],
@@ -34,16 +34,17 @@ static int are_parameters_valid(const Model *model, double size)
 {
     char text[600], given_values[250];
     for (int k = 0; k < FMU_CONDITIONS; k++) {
-        const int slot = fmu_conditions[k].slot;
+        const int value_index = fmu_conditions[k].slot;
         double bound = fmu_conditions[k].bound;
         for (int i = 0; i < fmu_conditions[k].count; i++)
             bound += model->p[fmu_bounds[fmu_conditions[k].first + i]];
-        if (!isfinite(model->p[slot]) || !isfinite(bound)
-            || is_relation_satisfied(fmu_conditions[k].relation, model->p[slot], bound))
+        if (!isfinite(model->p[value_index]) || !isfinite(bound)
+            || is_relation_satisfied(fmu_conditions[k].relation, model->p[value_index], bound))
             continue;
-        format_given_values(model, slot, given_values, sizeof given_values);
-        int n = snprintf(text, sizeof text, "%s is %.6g%s%s%s: %s", fmu_slots[slot].address, model->p[slot],
-            fmu_slots[slot].unit[0] ? " " : "", fmu_slots[slot].unit, given_values, fmu_conditions[k].message);
+        format_given_values(model, value_index, given_values, sizeof given_values);
+        const char *unit = fmu_slots[value_index].unit;
+        int n = snprintf(text, sizeof text, "%s is %.6g%s%s%s: %s", fmu_slots[value_index].address,
+            model->p[value_index], unit[0] ? " " : "", unit, given_values, fmu_conditions[k].message);
         if (fmu_conditions[k].count && n > 0 && (size_t)n < sizeof text)
             snprintf(text + n, sizeof text - (size_t)n, ", here %s %.6g", fmu_conditions[k].relation, bound);
         return log_error(model, text), 0;

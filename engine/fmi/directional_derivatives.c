@@ -19,7 +19,7 @@ FMI3_EXPORT fmi3Status fmi3GetDirectionalDerivative(fmi3Instance instance, const
         direction[knowns[k] - VR_STATES] += seed[k];
     }
     if (!model->exchange)
-        convert_state(model);
+        synchronize_states(model);
     for (size_t k = 0; k < n_unknowns; k++)
         rates |= unknowns[k] >= VR_RATES && unknowns[k] < VR_RATES + N_Y;
     const double *p = TREE ? model->motion : model->p; /* rates in tree coordinates have no Baumgarte terms */

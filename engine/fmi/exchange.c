@@ -8,13 +8,13 @@
 
 /*
  * Change the branches of switching functions whose values have the opposite sign: those whose branches meet, or all
- * (`is_for_all`). Return whether any changed.
+ * (`includes_all`). Return whether any changed.
  */
-static int update_branches(Model *model, const RhsOutputs *rhs, int is_for_all)
+static int update_branches(Model *model, const RhsOutputs *rhs, int includes_all)
 {
     int has_changed = 0;
     for (int k = 0; k < N_SWITCHES; k++)
-        if ((is_for_all || meets[k]) && model->discrete.branch[k] * rhs->g[k] < 0.0) {
+        if ((includes_all || meets[k]) && model->discrete.branch[k] * rhs->g[k] < 0.0) {
             model->discrete.branch[k] = -model->discrete.branch[k];
             has_changed = 1;
         }
@@ -95,7 +95,7 @@ static void read_sampled_discrete_state(Model *model) { read_discrete_state(mode
  * Convert the state of an instance: in model exchange from the integrated state x to the absolute state y, in
  * co-simulation from y to x. In co-simulation the discrete state of the last sample is read first.
  */
-static void convert_state(Model *model)
+static void synchronize_states(Model *model)
 {
     if (model->exchange) {
         convert_to_absolute(model->t, model->x, &model->discrete, (const Parameters *)model->p, model->y);
@@ -257,7 +257,7 @@ FMI3_EXPORT fmi3Status fmi3SetTime(fmi3Instance instance, fmi3Float64 t)
 }
 
 /* Return fmi3OK if n is the expected number of values; otherwise log an error and return fmi3Error. */
-static fmi3Status check_count(const Model *model, size_t n, size_t expected)
+static fmi3Status check_value_count(const Model *model, size_t n, size_t expected)
 {
     return n == expected ? fmi3OK : log_failure(model, "another number of values than there are", (int)n);
 }
@@ -266,7 +266,7 @@ static fmi3Status check_count(const Model *model, size_t n, size_t expected)
 FMI3_EXPORT fmi3Status fmi3SetContinuousStates(fmi3Instance instance, const fmi3Float64 x[], size_t n)
 {
     Model *model = instance;
-    if (check_count(model, n, N_Y))
+    if (check_value_count(model, n, N_Y))
         return fmi3Error;
     memcpy(model->x, x, sizeof model->x);
     model->moved = 1;
@@ -276,7 +276,7 @@ FMI3_EXPORT fmi3Status fmi3SetContinuousStates(fmi3Instance instance, const fmi3
 /* Copy one number of each state, N_Y of them, from `source` to `value`. Return fmi3Error if n is another number. */
 static fmi3Status copy_state_values(const Model *model, const double *source, fmi3Float64 value[], size_t n)
 {
-    if (check_count(model, n, N_Y))
+    if (check_value_count(model, n, N_Y))
         return fmi3Error;
     memcpy(value, source, N_Y * sizeof *source);
     return fmi3OK;
@@ -296,7 +296,7 @@ FMI3_EXPORT fmi3Status fmi3GetContinuousStateDerivatives(fmi3Instance instance, 
 {
     Model *model = instance;
     RhsOutputs rhs;
-    if (check_count(model, n, N_Y))
+    if (check_value_count(model, n, N_Y))
         return fmi3Error;
     if (evaluate_exchange_rates(model, dx, &rhs))
         return fmi3Discard;
@@ -315,7 +315,7 @@ FMI3_EXPORT fmi3Status fmi3GetEventIndicators(fmi3Instance instance, fmi3Float64
     Model *model = instance;
     double dx[N_Y];
     RhsOutputs rhs;
-    if (check_count(model, n, N_INDICATORS))
+    if (check_value_count(model, n, N_INDICATORS))
         return fmi3Error;
     if (N_INDICATORS && evaluate_exchange_rates(model, dx, &rhs))
         return fmi3Discard;

@@ -1,6 +1,6 @@
 /* An instance of the FMU: its parameters and start, integration to a given time, and outputs at a state. */
 enum {
-    SLICE = 4000,
+    MAX_STEPS_PER_CALL = 4000,
     SETTING = 0, INITIALIZING, RUNNING, /* parameters are set in the first two */
     N_INDICATORS = N_CLEARANCES + FMU_JUMPS /* in model exchange: contacts, switching points with a jump */
 };
@@ -167,7 +167,7 @@ static fmi3Status begin_run(Model *model)
 
 #if INTEGRATES
 /* Empty the lists of contacts and events of a run, so that it can continue: an FMU reports neither. */
-static void discard_lists(void *run)
+static void discard_contacts_and_events(void *run)
 {
     double numbers[N_IMPACT_COLUMNS], t, y[N_S], latched[FMU_AT_LEAST(N_DISCRETE)];
     signed char state[FMU_AT_LEAST(N_CLEARANCES)];
@@ -186,10 +186,10 @@ static int advance_to(Model *model, double t)
     long done = 0;
     int status = 0;
     while (!status && done < 1) {
-        status = gudgeon_adaptive_run(model->run, model->motion, 1, &t, SLICE, model->y, model->latched, model->state,
-            &done);
+        status = gudgeon_adaptive_run(model->run, model->motion, 1, &t, MAX_STEPS_PER_CALL, model->y, model->latched,
+            model->state, &done);
         if (status == EVENTS_FULL) {
-            discard_lists(model->run);
+            discard_contacts_and_events(model->run);
             status = 0;
         }
     }
@@ -227,7 +227,7 @@ static int advance_to(Model *model, double t)
 #endif
 
 #if FMU_EXCHANGE
-static void convert_state(Model *model);
+static void synchronize_states(Model *model);
 #endif
 
 /* Evaluate all outputs at the present state of an instance, unless they are up to date. Return 0 or a status. */
@@ -240,7 +240,7 @@ static int evaluate_outputs(Model *model)
         return 0;
     model->moved = 0;
 #if FMU_EXCHANGE
-    convert_state(model);
+    synchronize_states(model);
 #endif
     return gudgeon_evaluate(1, &t, model->y, model->y + N_Q, model->latched, model->p, o->a, o->multipliers,
         o->reactions, o->torques, o->clearance, o->series, o->friction, o->energy, o->power, o->drift, &failed);

@@ -32,7 +32,7 @@ FMI3_EXPORT fmi3Status fmi3GetFloat64(fmi3Instance instance, const fmi3ValueRefe
             if (!model->begun && begin_run(model))
                 return fmi3Error;
             if (!model->exchange)
-                convert_state(model);
+                synchronize_states(model);
             value[k] = model->x[r - VR_STATES];
         } else if ((r >= VR_RATES && r < VR_RATES + N_Y)
             || (r >= VR_INDICATORS && r < VR_INDICATORS + N_INDICATORS)) {
@@ -41,7 +41,7 @@ FMI3_EXPORT fmi3Status fmi3GetFloat64(fmi3Instance instance, const fmi3ValueRefe
             if (!model->begun && begin_run(model))
                 return fmi3Error;
             if (!model->exchange)
-                convert_state(model);
+                synchronize_states(model);
             const int status = evaluate_exchange_rates(model, dx, &rhs);
             if (status)
                 return log_failure(model, "a constraint row depends on others", status);

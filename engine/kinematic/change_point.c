@@ -68,7 +68,7 @@ static int compute_branch_nodes(KinematicRun *run, double t, double d, const Pos
  * Return the value at the middle of the polynomial through one number of the first n nodes on either side. first:
  * address of that number in node[0]; in the other nodes it has the same offset.
  */
-static double interpolate_middle(const Position *node, int n, const double *first)
+static double interpolate_at_middle(const Position *node, int n, const double *first)
 {
     const size_t offset = (size_t)((const char *)first - (const char *)node);
     double sum = 0.0;
@@ -89,15 +89,15 @@ static void interpolate_position(const Position *node, double t, const Parameter
     position->interpolated = 1;
     position->last_correction = 0.0;
     for (int k = 0; k < N_Q; k++) {
-        position->q[k] = interpolate_middle(node, PASS_NODES, &node->q[k]);
-        position->v[k] = interpolate_middle(node, PASS_NODES, &node->v[k]);
-        position->a[k] = interpolate_middle(node, PASS_NODES, &node->a[k]);
+        position->q[k] = interpolate_at_middle(node, PASS_NODES, &node->q[k]);
+        position->v[k] = interpolate_at_middle(node, PASS_NODES, &node->v[k]);
+        position->a[k] = interpolate_at_middle(node, PASS_NODES, &node->a[k]);
     }
 #if POSITIONS_IN_TREE
     for (int k = 0; k < N_X; k++) {
-        position->s[k] = interpolate_middle(node, PASS_NODES, &node->s[k]);
-        position->s_rate[k] = interpolate_middle(node, PASS_NODES, &node->s_rate[k]);
-        position->s_second[k] = interpolate_middle(node, PASS_NODES, &node->s_second[k]);
+        position->s[k] = interpolate_at_middle(node, PASS_NODES, &node->s[k]);
+        position->s_rate[k] = interpolate_at_middle(node, PASS_NODES, &node->s_rate[k]);
+        position->s_second[k] = interpolate_at_middle(node, PASS_NODES, &node->s_second[k]);
     }
 #endif
     constraints(after_jump(t), position->q, p, phi);
@@ -126,7 +126,7 @@ static int pass_change_point(KinematicRun *run, double t, const Position *start,
             continue;
         interpolate_position(node, t, run->p, position);
         for (int k = 0; k < N_Q; k++)
-            difference[k] = position->q[k] - interpolate_middle(node, PASS_NODES - 1, &node->q[k]);
+            difference[k] = position->q[k] - interpolate_at_middle(node, PASS_NODES - 1, &node->q[k]);
         if (compute_angle_norm(difference, run->extent) <= PASS_POSITION_TOL)
             return 0;
         status = NEWTON_FAILED;
@@ -152,17 +152,17 @@ static int solve_position_near(KinematicRun *run, double t, const Position *star
  * Set `position` at time t to given q and v (N_Q), also at a change point. Return 0 or a status. At a change point the
  * smooth branch replaces it if the given velocities agree with that branch.
  */
-static int begin_position_near(KinematicRun *run, double t, const double *q, const double *v, Position *position)
+static int set_initial_position(KinematicRun *run, double t, const double *q, const double *v, Position *position)
 {
-    Position passed;
+    Position branch_position;
     double difference[N_Q];
     const int status = set_position(run, t, q, v, position);
-    if (status < 0 || !is_ill_conditioned(position) || pass_change_point(run, t, position, &passed))
+    if (status < 0 || !is_ill_conditioned(position) || pass_change_point(run, t, position, &branch_position))
         return status;
     for (int k = 0; k < N_Q; k++)
-        difference[k] = passed.v[k] - v[k];
+        difference[k] = branch_position.v[k] - v[k];
     if (!(compute_angle_norm(difference, run->extent) <= PASS_RATE_TOL * compute_angle_norm(position->v, run->extent)))
         return status;
-    *position = passed;
+    *position = branch_position;
     return 0;
 }

@@ -10,7 +10,7 @@
 
 /* A position with the values of event functions and, if has_error, their uncertainties. */
 typedef struct {
-    Position at;
+    Position position;
     double event[N_USER_EVENTS], error[N_WATCHED];
     int has_error;
 } SampledPosition;
@@ -24,16 +24,16 @@ static void evaluate_events(KinematicRun *run, SampledPosition *sample)
 {
     RhsOutputs rhs = {0};
     double a[N_Q];
-    (void)solve_accelerations(run, &sample->at, a, &rhs); /* a failure was reported before */
+    (void)solve_accelerations(run, &sample->position, a, &rhs); /* a failure was reported before */
     memcpy(sample->event, rhs.event, sizeof sample->event);
     sample->has_error = 0;
 }
 
 #if POSITIONS_IN_TREE
-enum { N_PLACE = N_X };
-#define positions_of(place) ((place)->s)
-#define rates_of(place) ((place)->s_rate)
-#define is_turn(k) is_angle[k]
+enum { N_COORDINATES = N_X };
+#define get_coordinates(position) ((position)->s)
+#define get_rates(position) ((position)->s_rate)
+#define is_angle_coordinate(k) is_angle[k]
 
 /*
  * Compute the remaining Newton step at a position, and store the velocities of the position as it is. Return 0 or a
@@ -44,10 +44,10 @@ static int compute_newton_step(Position *position, const Parameters *p, double *
     return close_step(after_jump(position->t), position->s, p, step, position->s_rate, &position->phi);
 }
 #else
-enum { N_PLACE = N_Q };
-#define positions_of(place) ((place)->q)
-#define rates_of(place) ((place)->v)
-#define is_turn(k) ((k) % 3 == 2)
+enum { N_COORDINATES = N_Q };
+#define get_coordinates(position) ((position)->q)
+#define get_rates(position) ((position)->v)
+#define is_angle_coordinate(k) ((k) % 3 == 2)
 
 /*
  * Compute the remaining Newton step at a position, and store the velocities of the position as it is. Return 0 or a
@@ -69,8 +69,8 @@ static int compute_newton_step(Position *position, const Parameters *p, double *
 static void compute_largest_speeds(const Position *position, double extent, double *speed)
 {
     speed[0] = speed[1] = 0.0;
-    for (int k = 0; k < N_PLACE; k++)
-        speed[is_turn(k)] = max_of(speed[is_turn(k)], fabs(rates_of(position)[k]));
+    for (int k = 0; k < N_COORDINATES; k++)
+        speed[is_angle_coordinate(k)] = max_of(speed[is_angle_coordinate(k)], fabs(get_rates(position)[k]));
     speed[0] = max_of(speed[0], extent * speed[1]);
     speed[1] = max_of(speed[1], speed[0] / extent);
 }
@@ -82,15 +82,17 @@ static void compute_largest_speeds(const Position *position, double extent, doub
  */
 static void perturb_position(const KinematicRun *run, const Position *position, int mask, Position *perturbed_position)
 {
-    double step[N_PLACE + 1], *q = positions_of(perturbed_position);
+    double step[N_COORDINATES + 1], *q = get_coordinates(perturbed_position);
     *perturbed_position = *position;
-    const int open = !compute_newton_step(perturbed_position, run->p, step);
-    for (int k = 0; k < N_PLACE; k++) {
-        const double size = ACCUMULATED_ULPS * DBL_EPSILON * max_of(is_turn(k) ? 1.0 : run->extent, fabs(q[k]));
-        q[k] += (k & mask ? -1.0 : 1.0) * (size + (open && isfinite(step[k]) ? CLOSING_STEPS * fabs(step[k]) : 0.0));
+    const int is_solved = !compute_newton_step(perturbed_position, run->p, step);
+    for (int k = 0; k < N_COORDINATES; k++) {
+        const double least = is_angle_coordinate(k) ? 1.0 : run->extent;
+        const double size = ACCUMULATED_ULPS * DBL_EPSILON * max_of(least, fabs(q[k]));
+        const double correction = is_solved && isfinite(step[k]) ? CLOSING_STEPS * fabs(step[k]) : 0.0;
+        q[k] += (k & mask ? -1.0 : 1.0) * (size + correction);
     }
     if (compute_newton_step(perturbed_position, run->p, step))
-        memcpy(rates_of(perturbed_position), rates_of(position), N_PLACE * sizeof *q);
+        memcpy(get_rates(perturbed_position), get_rates(position), N_COORDINATES * sizeof *q);
 }
 
 /*
@@ -102,28 +104,28 @@ static void perturb_position(const KinematicRun *run, const Position *position, 
  */
 static double estimate_event_uncertainty(const KinematicRun *run, SampledPosition *sample, int i)
 {
-    const Position *at = &sample->at;
-    double of_q[N_Q] = {0.0}, of_v[N_Q] = {0.0}, speed[2];
+    const Position *position = &sample->position;
+    double q_error[N_Q] = {0.0}, v_error[N_Q] = {0.0}, speed[2];
     if (sample->has_error)
         return sample->error[N_WATCHED - N_USER_EVENTS + i];
     for (int mask = 0; mask < 8; mask = mask ? 2 * mask : 1) {
         Position perturbed;
-        perturb_position(run, at, mask, &perturbed);
+        perturb_position(run, position, mask, &perturbed);
 #if POSITIONS_IN_TREE
-        if (arrive(after_jump(perturbed.t), perturbed.s, perturbed.s_rate, run->p, perturbed.s_second, perturbed.q,
-            perturbed.v,
-                perturbed.a, &perturbed.phi))
+        if (arrive(after_jump(perturbed.t), perturbed.s, perturbed.s_rate, run->p,
+            perturbed.s_second, perturbed.q, perturbed.v, perturbed.a, &perturbed.phi))
             continue;
 #endif
         for (int k = 0; k < N_Q; k++) {
-            of_q[k] += fabs(perturbed.q[k] - at->q[k]);
-            of_v[k] += fabs(perturbed.v[k] - at->v[k]);
+            q_error[k] += fabs(perturbed.q[k] - position->q[k]);
+            v_error[k] += fabs(perturbed.v[k] - position->v[k]);
         }
     }
-    compute_largest_speeds(at, run->extent, speed);
+    compute_largest_speeds(position, run->extent, speed);
     for (int k = 0; k < N_Q; k++)
-        of_v[k] += ACCUMULATED_ULPS * DBL_EPSILON * speed[k % 3 == 2];
-    estimate_error_by_bounds(at->t, at->q, at->v, of_q, of_v, N_Q, &(DiscreteState){0}, run->p, sample->error);
+        v_error[k] += ACCUMULATED_ULPS * DBL_EPSILON * speed[k % 3 == 2];
+    estimate_error_by_bounds(position->t, position->q, position->v, q_error, v_error, N_Q, &(DiscreteState){0}, run->p,
+        sample->error);
     sample->has_error = 1;
     return sample->error[N_WATCHED - N_USER_EVENTS + i];
 }
@@ -140,20 +142,20 @@ static double get_resolved_value(const KinematicRun *run, SampledPosition *sampl
 
 /*
  * The search for events. From Python: last signs, arrays of times and numbers, their capacity. Of the current step: its
- * length, the largest bound of each event function, the positions `here` at the beginning of the current part and `end`
- * at the ends of this and the n - 1 later parts, the last status.
+ * length, the largest bound of each event function, the positions at the beginning of the current part (`begin`) and at
+ * the ends of this and the n - 1 later parts (`end`), the last status.
  */
 typedef struct {
     KinematicRun *run;
     signed char *branch;
     double *t;
     int *event;
-    long found, capacity;
+    long n_found, capacity;
     double start; /* of the run: a zero on which it begins is not crossed */
     int stop;     /* whether an event may end the run */
-    unsigned char no_number[N_USER_EVENTS]; /* reported as undefined */
-    double h, most[N_USER_EVENTS];
-    SampledPosition here, *end;
+    unsigned char is_reported_undefined[N_USER_EVENTS]; /* reported as undefined */
+    double h, max_bound[N_USER_EVENTS];
+    SampledPosition begin, *end;
     int n, status;
     SampledPosition low, high; /* of event function i, before and after the zero that is located */
     int i;
@@ -165,9 +167,9 @@ typedef struct {
  */
 static int follow_motion(const Search *search, double t1, SampledPosition *sample)
 {
-    StepLength stride = {t1 - sample->at.t, 0};
-    while (sample->at.t < t1) {
-        const int status = make_step(search->run, &stride, t1, &sample->at);
+    StepLength stride = {t1 - sample->position.t, 0};
+    while (sample->position.t < t1) {
+        const int status = make_step(search->run, &stride, t1, &sample->position);
         if (status)
             return status;
     }
@@ -206,17 +208,18 @@ static int evaluate_event(void *context, double t, Sample *out)
  */
 static int locate_event(Search *search, int i, const SampledPosition *b, double *t, int *is_pole)
 {
-    const double from = search->here.at.t, to = b->at.t, end = b->event[i];
-    const ZeroTolerance near = {.width = max_of(1e-13 * (to - from), 4.0 * DBL_EPSILON * fabs(to))};
-    Bracket of_zero = {{{from, orient_event_value(end, search->here.event[i]), NAN},
-        {to, orient_event_value(end, end), NAN}}, 2};
-    search->low = search->here, search->high = *b, search->i = i;
-    const int status = locate_zero(evaluate_event, search, &near, MAX_POINTS, estimate_zero(&of_zero, 2), &of_zero);
+    const double t_begin = search->begin.position.t, t_end = b->position.t, end = b->event[i];
+    const ZeroTolerance tolerance = {.width = max_of(1e-13 * (t_end - t_begin), 4.0 * DBL_EPSILON * fabs(t_end))};
+    Bracket bracket = {{{t_begin, orient_event_value(end, search->begin.event[i]), NAN},
+        {t_end, orient_event_value(end, end), NAN}}, 2};
+    search->low = search->begin, search->high = *b, search->i = i;
+    const double guess = estimate_zero(&bracket, 2);
+    const int status = locate_zero(evaluate_event, search, &tolerance, MAX_POINTS, guess, &bracket);
     if (status)
         return status;
-    *t = of_zero.at[1].s;
-    const int lost = follow_motion(search, *t + POLE_DISTANCE * near.width, &search->low);
-    *is_pole = is_near_pole(search->high.event[i], lost ? INFINITY : search->low.event[i])
+    *t = bracket.at[1].s;
+    const int is_undefined = follow_motion(search, *t + POLE_DISTANCE * tolerance.width, &search->low);
+    *is_pole = is_near_pole(search->high.event[i], is_undefined ? INFINITY : search->low.event[i])
         && get_resolved_value(search->run, &search->high, i, 0) != 0.0;
     return 0;
 }
@@ -227,7 +230,7 @@ static int locate_event(Search *search, int i, const SampledPosition *b, double 
  */
 static int insert_event(Search *search, long first, double t, int event)
 {
-    long k = search->found;
+    long k = search->n_found;
     if (k == search->capacity)
         return EVENTS_FULL;
     for (; k > first && search->t[k - 1] > t; k--) {
@@ -236,39 +239,40 @@ static int insert_event(Search *search, long first, double t, int event)
     }
     search->t[k] = t;
     search->event[k] = event;
-    search->found++;
+    search->n_found++;
     return 0;
 }
 
 /*
- * Locate and collect all events of the part from search->here to b, and update the last signs. Return 0 or a status.
+ * Locate and collect all events of the part from search->begin to b, and update the last signs. Return 0 or a status.
  * Events that become undefined are reported once. Zeros at the start of the run do not count. After an event that ends
  * the run (EVENT_STOPS) later ones are discarded.
  */
 static int collect_events(Search *search, SampledPosition *b)
 {
-    const SampledPosition *a = &search->here;
-    const long first = search->found;
+    const SampledPosition *a = &search->begin;
+    const long first = search->n_found;
     for (int i = 0; i < N_USER_EVENTS; i++) {
-        double t = a->at.t;
+        double t = a->position.t;
         int is_pole = 0, status = 0;
-        if (isnan(b->event[i]) && !search->no_number[i]) {
-            search->no_number[i] = 1;
+        if (isnan(b->event[i]) && !search->is_reported_undefined[i]) {
+            search->is_reported_undefined[i] = 1;
             status = isnan(a->event[i]) ? 0 : locate_event(search, i, b, &t, &is_pole);
             if (!status)
                 status = insert_event(search, first, t, i + N_USER_EVENTS);
         } else if (detect_event_crossing(
                        i, &search->branch[i], get_resolved_value(search->run, b, i, search->branch[i]))) {
             status = locate_event(search, i, b, &t, &is_pole);
-            if (!status && !is_pole && t - search->start > 1e-12 * (b->at.t - a->at.t) + 16.0 * DBL_EPSILON * fabs(t))
+            const double rounding = 1e-12 * (b->position.t - a->position.t) + 16.0 * DBL_EPSILON * fabs(t);
+            if (!status && !is_pole && t - search->start > rounding)
                 status = insert_event(search, first, t, i);
         }
         if (status)
             return status;
     }
-    for (long k = first; k < search->found; k++)
+    for (long k = first; k < search->n_found; k++)
         if (search->stop && search->event[k] < N_USER_EVENTS && event_stops[search->event[k]]) {
-            search->found = k + 1;
+            search->n_found = k + 1;
             return EVENT_STOPS;
         }
     return 0;
@@ -280,10 +284,10 @@ static int collect_events(Search *search, SampledPosition *b)
  */
 static int is_zero_by_constraint(Search *search, SampledPosition *b, int i, Range f)
 {
-    const double part = (b->at.t - search->here.at.t) / search->h, most = max_of(-f.lo, f.hi);
-    const double error = estimate_event_uncertainty(search->run, &search->here, i);
-    return !f.partly && fabs(search->here.event[i]) <= error
-        && (most <= MAX_UNCERTAINTY_RATIO * error || is_narrowing(-most, part, -search->most[i]))
+    const double part = (b->position.t - search->begin.position.t) / search->h, most = max_of(-f.lo, f.hi);
+    const double error = estimate_event_uncertainty(search->run, &search->begin, i);
+    return !f.partly && fabs(search->begin.event[i]) <= error
+        && (most <= MAX_UNCERTAINTY_RATIO * error || is_narrowing(-most, part, -search->max_bound[i]))
         && get_resolved_value(search->run, b, i, 0) == 0.0;
 }
 
@@ -309,20 +313,20 @@ static void bound_motion(const Position *a, const Position *b, Range *q, Range *
 
 /*
  * Return whether bounds do not exclude a zero of some event function before b that the signs at both ends do not show.
- * Called for parts of a step from search->here; for a whole step the largest bounds are stored.
+ * Called for parts of a step from search->begin; for a whole step the largest bounds are stored.
  */
 static int may_have_hidden_zero(Search *search, SampledPosition *b)
 {
-    const SampledPosition *a = &search->here;
-    const double h = b->at.t - a->at.t;
+    const SampledPosition *a = &search->begin;
+    const double h = b->position.t - a->position.t;
     Range q[N_Q], v[N_Q], out[N_WATCHED];
-    bound_motion(&a->at, &b->at, q, v);
-    watched_ranges((Range){a->at.t, b->at.t, h, h, 0}, q, v, &(DiscreteState){0}, search->run->p, out);
+    bound_motion(&a->position, &b->position, q, v);
+    watched_ranges((Range){a->position.t, b->position.t, h, h, 0}, q, v, &(DiscreteState){0}, search->run->p, out);
     for (int i = 0; i < N_USER_EVENTS; i++) {
         const Range f = out[N_WATCHED - N_USER_EVENTS + i];
         const double branch = f.hi <= 0.0 || a->event[i] < 0.0 ? -1.0 : 1.0;
         if (h == search->h)
-            search->most[i] = max_of(-f.lo, f.hi);
+            search->max_bound[i] = max_of(-f.lo, f.hi);
         if (classify_zero(branch < 0.0 ? range_negative(f) : f, branch * a->event[i], branch * b->event[i], 1.0, 0) < 0
             && !is_zero_by_constraint(search, b, i, f))
             return 1;
@@ -331,7 +335,7 @@ static int may_have_hidden_zero(Search *search, SampledPosition *b)
 }
 
 /*
- * Classify the part from search->here to the last of search->end for bisect_parts(): 1 if a status ends the search, -1
+ * Classify the part from search->begin to the last of search->end for bisect_parts(): 1 if a status ends the search, -1
  * to halve it. If the part has no hidden zero, is smallest (`is_smallest`), or its middle cannot be solved, its events
  * are collected and 0 is returned. a, b: times of its ends, s.
  */
@@ -340,70 +344,73 @@ static int classify_part(void *context, double a, double b, int is_smallest)
     Search *search = context;
     SampledPosition *end = &search->end[search->n - 1];
     if (!is_smallest && may_have_hidden_zero(search, end)) {
-        end[1] = search->here;
+        end[1] = search->begin;
         if (!follow_motion(search, a + 0.5 * (b - a), &end[1])) {
             search->n++;
             return -1;
         }
     }
     search->status = collect_events(search, end);
-    search->here = *end;
+    search->begin = *end;
     search->n--;
     return search->status != 0;
 }
 
-/* Find the events from search->here to time t1, the next sample, step by step. Return 0 or a status. */
+/* Find the events from search->begin to time t1, the next sample, step by step. Return 0 or a status. */
 static int find_events_in_interval(Search *search, double t1)
 {
-    StepLength stride = {t1 - search->here.at.t, 0};
+    StepLength stride = {t1 - search->begin.position.t, 0};
     int status = 0;
-    while (!status && search->here.at.t < t1) {
-        *search->end = search->here;
-        status = make_step(search->run, &stride, t1, &search->end->at);
+    while (!status && search->begin.position.t < t1) {
+        *search->end = search->begin;
+        status = make_step(search->run, &stride, t1, &search->end->position);
         if (status)
             return status;
         evaluate_events(search->run, search->end);
         search->n = 1;
-        search->h = search->end->at.t - search->here.at.t;
-        (void)bisect_parts(search->here.at.t, search->end->at.t, SMALLEST_PART * search->h, classify_part, search);
+        search->h = search->end->position.t - search->begin.position.t;
+        (void)bisect_parts(search->begin.position.t, search->end->position.t, SMALLEST_PART * search->h, classify_part,
+            search);
         status = search->status;
     }
     return status;
 }
 
 /*
- * Find the user-defined events in the intervals between n + 1 samples of a kinematic motion, in order of time. branch:
- * last signs, updated; at, event: times (s) and numbers of `found` events; done: complete intervals. Return 0,
- * EVENT_STOPS after an event that ends the run, EVENTS_FULL if the capacity is used up, STOPPED, or the status of the
- * motion. An interval that is not complete is searched again by the next call.
+ * Find the user-defined events in the intervals between n + 1 samples of a kinematic motion, in order of time. start:
+ * time at which the run began, s; stop: whether an event may end it. branch: last signs, updated; event_time, event:
+ * times (s) and numbers of `n_found` events; n_done: number of complete intervals. Return 0, EVENT_STOPS after an event
+ * that ends the run, EVENTS_FULL if the capacity is used up, STOPPED, or the status of the motion. An interval that is
+ * not complete is searched again by the next call.
  */
 int gudgeon_kinematic_events(void *integrator, long n, const double *t, const double *parameters, const double *q,
-    const double *v, double start, int stop, signed char *branch, long capacity, double *at, int *event, long *found,
-    long *done)
+    const double *v, double start, int stop, signed char *branch, long capacity, double *event_time, int *event,
+    long *n_found, long *n_done)
 {
     KinematicRun *run = integrator;
     SampledPosition end[DEEPEST + 2];
-    Search search = {.run = run, .branch = branch, .t = at, .event = event, .capacity = capacity, .start = start,
-        .stop = stop, .end = end};
+    Search search = {.run = run, .branch = branch, .t = event_time, .event = event, .capacity = capacity,
+        .start = start, .stop = stop, .end = end};
     run->p = (const Parameters *)parameters;
-    for (*done = 0; *done < n; ++*done) {
+    for (*n_done = 0; *n_done < n; ++*n_done) {
         signed char signs[N_USER_EVENTS];
-        int status = begin_position_near(run, t[*done], q + *done * N_Q, v + *done * N_Q, &search.here.at);
+        const long row = *n_done * N_Q;
+        int status = set_initial_position(run, t[*n_done], q + row, v + row, &search.begin.position);
         if (status)
             return status;
-        evaluate_events(run, &search.here);
+        evaluate_events(run, &search.begin);
         for (int i = 0; i < N_USER_EVENTS; i++) {
-            (void)detect_event_crossing(i, &branch[i], branch[i] ? 0.0 : get_resolved_value(run, &search.here, i, 0));
+            (void)detect_event_crossing(i, &branch[i], branch[i] ? 0.0 : get_resolved_value(run, &search.begin, i, 0));
             signs[i] = branch[i]; /* the first sign, if there was none */
         }
-        *found = search.found;
-        status = find_events_in_interval(&search, t[*done + 1]);
+        *n_found = search.n_found;
+        status = find_events_in_interval(&search, t[*n_done + 1]);
         if (run->cancellation.stop)
             status = STOPPED; /* events of this interval are discarded */
         if (status == EVENTS_FULL || status == STOPPED)
             memcpy(branch, signs, sizeof signs);
         else
-            *found = search.found;
+            *n_found = search.n_found;
         if (status)
             return status;
     }

@@ -34,8 +34,8 @@ typedef struct {
     ProgressMonitor monitor;
     Position motion, work;
     int motion_begun, work_begun;
-    long passed;     /* samples that were interpolated at or near a change point */
-    double t_passed; /* the first of them, s */
+    long n_interpolated;     /* samples that were interpolated at or near a change point */
+    double t_interpolated; /* the first of them, s */
     double *step_record; /* rows of t, q, v at the ends of steps, fetched by Python; NULL: not recorded */
     long n_recorded, capacity;
 } KinematicRun;
@@ -78,8 +78,8 @@ void gudgeon_kinematic_progress(const void *integrator, double *t, double *gaine
 long gudgeon_kinematic_interpolated(const void *integrator, double *t)
 {
     const KinematicRun *run = integrator;
-    *t = run->t_passed;
-    return run->passed;
+    *t = run->t_interpolated;
+    return run->n_interpolated;
 }
 
 /* Record positions at the ends of steps into `rows` of (t, q, v), `capacity` of them; NULL: stop recording. */
@@ -123,10 +123,10 @@ static double get_larger_or_nan(double largest, double value)
  */
 static double compute_angle_norm(const double *change, double extent)
 {
-    double most = 0.0;
+    double largest = 0.0;
     for (int k = 0; k < N_Q; k++)
-        most = get_larger_or_nan(most, fabs(change[k]) / (k % 3 == 2 ? 1.0 : extent));
-    return most;
+        largest = get_larger_or_nan(largest, fabs(change[k]) / (k % 3 == 2 ? 1.0 : extent));
+    return largest;
 }
 
 #if POSITIONS_IN_TREE
@@ -169,8 +169,8 @@ static int is_uncertain_term(void *context, double fraction, int is_certain)
  */
 static int has_hidden_transient(double t0, double t1, const Parameters *p)
 {
-    static const double place[] = {0.0, 0.1127016653792583, 0.5, 0.8872983346207417, 1.0};
-    return find_undersampled_term(t0, t1 - t0, place, 5, is_uncertain_term, NULL, p) > 0.0;
+    static const double node[] = {0.0, 0.1127016653792583, 0.5, 0.8872983346207417, 1.0};
+    return find_undersampled_term(t0, t1 - t0, node, 5, is_uncertain_term, NULL, p) > 0.0;
 }
 #else
 /* Return 0: the scene has no terms of time alone. */
@@ -199,7 +199,7 @@ static int make_step(KinematicRun *run, StepLength *stride, double t1, Position 
 {
     const double max_error = 0.002 * run->max_correction;
     for (;;) {
-        Position next_position, passed;
+        Position next_position, position_past_change;
         double correction = 0.0, error = 0.0;
         if (is_cancelled(&run->cancellation))
             return STOPPED;
@@ -209,8 +209,9 @@ static int make_step(KinematicRun *run, StepLength *stride, double t1, Position 
         if (status == STOPPED)
             return status;
         if ((status || (next == t1 && is_ill_conditioned(&next_position))) && next > position->t
-            && are_constraints_finite(next, position, run->p) && !pass_change_point(run, next, position, &passed)) {
-            *position = passed;
+            && are_constraints_finite(next, position, run->p)
+            && !pass_change_point(run, next, position, &position_past_change)) {
+            *position = position_past_change;
             return 0;
         }
         const int is_near = !status && correction <= run->max_correction;
@@ -267,12 +268,12 @@ int gudgeon_kinematic(void *integrator, long n, const double *t, const double *p
     *done = 0;
     for (long i = run->motion_begun; i <= n; i++) {
         const int status = i > 0 ? follow_motion_to(run, t[i], position, steps)
-            : begin_position_near(run, t[0], q, v, position);
+            : set_initial_position(run, t[0], q, v, position);
         if (status)
             return status;
         run->motion_begun = 1;
-        if (position->interpolated && !run->passed++)
-            run->t_passed = t[i];
+        if (position->interpolated && !run->n_interpolated++)
+            run->t_interpolated = t[i];
         if (i > 0) {
             memcpy(q + i * N_Q, position->q, sizeof position->q);
             memcpy(v + i * N_Q, position->v, sizeof position->v);

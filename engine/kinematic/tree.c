@@ -8,8 +8,8 @@
 static int solve_accelerations(KinematicRun *run, const Position *position, double *a, RhsOutputs *rhs)
 {
     const DiscreteState discrete = {.token = &run->cancellation};
-    const int status = reduced_dynamics(after_jump(position->t), position->s, position->s_rate, &discrete, run->p, a,
-        rhs);
+    const int status =
+        reduced_dynamics(after_jump(position->t), position->s, position->s_rate, &discrete, run->p, a, rhs);
     return status > 0 ? N_LOOPS + status : status;
 }
 
@@ -48,10 +48,10 @@ static int solve_position_equations(const KinematicRun *run, double t, Position 
  */
 static int has_large_second_rates(const Position *start, double h, double extent)
 {
-    double most = 0.0;
+    double largest = 0.0;
     for (int k = 0; k < N_X; k++)
-        most = get_larger_or_nan(most, fabs(0.5 * h * h * start->s_second[k]) / (is_angle[k] ? 1.0 : extent));
-    return !(most <= MAX_SECOND_RATE_MOVE);
+        largest = get_larger_or_nan(largest, fabs(0.5 * h * h * start->s_second[k]) / (is_angle[k] ? 1.0 : extent));
+    return !(largest <= MAX_SECOND_RATE_MOVE);
 }
 
 /*
@@ -67,11 +67,11 @@ static int solve_position_at(const KinematicRun *run, double t, const Position *
     position->interpolated = 0;
     for (int k = 0; k < N_X; k++)
         position->s[k] = start->s[k] + h * (start->s_rate[k] + (half_h != 0.0 ? half_h * start->s_second[k] : 0.0));
-    const double then = after_jump(t);
-    const int status = solve_position_equations(run, then, position, correction);
+    const double t_after_jump = after_jump(t);
+    const int status = solve_position_equations(run, t_after_jump, position, correction);
     return status ? status
-        : arrive(then, position->s, position->s_rate, run->p, position->s_second, position->q, position->v, position->a,
-        &position->phi_dot);
+        : arrive(t_after_jump, position->s, position->s_rate, run->p, position->s_second, position->q,
+            position->v, position->a, &position->phi_dot);
 }
 
 /* Do nothing: a position in tree coordinates is complete. */
@@ -90,8 +90,8 @@ static int set_position(KinematicRun *run, double t, const double *q, const doub
     position->interpolated = 0;
     reduce_state(t, q, v, p, position->s, position->s_rate);
     if (!close_step(after_jump(t), position->s, p, step, rates, &position->phi)
-        && !arrive(after_jump(t), position->s, position->s_rate, p, position->s_second, position->q, position->v,
-        position->a, &position->phi_dot))
+        && !arrive(after_jump(t), position->s, position->s_rate, p, position->s_second,
+            position->q, position->v, position->a, &position->phi_dot))
         return 0;
     RhsOutputs rhs;
     position->last_correction = INFINITY;

@@ -29,31 +29,31 @@ static int integrate_work(
     static const double node[] = {-0.7745966692414834, 0.0, 0.7745966692414834};
     static const double weight[] = {5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0};
     const double half = 0.5 * (b->t - a->t);
-    double missed[N_Q], scale = 0.0;
+    double velocity_defect[N_Q], scale = 0.0;
     for (int k = 0; k < N_Q; k++)
-        missed[k] = b->v[k] - a->v[k];
+        velocity_defect[k] = b->v[k] - a->v[k];
     for (int i = 0; i < 3; i++) {
-        Position at;
+        Position node_position;
         double power[N_WORK], correction;
-        int status = solve_position_at(run, a->t + half * (1.0 + node[i]), a, &at, &correction);
+        int status = solve_position_at(run, a->t + half * (1.0 + node[i]), a, &node_position, &correction);
         if (!status)
-            status = compute_powers(run, &at, power);
+            status = compute_powers(run, &node_position, power);
         if (status)
             return status;
         for (int k = 0; k < N_WORK; k++) {
             if (!isfinite(power[k])) {
-                work[0] = at.t;
+                work[0] = node_position.t;
                 return NOT_FINITE;
             }
             work[k] += half * weight[i] * power[k];
         }
         for (int k = 0; k < N_Q; k++)
-            missed[k] -= half * weight[i] * at.a[k];
-        scale = get_larger_or_nan(scale, half * compute_angle_norm(at.a, run->extent));
+            velocity_defect[k] -= half * weight[i] * node_position.a[k];
+        scale = get_larger_or_nan(scale, half * compute_angle_norm(node_position.a, run->extent));
     }
-    const double most = compute_angle_norm(missed, run->extent);
+    const double jump = compute_angle_norm(velocity_defect, run->extent);
     /* or an acceleration is undefined: the slope of a rate is unbounded */
-    *has_jump = !(scale <= DBL_MAX) || (most > min_jump && most > 1e-6 * scale);
+    *has_jump = !(scale <= DBL_MAX) || (jump > min_jump && jump > 1e-6 * scale);
     return 0;
 }
 
@@ -75,13 +75,13 @@ static double compute_kinetic_energy(const Parameters *p, const Position *positi
 static int integrate_work_over_jumps(
     KinematicRun *run, const Position *a, const Position *b, double min_jump, int *halvings, double *work)
 {
-    double part[N_WORK] = {0.0}, correction;
+    double interval_work[N_WORK] = {0.0}, correction;
     int has_jump = 0;
-    int status = integrate_work(run, a, b, min_jump, part, &has_jump);
+    int status = integrate_work(run, a, b, min_jump, interval_work, &has_jump);
     const double t = a->t + 0.5 * (b->t - a->t);
     const int is_divisible = t > a->t && t < b->t;
     if (status == NOT_FINITE)
-        work[0] = part[0];
+        work[0] = interval_work[0];
     if ((status > 0 || status == NEWTON_FAILED) && is_divisible && *halvings > 0)
         has_jump = 1; /* a node at a change point */
     else if (status)
@@ -95,13 +95,13 @@ static int integrate_work_over_jumps(
         return status ? status : integrate_work_over_jumps(run, &middle, b, min_jump, halvings, work);
     }
     if (has_jump && !is_divisible)
-        part[0] = compute_kinetic_energy(run->p, b) - compute_kinetic_energy(run->p, a);
-    if (!isfinite(part[0])) {
+        interval_work[0] = compute_kinetic_energy(run->p, b) - compute_kinetic_energy(run->p, a);
+    if (!isfinite(interval_work[0])) {
         work[0] = t;
         return NOT_FINITE;
     }
     for (int k = 0; k < N_WORK; k++)
-        work[k] += part[k];
+        work[k] += interval_work[k];
     return 0;
 }
 
@@ -129,7 +129,7 @@ int gudgeon_kinematic_works(void *integrator, long n, const double *t, const dou
     Position position = run->work;
     run->p = (const Parameters *)parameters;
     *done = 0;
-    int status = run->work_begun ? 0 : begin_position_near(run, t[0], q, v, &position);
+    int status = run->work_begun ? 0 : set_initial_position(run, t[0], q, v, &position);
     for (long i = 0; i < n && !status; i++) {
         StepLength stride = {t[i + 1] - t[i], 0};
         double *sum = work + (i + 1) * N_WORK;

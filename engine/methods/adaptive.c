@@ -40,7 +40,7 @@ static int commit_step(Integrator *run, Step *step, double fraction, double t_ne
         return status;
     find_inner_peaks(run, step, fraction, p);
     flip_ignored_branches(run, step);
-    add_works(run, 1, step->y);
+    update_energy_scale(run, 1, step->y);
     for (int k = 0; k < N_Y; k++) {
         run->y[k] = step->y[k];
         run->dy[k] = step->dy[k];
@@ -111,8 +111,8 @@ static int store_samples_of_step(Integrator *run, Step *step, double t_new, cons
 static int record_step_interior(Integrator *run, Step *step, double fraction, int has_jump, const Parameters *p)
 {
     const long evaluations = run->counts.evaluations;
-    const double located = max_of(64.0 * DBL_EPSILON * fabs(step->t), 4.0 * run->roots.time_resolution) / step->h;
-    const double offset = max_of(JUMP_OFFSET * fraction, located);
+    const double event_width = max_of(64.0 * DBL_EPSILON * fabs(step->t), 4.0 * run->roots.time_resolution) / step->h;
+    const double offset = max_of(JUMP_OFFSET * fraction, event_width);
     if (!run->step_record.rows)
         return 0;
     int status = compute_dense_output(run, p, step);
@@ -216,7 +216,7 @@ static int find_event_of_step(
         if (h <= run->roots.time_resolution)
             break; /* the event is at the beginning of the step, where constraints do not differ */
         if (is_adaptive && !PERIODS && !is_far_beyond_knot(run, step, *fraction)
-            && !has_wrong_film_force_at_event(run, step, *fraction, p))
+            && !has_inaccurate_film_force_at_event(run, step, *fraction, p))
             break; /* a fixed step is repeated: its dense output may be of low order */
         status = repeat_step(run, h, t_end, p, step, fraction, event);
         set_next_step_length(run, next);
@@ -312,21 +312,22 @@ static int accept_step(Integrator *run, const Parameters *p, const Samples *samp
 }
 
 /*
- * Integrate a run towards the last of n output times t (s), with at most `limit` steps. Samples are stored from row
- * *done on, which counts them: states y, discrete states `latched`, contact codes `state`. Return 0 if all samples are
- * stored, or after `limit` steps: then *done < n, and the caller calls again. Return EVENTS_FULL if the caller must
- * fetch the lists first, STOPPED, or another status.
+ * Integrate a run towards the last of n output times t (s), with at most `max_steps` steps. Samples are stored from row
+ * *n_stored on, which counts them: states y, discrete states, contact codes. Return 0 if all samples are stored, or
+ * after `max_steps` steps: then *n_stored < n, and the caller calls again. Return EVENTS_FULL if the caller must fetch
+ * the lists first, STOPPED, or another status.
  */
-int gudgeon_adaptive_run(void *integrator, const double *parameters, long n, const double *t, long limit,
-    double *y, double *latched, signed char *state, long *done)
+int gudgeon_adaptive_run(void *integrator, const double *parameters, long n, const double *t, long max_steps,
+    double *y, double *discrete_states, signed char *contact_codes, long *n_stored)
 {
     Integrator *run = integrator;
     const Parameters *p = (const Parameters *)parameters;
-    const Samples samples = {.n = n, .done = done, .t = t, .y = y, .latched = latched, .state = state};
+    const Samples samples = {.n = n, .done = n_stored, .t = t, .y = y,
+        .latched = discrete_states, .state = contact_codes};
     int status;
     relink_methods(run);
     run->step.method = find_method_in_library(run->step.method);
-    for (long i = 0; prepare_step(run, i == limit, p, &samples, &status); i++) {
+    for (long i = 0; prepare_step(run, i == max_steps, p, &samples, &status); i++) {
         status = find_accepted_step(run, p, &run->step);
         if (!status)
             status = accept_step(run, p, &samples);

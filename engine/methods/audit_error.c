@@ -40,9 +40,9 @@ static int has_drive_jump_at_ends(const Integrator *run, const Step *step, const
 {
     for (int end = 0; end < 2 && N_DRIVES; end++) {
         const double t = end ? step->t + step->h : run->t;
-        double all[N_S];
-        convert_to_absolute(t, end ? step->y : run->y, &run->discrete, p, all);
-        if (has_drive_jump(t, all, all + N_Q, p))
+        double absolute_state[N_S];
+        convert_to_absolute(t, end ? step->y : run->y, &run->discrete, p, absolute_state);
+        if (has_drive_jump(t, absolute_state, absolute_state + N_Q, p))
             return 1;
     }
     return 0;
@@ -75,10 +75,10 @@ static const double gauss_weight[] = {0.17392742256872692, 0.32607257743127307, 
     0.17392742256872692};
 
 /*
- * Return the largest component of a step's `error` (2 N_X used) as a multiple of `limit` tolerances plus rounding of
- * the state. error_norm: set to the largest error less rounding, in tolerances.
+ * Return the largest component of a step's `error` (2 N_X used) as a multiple of `allowed_error` tolerances plus
+ * rounding of the state. error_norm: set to the largest error less rounding, in tolerances.
  */
-static double find_largest_error(const Integrator *run, const Step *step, const double *error, double limit,
+static double find_largest_error(const Integrator *run, const Step *step, const double *error, double allowed_error,
     double *error_norm)
 {
     double worst = 0.0;
@@ -86,7 +86,7 @@ static double find_largest_error(const Integrator *run, const Step *step, const 
     for (int k = 0; k < 2 * N_X; k++) {
         const double weight = compute_audit_weight(run, k);
         const double rounding = AUDIT_DIGITS * (fabs(step->y[k]) + fabs(step->h * step->dy[k]));
-        worst = max_of(worst, fabs(error[k]) * weight / (limit + rounding * weight));
+        worst = max_of(worst, fabs(error[k]) * weight / (allowed_error + rounding * weight));
         *error_norm = max_of(*error_norm, (fabs(error[k]) - rounding) * weight);
     }
     return worst;

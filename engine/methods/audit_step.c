@@ -34,17 +34,17 @@ static double compute_scaled_defect(Integrator *run, const Step *step, const dou
     const ErrorNorm *norm = &run->norm;
     const double lengths = norm->speed[0] + norm->speed_floor[0], angles = norm->speed[1] + norm->speed_floor[1];
     const double fast[2] = {1.0 / lengths, 1.0 / angles};
-    double missed[N_Y] = {0.0}, off[N_Y] = {0.0}, defect = known, least;
+    double rate_error[N_Y] = {0.0}, scaled_error[N_Y] = {0.0}, defect = known, least;
     for (int k = 0; k < rows; k++) {
-        missed[k] = rate[k] - dy[k];
-        off[k] = h * missed[k];
+        rate_error[k] = rate[k] - dy[k];
+        scaled_error[k] = h * rate_error[k];
     }
     for (int pass = 0; pass < 2; pass++) {
         defect = known, least = known * AUDIT_DEFECT;
         for (int k = 0; k < rows; k++) {
             /* compute_audit_weight() */
             const double weight = norm->inverse_scale[k] * (k < N_X ? 1.0 : fast[is_angle[k % N_X]]);
-            const double size = fabs(off[k]) * weight;
+            const double size = fabs(scaled_error[k]) * weight;
             if (size <= least)
                 continue;
             const double limit = AUDIT_DEFECT + AUDIT_DIGITS * (fabs(y[k]) + fabs(h * dy[k])) * weight;
@@ -53,7 +53,7 @@ static double compute_scaled_defect(Integrator *run, const Step *step, const dou
         }
         if (pass || defect <= 1.0 || !step->method->stiff || has_films() || factor_newton_matrix(run, h, p))
             break;
-        newton_solve(&run->newton.linear, h, 0.0, missed, off);
+        newton_solve(&run->newton.linear, h, 0.0, rate_error, scaled_error);
     }
     return defect > known ? defect : 0.0;
 }
@@ -70,17 +70,18 @@ static void check_dense_output_rates(Integrator *run, const Step *step, double t
 {
     for (int part = 0; part < (has_films() ? 1 : 2); part++) {
         const double slip = N_FRICTIONS ? AUDIT_SLIP / (part ? step->h : 1.0) : 0.0;
-        const double passed = max_of(min_of(fabs(t), step->h * (double)(run->counts.steps + 1)), step->h);
+        const double elapsed = max_of(min_of(fabs(t), step->h * (double)(run->counts.steps + 1)), step->h);
         const int bounded = !step->method->stiff && run->choice.stability > 1.0;
-        double off = 0.0, most = 0.0, allowed = max_of(AUDIT_DRIFT / passed, bounded ? AUDIT_BOUNDED / step->h : 0.0);
+        double allowed = max_of(AUDIT_DRIFT / elapsed, bounded ? AUDIT_BOUNDED / step->h : 0.0);
+        double largest_error = 0.0, largest_rate = 0.0;
         for (int k = part * N_X; k < (part + 1) * N_X; k++) {
             const double weight = compute_audit_weight(run, k), change = fabs(step->dy[k] - run->dy[k]);
-            off = max_of(off, fabs(rate[k] - dy[k]) * weight);
-            most = max_of(most, (fabs(dy[k]) + (part ? 0.0 : fabs(step->h * dy[N_X + k]))) * weight);
+            largest_error = max_of(largest_error, fabs(rate[k] - dy[k]) * weight);
+            largest_rate = max_of(largest_rate, (fabs(dy[k]) + (part ? 0.0 : fabs(step->h * dy[N_X + k]))) * weight);
             allowed = max_of(allowed, (AUDIT_CHANGE * change + AUDIT_DIGITS * fabs(y[k]) / step->h + slip) * weight);
         }
-        if (off <= AUDIT_RATE * most + allowed || !has_drive_jump_at_ends(run, step, p))
-            record_check(&run->audit, CHECK_rate, off, AUDIT_RATE * most + allowed, t, -1);
+        if (largest_error <= AUDIT_RATE * largest_rate + allowed || !has_drive_jump_at_ends(run, step, p))
+            record_check(&run->audit, CHECK_rate, largest_error, AUDIT_RATE * largest_rate + allowed, t, -1);
     }
 }
 
@@ -108,10 +109,10 @@ static void check_film_forces(Integrator *run, const Step *step, double t, const
     int joint;
     if (!has_films())
         return;
-    double most = find_largest_film_force(rhs, &joint);
+    double max_force = find_largest_film_force(rhs, &joint);
     for (int i = 0; i < N_CLEARANCES; i++)
-        most = has_film(i) ? max_of(most, FILM_FADED * run->contacts.F_peak[i]) : most;
-    const double fraction = compute_relative_film_error(run, step, rate, dy, most, 1.0);
+        max_force = has_film(i) ? max_of(max_force, FILM_FADED * run->contacts.F_peak[i]) : max_force;
+    const double fraction = compute_relative_film_error(run, step, rate, dy, max_force, 1.0);
     const double limit = compute_film_audit_limit(run, step);
     if (joint >= 0 && has_tolerance(run) && run->counts.steps > 0
         && (fraction <= limit || !has_drive_jump_at_ends(run, step, p)))
@@ -149,7 +150,7 @@ static void check_interior_state(Integrator *run, Step *step, double theta, int 
 static void check_interior_point(Integrator *run, Step *step, double theta, int is_random, const Parameters *p)
 {
     const double t = step->t + theta * step->h;
-    double y[N_Y], dy[N_Y], all[N_S];
+    double y[N_Y], dy[N_Y], absolute_state[N_S];
     RhsOutputs rhs;
     if (compute_dense_output(run, p, step))
         return;
@@ -162,10 +163,10 @@ static void check_interior_point(Integrator *run, Step *step, double theta, int 
     check_interior_state(run, step, theta, is_random, y, dy, &rhs, p);
     if (!is_random)
         return;
-    convert_to_absolute(t, y, &run->discrete, p, all);
-    check_constraints(run, t, all, !RATE_JUMPS, p);
+    convert_to_absolute(t, y, &run->discrete, p, absolute_state);
+    check_constraints(run, t, absolute_state, !RATE_JUMPS, p);
     if (is_branch_consistent(run, &rhs))
-        check_accelerations(run, t, y, dy, all, p);
+        check_accelerations(run, t, y, dy, absolute_state, p);
 }
 
 /*
@@ -259,31 +260,32 @@ static void audit_step(Integrator *run, Step *step, double fraction, int event, 
     const long evaluations = run->counts.evaluations;
     const int dense_ready = step->dense_ready;
     const double h = fraction * step->h;
-    const int all = audit->level == AUDIT_FULL, due = run->counts.steps >= audit->due;
-    const int whole = fraction >= 1.0 && event < 0;
-    const int is_longer = (h > AUDIT_LONGER * run->control.last_step || (whole && h > AUDIT_LONGEST * audit->longest))
-        && !step->method->controls_length
+    const int checks_all = audit->level == AUDIT_FULL, is_due = run->counts.steps >= audit->due;
+    const int is_whole = fraction >= 1.0 && event < 0;
+    const int is_long = h > AUDIT_LONGER * run->control.last_step || (is_whole && h > AUDIT_LONGEST * audit->longest);
+    const int is_longer = is_long && !step->method->controls_length
         && ((double)audit->longer + 1.0) * compute_mean_check_interval(step->method) < (double)run->counts.steps;
     const int by_turn = (int)(audit->turns % 2);
-    const int is_random = all || (due && !by_turn), measured = all || is_longer || (due && by_turn);
-    const int n_points = all ? AUDIT_INSIDE : is_random || (is_longer && !whole);
+    const int is_random = checks_all || (is_due && !by_turn);
+    const int is_measured = checks_all || is_longer || (is_due && by_turn);
+    const int n_points = checks_all ? AUDIT_INSIDE : is_random || (is_longer && !is_whole);
     check_event_zeros(run, step, fraction, event, p);
-    const int ends = event >= 0 && fraction < 1.0;
-    const int known = ends && run->counts.steps > 0 && run->roots.samples.beyond == fraction;
-    if (known)
+    const int has_end_event = event >= 0 && fraction < 1.0;
+    const int is_known = has_end_event && run->counts.steps > 0 && run->roots.samples.beyond == fraction;
+    if (is_known)
         check_interior_state(
             run, step, fraction, 0, run->roots.samples.y, run->roots.samples.dy, &run->roots.samples.rhs, p);
-    if (n_points || (ends && !known) || measured) {
+    if (n_points || (has_end_event && !is_known) || is_measured) {
         const DiscreteState discrete = run->discrete;
-        if (ends && !known)
+        if (has_end_event && !is_known)
             check_interior_point(run, step, fraction, 0, p);
         for (int k = 0; k < n_points; k++)
             check_interior_point(run, step, fraction * (k + draw_random(audit)) / n_points, is_random, p);
         if (is_random && fraction >= 1.0)
             check_rates_at_step_end(run, step, p);
-        if (measured && whole && has_tolerance(run))
+        if (is_measured && is_whole && has_tolerance(run))
             check_step_error(run, step, p);
-        if (is_random || (due && whole)) {
+        if (is_random || (is_due && is_whole)) {
             const double first = audit->turns++ ? 1.0 : AUDIT_FIRST;
             audit->due = run->counts.steps + 1 + (long)(2.0 * draw_random(audit) * first
                 * compute_mean_check_interval(step->method));

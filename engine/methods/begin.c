@@ -9,12 +9,13 @@ static int set_initial_event_signs(Integrator *run, const Parameters *p)
 {
     for (double fraction = 1e-6; fraction < 0.1; fraction *= 100.0) {
         double value[N_USER_EVENTS];
-        int zeros = 0;
+        int has_unset_sign = 0;
         for (int i = 0; i < N_USER_EVENTS; i++)
-            zeros |= run->discrete.event_sign[i] == 0;
+            has_unset_sign |= run->discrete.event_sign[i] == 0;
         const double ahead = fraction * run->control.h; /* s */
-        const int status = zeros ? extrapolate_event_functions(run, run->t, ahead, run->y, run->dy, p, value) : 0;
-        if (status || !zeros)
+        const int status =
+            has_unset_sign ? extrapolate_event_functions(run, run->t, ahead, run->y, run->dy, p, value) : 0;
+        if (status || !has_unset_sign)
             return fraction > 1e-6 ? 0 : status;
         for (int i = 0; i < N_USER_EVENTS; i++)
             if (run->discrete.event_sign[i] == 0)
@@ -83,8 +84,8 @@ static void set_inner_state_weights(Integrator *run, const Parameters *p)
 #if LAW_STATES
     const double length = is_angle[0] ? run->norm.least[0] / run->norm.least[1] : 1.0;
     for (int k = 0; k < N_STATES; k++) {
-        const double at = breakaway(p, k / LAW_STATES);
-        run->norm.weight[FIRST_STATE + k] = at > 0.0 ? run->norm.inverse_scale[2 * N_X - 1] / at
+        const double deflection = breakaway(p, k / LAW_STATES);
+        run->norm.weight[FIRST_STATE + k] = deflection > 0.0 ? run->norm.inverse_scale[2 * N_X - 1] / deflection
             : run->norm.inverse_scale[0] / length;
     }
 #else
@@ -100,9 +101,9 @@ static void set_inner_state_weights(Integrator *run, const Parameters *p)
 static int begin_run(Integrator *run, const Parameters *p)
 {
     if (DRIVE_IMPULSES) {
-        double all[N_S];
-        convert_to_absolute(run->t, run->y, &run->discrete, p, all);
-        if (has_drive_jump(run->t, all, all + N_Q, p))
+        double absolute_state[N_S];
+        convert_to_absolute(run->t, run->y, &run->discrete, p, absolute_state);
+        if (has_drive_jump(run->t, absolute_state, absolute_state + N_Q, p))
             project_state(run, just_after(run->t), run->y, p);
     }
     const int status = initialize_discrete_state(run, p);
@@ -150,21 +151,21 @@ static int begin_integration(Integrator *run, double time_left, const Parameters
 
 /*
  * Set the method, the tolerances and the step-size control of a run, before its first step. method: index from
- * gudgeon_method(); automatic: index of the stiff method to which the run may change, 0: none. scale (2 N_X):
- * tolerances, of velocities relative to speed. least: smallest relevant length (m) and angle (rad). fixed: length of
- * fixed steps, s; 0: step-size control.
+ * gudgeon_method(); stiff_method: index of the one to which the run may change, 0: none. scale (2 N_X): tolerances, of
+ * velocities relative to speed. min_size: smallest relevant length (m) and angle (rad). fixed_step: length of fixed
+ * steps, s; 0: step-size control.
  */
-void gudgeon_adaptive_setup(void *integrator, int method, int automatic, const double *scale, const double *least,
-    double fixed)
+void gudgeon_adaptive_setup(void *integrator, int method, int stiff_method, const double *scale,
+    const double *min_size, double fixed_step)
 {
     Integrator *run = integrator;
-    set_method_choice(run, method, automatic);
-    start_step_control(run, fixed);
+    set_method_choice(run, method, stiff_method);
+    start_step_control(run, fixed_step);
     initialize_root_finding(run);
     for (int k = 0; k < 2 * N_X; k++)
         run->norm.inverse_scale[k] = 1.0 / scale[k];
     run->norm.work_scale = max_of(1e-10, WORK_TOL * scale[2 * N_X - 1]); /* smaller: rounding of summed works */
-    run->norm.least[0] = least[0];
-    run->norm.least[1] = least[1];
+    run->norm.least[0] = min_size[0];
+    run->norm.least[1] = min_size[1];
     set_series_order(run, scale[2 * N_X - 1]);
 }

@@ -43,13 +43,13 @@ static double find_largest_film_force(const RhsOutputs *rhs, int *joint)
 static double compute_relative_film_error(const Integrator *run, const Step *step, const double *rate, const double *dy,
     double film_force, double scale_fraction)
 {
-    const double rounded = RATE_ROUNDED / step->h;
+    const double rate_rounding = RATE_ROUNDED / step->h;
     double difference[2] = {0.0, 0.0}, largest[2], fraction = 0.0;
     largest[0] = film_force / run->films.lightest;
     largest[1] = largest[0] * run->norm.least[1] / run->norm.least[0];
     for (int k = N_X; k < 2 * N_X && film_force > 0.0; k++) {
         const int kind = !!is_angle[k - N_X];
-        difference[kind] = max_of(difference[kind], fabs(rate[k] - dy[k]) - rounded * fabs(run->y[k]));
+        difference[kind] = max_of(difference[kind], fabs(rate[k] - dy[k]) - rate_rounding * fabs(run->y[k]));
         largest[kind] = max_of(largest[kind], scale_fraction * max_of(fabs(run->dy[k]),
             max_of(fabs(rate[k]), fabs(dy[k]))));
     }
@@ -123,7 +123,7 @@ static double measure_film_error(Integrator *run, Step *step, const Parameters *
  * Return whether the film forces of a stiff method exceed their error limit at an event at `fraction` of a step. The
  * state there is the start of the next step. Always 0 for explicit methods and without films.
  */
-static int has_wrong_film_force_at_event(Integrator *run, const Step *step, double fraction, const Parameters *p)
+static int has_inaccurate_film_force_at_event(Integrator *run, const Step *step, double fraction, const Parameters *p)
 {
     return has_films() && step->method->stiff && evaluate_relative_film_error(run, step, fraction, 0.0,
         p) > compute_film_error_limit(run);
@@ -192,7 +192,7 @@ static int is_film_error_small(const Integrator *run, const Step *step, double e
  * end_error: result of estimate_film_error_at_ends() with FILM_PART; if it exceeds 1, it must also exceed 1 with a
  * scale_fraction of 1.
  */
-static int has_wrong_film_force(const Integrator *run, const Step *step, double end_error)
+static int has_unresolved_film_force(const Integrator *run, const Step *step, double end_error)
 {
     return end_error > 1.0 && estimate_film_error_at_ends(run, step, 1.0) > 1.0;
 }

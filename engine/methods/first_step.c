@@ -68,12 +68,12 @@ static int compute_acceleration_change(Integrator *run, double h, const Paramete
  */
 static double compute_length_factor(const Integrator *run, double h, double change, double size, double allowed_error)
 {
-    const double missed = change * h;
-    if (!(missed > 0.0))
+    const double velocity_change = change * h;
+    if (!(velocity_change > 0.0))
         return INFINITY;
     return run->control.first_step_order > 0.0
-        ? approximate_power(allowed_error / missed, 1.0 / (run->control.first_step_order - 1.0))
-        : max_of(allowed_error * size / change, sqrt(1.0 / missed));
+        ? approximate_power(allowed_error / velocity_change, 1.0 / (run->control.first_step_order - 1.0))
+        : max_of(allowed_error * size / change, sqrt(1.0 / velocity_change));
 }
 
 /*

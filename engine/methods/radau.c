@@ -63,9 +63,9 @@ static int radau_compute_dense_output(Integrator *run, Step *step, const RadauTa
     memset(d, 0, sizeof step->dense);
     for (int k = 0; k < stages; k++)
         for (int s = 0; s < stages; s++) {
-            const double *of = s < stages - 1 ? step->k[s] : change, factor = table->dense[k][s];
+            const double *values = s < stages - 1 ? step->k[s] : change, factor = table->dense[k][s];
             for (int i = 0; i < N_Y; i++)
-                d[k][i] += factor * of[i];
+                d[k][i] += factor * values[i];
         }
     for (int i = 0; i < N_X && !has_films(); i++) {
         const int v = N_X + i;

@@ -202,10 +202,10 @@ static int finish_step(Integrator *run, Step *step, const Parameters *p)
         return NOT_FINITE;
     memcpy(before, step->y, sizeof before);
     project_unless_stabilised(run, step->t + step->h, step->y, p);
-    const double missed = compute_constraint_distance(run, before, step->y);
-    if (missed > max_of(MAX_CONSTRAINT_DRIFT, CONSTRAINT_ROUNDING / get_rtol(run)) && run->counts.steps > 0
+    const double constraint_distance = compute_constraint_distance(run, before, step->y);
+    if (constraint_distance > max_of(MAX_CONSTRAINT_DRIFT, CONSTRAINT_ROUNDING / get_rtol(run)) && run->counts.steps > 0
         && run->control.attempt.n_drift_rejections++ < MAX_DRIFT_REJECTIONS)
-        step->error = max_of(step->error, missed);
+        step->error = max_of(step->error, constraint_distance);
     project_closed_contacts(run, step->t + step->h, step->y, p);
     const int status = evaluate_rates_at_rest(run, step->t + step->h, step->y, p, step->dy, &step->rhs);
     return status ? status : all_finite(step->dy, N_Y) ? 0 : NOT_FINITE;

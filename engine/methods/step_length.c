@@ -64,25 +64,26 @@ static void relink_methods(Integrator *run)
 
 /*
  * Set the first method of a run by its index from gudgeon_method(), and the stiff method to which it may change.
- * automatic: index of that stiff method; 0: the method never changes.
+ * stiff_method: its index; 0: the method never changes.
  */
-static void set_method_choice(Integrator *run, int method, int automatic)
+static void set_method_choice(Integrator *run, int method, int stiff_method)
 {
     run->choice.method = METHODS[method];
-    run->choice.automatic = automatic > 0;
-    run->choice.implicit = METHODS[automatic];
-    run->choice.patience = automatic && METHODS[method]->stiff ? 4 * PATIENCE : PATIENCE;
+    run->choice.automatic = stiff_method > 0;
+    run->choice.implicit = METHODS[stiff_method];
+    run->choice.patience = stiff_method && METHODS[method]->stiff ? 4 * PATIENCE : PATIENCE;
 }
 
 /*
- * Start the step-size control of a run at its present time. fixed: length of all steps, s; 0: error norms determine it.
+ * Start the step-size control of a run at its present time. fixed_step: length of all steps, s; 0: error norms
+ * determine it.
  */
-static void start_step_control(Integrator *run, double fixed)
+static void start_step_control(Integrator *run, double fixed_step)
 {
-    run->control.fixed = run->control.h = fixed;
+    run->control.fixed = run->control.h = fixed_step;
     run->control.grid = run->t;
     run->control.error_before = MIN_LAST_ERROR;
-    run->control.accept = fixed > 0.0 ? INFINITY : 1.0;
+    run->control.accept = fixed_step > 0.0 ? INFINITY : 1.0;
 }
 
 /*
@@ -345,7 +346,7 @@ static void open_attempt(Integrator *run, double t_end, const Parameters *p)
 /*
  * Prepare another attempt at the step with length run->control.attempt.h, by the method that the run now has. Return 0.
  */
-static int retry_step(Integrator *run)
+static int prepare_retry(Integrator *run)
 {
     run->control.attempt.lane = run->choice.method->lane;
     return 0;
@@ -366,7 +367,7 @@ static int is_step_accepted(Integrator *run, int trial_status, const Parameters 
     *status = trial_status;
     if (N_SWITCHES > 0 && is_fixed && trial_status == NOT_FINITE && run->discrete.held) {
         run->discrete.held = 0; /* until the step is committed: a held branch may be NaN beyond its switching point */
-        return retry_step(run);
+        return prepare_retry(run);
     }
     if (trial_status == STOPPED || is_fixed)
         return 1;
@@ -386,21 +387,21 @@ static int is_step_accepted(Integrator *run, int trial_status, const Parameters 
             change_method(run);
         else
             attempt->h *= method->bounded / run->choice.stability;
-        return retry_step(run);
+        return prepare_retry(run);
     }
     if (is_good && FLIGHT_STEP_SLACK * compute_flight_step_limit(run, step, p) < attempt->h) {
         attempt->again = 1;
         count_rejected(run);
         attempt->h *= SHRINK_FLIGHT_STEP;
-        return retry_step(run);
+        return prepare_retry(run);
     }
     const int unresolved = is_good && is_unresolved(run, step, p);
-    if (is_good && (unresolved || has_wrong_film_force(run, step, end_error))
+    if (is_good && (unresolved || has_unresolved_film_force(run, step, end_error))
         && attempt->n_shortened++ < MAX_SHORTENED) {
         attempt->again = 1;
         count_rejected(run);
         attempt->h *= SHRINK_UNRESOLVED;
-        return retry_step(run);
+        return prepare_retry(run);
     }
     const double transient = is_good && attempt->h > MIN_TRANSIENT_FRACTION * attempt->far
         ? find_missed_transient(run, step, p) : 0.0;
@@ -408,7 +409,7 @@ static int is_step_accepted(Integrator *run, int trial_status, const Parameters 
         attempt->again = 1;
         count_rejected(run);
         attempt->h *= max_of(SHRINK_UNRESOLVED, TRANSIENT_PART * transient);
-        return retry_step(run);
+        return prepare_retry(run);
     }
     if (is_good) {
         choose_next_length(run, step, attempt->again, attempt->h < attempt->left);
@@ -421,11 +422,11 @@ static int is_step_accepted(Integrator *run, int trial_status, const Parameters 
     attempt->h *= trial_status == NOT_FOUND ? SHRINK_NEWTON : trial_status ? SHRINK_FAILED
         : compute_shrink_factor(run, step);
     if (attempt->h > min_length)
-        return retry_step(run);
+        return prepare_retry(run);
     if (N_SWITCHES > 0 && trial_status == NOT_FINITE && run->discrete.held) {
         run->discrete.held = 0; /* until the step is committed: a held branch may be NaN beyond its switching point */
         attempt->h = attempt->longest;
-        return retry_step(run);
+        return prepare_retry(run);
     }
     if (!run->choice.automatic || !method->stiff || attempt->methods_failed++) {
         *status = trial_status ? trial_status : diagnose_stall(run, TOO_SMALL, p);
@@ -433,7 +434,7 @@ static int is_step_accepted(Integrator *run, int trial_status, const Parameters 
     }
     change_method(run); /* its matrix is singular with dependent constraints; the explicit method can continue */
     attempt->h = attempt->longest;
-    return retry_step(run);
+    return prepare_retry(run);
 }
 
 /*

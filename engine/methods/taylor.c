@@ -45,7 +45,7 @@ static int expand_series(Integrator *run, const Parameters *p)
     if (status)
         return status;
     count_evaluations(run, run->series.ready != IN_LANE);
-    run->series.max_step = taylor_limit_length(run);
+    run->series.max_step = taylor_compute_max_length(run);
     run->series.ready = IN_RUN;
     return 0;
 }

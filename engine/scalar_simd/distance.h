@@ -8,7 +8,7 @@
  */
 static Real compute_constraint_distance(const IntegratorOf *run, const Real *y_before, const Real *y_after)
 {
-    Real distance = real_of(0.0);
+    Real distance = make_real(0.0);
     for (int k = 0; k < 2 * N_X && N_LOOPS > 0; k++)
         distance = real_max((real_abs(y_after[k] - y_before[k]) - ROUNDING_DIGITS * real_abs(y_after[k]))
             * run->norm.weight[k], distance);
@@ -32,12 +32,12 @@ static inline void record_stability(IntegratorOf *run, Real stability) { run->ch
 static inline void record_end_stability(IntegratorOf *run, const StepOf *step, Real h, const Real *stage_y,
     const Real *stage_rates)
 {
-    Real change = real_of(0.0), distance = real_of(0.0);
+    Real change = make_real(0.0), distance = make_real(0.0);
     for (int k = 0; k < N_MOTION; k++) {
         const int i = get_motion_index(k);
         const Real weight = run->norm.weight[i];
         change = real_max(real_abs(step->dy[i] - stage_rates[i]) * weight, change);
         distance = real_max(real_abs(step->y[i] - stage_y[i]) * weight, distance);
     }
-    record_stability(run, pick(distance > MIN_RESOLVED, h * change / distance, real_of(0.0)));
+    record_stability(run, pick(distance > MIN_RESOLVED, h * change / distance, make_real(0.0)));
 }

@@ -103,20 +103,20 @@ static void dop853_compute_stage(int s, Real h, const Real *y0, Real (*k)[N_Y], 
 static Real dop853_estimate_error(const IntegratorOf *run, const StepOf *step)
 {
     const Real (*k)[N_Y] = (const Real (*)[N_Y])step->k;
-    Real five = real_of(0.0), three = real_of(0.0);
+    Real error_5 = make_real(0.0), error_3 = make_real(0.0);
     for (int i = 0; i < N_Y; i++) {
-        const Real by = run->norm.weight[i];
-        const Real of_5 = 0.01312004499419488 * k[0][i] - 1.2251564463762044 * k[5][i]
+        const Real weight = run->norm.weight[i];
+        const Real sum_5 = 0.01312004499419488 * k[0][i] - 1.2251564463762044 * k[5][i]
             - 0.4957589496572502 * k[6][i] + 1.6643771824549864 * k[7][i] - 0.35032884874997366 * k[8][i]
             + 0.3341791187130175 * k[9][i] + 0.08192320648511571 * k[10][i] - 0.022355307863886294 * k[11][i];
-        const Real of_3 = -0.18980075407240762 * k[0][i] + 4.450312892752409 * k[5][i]
+        const Real sum_3 = -0.18980075407240762 * k[0][i] + 4.450312892752409 * k[5][i]
             + 1.8915178993145003 * k[6][i] - 5.801203960010585 * k[7][i] - 0.4226823213237919 * k[8][i]
             - 0.1521609496625161 * k[9][i] + 0.20136540080403034 * k[10][i] + 0.02265179219836082 * k[11][i];
-        five = real_max(real_abs(of_5) * by, five);
-        three = real_max(real_abs(of_3) * by, three);
+        error_5 = real_max(real_abs(sum_5) * weight, error_5);
+        error_3 = real_max(real_abs(sum_3) * weight, error_3);
     }
-    const Real both = five * five + 0.01 * three * three;
-    return pick(both > 0.0, real_abs(step->h) * five * five / real_sqrt(both), five);
+    const Real squares = error_5 * error_5 + 0.01 * error_3 * error_3;
+    return pick(squares > 0.0, real_abs(step->h) * error_5 * error_5 / real_sqrt(squares), error_5);
 }
 
 /*

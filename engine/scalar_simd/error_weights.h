@@ -5,7 +5,7 @@
  * Add the magnitudes of the works of an accepted step to the energy scale of a run, J. y: the state at the step's end.
  * is_accepted: mask of the runs whose step is accepted. Called before run->y is replaced.
  */
-static void add_works(IntegratorOf *run, Mask is_accepted, const Real *y)
+static void update_energy_scale(IntegratorOf *run, Mask is_accepted, const Real *y)
 {
     for (int k = 2 * N_X; k < 2 * N_X + N_WORK; k++) {
         const Real energy = run->norm.energy_scale + real_abs(y[k] - run->y[k]);

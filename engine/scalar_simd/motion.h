@@ -2,7 +2,7 @@
 
 /*
  * Compute the rates dy of the integrated state y: tree coordinates, their rates, works. Return 0 or a status. rhs:
- * outputs of the right-hand side in addition. Defined as evaluate_rhs() for one run and as motion() for lanes.
+ * outputs of the right-hand side in addition. Defined as evaluate_rhs() for one run, as evaluate_lane_rhs() for lanes.
  */
 FUNCTION_LINKAGE int MOTION(Real t, const Real *y, DiscreteStateOf *discrete, const ParametersOf *p, Real *dy,
     RhsOutputsOf *rhs)
@@ -10,7 +10,7 @@ FUNCTION_LINKAGE int MOTION(Real t, const Real *y, DiscreteStateOf *discrete, co
     const int status = REDUCED_DYNAMICS(t, y, y + N_X, discrete, p, dy + N_X, rhs);
 #ifdef N_IDLE
     for (int i = 0; i < N_IDLE; i++)
-        rhs->g[idle[i]] = real_of(NAN); /* these switching functions are not in use */
+        rhs->g[idle[i]] = make_real(NAN); /* these switching functions are not in use */
 #endif
     for (int k = 0; k < N_X; k++)
         dy[k] = y[N_X + k];

@@ -7,7 +7,7 @@
  */
 static void project_onto_constraints(IntegratorOf *run, Real t, Real *y, const ParametersOf *p)
 {
-    Mask is_active = is_not((Mask){0});
+    Mask is_active = invert_mask((Mask){0});
     for (int pass = 0; pass < 3 && N_LOOPS > 0; pass++) {
         Real dq[N_X], dv[N_X], residual;
         is_active = find_closure_correction(run, is_active, t, y, p, dq, dv, &residual);
@@ -17,7 +17,7 @@ static void project_onto_constraints(IntegratorOf *run, Real t, Real *y, const P
             y[k] = pick(is_active, y[k] - dq[k], y[k]);
             y[N_X + k] = pick(is_active, y[N_X + k] - dv[k], y[N_X + k]);
         }
-        is_active &= is_not(residual < 1e-15);
+        is_active &= invert_mask(residual < 1e-15);
         if (!any_of(is_active))
             return;
     }

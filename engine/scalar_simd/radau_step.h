@@ -15,8 +15,8 @@ static void RADAU(guess_stages)(const IntegratorOf *run, Real h, Real (*z)[N_Y])
         const Real two = 3.0 * distance + d0 + 2.0 * d1, three = 2.0 * distance + d0 + d1;
         for (int s = 0; s < RADAU_STAGES; s++) {
             const Real t = RADAU_TABLE.node[s] * h, x = t / H;
-            const Real led = i < N_X ? t * (run->dy[i] + 0.5 * t * run->dy[N_X + i]) : t * run->dy[i];
-            z[s][i] = pick(run->newton.continues, x * (d1 + x * (two + x * three)), led);
+            const Real by_rates = i < N_X ? t * (run->dy[i] + 0.5 * t * run->dy[N_X + i]) : t * run->dy[i];
+            z[s][i] = pick(run->newton.continues, x * (d1 + x * (two + x * three)), by_rates);
         }
     }
 }
@@ -42,7 +42,7 @@ static int RADAU(factor_matrices)(IntegratorOf *run, Real h, ComplexLinearOf *co
 static void RADAU(compute_newton_correction)(const IntegratorOf *run, Real h, const ComplexLinearOf *complex_matrices,
     Real (*f)[N_Y], Real (*z)[N_Y], Real (*change)[N_Y])
 {
-    Real w[RADAU_STAGES][N_Y], r[RADAU_STAGES][N_Y], both[2 * N_Y], u[2 * N_Y];
+    Real w[RADAU_STAGES][N_Y], r[RADAU_STAGES][N_Y], right_side[2 * N_Y], u[2 * N_Y];
     const Real inverse_h = 1.0 / h;
     for (int k = 0; k < RADAU_STAGES; k++) {
         const double *row = RADAU_TABLE.from_stages[k];
@@ -61,15 +61,15 @@ static void RADAU(compute_newton_correction)(const IntegratorOf *run, Real h, co
     }
     for (int i = 0; i < N_Y; i++)
         r[0][i] -= RADAU_TABLE.gamma * w[0][i];
-    newton_solve(&run->newton.linear, h * (1.0 / RADAU_TABLE.gamma), real_of(0.0), r[0], w[0]);
+    newton_solve(&run->newton.linear, h * (1.0 / RADAU_TABLE.gamma), make_real(0.0), r[0], w[0]);
     for (int k = 0; 2 * k + 1 < RADAU_STAGES; k++) {
         const double re = RADAU_TABLE.pair[k][0], im = RADAU_TABLE.pair[k][1], square = re * re + im * im;
         Real *const x = w[2 * k + 1], *const y = w[2 * k + 2];
         for (int i = 0; i < N_Y; i++) {
-            both[2 * i] = r[2 * k + 1][i] - (re * x[i] - im * y[i]);
-            both[2 * i + 1] = r[2 * k + 2][i] - (re * y[i] + im * x[i]);
+            right_side[2 * i] = r[2 * k + 1][i] - (re * x[i] - im * y[i]);
+            right_side[2 * i + 1] = r[2 * k + 2][i] - (re * y[i] + im * x[i]);
         }
-        newton_solve_complex(&complex_matrices[k], h * (re / square), h * (-im / square), both, u);
+        newton_solve_complex(&complex_matrices[k], h * (re / square), h * (-im / square), right_side, u);
         for (int i = 0; i < N_Y; i++) {
             x[i] = u[2 * i];
             y[i] = u[2 * i + 1];
@@ -94,12 +94,12 @@ static void RADAU(compute_newton_correction)(const IntegratorOf *run, Real h, co
 static int RADAU(evaluate_stages)(IntegratorOf *run, Real h, Mask is_active, Real (*z)[N_Y], const ParametersOf *p,
     StepOf *step, Real (*f)[N_Y], Real (*force)[RADAU_STAGES][2], Real *force_change)
 {
-    Real y[N_Y], most[AT_LEAST_ONE(N_CLEARANCES)], change[AT_LEAST_ONE(N_CLEARANCES)];
+    Real y[N_Y], largest[AT_LEAST_ONE(N_CLEARANCES)], change[AT_LEAST_ONE(N_CLEARANCES)];
     RhsOutputsOf rhs;
     begin_stage_iteration(run, step, is_active, RADAU_STAGES);
     for (int i = 0; i < N_CLEARANCES; i++) {
-        most[i] = real_abs(run->rhs.clearance[i].Fx) + real_abs(run->rhs.clearance[i].Fy);
-        change[i] = real_of(0.0);
+        largest[i] = real_abs(run->rhs.clearance[i].Fx) + real_abs(run->rhs.clearance[i].Fy);
+        change[i] = make_real(0.0);
     }
     for (int s = 0; s < RADAU_STAGES; s++) {
         for (int i = 0; i < N_Y; i++)
@@ -113,15 +113,15 @@ static int RADAU(evaluate_stages)(IntegratorOf *run, Real h, Mask is_active, Rea
             if (!has_film(i))
                 continue;
             change[i] = real_max(real_abs(Fx - force[i][s][0]) + real_abs(Fy - force[i][s][1]), change[i]);
-            most[i] = real_max(real_abs(Fx) + real_abs(Fy), most[i]);
+            largest[i] = real_max(real_abs(Fx) + real_abs(Fy), largest[i]);
             force[i][s][0] = Fx;
             force[i][s][1] = Fy;
         }
     }
-    *force_change = real_of(0.0);
+    *force_change = make_real(0.0);
     for (int i = 0; i < N_CLEARANCES; i++)
         if (has_film(i))
-            *force_change = real_max(change[i] / real_max(most[i], real_of(DBL_MIN)), *force_change);
+            *force_change = real_max(change[i] / real_max(largest[i], make_real(DBL_MIN)), *force_change);
     return 0;
 }
 
@@ -134,54 +134,55 @@ static int RADAU(evaluate_stages)(IntegratorOf *run, Real h, Mask is_active, Rea
 static int RADAU(solve_stages)(IntegratorOf *run, Real h, const ComplexLinearOf *complex_matrices,
     const ParametersOf *p, StepOf *step, Mask *has_failed)
 {
-    Real f[RADAU_STAGES][N_Y], change[RADAU_STAGES][N_Y], before = real_of(1.0), force_change;
+    Real f[RADAU_STAGES][N_Y], change[RADAU_STAGES][N_Y], before = make_real(1.0), force_change;
     Real force[AT_LEAST_ONE(N_CLEARANCES)][RADAU_STAGES][2] = {0};
     /* the convergence rate of an earlier step is less certain for this one: power 3/4 */
-    const Real known = real_sqrt(run->newton.convergence_rate) * real_sqrt(real_sqrt(run->newton.convergence_rate));
-    Real convergence_rate = pick(run->newton.convergence_rate > 0.0, known, real_of(0.5));
+    const Real last_rate = real_sqrt(run->newton.convergence_rate) * real_sqrt(real_sqrt(run->newton.convergence_rate));
+    Real convergence_rate = pick(run->newton.convergence_rate > 0.0, last_rate, make_real(0.5));
     Real (*const z)[N_Y] = step->k;
     /* rounding bounds the accuracy of the stages; with fixed steps the iteration goes down to it */
-    Real rounded = real_of(0.0);
+    Real rounding = make_real(0.0);
     for (int i = 0; i < N_Y; i++)
-        rounded = real_max(real_abs(run->y[i]) * run->norm.weight[i], rounded);
-    rounded *= RADAU_ROUNDED;
-    const Real enough = real_max(pick(run->control.accept <= DBL_MAX, real_of(RADAU_STAGE_TOL), rounded), rounded);
-    Mask is_active = is_not((Mask){0});
+        rounding = real_max(real_abs(run->y[i]) * run->norm.weight[i], rounding);
+    rounding *= RADAU_ROUNDED;
+    const Real tolerance = pick(run->control.accept <= DBL_MAX, make_real(RADAU_STAGE_TOL), rounding);
+    const Real max_error = real_max(tolerance, rounding);
+    Mask is_active = invert_mask((Mask){0});
     *has_failed = (Mask){0};
     const int controlled = any_of(run->control.accept <= DBL_MAX);
-    const int patience = controlled ? RADAU_MAX_ITERATIONS : RADAU_MAX_FIXED_ITERATIONS;
+    const int max_passes = controlled ? RADAU_MAX_ITERATIONS : RADAU_MAX_FIXED_ITERATIONS;
     const double max_ratio = controlled ? 0.9 : 2.0; /* a fixed step may begin with a bad guess */
-    for (int pass = 0; pass < patience && any_of(is_active); pass++) {
+    for (int pass = 0; pass < max_passes && any_of(is_active); pass++) {
         const int status = RADAU(evaluate_stages)(run, h, is_active, z, p, step, f, force, &force_change);
         if (status)
             return status;
         RADAU(compute_newton_correction)(run, h, complex_matrices, f, z, change);
-        Real distance = real_of(0.0);
+        Real distance = make_real(0.0);
         for (int s = 0; s < RADAU_STAGES; s++)
             for (int i = 0; i < N_Y; i++) {
                 z[s][i] = pick(is_active, z[s][i] + change[s][i], z[s][i]);
                 distance = real_max(real_abs(change[s][i]) * run->norm.weight[i], distance);
             }
-        distance = pick(is_active, distance, real_of(0.0));
+        distance = pick(is_active, distance, make_real(0.0));
         if (is_error_not_finite(run, distance))
             return NOT_FINITE;
-        Mask found = is_active & (distance <= rounded);
+        Mask found = is_active & (distance <= rounding);
         if (pass > 0)
-            convergence_rate = pick(is_active & is_not(found), distance / before, convergence_rate);
+            convergence_rate = pick(is_active & invert_mask(found), distance / before, convergence_rate);
         /* a film force is linear in the velocity by sectors of its direction: the first change may miss the sector */
         if (pass > has_films()) {
             /* the change no longer decreases */
-            found |= is_active & is_not(convergence_rate < 0.9) & (distance <= RADAU_NOISE * rounded)
+            found |= is_active & invert_mask(convergence_rate < 0.9) & (distance <= RADAU_NOISE * rounding)
                 & (force_change <= run->newton.force_found);
-            *has_failed |= is_active & is_not(found | (convergence_rate < max_ratio));
+            *has_failed |= is_active & invert_mask(found | (convergence_rate < max_ratio));
             is_active &= found | (convergence_rate < max_ratio);
         }
-        found |= is_active & (convergence_rate * distance <= enough * (1.0 - convergence_rate))
+        found |= is_active & (convergence_rate * distance <= max_error * (1.0 - convergence_rate))
             & (convergence_rate * force_change <= run->newton.force_found * (1.0 - convergence_rate));
-        run->newton.convergence_rate = pick(found, real_max(convergence_rate, real_of(1e-3)),
+        run->newton.convergence_rate = pick(found, real_max(convergence_rate, make_real(1e-3)),
             run->newton.convergence_rate);
-        is_active &= is_not(found);
-        before = pick(is_active, distance, real_of(1.0));
+        is_active &= invert_mask(found);
+        before = pick(is_active, distance, make_real(1.0));
     }
     *has_failed |= is_active;
     return 0;
@@ -194,13 +195,13 @@ static int RADAU(solve_stages)(IntegratorOf *run, Real h, const ComplexLinearOf 
 static Real RADAU(estimate_error)(const IntegratorOf *run, Real h, const Real *dy, const Real *stage_sum, Real *r,
     Real *u)
 {
-    Real most = real_of(0.0);
+    Real largest = make_real(0.0);
     for (int i = 0; i < N_Y; i++)
         r[i] = dy[i] + stage_sum[i];
-    newton_solve(&run->newton.linear, h * (1.0 / RADAU_TABLE.gamma), real_of(0.0), r, u);
+    newton_solve(&run->newton.linear, h * (1.0 / RADAU_TABLE.gamma), make_real(0.0), r, u);
     for (int i = 0; i < N_Y; i++)
-        most = real_max(real_abs(u[i]) * run->norm.weight[i], most);
-    return most;
+        largest = real_max(real_abs(u[i]) * run->norm.weight[i], largest);
+    return largest;
 }
 
 /*
@@ -211,7 +212,7 @@ static Real RADAU(estimate_error)(const IntegratorOf *run, Real h, const Real *d
 static int RADAU(try_step)(IntegratorOf *run, Real h, const ParametersOf *p, StepOf *step)
 {
     const Real inverse_h = RADAU_TABLE.gamma / h;
-    Real r[N_Y], u[N_Y], stage_sum[N_Y], change = real_of(0.0), distance = real_of(0.0);
+    Real r[N_Y], u[N_Y], stage_sum[N_Y], change = make_real(0.0), distance = make_real(0.0);
     ComplexLinearOf complex_matrices[RADAU_STAGES / 2];
     Mask has_failed;
     step->t = run->t, step->h = h, step->dense_ready = 0;
@@ -226,7 +227,7 @@ static int RADAU(try_step)(IntegratorOf *run, Real h, const ParametersOf *p, Ste
     if (status)
         return status;
     for (int i = 0; i < N_Y; i++) {
-        stage_sum[i] = real_of(0.0);
+        stage_sum[i] = make_real(0.0);
         for (int s = 0; s < RADAU_STAGES; s++)
             stage_sum[i] += RADAU_TABLE.error[s] * step->k[s][i];
         stage_sum[i] *= inverse_h;
@@ -238,7 +239,7 @@ static int RADAU(try_step)(IntegratorOf *run, Real h, const ParametersOf *p, Ste
         change = real_max(real_abs(inverse_h * u[i] - r[i]) * run->norm.weight[i], change);
         distance = real_max(real_abs(u[i]) * run->norm.weight[i], distance);
     }
-    record_stability(run, pick(distance > MIN_RESOLVED, h * change / distance, real_of(0.0)));
+    record_stability(run, pick(distance > MIN_RESOLVED, h * change / distance, make_real(0.0)));
     const Mask large = step->error > run->control.accept;
     if (any_of(large)) { /* repeat at the state with the error: this filters stiff components */
         Real y[N_Y], dy[N_Y];

@@ -104,7 +104,7 @@ static void rodas5p_compute_right_side(int s, Real h, const Real *f, Real (*k)[N
 static int rodas5p_try_step(IntegratorOf *run, Real h, const ParametersOf *p, StepOf *step)
 {
     const Real hg = h * RODAS5P_GAMMA;
-    Real y[N_Y], f[N_Y], r[N_Y], before[N_Y], change = real_of(0.0), distance = real_of(0.0);
+    Real y[N_Y], f[N_Y], r[N_Y], before[N_Y], change = make_real(0.0), distance = make_real(0.0);
     RhsOutputsOf rhs;
     step->t = run->t, step->h = h, step->dense_ready = 0;
     discard_stages(step);
@@ -132,13 +132,13 @@ static int rodas5p_try_step(IntegratorOf *run, Real h, const ParametersOf *p, St
                 distance = real_max(real_abs(step->k[6][i]) * run->norm.weight[i], distance);
             }
     }
-    step->error = real_of(0.0);
+    step->error = make_real(0.0);
     for (int i = 0; i < N_Y; i++)
         step->y[i] = y[i] + step->k[7][i];
     for (int i = 0; i < N_Y; i++)
         step->error = real_max(real_abs(step->k[7][i]) * run->norm.weight[i], step->error);
     if (is_error_not_finite(run, step->error))
         return NOT_FINITE;
-    record_stability(run, pick(distance > MIN_RESOLVED, h * change / distance, real_of(0.0)));
+    record_stability(run, pick(distance > MIN_RESOLVED, h * change / distance, make_real(0.0)));
     return is_step_rejected(run, step) ? 0 : finish_step(run, step, p);
 }

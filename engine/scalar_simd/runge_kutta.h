@@ -37,7 +37,7 @@ static const Tableau dormand_prince = {.stages = DOPRI5_STAGES, .estimates = 1,
  */
 static int runge_kutta_try_step(IntegratorOf *run, const Tableau *tableau, Real h, const ParametersOf *p, StepOf *step)
 {
-    Real y[N_Y], error = real_of(0.0);
+    Real y[N_Y], error = make_real(0.0);
     RhsOutputsOf rhs;
     step->t = run->t, step->h = h, step->dense_ready = 0, step->error = error;
     discard_stages(step);

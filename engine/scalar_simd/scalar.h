@@ -30,13 +30,13 @@ enum { /* bytes of a vector register */
 /* Return a if the mask is true, else b; in lanes, the choice is made for each lane. */
 static inline double pick(int mask, double a, double b) { return mask ? a : b; }
 /* Return the negation of a mask. */
-static inline int is_not(int mask) { return !mask; }
+static inline int invert_mask(int mask) { return !mask; }
 /* Return whether a mask is true for any run. */
 static inline int any_of(int mask) { return mask != 0; }
 /* Return whether a contact is closed; in lanes, the mask of the lanes in which it is. */
 static inline int is_closed(const ContactState *contact) { return contact->closed; }
 /* Convert a constant to Real; in lanes, the constant in all lanes. */
-static inline double real_of(double x) { return x; }
+static inline double make_real(double x) { return x; }
 /* Return the larger number; NaN if x is NaN. */
 static inline double real_max(double x, double y) { return max_of(x, y); }
 /* Return the smaller number; NaN if x is NaN. */

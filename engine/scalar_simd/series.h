@@ -4,7 +4,7 @@
  * rest of an order is linear (functions derived for the scene). For one run, a SeriesRow is a register of products, and
  * the derived functions fill a SeriesWide. In lanes, both are one product of several runs.
  */
-#define SERIES_APART __attribute__((noinline)) /* the address of thread-local memory is found once, not at each order */
+#define SERIES_NOINLINE __attribute__((noinline)) /* the address of thread-local memory is found only once */
 
 enum {
     SERIES_PAIR = 2 * sizeof(SeriesRow), /* products are processed in independent pairs */
@@ -23,7 +23,7 @@ typedef union {
  * factors. sum: left_1 right_{k-1} + ... + left_{k-1} right_1. next_sum: of order k + 1 all terms but left_1 right_k
  * and left_k right_1, which add_outer_products() adds.
  */
-SERIES_APART static void sum_inner_products(int k, SeriesRow (*left)[SERIES_ROWS], SeriesRow (*right)[SERIES_ROWS],
+SERIES_NOINLINE static void sum_inner_products(int k, SeriesRow (*left)[SERIES_ROWS], SeriesRow (*right)[SERIES_ROWS],
     SeriesRow *sum, SeriesRow *next_sum)
 {
     for (int i = 0; i < SERIES_ROWS; i += 2) {
@@ -47,7 +47,7 @@ SERIES_APART static void sum_inner_products(int k, SeriesRow (*left)[SERIES_ROWS
  * Add to each sum of order k the two terms left_1 right_{k-1} and left_{k-1} right_1 that sum_inner_products() left
  * out.
  */
-SERIES_APART static void add_outer_products(int k, SeriesRow (*left)[SERIES_ROWS], SeriesRow (*right)[SERIES_ROWS],
+SERIES_NOINLINE static void add_outer_products(int k, SeriesRow (*left)[SERIES_ROWS], SeriesRow (*right)[SERIES_ROWS],
     SeriesRow *sum)
 {
     for (int i = 0; i < SERIES_ROWS; i++)
@@ -59,7 +59,7 @@ SERIES_APART static void add_outer_products(int k, SeriesRow (*left)[SERIES_ROWS
  * accelerations and powers in c[1], must be set; `values`: values of order 0 of all functions. left, right: memory for
  * the factors of all products.
  */
-SERIES_APART static void compute_series_orders(const ParametersOf *p, const TaylorValues *values, int order,
+SERIES_NOINLINE static void compute_series_orders(const ParametersOf *p, const TaylorValues *values, int order,
     Real (*c)[TAYLOR_Y], SeriesRow (*left)[SERIES_ROWS], SeriesRow (*right)[SERIES_ROWS])
 {
     SeriesSums sum[2] = {0};
@@ -72,8 +72,8 @@ SERIES_APART static void compute_series_orders(const ParametersOf *p, const Tayl
         else if (k > 1)
             add_outer_products(k, left, right, sum[1].row);
         for (int i = 0; i < N_X; i++)
-            next[i] = c[k][N_X + i] * real_of(1.0 / (k + 1));
-        taylor_terms(real_of(k), real_of(1.0 / k), real_of(1.0 / (k + 1)), real_of(k == 1 ? 1.0 : 0.0), c[k],
+            next[i] = c[k][N_X + i] * make_real(1.0 / (k + 1));
+        taylor_terms(make_real(k), make_real(1.0 / k), make_real(1.0 / (k + 1)), make_real(k == 1 ? 1.0 : 0.0), c[k],
             c[k] + N_X, p, values, &sum[k % 2].of, next + N_X, next + 2 * N_X, (SeriesWide *)left[k],
             (SeriesWide *)right[k]);
     }

@@ -12,30 +12,30 @@ enum { TAYLOR_DEFECT = 5 /* log2 of the largest defect at the end of a step, in 
  * Return the longest step in s for which the last two terms of the series do not exceed the tolerance. Symmetry may
  * make these terms small or zero; the defect at the end of the step shows that.
  */
-static Real taylor_limit_length(const IntegratorOf *run)
+static Real taylor_compute_max_length(const IntegratorOf *run)
 {
     const int n = run->series.order;
     const Real *last = run->series.terms[n], *before = run->series.terms[n - 1];
-    Real most = real_of(0.0), most_before = real_of(0.0);
+    Real largest = make_real(0.0), largest_before = make_real(0.0);
     for (int i = 0; i < N_Y; i++) {
-        most = real_max(most, real_abs(last[i]) * run->norm.weight[i]);
-        most_before = real_max(most_before, real_abs(before[i]) * run->norm.weight[i]);
+        largest = real_max(largest, real_abs(last[i]) * run->norm.weight[i]);
+        largest_before = real_max(largest_before, real_abs(before[i]) * run->norm.weight[i]);
     }
-    return real_exp2(-real_max(real_log2(most) / n, real_log2(most_before) / (n - 1)));
+    return real_exp2(-real_max(real_log2(largest) / n, real_log2(largest_before) / (n - 1)));
 }
 
 /*
  * Return the longest step in s by all terms of the series: each may exceed the tolerance by a fixed factor per lower
  * order.
  */
-static Real taylor_limit_length_by_all_terms(const IntegratorOf *run)
+static Real taylor_compute_max_length_by_all_terms(const IntegratorOf *run)
 {
-    Real steepest = real_of(-INFINITY);
+    Real steepest = make_real(-INFINITY);
     for (int k = 1; k <= run->series.order; k++) {
-        Real most = real_of(0.0);
+        Real largest = make_real(0.0);
         for (int i = 0; i < N_Y; i++)
-            most = real_max(most, real_abs(run->series.terms[k][i]) * run->norm.weight[i]);
-        steepest = real_max(steepest, (real_log2(most) - TAYLOR_DECAY * (run->series.order - k)) / k);
+            largest = real_max(largest, real_abs(run->series.terms[k][i]) * run->norm.weight[i]);
+        steepest = real_max(steepest, (real_log2(largest) - TAYLOR_DECAY * (run->series.order - k)) / k);
     }
     return real_exp2(-steepest);
 }
@@ -82,10 +82,10 @@ static inline void taylor_evaluate_state(const IntegratorOf *run, Real h, Real *
 static Real taylor_compute_defect(const IntegratorOf *run, const StepOf *step, const Real *rate)
 {
     const int max_log2 = run->series.order - 4;
-    Real most = real_of(0.0);
+    Real largest = make_real(0.0);
     for (int i = N_X; i < 2 * N_X; i++)
-        most = real_max(most, real_abs(step->h * (rate[i] - step->dy[i])) * run->norm.weight[i]);
-    return most * (1.0 / (1 << (max_log2 < TAYLOR_DEFECT ? max_log2 : TAYLOR_DEFECT)));
+        largest = real_max(largest, real_abs(step->h * (rate[i] - step->dy[i])) * run->norm.weight[i]);
+    return largest * (1.0 / (1 << (max_log2 < TAYLOR_DEFECT ? max_log2 : TAYLOR_DEFECT)));
 }
 
 /*
@@ -102,22 +102,22 @@ static int taylor_try_series_step(IntegratorOf *run, Real h, const ParametersOf 
         h = real_min(h, run->series.max_step);
     step->t = run->t, step->dense_ready = 0;
     discard_stages(step);
-    record_stability(run, real_of(0.0));
+    record_stability(run, make_real(0.0));
     for (int is_repeated = 0;; is_repeated = 1) {
         step->h = h;
         taylor_evaluate_state_and_rate(run, h, step->y, rate);
-        step->error = is_adaptive ? h / run->series.max_step : real_of(0.0); /* root of the error: accepted up to 1 */
+        step->error = is_adaptive ? h / run->series.max_step : make_real(0.0); /* root of the error: accepted up to 1 */
         if (!is_repeated && is_step_rejected(run, step))
             return 0;
         status = finish_step(run, step, p);
         if (!is_adaptive)
             return status;
-        defect = status ? real_of(INFINITY) : taylor_compute_defect(run, step, rate);
+        defect = status ? make_real(INFINITY) : taylor_compute_defect(run, step, rate);
         const Mask is_large = defect > 1.0;
         if (is_repeated || !any_of(is_large))
             break;
-        run->series.max_step = pick(is_large, real_min(run->series.max_step, taylor_limit_length_by_all_terms(run)),
-            run->series.max_step);
+        const Real shorter = real_min(run->series.max_step, taylor_compute_max_length_by_all_terms(run));
+        run->series.max_step = pick(is_large, shorter, run->series.max_step);
         h = real_min(h, run->series.max_step);
         uncount_end_evaluation(run);
     }

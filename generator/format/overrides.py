@@ -13,7 +13,7 @@ from gudgeon.generator.format.shapes import OVERRIDE
 from gudgeon.generator.yaml import Items, Map, Text, describe_node
 from gudgeon.language.names import make_unknown_name_error
 
-WHOLE = 2.0**53  # smaller whole numbers are exact in binary64
+MAX_EXACT_INTEGER = 2.0**53  # smaller whole numbers are exact in binary64
 _AXES = {"x": 0, "y": 1}
 
 
@@ -60,7 +60,7 @@ def _format_as_file_text(value: object, address: str) -> str:
     if isinstance(value, str):
         return value
     try:
-        if isinstance(value, int) and abs(float(value)) < WHOLE:
+        if isinstance(value, int) and abs(float(value)) < MAX_EXACT_INTEGER:
             return str(value)
         return repr(float(value))  # type: ignore[arg-type]
     except (TypeError, ValueError):
@@ -75,7 +75,7 @@ class _Address:
     text: str
     root: Map
 
-    def unknown(self) -> InputError:
+    def make_error(self) -> InputError:
         """Return the UnknownNameError for an address that the file does not have, with the nearest addresses."""
         known_addresses = [*_iterate_addresses(self.root), *self.root.get("parameters", ())]
         return make_unknown_name_error("address", self.text, known_addresses, None)
@@ -102,7 +102,7 @@ def _replace_text(node: Any, keys: list[str], text: Text, address: _Address, fie
         raise BadValueError(message, None, "give it to the run: contour={joint: depths} of simulate")
     if isinstance(node, Items):
         if first_key not in _AXES or _AXES[first_key] >= len(node):
-            raise address.unknown()
+            raise address.make_error()
         component = _AXES[first_key]
         return Items.make(
             [
@@ -113,7 +113,7 @@ def _replace_text(node: Any, keys: list[str], text: Text, address: _Address, fie
             node.where,
         )
     if not isinstance(node, Map):
-        raise address.unknown()
+        raise address.make_error()
     field_of_child = field and field.find_field(first_key, node)
     if first_key in node:
         key, child = node.find_key(first_key), node[first_key]
@@ -124,8 +124,8 @@ def _replace_text(node: Any, keys: list[str], text: Text, address: _Address, fie
             and field_of_child is not None
             and field_of_child.kind in SCALARS
         ):
-            raise address.unknown()
-        key, child = Text.make(first_key, text.where), _make_node(field_of_child, other_keys, text.where)
+            raise address.make_error()
+        key, child = Text.make(first_key, text.where), _make_empty_node(field_of_child, other_keys, text.where)
     return Map.make(
         {**node, key: _replace_text(child, other_keys, text, address, field_of_child, depth + 1)}, node.where
     )
@@ -134,7 +134,7 @@ def _replace_text(node: Any, keys: list[str], text: Text, address: _Address, fie
 def _may_add_key(field: Field | None, field_of_child: Field | None, keys: list[str], depth: int) -> bool:
     """Return whether an override may add a key to the file: one with a default, an inherited number, a component.
 
-    `field_of_child` declares the key `parts[0]` in the mapping that `field` declares. Entries of a section must exist
+    `field_of_child` declares the key `keys[0]` in the mapping that `field` declares. Entries of a section must exist
     in the file. Unknown keys deeper in the tree are reported when they are read.
     """
     if depth == 0:
@@ -144,7 +144,7 @@ def _may_add_key(field: Field | None, field_of_child: Field | None, keys: list[s
     return depth > 1 or field is None or field.kind != MAPPING or keys[0] in field.given
 
 
-def _make_node(field: Field | None, other_keys: list[str], location: Location) -> Any:
+def _make_empty_node(field: Field | None, other_keys: list[str], location: Location) -> Any:
     """Return the node in which a new text is put: a vector of zeros, a mapping, or an empty text.
 
     `other_keys` contains the keys that follow on the path.

@@ -32,7 +32,7 @@ from gudgeon.language.names import find_nearest_name, format_name_hint, make_unk
 
 MAX_FINDINGS = 50
 OVERRIDE = "override of "  # the "file" of a text that comes from an override
-ANY_NAME = "*"  # in `left_out`: a section was left out whose names are not known
+ANY_NAME = "*"  # in `removed_names`: a section was left out whose names are not known
 
 Path = tuple[str | int, ...]
 _SECTIONS = {  # names of other programs for a section
@@ -51,15 +51,15 @@ _OPTIONS = ("method", "rtol", "formulation")  # options of a run, which a file d
 
 
 @dataclass(frozen=True)
-class Checked:
-    """Contain the file's tree without the wrong entries, the `errors`, and the names of entries that were left out."""
+class CheckedTree:
+    """Contain the file's tree without the wrong entries, the `errors`, and the names of the entries left out."""
 
     root: Map
     errors: tuple[InputError, ...] = ()
     removed_names: frozenset[str] = frozenset()
 
 
-def check_shape(root: Map) -> Checked:
+def check_shape(root: Map) -> CheckedTree:
     """Return the valid part of a file's tree and the errors of the rest.
 
     Empty optional sections count as absent. Entries with errors are removed until no error remains. Raises
@@ -75,16 +75,16 @@ def check_shape(root: Map) -> Checked:
     }
     document = Map.make(sections, root.where)
     errors: list[InputError] = []
-    left_out: set[str] = set()
+    removed_names: set[str] = set()
     while len(errors) < MAX_FINDINGS:
         findings = list(islice(_find_errors(FILE, document, ()), MAX_FINDINGS))
         if not findings:
-            return Checked(document, tuple(errors), frozenset(left_out))
+            return CheckedTree(document, tuple(errors), frozenset(removed_names))
         errors += _make_errors(findings, document)
         if any(finding.path[0] in _NEEDED and len(finding.path) == 1 for finding in findings):
             break
         for finding in findings:
-            document = _remove_wrong_entry(document, finding, left_out)
+            document = _remove_wrong_entry(document, finding, removed_names)
     raise combine_errors(errors)
 
 
@@ -110,8 +110,8 @@ class _Finding:
 
     path: Path
     expected: str = ""
-    unknown: tuple[str, ...] | None = None  # the keys that are known instead
-    missing: bool = False
+    known_keys: tuple[str, ...] | None = None  # of an unknown key: those that are allowed instead
+    is_missing: bool = False
 
 
 _TWO = "two: [x, y]"
@@ -152,9 +152,9 @@ def _find_errors(field: Field, node: Any, path: Path) -> Iterator[_Finding]:
             if inner_field.name in node:
                 yield from _find_errors(inner_field, node[inner_field.name], (*path, inner_field.name))
             elif inner_field.required:
-                yield _Finding((*path, inner_field.name), missing=True)
+                yield _Finding((*path, inner_field.name), is_missing=True)
         known_keys = tuple(inner_field.name for inner_field in field.fields)
-        yield from (_Finding((*path, key), unknown=known_keys) for key in node if key not in known_keys)
+        yield from (_Finding((*path, key), known_keys=known_keys) for key in node if key not in known_keys)
     elif field.kind == MAPPING and field.entry is not None:
         for name, entry in node.items():
             yield from _find_errors(field.entry, entry, (*path, name))
@@ -189,7 +189,7 @@ def _remove_wrong_entry(document: Map, finding: _Finding, removed_names: set[str
     """
     path, section = finding.path, SECTIONS.get(str(finding.path[0]))
     has_names = section is None or section.kind == MAPPING
-    if finding.unknown is None:
+    if finding.known_keys is None:
         path = path[:2] if section is not None and has_names else path[:1]
         if len(path) == 2:
             removed_names.add(str(path[1]))
@@ -212,14 +212,14 @@ def _remove_node(node: Map, path: Path) -> Map:
 def _make_errors(findings: Sequence[_Finding], document: Map) -> list[InputError]:
     """Return the findings as errors; a missing key is not reported if a mistyped one stands in its place."""
     paths_of_mistyped_keys = {
-        (*finding.path[:-1], find_nearest_name(str(finding.path[-1]), finding.unknown))
+        (*finding.path[:-1], find_nearest_name(str(finding.path[-1]), finding.known_keys))
         for finding in findings
-        if finding.unknown is not None
+        if finding.known_keys is not None
     }
     return [
         _make_error(finding, document)
         for finding in findings
-        if not (finding.missing and finding.path in paths_of_mistyped_keys)
+        if not (finding.is_missing and finding.path in paths_of_mistyped_keys)
     ]
 
 
@@ -229,12 +229,12 @@ def _make_error(finding: _Finding, document: Map) -> InputError:
     An empty node has no location; the error has that of its key.
     """
     path, parent_path = finding.path, finding.path[:-1]
-    if finding.unknown is not None:
+    if finding.known_keys is not None:
         key = _find_node(document, parent_path).find_key(str(path[-1]))
         return make_unknown_key_error(
-            key, finding.unknown, _format_address(parent_path), _make_hint_for_foreign_key(parent_path, key.lower())
+            key, finding.known_keys, _format_address(parent_path), _make_hint_for_foreign_key(parent_path, key.lower())
         )
-    if finding.missing:
+    if finding.is_missing:
         return make_missing_key_error(
             str(path[-1]), _find_node(document, parent_path).where, _format_address(parent_path)
         )

@@ -58,23 +58,28 @@ def make_row_kernels(model: Model) -> list[Kernel]:
     """Return the C functions of the constraint equations of the closed linkage: Φ, Φ_q (dense, row by row), ν and γ."""
 
     def make_kernel(
-        name: str, doc: str, array: str, velocity: bool, value: Callable[[Row], sp.Expr], unit_suffix: str = ""
+        name: str,
+        doc: str,
+        array: str,
+        reads_velocity: bool,
+        get_value: Callable[[Row], sp.Expr],
+        unit_suffix: str = "",
     ) -> Kernel:
         """Return the C function `name` that writes one value of each constraint equation to the array `array`.
 
-        `doc`: its comment; `velocity`: the value depends on velocities; `value` returns it; `unit_suffix`: suffix of
-        the unit, such as "/s".
+        `doc`: its comment; `reads_velocity`: the value depends on velocities; `get_value` returns it; `unit_suffix`:
+        suffix of the unit, such as "/s".
         """
         build = KernelBuilder(model.symbols, name, [doc])
         build.begin_section("rows")
         for row_index, row in enumerate(model.all_rows):
             build.append_store(
                 Place(array)[row_index],
-                value(row),
+                get_value(row),
                 f"{row.name}, {row.unit}{unit_suffix}{_describe_absence(model, row)}",
             )
         arguments = (*STATE, PARAMETERS, make_output_argument(array))
-        return build.build_kernel(arguments if velocity else (*STATE[:2], *arguments[3:]))
+        return build.build_kernel(arguments if reads_velocity else (*STATE[:2], *arguments[3:]))
 
     note = " Rows marked 'open' or 'redundant' do not constrain the motion."
     note *= any(_describe_absence(model, row) for row in model.all_rows)

@@ -43,7 +43,7 @@ HELD_BRANCHES_SECTION = Section(HELD_BRANCHES_TITLE, (Branches(""),))
 class ChainKernels:
     """C functions of a system's kinematically determined loops: steps, rates, third rates, directions.
 
-    `corners` is the function that evaluates the switching functions of their drives; None where there are none.
+    `switch_kernel` evaluates the switching functions of their drives; None if they have none.
     """
 
     def __init__(self, system: System, chain: Chain) -> None:
@@ -149,12 +149,12 @@ class ChainKernels:
         outs = (make_output_argument("step"), make_output_argument("bend"), make_output_argument("row", Number.INTEGER))
         return build.build_kernel((*STATE[:2], DISCRETE, PARAMETERS, *outs), status=True, owner="", prune=True)
 
-    def _compute_curvature(self, row: Row, x: Sequence[sp.Expr]) -> sp.Expr:
-        """Return Φ_cc[x, x] of one constraint equation, its second derivative along the step x.
+    def _compute_curvature(self, row: Row, step: Sequence[sp.Expr]) -> sp.Expr:
+        """Return Φ_cc[step, step] of one constraint equation, its second derivative along `step`.
 
-        x has one component for each dependent coordinate.
+        `step`: one component for each dependent coordinate.
         """
-        step_of = dict(zip([k.q for k in self.chain.known], x, strict=True))
+        step_of = dict(zip([k.q for k in self.chain.known], step, strict=True))
         slope = sp.Add(*(entry * step_of[q] for q, entry in row.phi_q.items()))
         return sp.expand(
             sp.Add(*(self.symbols.differentiate(slope, q) * component for q, component in step_of.items()))

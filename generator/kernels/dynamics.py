@@ -36,7 +36,7 @@ _DOC = (
 )
 _MAX_PIVOTS = 60  # listed in the comment
 # Appends what solves the system where a pivot vanishes, from generalized forces and right-hand sides by node.
-OnDependence = Callable[[KernelBuilder, KKT, Mapping[int, sp.Expr]], None]
+AppendFallback = Callable[[KernelBuilder, KKT, Mapping[int, sp.Expr]], None]
 
 
 def make_dynamics_kernel(
@@ -45,20 +45,20 @@ def make_dynamics_kernel(
     name: str = "dynamics",
     doc: Sequence[str] = _DOC,
     stabilised: bool = True,
-    rescue: OnDependence | None = None,
+    append_fallback: AppendFallback | None = None,
 ) -> Kernel:
     """Return the C function of q̈ and λ at a state, with the forces of joints with play.
 
-    `kkt`: the factorization to print; `doc`: the function's comment. `rescue` appends the code for a vanishing pivot;
-    None: the default, which finds the dependent equations. Without `stabilised` the right-hand sides are γ alone and Φ,
-    Φ̇ are not computed: for methods that project.
+    `kkt`: the factorization to print; `doc`: the function's comment. `append_fallback` appends the code for a vanishing
+    pivot; None: the default, which finds the dependent equations. Without `stabilised` the right-hand sides are γ alone
+    and Φ, Φ̇ are not computed: for methods that project.
     """
     model = system.model
     build = KernelBuilder(model.symbols, name, (*doc, *describe_elimination(kkt)))
     if kkt.rows and not model.has_changing_constraints:
         build.begin_section("status")
         build.append_line(Status())
-    _append_events(model, build)
+    _append_event_functions(model, build)
     loads = [load for element in model.elements.values() for load in element.list_point_loads()]
     for index, clearance in enumerate(model.clearances):
         loads += _append_clearance_call(build, index, clearance)
@@ -67,10 +67,10 @@ def make_dynamics_kernel(
         build.append_line(ReturnIfOnlyJoints())
     generalized_loads, prescribed_forces = system.compute_generalized_forces(loads)
     forces = [applied_force + load for applied_force, load in zip(system.applied, generalized_loads, strict=True)]
-    slips = _append_slips(model, build, kkt, forces)
+    stick_rhs = _append_slip_velocities(model, build, kkt, forces)
     b: dict[int, sp.Expr] = {k: f for k, f in enumerate(forces) if f != 0}
     b.update(_append_constraint_rhs(model, build, kkt, stabilised))
-    b.update(slips)
+    b.update(stick_rhs)
     # with changing constraints a vanishing pivot is reported, not handled
     factor = (
         kkt.factorize(build)
@@ -84,9 +84,9 @@ def make_dynamics_kernel(
     for r, _ in enumerate(kkt.rows):
         build.append_store(RHS["lambda"][r], x[kkt.n + r])
     _append_friction_forces(build, kkt, x)
-    _append_half_squares(build, kkt.system, x)
+    _append_rigid_contact_accelerations(build, kkt.system, x)
     if kkt.rows and not model.has_changing_constraints:
-        (rescue or _append_dependent_rows)(build, kkt, b)
+        (append_fallback or _append_dependent_rows)(build, kkt, b)
     _append_powers(build, kkt, prescribed_forces)
     build.append_line(Return(pivot=bool(kkt.rows and not model.has_changing_constraints)))
     arguments = (*STATE, DISCRETE, PARAMETERS, make_output_argument("a"), RHS)
@@ -119,7 +119,7 @@ def format_coordinate_name(meaning: str) -> str:
     return meaning if "." in meaning else f"{meaning}.theta"
 
 
-def _append_events(model: Model, build: KernelBuilder) -> None:
+def _append_event_functions(model: Model, build: KernelBuilder) -> None:
     """Append the user's event functions, which are written at every state, also where a pivot vanishes."""
     if model.events:
         build.begin_section("events")
@@ -178,7 +178,7 @@ def _append_constraint_rhs(model: Model, build: KernelBuilder, kkt: KKT, stabili
     return rhs
 
 
-def _append_slips(model: Model, build: KernelBuilder, kkt: KKT, forces: list[sp.Expr]) -> dict[int, sp.Expr]:
+def _append_slip_velocities(model: Model, build: KernelBuilder, kkt: KKT, forces: list[sp.Expr]) -> dict[int, sp.Expr]:
     """Append the slip velocity and kinetic force of each friction element.
 
     The kinetic force is added to `forces`, the generalized forces by coordinate, in place. Return the right-hand sides
@@ -203,33 +203,33 @@ def _append_slips(model: Model, build: KernelBuilder, kkt: KKT, forces: list[sp.
     return stick_rhs
 
 
-def _append_friction_forces(build: KernelBuilder, kkt: KKT, x: dict[int, sp.Expr]) -> None:
+def _append_friction_forces(build: KernelBuilder, kkt: KKT, solution: dict[int, sp.Expr]) -> None:
     """Append the force of each friction element at stick, −λ of its equation, and the rate of slip J q̈ − γ.
 
-    `x`: the solution by node.
+    `solution`: accelerations and multipliers by node.
     """
     coordinate_index = {q: k for k, q in enumerate(kkt.system.q)}
     for index, friction in enumerate(kkt.frictions):
-        rate = sum((entry * x[coordinate_index[q]] for q, entry in friction.jacobian.items()), -friction.gamma)
+        rate = sum((entry * solution[coordinate_index[q]] for q, entry in friction.jacobian.items()), -friction.gamma)
         build.append_store(RHS["friction"][index]["rate"], rate)
         stick = kkt.stick_symbols[kkt.first_friction + index]
         target = RHS["friction"][index]["force"]
-        force = Statement(target, -x[kkt.first_friction + index], f"stick of {friction.name}")
+        force = Statement(target, -solution[kkt.first_friction + index], f"stick of {friction.name}")
         build.append_line(When(Test(stick, "!=", (0.0,)), force))
 
 
-def _append_half_squares(build: KernelBuilder, system: System, x: Mapping[int, sp.Expr]) -> None:
+def _append_rigid_contact_accelerations(build: KernelBuilder, system: System, solution: Mapping[int, sp.Expr]) -> None:
     """Append half the second derivative of e · e in joints with rigid surfaces; at a wall δ̈ itself.
 
-    A run determines the contact forces of these joints from it. `x`: the solution by node.
+    A run determines the contact forces of these joints from it. `solution`: accelerations and multipliers by node.
     """
     for index, clearance in enumerate(system.model.clearances):
         if clearance.rigid and clearance.wall:
-            outward = _compute_outward_acceleration(system, clearance, clearance.wall, x)
+            outward = _compute_outward_acceleration(system, clearance, clearance.wall, solution)
             build.append_store(RHS["clearance"][index]["half_square_rate"], outward, "at a wall delta'' itself")
         elif clearance.rigid:
             journal_acceleration, bearing_acceleration = (
-                system.compute_acceleration(point, x) for point in (clearance.second, clearance.first)
+                system.compute_acceleration(point, solution) for point in (clearance.second, clearance.first)
             )
             e, edot = clearance.eccentricity, clearance.eccentricity_rate
             value = sp.Add(
@@ -239,17 +239,17 @@ def _append_half_squares(build: KernelBuilder, system: System, x: Mapping[int, s
 
 
 def _compute_outward_acceleration(
-    system: System, clearance: Clearance, wall: Wall, x: Mapping[int, sp.Expr]
+    system: System, clearance: Clearance, wall: Wall, solution: Mapping[int, sp.Expr]
 ) -> sp.Expr:
-    """Return δ̈ at a wall of a guide from the accelerations `x`.
+    """Return δ̈ at a wall of a guide from the accelerations in `solution`, by node.
 
     δ̈ = ë · n + ω̇_i along + 2 ω_i ė · t − ω_i² e · n, from δ̇ = ė · n + ω_i e · t.
     """
     journal_acceleration, bearing_acceleration = (
-        system.compute_acceleration(point, x) for point in (clearance.second, clearance.first)
+        system.compute_acceleration(point, solution) for point in (clearance.second, clearance.first)
     )
     (n_x, n_y), e, edot = wall.normal, clearance.eccentricity, clearance.eccentricity_rate
-    omega, angular_acceleration = clearance.first.omega, system.compute_angular_acceleration(clearance.first, x)
+    omega, angular_acceleration = clearance.first.omega, system.compute_angular_acceleration(clearance.first, solution)
     lever_arm, tangential_rate = e[1] * n_x - e[0] * n_y, edot[1] * n_x - edot[0] * n_y
     linear_acceleration = (journal_acceleration[0] - bearing_acceleration[0]) * n_x + (
         journal_acceleration[1] - bearing_acceleration[1]
@@ -261,16 +261,18 @@ def _compute_outward_acceleration(
     )
 
 
-def _append_dependent_rows(build: KernelBuilder, kkt: KKT, b: Mapping[int, sp.Expr]) -> None:
+def _append_dependent_rows(build: KernelBuilder, kkt: KKT, right_sides: Mapping[int, sp.Expr]) -> None:
     """Append the code for a vanishing pivot, which calls engine/scene/singular.c; nothing if all pivots are constant.
 
-    `b`: generalized forces and right-hand sides by node.
+    `right_sides`: generalized forces and right-hand sides by node.
     """
     if not build.has_jumps:
         return
     build.append_line(Jump())
     build.begin_section("a pivot vanished: constraint equations depend on each other here")
-    force, rhs = (tuple(b.get(k, ZERO) for k in nodes) for nodes in (range(kkt.n), range(kkt.n, kkt.n + len(kkt.rows))))
+    force, rhs = (
+        tuple(right_sides.get(k, ZERO) for k in nodes) for nodes in (range(kkt.n), range(kkt.n, kkt.n + len(kkt.rows)))
+    )
     build.append_line(SolveDependentRows(force, rhs))
 
 

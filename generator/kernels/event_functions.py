@@ -103,18 +103,18 @@ def _merge_sections(*kernels: Kernel | None) -> list[Section]:
     return merged
 
 
-def make_ranges_kernel(watched: Kernel, switch_indices: Sequence[int], events: int) -> Kernel:
+def make_ranges_kernel(event_kernel: Kernel, switch_indices: Sequence[int], n_events: int) -> Kernel:
     """Return the C function of the ranges of all event functions over ranges of t, q and v.
 
-    `watched`: the function of their values; `switch_indices`: the numbers of the switching functions. These are written
-    to `out` first, then `events` user events.
+    `event_kernel`: the function of their values; `switch_indices`: the numbers of the switching functions. These are
+    written to `out` first, then `n_events` user events.
     """
     output_index: dict[Place, int] = {RHS["g"][k]: index for index, k in enumerate(switch_indices)}
     output_index |= {
-        RHS["event"][k]: index for k, index in enumerate(range(len(switch_indices), len(switch_indices) + events))
+        RHS["event"][k]: index for k, index in enumerate(range(len(switch_indices), len(switch_indices) + n_events))
     }
     sections = []
-    for section in watched.sections:
+    for section in event_kernel.sections:
         lines: list[Line] = []
         for statement in section.statements:
             if isinstance(statement, Statement) and isinstance(statement.target, Place):
@@ -122,7 +122,7 @@ def make_ranges_kernel(watched: Kernel, switch_indices: Sequence[int], events: i
             lines.append(Branches("") if isinstance(statement, Branches) else statement)
         sections.append(Section(section.title, tuple(lines)))
     return replace(
-        watched,
+        event_kernel,
         name=_RANGES,
         doc=_RANGES_DOC,
         sections=tuple(statement for statement in sections if statement.statements),
@@ -183,17 +183,17 @@ class TimeTerms:
         return sum(isinstance(s, Statement) and not s.declared_local for s in statements)
 
 
-def find_time_terms(dynamics: Kernel, rests: bool) -> TimeTerms:
+def find_time_terms(dynamics: Kernel, may_rest: bool) -> TimeTerms:
     """Return the terms of time alone, read by a right-hand side, that the stages of a step may miss.
 
-    `rests`: stick or a rigid contact may hold the motion while forces vary, so that sines and cosines count too; they
-    come after the others. The result holds the number of the others as `pulses`, and the C function of the first
+    `may_rest`: stick or a rigid contact may hold the motion while forces vary, so that sines and cosines count too;
+    they come after the others. The result holds the number of the others as `pulses`, and the C function of the first
     MAX_TIME_TERMS terms, None if there are no terms.
     """
     collector = _collect_terms(dynamics, False)
     terms = list(collector.terms)[:MAX_TIME_TERMS]
     pulses = len(terms)
-    if rests:
+    if may_rest:
         collector = _collect_terms(dynamics, True)
         terms = [*terms, *(term for term in collector.terms if term not in terms)][:MAX_TIME_TERMS]
     return TimeTerms(_make_terms_kernel(dynamics, collector, terms) if terms else None, pulses)
@@ -259,96 +259,100 @@ class _TermCollector:
         if names <= self.known.keys():
             if local:
                 self.known[local] = statement
-            self.collect(value)
+            self.collect_terms(value)
         else:
             for part in sp.preorder_traversal(value):
                 if isinstance(part, (sp.Add, sp.Mul)):
                     part = part.func(*(factor for factor in part.args if self.depends_on_time_only(factor)))
                 if isinstance(part, sp.Expr):
-                    self.collect(part)
+                    self.collect_terms(part)
         if local in self.known and self.depends_on_time_only(value):
-            self.definition_by_local[local] = self.insert_definitions(value)
+            self.definition_by_local[local] = self.insert_time_definitions(value)
 
-    def insert_definitions(self, value: sp.Expr) -> sp.Expr:
+    def insert_time_definitions(self, expression: sp.Expr) -> sp.Expr:
         """Return the expression with the locals that depend on time replaced by their definitions."""
-        if self.find_names(value).isdisjoint(self.definition_by_local):
-            return value
+        if self.find_symbol_names(expression).isdisjoint(self.definition_by_local):
+            return expression
         replacements = {
             symbol: self.definition_by_local[symbol.name]
-            for symbol in value.free_symbols
+            for symbol in expression.free_symbols
             if symbol.name in self.definition_by_local
         }
-        return value.xreplace(replacements) if replacements else value
+        return expression.xreplace(replacements) if replacements else expression
 
-    def find_names(self, value: sp.Expr) -> frozenset[str]:
+    def find_symbol_names(self, expression: sp.Expr) -> frozenset[str]:
         """Return the names of the symbols in an expression; the result is cached for each subexpression."""
-        if value not in self._names:
-            parts = (self.find_names(part) for part in value.args)
-            self._names[value] = frozenset({value.name}) if value.is_Symbol else frozenset().union(*parts)
-        return self._names[value]
+        if expression not in self._names:
+            parts = (self.find_symbol_names(part) for part in expression.args)
+            self._names[expression] = (
+                frozenset({expression.name}) if expression.is_Symbol else frozenset().union(*parts)
+            )
+        return self._names[expression]
 
-    def depends_on_time_only(self, value: sp.Expr) -> bool:
+    def depends_on_time_only(self, expression: sp.Expr) -> bool:
         """Return whether an expression depends on time, and on nothing but time and parameters."""
-        names = self.find_names(value)
+        names = self.find_symbol_names(expression)
         return names <= self.known.keys() and (self.time in names or not names.isdisjoint(self.definition_by_local))
 
-    def collect(self, value: sp.Expr) -> None:
+    def collect_terms(self, expression: sp.Expr) -> None:
         """Add the terms of an expression that stages may miss to `terms`, and such terms within them.
 
         Nothing is added for an expression that does not depend on time alone, or that the stages show. In a sum or
         product only the parts that may be missed count.
         """
-        if not self.depends_on_time_only(value) or self.is_shown_by_stages(value):
+        if not self.depends_on_time_only(expression) or self.is_shown_by_stages(expression):
             return
-        if isinstance(value, BranchOf):
-            return self.collect(value.args[1])
-        parts = [part for part in value.args if self.depends_on_time_only(part) and not self.is_shown_by_stages(part)]
-        if isinstance(value, (sp.Add, sp.Mul, Pick, Whole)):
-            if len(parts) > 1 and not isinstance(value, (Pick, Whole)):
-                self.terms.setdefault(value.func(*parts))
-        elif not value.is_Symbol:
-            self.terms.setdefault(value)
+        if isinstance(expression, BranchOf):
+            return self.collect_terms(expression.args[1])
+        parts = [
+            part for part in expression.args if self.depends_on_time_only(part) and not self.is_shown_by_stages(part)
+        ]
+        if isinstance(expression, (sp.Add, sp.Mul, Pick, Whole)):
+            if len(parts) > 1 and not isinstance(expression, (Pick, Whole)):
+                self.terms.setdefault(expression.func(*parts))
+        elif not expression.is_Symbol:
+            self.terms.setdefault(expression)
         for part in parts:
-            self.collect(part)
+            self.collect_terms(part)
         return None
 
-    def is_shown_by_stages(self, value: sp.Expr) -> bool:
+    def is_shown_by_stages(self, expression: sp.Expr) -> bool:
         """Return whether the stages of a step show the behaviour of an expression between them; cached.
 
         Steps end at switching points, so that each branch counts by itself.
         """
-        if value not in self._is_shown:
-            self._is_shown[value] = self._compute_is_shown(self.insert_definitions(value))
-        return self._is_shown[value]
+        if expression not in self._is_shown:
+            self._is_shown[expression] = self._is_shown_by_stages_uncached(self.insert_time_definitions(expression))
+        return self._is_shown[expression]
 
-    def _compute_is_shown(self, value: sp.Expr) -> bool:
+    def _is_shown_by_stages_uncached(self, expression: sp.Expr) -> bool:
         """Return `is_shown_by_stages` of an expression without reading the cache.
 
         An expression without time is shown. Sums, products and low powers of such expressions are shown, and those of
         the functions `shown_functions` whose argument is linear in time. Of a held branch its second argument counts.
         """
-        if self.time not in self.find_names(value):
+        if self.time not in self.find_symbol_names(expression):
             return True
-        match value:
+        match expression:
             case sp.Symbol():
                 return True
             case BranchOf():
-                return self.is_shown_by_stages(value.args[1])
+                return self.is_shown_by_stages(expression.args[1])
             case sp.Add() | sp.Mul() | Pick() | Whole() | ModOn():
-                return all(map(self.is_shown_by_stages, value.args))
-            case sp.Pow() if value.exp.is_Integer and int(value.exp) in _POWERS:
-                return self.is_shown_by_stages(value.base)
-        return isinstance(value, self.shown_functions) and self.is_linear(value.args[0])
+                return all(map(self.is_shown_by_stages, expression.args))
+            case sp.Pow() if expression.exp.is_Integer and int(expression.exp) in _POWERS:
+                return self.is_shown_by_stages(expression.base)
+        return isinstance(expression, self.shown_functions) and self.is_linear(expression.args[0])
 
-    def is_linear(self, value: sp.Expr) -> bool:
+    def is_linear(self, expression: sp.Expr) -> bool:
         """Return whether the form of an expression shows that it is linear in time.
 
         Sums of such terms, and products with one factor that depends on time, count.
         """
-        time_parts = [part for part in value.args if self.time in self.find_names(part)]
-        if isinstance(value, (sp.Add, sp.Mul)):
-            return (len(time_parts) < 2 or isinstance(value, sp.Add)) and all(map(self.is_linear, time_parts))
-        return value.is_Symbol or not time_parts
+        time_parts = [part for part in expression.args if self.time in self.find_symbol_names(part)]
+        if isinstance(expression, (sp.Add, sp.Mul)):
+            return (len(time_parts) < 2 or isinstance(expression, sp.Add)) and all(map(self.is_linear, time_parts))
+        return expression.is_Symbol or not time_parts
 
     def list_needed_definitions(self, terms: list[sp.Expr]) -> list[Statement]:
         """Return the definitions of the locals that the terms read, directly or not, in their order.

@@ -13,18 +13,18 @@ from gudgeon.generator.solvers.square_rows import SquareRows
 from gudgeon.generator.symbols.storage import Place
 
 
-def make_kinematic_kernels(system: System, rows: SquareRows) -> list[Kernel]:
-    """Return the C functions `close_step` (at a position) and `arrive` (at a position with its rates).
+def make_kinematic_kernels(system: System, closures: SquareRows) -> list[Kernel]:
+    """Return the C functions of Newton's step at a position and of the bodies' motion at a position with its rates.
 
-    `rows`: the closures of the tree as a square system.
+    `closures`: the closures of the tree as a square system.
     """
     return [
         vectorize_sines(remove_unused_locals(kernel))
-        for kernel in (_make_close_step_kernel(system, rows), _make_arrive_kernel(system, rows))
+        for kernel in (_make_newton_step_kernel(system, closures), _make_body_motion_kernel(system, closures))
     ]
 
 
-def _make_close_step_kernel(system: System, rows: SquareRows) -> Kernel:
+def _make_newton_step_kernel(system: System, closures: SquareRows) -> Kernel:
     """Return the C function of Newton's step Φ_q step = Φ and of the rates Φ_q rates = ν at a position.
 
     It also writes the largest |Φ|, and returns 0 or the number of a dependent equation.
@@ -38,12 +38,12 @@ def _make_close_step_kernel(system: System, rows: SquareRows) -> Kernel:
         ],
     )
     build.begin_section("closures")
-    phi = [build.append_local(f"phi_{name}", row.phi) for name, row in zip(rows.names, system.rows, strict=True)]
-    solvers = rows.factorize(build)
+    phi = [build.append_local(f"phi_{name}", row.phi) for name, row in zip(closures.names, system.rows, strict=True)]
+    solvers = closures.factorize(build)
     build.begin_section("Newton's step")
-    step = rows.solve(build, solvers, phi, "step")
+    step = closures.solve(build, solvers, phi, "step")
     build.begin_section("rates")
-    rates = rows.solve(build, solvers, [row.nu for row in system.rows], "rate")
+    rates = closures.solve(build, solvers, [row.nu for row in system.rows], "rate")
     build.begin_section("results")
     for k, (component, rate) in enumerate(zip(step, rates, strict=True)):
         build.append_store(Place("step")[k], component)
@@ -54,7 +54,7 @@ def _make_close_step_kernel(system: System, rows: SquareRows) -> Kernel:
     return build.build_kernel((*STATE[:2], PARAMETERS, *outs), status=True)
 
 
-def _make_arrive_kernel(system: System, rows: SquareRows) -> Kernel:
+def _make_body_motion_kernel(system: System, closures: SquareRows) -> Kernel:
     """Return the C function of the accelerations Φ_q a = γ and of the motion of all bodies at a state.
 
     It also writes the largest |Φ̇|, and returns 0 or the number of a dependent equation.
@@ -75,12 +75,12 @@ def _make_arrive_kernel(system: System, rows: SquareRows) -> Kernel:
             build.append_store(Place("all_q")[k], q)
             build.append_store(Place("all_v")[k], v)
     build.begin_section("rates of the closures")
-    named_rows = zip(rows.names, system.rows, strict=True)
+    named_rows = zip(closures.names, system.rows, strict=True)
     phi_dot = [build.append_local(f"phi_dot_{name}", row.phi_q_v - row.nu) for name, row in named_rows]
     build.append_line(Largest("worst", tuple(phi_dot)))
-    solvers = rows.factorize(build)
+    solvers = closures.factorize(build)
     build.begin_section("accelerations")
-    a = rows.solve(build, solvers, [row.gamma for row in system.rows], "second")
+    a = closures.solve(build, solvers, [row.gamma for row in system.rows], "second")
     for k, value in enumerate(a):
         build.append_store(Place("a")[k], value)
     for body in bodies:

@@ -30,17 +30,19 @@ from gudgeon.generator.solvers.contact_slopes import (
 from gudgeon.generator.symbols.storage import Place, Result
 
 
-def make_law_calls(model: Model, clearance: Clearance, shared: SharedFunctions) -> dict[str, SharedFunctionCall]:
+def make_law_calls(
+    model: Model, clearance: Clearance, shared_functions: SharedFunctions
+) -> dict[str, SharedFunctionCall]:
     """Return the calls of a joint's laws by role (normal, friction, film), for those that it has.
 
-    The functions are added to `shared`.
+    The functions are added to `shared_functions`.
     """
     calls = {}
     for law in (clearance.normal, clearance.friction, clearance.film):
         if law is not None:
             kernel = _make_law_kernel(model, clearance, law)
             names_of_parameters = name_joint_parameters(model, clearance)
-            calls[law.law.role] = shared.add_call(
+            calls[law.law.role] = shared_functions.add_call(
                 kernel, names_of_parameters, clearance.label, _find_parameter_meanings(model, law)
             )
     return calls
@@ -173,10 +175,10 @@ class JointFunctions:
         return self.clearance.film is not None and self.clearance.normal is not None
 
 
-def make_joint_functions(model: Model, clearance: Clearance, shared: SharedFunctions) -> JointFunctions:
+def make_joint_functions(model: Model, clearance: Clearance, shared_functions: SharedFunctions) -> JointFunctions:
     """Return a joint with play with its laws, the statements around them, and its switches.
 
-    Functions of laws are added to `shared`.
+    Functions of laws are added to `shared_functions`.
     """
     name, film = clearance.name, clearance.film
 
@@ -184,7 +186,7 @@ def make_joint_functions(model: Model, clearance: Clearance, shared: SharedFunct
         """Return the statements of some steps, with guards at the centre and with held branches."""
         return _make_statements(model, steps, name, _guard_values(clearance, steps))
 
-    laws, parts = make_law_calls(model, clearance, shared), {}
+    laws, parts = make_law_calls(model, clearance, shared_functions), {}
     if clearance.normal is not None:
         parts["before_dry"] = make_guarded_statements(
             [replace_stored_speed(step) for step in contact.make_lever_arm_equations(clearance)]
@@ -245,10 +247,12 @@ def _make_statements(
     return tuple(item for item in section.statements if isinstance(item, Statement))
 
 
-def make_derivative_calls(model: Model, clearance: Clearance, shared: SharedFunctions) -> dict[str, SharedFunctionCall]:
+def make_derivative_calls(
+    model: Model, clearance: Clearance, shared_functions: SharedFunctions
+) -> dict[str, SharedFunctionCall]:
     """Return the calls of the derivatives of the film, the dry contact and their blend ("share"), if present.
 
-    The functions are added to `shared`.
+    The functions are added to `shared_functions`.
     """
     kernels = {}
     if clearance.film is not None:
@@ -259,7 +263,7 @@ def make_derivative_calls(model: Model, clearance: Clearance, shared: SharedFunc
         kernels["share"] = make_fraction_derivative_kernel(model, clearance)
     names_of_parameters = name_joint_parameters(model, clearance)
     return {
-        part: shared.add_call(
+        part: shared_functions.add_call(
             replace(kernel, name=_make_slope_name(clearance, part)), names_of_parameters, clearance.label
         )
         for part, kernel in kernels.items()

@@ -59,10 +59,10 @@ class Integrated:
 
 @dataclass(frozen=True)
 class TreeFunctions:
-    """The functions of the reduced formulation; `around` convert between tree coordinates and absolute ones.
+    """The functions of the reduced formulation; `conversions` to and from absolute coordinates.
 
-    `plain`: kernels of the motion before sines and cosines are paired in vectors, `kernels`: after. `has_fallback`:
-    where a pivot vanishes, the absolute formulation solves.
+    `unpaired_kernels`: kernels of the motion before sines and cosines are paired in vectors, `kernels`: after.
+    `has_fallback`: where a pivot vanishes, the absolute formulation solves.
     """
 
     system: TreeSystem
@@ -82,10 +82,9 @@ class TreeFunctions:
 class Methods:
     """The functions that integrators need in addition to the right-hand side.
 
-    `slopes`: derivatives of contact forces, by joint with play and part, which call the functions
-    `derivative_kernels`; `closing`
-    projects onto the constraints, `unpaired_closing` is the same before sines are paired. `gains` by name: 2α and β² of
-    Baumgarte's terms, 2α of a sticking friction, as far as they exist.
+    `derivative_calls`: calls of the derivatives of contact forces by joint with play and part, of the functions
+    `derivative_kernels`. `closing` projects onto the constraints, `unpaired_closing` is the same before sines are
+    paired. `gains` by name: 2α and β² of Baumgarte's terms, 2α of a sticking friction, as far as they exist.
     """
 
     newton: Newton
@@ -108,8 +107,8 @@ class Methods:
 class KinematicFunctions:
     """The functions of a kinematically driven scene (dof = 0), whose positions Newton's method determines.
 
-    `rows`: blocks of equations in tree coordinates; None: absolute coordinates, with the pivots of `solved`. `pivots`:
-    names of the equations to which a status number refers.
+    `rows`: blocks of equations in tree coordinates; None: absolute coordinates, with the pivots of `projection_kkt`.
+    `pivots`: names of the equations to which a status number refers.
     """
 
     kernels: tuple[Kernel, ...]
@@ -127,8 +126,8 @@ class KinematicFunctions:
 class Program:
     """The functions of one scene in one formulation.
 
-    `closed`: those of the closed linkage, and the outputs; `dynamics` and `watched` in absolute coordinates, which both
-    formulations have. `methods` is set if something is integrated, else `course`.
+    `closed_linkage`: those of the closed linkage, and the outputs; `dynamics` and `event_functions` in absolute
+    coordinates, which both formulations have. `methods` is set if something is integrated, else `kinematics`.
     """
 
     model: Model
@@ -218,7 +217,7 @@ def make_program(model: Model, formulation: str = "reduced") -> Program:
         pins,
         tree,
         integrated,
-        find_time_terms(dynamics, rests=bool(model.frictions or model.rigid)),
+        find_time_terms(dynamics, may_rest=bool(model.frictions or model.rigid)),
         methods=_derive_methods(model, integrated, staged or not integrated.reduced) if integrates else None,
         kinematics=None if integrates else _derive_kinematic_functions(model, kkt, integrated),
     )
@@ -249,14 +248,16 @@ def _derive_tree_functions(model: Model, pivots: tuple[str, ...]) -> tuple[TreeF
     return tree, Integrated(system, kkt, angles, True, watched, pivots, system.chain)
 
 
-def _derive_methods(model: Model, integrated: Integrated, staged: bool) -> Methods:
+def _derive_methods(model: Model, integrated: Integrated, with_complex_kernels: bool) -> Methods:
     """Derive the functions that integrators need in addition to the right-hand side.
 
-    `staged`: with the complex ones for stages solved together; a scene with a film has them anyway, one with rigid
-    surfaces never.
+    `with_complex_kernels`: with the functions for stages solved together; a scene with a film has them anyway, one with
+    rigid surfaces never.
     """
-    sloping = SharedFunctions()
-    slopes = {clearance.name: make_derivative_calls(model, clearance, sloping) for clearance in model.clearances}
+    derivatives = SharedFunctions()
+    derivative_calls = {
+        clearance.name: make_derivative_calls(model, clearance, derivatives) for clearance in model.clearances
+    }
     newton = Newton(integrated.system)
     gains = {"stick": stick_gain(model)} if model.frictions else {}
     if not integrated.reduced:
@@ -268,9 +269,15 @@ def _derive_methods(model: Model, integrated: Integrated, staged: bool) -> Metho
         vectorize_sines(remove_unused_locals(closing)) if integrated.reduced else remove_unused_locals(closing)
     )
     has_film = any(clearance.film is not None for clearance in model.clearances)
-    at_complex = make_complex_kernels(newton) if (staged or has_film) and not model.rigid else ()
+    complex_kernels = make_complex_kernels(newton) if (with_complex_kernels or has_film) and not model.rigid else ()
     return Methods(
-        newton, slopes, tuple(sloping.kernels), paired_closing, remove_unused_locals(closing), gains, at_complex
+        newton,
+        derivative_calls,
+        tuple(derivatives.kernels),
+        paired_closing,
+        remove_unused_locals(closing),
+        gains,
+        complex_kernels,
     )
 
 

@@ -49,7 +49,9 @@ def make_reduced_kernels(system: TreeSystem) -> tuple[list[Kernel], KKT, ChainKe
     functions. Event functions are left out for a driven motion, or if they read dependent coordinates.
     """
     kkt = KKT(system, allow_early_pairs=has_singular_fallback(system))
-    dynamics = make_dynamics_kernel(system, kkt, DYNAMICS, _DOC, stabilised=False, rescue=_append_absolute_solution)
+    dynamics = make_dynamics_kernel(
+        system, kkt, DYNAMICS, _DOC, stabilised=False, append_fallback=_append_absolute_solution
+    )
     projection, _ = make_projection_kernel(system, system.rows, "reduced_project")
     chains = ChainKernels(system, system.chain) if system.chain else None
     is_driven = len(system.q) == len(system.rows) and not (system.model.clearances or system.frictions)
@@ -63,10 +65,10 @@ def make_reduced_kernels(system: TreeSystem) -> tuple[list[Kernel], KKT, ChainKe
     return [remove_unused_locals(kernel) for kernel in kernels], kkt, chains
 
 
-def _append_absolute_solution(build: KernelBuilder, kkt: KKT, b: Mapping[int, sp.Expr]) -> None:
+def _append_absolute_solution(build: KernelBuilder, kkt: KKT, right_sides: Mapping[int, sp.Expr]) -> None:
     """Append the code for a vanishing pivot: the absolute formulation solves and finds the dependent equations.
 
-    Nothing is appended if no pivot is tested; `b` is not used.
+    Nothing is appended if no pivot is tested; `right_sides` is not used.
     """
     if not build.has_jumps:
         return
@@ -169,16 +171,16 @@ def _compute_slide(model: Model, link: Link) -> sp.Expr:
 def _make_closure_kernels(system: TreeSystem) -> list[Kernel]:
     """Return the two C functions of Φ of the loop closures and of its rate Φ̇, each one value per closure."""
 
-    def make_kernel(name: str, doc: str, velocity: bool, value: Callable[[Row], sp.Expr]) -> Kernel:
+    def make_kernel(name: str, doc: str, reads_velocity: bool, get_value: Callable[[Row], sp.Expr]) -> Kernel:
         """Return the C function `name` that writes one value of each closure to `out`.
 
-        `velocity`: the value depends on rates.
+        `reads_velocity`: the value depends on rates.
         """
         build = KernelBuilder(system.model.symbols, name, [doc])
         build.begin_section("rows")
         for r, row in enumerate(system.rows):
-            build.append_store(Place("out")[r], value(row), row.name)
-        arguments: Sequence[Argument] = STATE if velocity else STATE[:2]
+            build.append_store(Place("out")[r], get_value(row), row.name)
+        arguments: Sequence[Argument] = STATE if reads_velocity else STATE[:2]
         return build.build_kernel((*arguments, PARAMETERS, make_output_argument("out")))
 
     return [

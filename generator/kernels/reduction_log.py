@@ -16,13 +16,13 @@ from gudgeon.generator.solvers.sparsity import Block
 
 
 def build_reduction_log(
-    model: Model, absolute: KKT, solved: KKT | None, system: System, blocks: Sequence[Block]
+    model: Model, absolute_kkt: KKT, solved_kkt: KKT | None, system: System, blocks: Sequence[Block]
 ) -> ReductionLog:
     """Return the record of the coordinates and constraint equations that the generator has eliminated, and how.
 
-    `absolute`: the KKT matrix in absolute coordinates; `solved`: that of the right-hand side, or None; `system`: the
-    system that is integrated. `blocks`: the groups of equations that are solved one after the other where no degree of
-    freedom is left.
+    `absolute_kkt`: the KKT matrix in absolute coordinates; `solved_kkt`: that of the right-hand side, or None;
+    `system`: the system that is integrated. `blocks`: the groups of equations that are solved one after the other where
+    no degree of freedom is left.
     """
     tree = system.tree if isinstance(system, TreeSystem) else None
     steps = [
@@ -37,8 +37,8 @@ def build_reduction_log(
         steps=tuple(step for step in steps if step.owners),
         tree=tuple(TreeBody(x.body, x.parent, x.joint.name if x.joint else "") for x in tree.links) if tree else (),
         costs=tree.costs if tree else (),
-        before=_describe_solve(absolute),
-        after=_describe_solve(solved) if solved else None,
+        before=_measure_factorization(absolute_kkt),
+        after=_measure_factorization(solved_kkt) if solved_kkt else None,
         groups=tuple(
             Group(tuple(system.rows[r].name for r in block.rows), tuple(unknown_names[k] for k in block.columns))
             for block in blocks
@@ -53,7 +53,7 @@ def _list_unknown_names(model: Model, system: System) -> tuple[str, ...]:
     return tuple(model.symbols.info[q].meaning for q in model.q)
 
 
-def _describe_solve(kkt: KKT) -> Solve:
+def _measure_factorization(kkt: KKT) -> Solve:
     """Return the size and cost of a factorization: unknowns, equations, non-zeros of the matrix and of L, products."""
     elimination = kkt.elimination
     return Solve(
@@ -80,10 +80,10 @@ def _make_opening_steps(model: Model) -> Iterator[Step]:
 def _make_reduction_steps(model: Model, system: TreeSystem) -> Iterator[Step]:
     """Yield the steps from the absolute constraint equations to the loop closures of the tree.
 
-    They concern angles, hubs, joints, slides and loops that drives determine.
+    They concern angles, shared points, joints, slides and loops that drives determine.
     """
     yield from _make_angle_steps(model, system.tree)
-    yield from _make_hub_steps(system.tree)
+    yield from _make_shared_point_steps(system.tree)
     links = [link for link in system.tree.links if link.joint]
     for step_kind in (message.HINGES, message.SLIDES):
         matching_links = [link for link in links if link.slides == (step_kind == message.SLIDES)]
@@ -134,10 +134,10 @@ def _make_angle_steps(model: Model, tree: Tree) -> Iterator[Step]:
         )
 
 
-def _make_hub_steps(tree: Tree) -> Iterator[Step]:
+def _make_shared_point_steps(tree: Tree) -> Iterator[Step]:
     """Yield the exchange of the file's pairs of points at shared points for the pairs that tree and closures use.
 
-    Hubs whose pairs stay are left out.
+    Points whose pairs stay are left out.
     """
     for hub in tree.hubs:
         joints_in_use = [link.joint for link in tree.links if link.joint in hub.pairs]

@@ -204,12 +204,12 @@ def _list_distinguishing_parts(kernel: Kernel) -> Iterator[object]:
     """
     first_switch = kernel.first_switch or 0
 
-    def rename_symbols(value: sp.Basic) -> sp.Basic:
+    def rename_symbols(expression: sp.Basic) -> sp.Basic:
         """Return an expression with its symbols named, and its switches counted, as in the printed text."""
-        known_names = {s: kernel.names[key] for s in value.free_symbols if (key := find_key(s)) in kernel.names}
+        known_names = {s: kernel.names[key] for s in expression.free_symbols if (key := find_key(s)) in kernel.names}
         symbols = {s: sp.Symbol(str(name), real=True) for s, name in known_names.items()}
-        branches = {part: BranchOf(part.args[0] - first_switch, part.args[1]) for part in value.atoms(BranchOf)}
-        return value.xreplace(branches).xreplace(symbols)
+        branches = {part: BranchOf(part.args[0] - first_switch, part.args[1]) for part in expression.atoms(BranchOf)}
+        return expression.xreplace(branches).xreplace(symbols)
 
     for line in _iterate_lines(kernel):
         value = line.value if isinstance(line, Statement) else None

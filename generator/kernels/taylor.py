@@ -33,13 +33,13 @@ def make_taylor_series(program: Program) -> Series:
     Raise BadValueError if the motion is not smooth.
     """
     try:
-        return _check_and_derive(program)
+        return _derive_series(_get_smooth_system(program))
     except NoTaylorSeries as why:
         raise BadValueError(f"method 'taylor' is for smooth motion: {why}", hint="use auto") from None
 
 
-def _check_and_derive(program: Program) -> Series:
-    """Return the series, or raise NoTaylorSeries with the first reason why the scene has none.
+def _get_smooth_system(program: Program) -> TreeSystem:
+    """Return the system in tree coordinates, or raise NoTaylorSeries with the first reason why it has no series.
 
     Reasons are play, friction that may stick, driven loops, switching points, jumps of a drive, and that nothing is
     integrated.
@@ -57,17 +57,17 @@ def _check_and_derive(program: Program) -> Series:
         raise NoTaylorSeries("an expression has corners (where, abs, min, max, sign, mod, ramp)")
     if find_drives_with_jumps(model):
         raise NoTaylorSeries("the rate of a drive may jump")
-    return _derive_series(tree.system)
+    return tree.system
 
 
 def _derive_series(system: TreeSystem) -> Series:
-    """Return the series of the right-hand side.
+    """Return the Taylor series of accelerations and powers, from a right-hand side derived again for it.
 
-    The right-hand side is derived again, with a record of its linear system.
+    The linear system of that right-hand side is recorded.
     """
     kkt = _RecordedKKT(system, allow_early_pairs=has_singular_fallback(system))
     dynamics = remove_unused_locals(
-        make_dynamics_kernel(system, kkt, DYNAMICS, stabilised=False, rescue=_ignore_vanishing_pivot)
+        make_dynamics_kernel(system, kkt, DYNAMICS, stabilised=False, append_fallback=_ignore_vanishing_pivot)
     )
     diagonal = {(k, k): system.mass[k, k] for k in range(kkt.n) if (k, k) in system.mass}
     linear = Linear(FACTORS, {**kkt.entries, **diagonal}, kkt.loads, kkt.unknowns)
@@ -106,10 +106,10 @@ class _RecordedKKT(KKT):
         return x
 
 
-def _ignore_vanishing_pivot(build: KernelBuilder, kkt: KKT, b: Mapping[int, sp.Expr]) -> None:
+def _ignore_vanishing_pivot(build: KernelBuilder, kkt: KKT, right_sides: Mapping[int, sp.Expr]) -> None:
     """Append nothing for a vanishing pivot: another method takes the step then.
 
-    It is passed to `make_dynamics_kernel` as `rescue`.
+    It is passed to `make_dynamics_kernel` as `append_fallback`.
     """
 
 

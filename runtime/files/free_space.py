@@ -15,8 +15,8 @@ from pathlib import Path
 
 from gudgeon.errors import OutputError
 
-LEAST = 1 << 26  # bytes that are always assumed to be free
-SHARE = 0.9  # largest fraction of the free memory that may be requested, as other programs need some
+MIN_CHECKED_BYTES = 1 << 26  # bytes that are always assumed to be free
+MAX_MEMORY_FRACTION = 0.9  # largest fraction of the free memory that may be requested, as other programs need some
 # files of limit and use in cgroups v2, v1
 _GROUPS = ("memory.max", "memory.current"), ("memory.limit_in_bytes", "memory.usage_in_bytes")
 
@@ -24,9 +24,9 @@ _GROUPS = ("memory.max", "memory.current"), ("memory.limit_in_bytes", "memory.us
 def check_memory(size: float, purpose: str) -> None:
     """Raise MemoryError if `size` bytes exceed the free memory; `purpose` names what needs them.
 
-    Up to LEAST bytes are always allowed.
+    Up to MIN_CHECKED_BYTES are always allowed.
     """
-    if size > LEAST and size > SHARE * (free := read_free_memory()):
+    if size > MIN_CHECKED_BYTES and size > MAX_MEMORY_FRACTION * (free := read_free_memory()):
         raise MemoryError(f"{purpose} would take {format_size(size)}, and {format_size(free)} are free")
 
 

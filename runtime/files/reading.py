@@ -13,7 +13,7 @@ from pathlib import Path
 from gudgeon.errors import BadValueError, InputError, LimitError, Location, shorten_path
 from gudgeon.files.writing import describe_file_type
 
-_PARTS = 8  # largest number of parts of a path
+_MAX_PATH_PARTS = 8  # largest number of parts of a path
 MAX_BYTES = 1 << 20  # of a mechanism file
 MAX_TABLE_BYTES = 1 << 26  # of a table of a curve: more than a million points
 
@@ -61,7 +61,7 @@ def read_table_file(file: str | os.PathLike[str], name: str, max_bytes: int, loc
     the file, LimitError for its size.
     """
     parts = name.split("/")
-    if not 0 < len(parts) <= _PARTS or any(part in ("", ".", "..") or _is_forbidden(part) for part in parts):
+    if not 0 < len(parts) <= _MAX_PATH_PARTS or any(map(_is_forbidden_part, parts)):
         hint = "expected the name of a file in the mechanism's folder or below: lift.csv, data/lift.csv"
         raise BadValueError(f"{name[:60]!r} is no path to a table", location, hint)
     try:
@@ -80,9 +80,9 @@ def read_table_file(file: str | os.PathLike[str], name: str, max_bytes: int, loc
     return data
 
 
-def _is_forbidden(part: str) -> bool:
-    """Return whether a part of a path has characters that are not allowed."""
-    return "\\" in part or not part.isprintable()
+def _is_forbidden_part(part: str) -> bool:
+    """Return whether a part of a path is empty, "." or "..", or has characters that are not allowed."""
+    return part in ("", ".", "..") or "\\" in part or not part.isprintable()
 
 
 def _read_without_links(folder: Path, parts: list[str], max_bytes: int) -> tuple[bytes, os.stat_result]:

@@ -25,7 +25,7 @@ class TemporaryFolder:
         root = Path(tempfile.gettempdir())
         self.path = Path(tempfile.mkdtemp(prefix=PREFIX, dir=root))
         self._lock: int | None = _lock_folder(self.path)
-        _remove_abandoned(root, os.stat(self.path).st_ctime - GRACE_S)
+        _remove_abandoned_folders(root, os.stat(self.path).st_ctime - GRACE_S)
 
     def remove(self) -> None:
         """Remove the folder and its contents; a second call does nothing."""
@@ -53,8 +53,8 @@ def _lock_folder(folder: Path) -> int | None:
     return descriptor
 
 
-def _remove_abandoned(root: Path, max_creation_time: float) -> None:
-    """Remove temporary folders of this user that changed before `max_creation_time` (s since 1970) and have no lock.
+def _remove_abandoned_folders(root: Path, max_change_time: float) -> None:
+    """Remove temporary folders of this user that changed before `max_change_time` (s since 1970) and have no lock.
 
     The processes that made them have ended. Errors are ignored.
     """
@@ -64,7 +64,7 @@ def _remove_abandoned(root: Path, max_creation_time: float) -> None:
                 continue
             with suppress(OSError):
                 status = entry.stat(follow_symlinks=False)
-                if status.st_uid != os.geteuid() or status.st_ctime > max_creation_time:
+                if status.st_uid != os.geteuid() or status.st_ctime > max_change_time:
                     continue
                 if (lock := _lock_folder(Path(entry.path))) is not None:
                     shutil.rmtree(entry.path, ignore_errors=True)

@@ -12,7 +12,7 @@ import os
 import stat
 from functools import cache
 
-LINKS = 40  # largest number of links on a path, as in the kernel
+MAX_LINKS = 40  # largest number of links on a path, as in the kernel
 
 
 class Untrusted(Exception):
@@ -24,10 +24,10 @@ def check_path(path: str | os.PathLike[str]) -> None:
 
     The folder need not exist yet: then only the existing folders above it are checked.
     """
-    components, exists = _find_path_components(os.fspath(path))
-    for component, status in components[:-1] if exists else components:
-        _check_parent(component, status)
-    if exists:
+    components, is_complete = _find_path_components(os.fspath(path))
+    for component, status in components[:-1] if is_complete else components:
+        _check_path_component(component, status)
+    if is_complete:
         check_owner_and_permissions(*components[-1])
 
 
@@ -54,10 +54,10 @@ def check_folder(path: str | os.PathLike[str]) -> None:
     check_owner_and_permissions(path, status)
 
 
-def _check_parent(path: str, status: os.stat_result) -> None:
+def _check_path_component(path: str, status: os.stat_result) -> None:
     """Raise Untrusted if another user may replace a folder or link on the path.
 
-    In folders whose files only their owners may rename (/tmp), all may write.
+    All users may write in folders in which only the owners of files may rename them (/tmp).
     """
     trusted_users = (os.geteuid(), 0)
     if status.st_uid not in trusted_users and not (status.st_uid == _read_overflow_user() and _is_root_unmapped()):
@@ -107,7 +107,7 @@ def _find_path_components(path: str) -> tuple[list[tuple[str, os.stat_result]], 
             folder = entry
             continue
         n_links += 1
-        if n_links > LINKS:
+        if n_links > MAX_LINKS:
             raise OSError(errno.ELOOP, os.strerror(errno.ELOOP), path)
         link_target = os.readlink(entry)
         folder = "/" if link_target.startswith("/") else folder

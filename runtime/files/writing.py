@@ -20,9 +20,9 @@ from typing import BinaryIO
 from gudgeon.errors import OutputError
 
 PART = re.compile(r"\.gudgeon-[0-9a-f]{16}\.part")  # temporary names, which a killed process may leave
-LARGEST = 1 << 26  # bytes of the largest file that may be an emitted one
-_OPEN = os.O_RDWR | os.O_CREAT | os.O_EXCL | os.O_CLOEXEC | os.O_NOFOLLOW
-_FOLDER = getattr(os, "O_PATH", os.O_RDONLY) | os.O_DIRECTORY | os.O_CLOEXEC  # O_PATH: a folder of which no list is had
+MAX_REGULAR_BYTES = 1 << 26  # bytes of the largest file that may be an emitted one
+_OPEN_FLAGS = os.O_RDWR | os.O_CREAT | os.O_EXCL | os.O_CLOEXEC | os.O_NOFOLLOW
+_FOLDER_FLAGS = getattr(os, "O_PATH", os.O_RDONLY) | os.O_DIRECTORY | os.O_CLOEXEC  # O_PATH: not to be listed
 
 
 class AtomicFiles:
@@ -34,18 +34,19 @@ class AtomicFiles:
     """
 
     def __init__(self, folder: str | os.PathLike[str], *, sync: bool = False, follow: bool = True) -> None:
+        """Store the folder and the options; nothing is made or opened before the context begins."""
         self.folder, self.sync, self.follow = Path(folder), sync, follow
-        self._made: list[Path] = []
+        self._made_folders: list[Path] = []
         self._fd = -1
-        self._parts: list[str] = []  # temporary files on the disk
-        self._whole: list[tuple[str, str]] = []  # temporary name, name
+        self._temporary_names: list[str] = []  # temporary files on the disk
+        self._complete_files: list[tuple[str, str]] = []  # temporary name, name
 
     def __enter__(self) -> AtomicFiles:
         """Make and open the folder."""
         with convert_os_errors(self.folder):
-            self._made = [path for path in (self.folder, *self.folder.parents) if not os.path.lexists(path)]
+            self._made_folders = [path for path in (self.folder, *self.folder.parents) if not os.path.lexists(path)]
             self.folder.mkdir(parents=True, exist_ok=True)
-            self._fd = os.open(self.folder, _FOLDER | (0 if self.follow else os.O_NOFOLLOW))
+            self._fd = os.open(self.folder, _FOLDER_FLAGS | (0 if self.follow else os.O_NOFOLLOW))
         return self
 
     def __exit__(self, error_class: type[BaseException] | None, *_: object) -> None:
@@ -62,33 +63,33 @@ class AtomicFiles:
 
         A second call continues the first, which Ctrl-C may have interrupted.
         """
-        while self._parts:
+        while self._temporary_names:
             with suppress(OSError):
-                os.unlink(self._parts[-1], dir_fd=self._fd)
-            self._parts.pop()
+                os.unlink(self._temporary_names[-1], dir_fd=self._fd)
+            self._temporary_names.pop()
         if self._fd >= 0:
             descriptor, self._fd = self._fd, -1
             os.close(descriptor)
-        new_folders, self._made = self._made, []
+        new_folders, self._made_folders = self._made_folders, []
         for folder in new_folders if failed else ():
             with suppress(OSError):  # it holds something else by now
                 folder.rmdir()
 
     @contextmanager
-    def file(self, name: str) -> Iterator[BinaryIO]:
+    def open_file(self, name: str) -> Iterator[BinaryIO]:
         """Yield a binary file to write, which can be read and positioned, under a temporary name.
 
         It is complete when the block ends without error; `move` then puts it in place. Raises OutputError for a target
         that may not be replaced, and for each OSError.
         """
         with convert_os_errors(self.folder / name):
-            old_status = _check_replaceable(self.folder, name, self._fd)
+            old_status = _check_replaceable_file(self.folder, name, self._fd)
             temporary_name = f".gudgeon-{os.urandom(8).hex()}.part"
-            self._parts.append(temporary_name)  # first: Ctrl-C may come as it has been opened
+            self._temporary_names.append(temporary_name)  # first: Ctrl-C may come as it has been opened
             try:
-                descriptor = os.open(temporary_name, _OPEN, 0o600 if old_status else 0o666, dir_fd=self._fd)
+                descriptor = os.open(temporary_name, _OPEN_FLAGS, 0o600 if old_status else 0o666, dir_fd=self._fd)
             except FileExistsError:  # another's: it stays
-                self._parts.remove(temporary_name)
+                self._temporary_names.remove(temporary_name)
                 raise
             with open(descriptor, "w+b") as file:
                 yield file
@@ -97,11 +98,11 @@ class AtomicFiles:
                     _copy_permissions(descriptor, old_status)
                 if self.sync:
                     _flush_to_disk(descriptor)
-            self._whole.append((temporary_name, name))
+            self._complete_files.append((temporary_name, name))
 
     def write(self, name: str, data: bytes | memoryview) -> None:
         """Write a file with these bytes under a temporary name."""
-        with self.file(name) as file:
+        with self.open_file(name) as file:
             file.write(data)
 
     def move(self, count: int | None = None) -> None:
@@ -109,11 +110,11 @@ class AtomicFiles:
 
         Raises OutputError for the first that cannot be moved.
         """
-        for _ in range(len(self._whole) if count is None else count):
-            temporary_name, name = self._whole.pop(0)
+        for _ in range(len(self._complete_files) if count is None else count):
+            temporary_name, name = self._complete_files.pop(0)
             with convert_os_errors(self.folder / name):
                 os.replace(temporary_name, name, src_dir_fd=self._fd, dst_dir_fd=self._fd)
-                self._parts.remove(temporary_name)
+                self._temporary_names.remove(temporary_name)
 
     def remove(self, name: str, is_accepted: Callable[[bytes], bool]) -> None:
         """Remove a regular file of the folder if `is_accepted` returns True for its bytes.
@@ -134,7 +135,7 @@ def open_atomic(path: str | os.PathLike[str], *, sync: bool = False) -> Iterator
     """
     path = _check_file_path(path)
     with AtomicFiles(path.parent, sync=sync) as folder:
-        with folder.file(path.name) as file:
+        with folder.open_file(path.name) as file:
             yield file
         folder.move()
 
@@ -151,7 +152,7 @@ def write_text(path: str | os.PathLike[str], text: str) -> None:
 
 
 def read_regular(name: str | os.PathLike[str], *, dir_fd: int | None = None) -> bytes | None:
-    """Return the bytes of a regular file up to LARGEST; None if it is absent, a link, a device or too large.
+    """Return the bytes of a regular file up to MAX_REGULAR_BYTES; None if it is absent, a link, a device or too large.
 
     `name` is relative to the folder of the descriptor `dir_fd`, if one is given. Raises OSError for other errors.
     """
@@ -163,10 +164,10 @@ def read_regular(name: str | os.PathLike[str], *, dir_fd: int | None = None) -> 
         raise
     try:
         status = os.fstat(descriptor)
-        if not stat.S_ISREG(status.st_mode) or status.st_size > LARGEST:
+        if not stat.S_ISREG(status.st_mode) or status.st_size > MAX_REGULAR_BYTES:
             return None
         with open(descriptor, "rb", closefd=False) as file:
-            return file.read(min(status.st_size + 1, LARGEST))  # no more memory than the file needs
+            return file.read(min(status.st_size + 1, MAX_REGULAR_BYTES))  # no more memory than the file needs
     finally:
         os.close(descriptor)
 
@@ -182,9 +183,9 @@ def check_target(path: str | os.PathLike[str]) -> None:
         with suppress(FileNotFoundError, NotADirectoryError):
             path.lstat()
         if path.parent.exists():
-            descriptor = os.open(path.parent, _FOLDER)
+            descriptor = os.open(path.parent, _FOLDER_FLAGS)
             try:
-                _check_replaceable(path.parent, path.name, descriptor)
+                _check_replaceable_file(path.parent, path.name, descriptor)
             finally:
                 os.close(descriptor)
 
@@ -210,7 +211,7 @@ def convert_os_errors(path: Path) -> Iterator[None]:
         raise OutputError(path, error) from error
 
 
-def _check_replaceable(folder: Path, name: str, descriptor: int) -> os.stat_result | None:
+def _check_replaceable_file(folder: Path, name: str, descriptor: int) -> os.stat_result | None:
     """Return the status of the file to be replaced, None if it is absent or a link.
 
     Raises OutputError for a folder, a device, a link in /dev and a write-protected file. `descriptor` is that of the

@@ -46,49 +46,50 @@ class ExerciseData:
 
         The result has the shape of the function's value.
         """
-        both, total = np.concatenate([self.q, self.v]), np.asarray(0.0)
+        state, total = np.concatenate([self.q, self.v]), np.asarray(0.0)
         value, n = function(self.q, self.v), len(self.q)
         for k, unit in enumerate(self.units):
-            changed = both.copy()
+            changed = state.copy()
             changed[k] += 0.5 * unit
             total = total + np.abs(function(changed[:n], changed[n:]) - value)
         return total
 
 
 def draw_parameters(
-    simulation: Simulation, seed: int, at: str | None, units: Mapping[str, tuple[str, float]] | None = None
+    simulation: Simulation, seed: int, time_text: str | None, units: Mapping[str, tuple[str, float]] | None = None
 ) -> ExerciseData:
     """Draw parameter values from a seed with which the scene assembles and moves, and return them with their run.
 
     The file's own values are used if no others work. units: unit of the file and its value in SI by address ("rpm",
-    0.105); other values have SI units. at: text of the time, or None for a drawn one. The time is before an event that
-    ends the motion. Raises BadValueError for `at`, AssemblyError or SolverError if the file's own values fail.
+    0.105); other values have SI units. time_text: the time as text, or None for a drawn one. The time is before an
+    event that ends the motion. Raises BadValueError for the time, AssemblyError or SolverError if the file's own values
+    fail.
     """
     rng = np.random.default_rng(seed)
-    moment = None if at is None else parse_quantity(insert_space_before_unit(at), "--at", (0, 0, 1))
-    if moment is not None and not 0.0 <= moment < np.inf:
-        raise BadValueError(f"--at is {moment:g} s: the motion starts at 0 s", hint="take a time of the motion")
+    given_time = None if time_text is None else parse_quantity(insert_space_before_unit(time_text), "--at", (0, 0, 1))
+    if given_time is not None and not 0.0 <= given_time < np.inf:
+        raise BadValueError(f"--at is {given_time:g} s: the motion starts at 0 s", hint="take a time of the motion")
     failure: Exception | None = None
-    for numbers, time_fraction in _yield_attempts(simulation.source, rng, units or {}):
+    for values, time_fraction in _yield_parameter_changes(simulation.source, rng, units or {}):
         try:
-            p = prepare_values(simulation.compiled, numbers)[0]
+            p = prepare_values(simulation.compiled, values)[0]
             t = (
-                moment
-                if moment is not None
+                given_time
+                if given_time is not None
                 else float(f"{time_fraction * evaluate_scene_end(simulation.source, p):.2g}")
             )
-            run = _run_until(simulation, numbers, t)
+            run = _simulate_until(simulation, values, t)
             if run.t[-1] < t:
-                t = _find_time_before_event(run, moment, time_fraction)
-                run = _run_until(simulation, numbers, t)
-            return _round_data(numbers, t, p, run)
+                t = _find_time_before_event(run, given_time, time_fraction)
+                run = _simulate_until(simulation, values, t)
+            return _make_rounded_data(values, t, p, run)
         except (AssemblyError, SolverError, BadValueError) as error:
             failure = error
     assert failure is not None
     raise failure
 
 
-def _yield_attempts(
+def _yield_parameter_changes(
     source: KernelSource, rng: np.random.Generator, units: Mapping[str, tuple[str, float]]
 ) -> Iterator[tuple[dict[str, str], float]]:
     """Yield changed values as texts by address, and the fraction of the scene's duration at which the sheet's time is.
@@ -96,21 +97,24 @@ def _yield_attempts(
     The changes decrease from attempt to attempt. The last two attempts have the file's values ({}).
     """
     candidates = [
-        slot
-        for slot in source.slots
-        if not (slot.follows or slot.words) and slot.default != 0.0 and _is_measure(slot.address)
+        parameter
+        for parameter in source.slots
+        if not (parameter.follows or parameter.words) and parameter.default != 0.0 and _may_vary(parameter.address)
     ]
     for spread in SPREADS:
-        some = rng.permutation(len(candidates))[:MAX_CHANGED]
-        factors = 1.0 + spread * rng.uniform(-1.0, 1.0, len(some))
+        changed_indices = rng.permutation(len(candidates))[:MAX_CHANGED]
+        factors = 1.0 + spread * rng.uniform(-1.0, 1.0, len(changed_indices))
         time_fraction = float(rng.uniform(0.15, 0.85))
-        changed = [(candidates[k], x) for k, x in zip(some, factors, strict=True)]
-        yield {slot.address: new for slot, x in changed if (new := _change_value(slot, x, units))}, time_fraction
+        changed = [(candidates[k], x) for k, x in zip(changed_indices, factors, strict=True)]
+        yield (
+            {parameter.address: new for parameter, x in changed if (new := _change_value(parameter, x, units))},
+            time_fraction,
+        )
     yield {}, float(rng.uniform(0.15, 0.85))
     yield {}, 0.05
 
 
-def _is_measure(address: str) -> bool:
+def _may_vary(address: str) -> bool:
     """Return whether an address is that of a parameter, or of a length, mass or inertia of a body, which may be
     varied.
     """
@@ -122,42 +126,42 @@ def _is_measure(address: str) -> bool:
     return False
 
 
-def _change_value(slot: RuntimeParameter, factor: float, units: Mapping[str, tuple[str, float]]) -> str:
+def _change_value(parameter: RuntimeParameter, factor: float, units: Mapping[str, tuple[str, float]]) -> str:
     """Return the default value times a factor as text, with two digits and its unit; "" if it equals the file's value.
 
-    units: unit and its value in SI by address; others have the unit of the slot.
+    units: unit and its value in SI by address; others have the unit of the parameter.
     """
-    unit, unit_size = units.get(slot.address, (slot.unit, 1.0))
-    new = float(f"{slot.default * factor / unit_size:.2g}")
-    return "" if math.isclose(new * unit_size, slot.default, rel_tol=1e-12) else f"{new:g} {unit}".rstrip()
+    unit, unit_size = units.get(parameter.address, (parameter.unit, 1.0))
+    new = float(f"{parameter.default * factor / unit_size:.2g}")
+    return "" if math.isclose(new * unit_size, parameter.default, rel_tol=1e-12) else f"{new:g} {unit}".rstrip()
 
 
-def _run_until(simulation: Simulation, numbers: dict[str, str], t: float) -> Result:
+def _simulate_until(simulation: Simulation, values: dict[str, str], t: float) -> Result:
     """Return a run to the time t (s), or to an event that ends it sooner; t = 0 gives a run of 1e-9 s.
 
     Warnings are suppressed. KeyboardInterrupt is raised after Ctrl-C.
     """
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        run = simulation.simulate(t or 1e-9, output=1, parameters=numbers, peaks=(), stop=t > 0.0)
+        run = simulation.simulate(t or 1e-9, output=1, parameters=values, peaks=(), stop=t > 0.0)
     if run.diagnostics.interrupted:
         raise KeyboardInterrupt
     return run
 
 
-def _find_time_before_event(run: Result, moment: float | None, fraction: float) -> float:
+def _find_time_before_event(run: Result, given_time: float | None, fraction: float) -> float:
     """Return a time (s) before the event that ended the run, at the given `fraction` of its duration.
 
-    Raises BadValueError if the user gave the time (`moment`), which is after the event.
+    Raises BadValueError if the user gave the time (`given_time`), which is after the event.
     """
-    end, last = float(run.t[-1]), run.source.events[run.events["event"][-1]]
-    if moment is None:
-        return float(f"{fraction * end:.2g}")
-    message = f"--at is {moment:g} s: event {last.name} (action: stop) ends the motion at {end:.6g} s"
-    raise BadValueError(message, hint=f"take a time before that, such as {fraction * end:.2g} s")
+    end_time, last_event = float(run.t[-1]), run.source.events[run.events["event"][-1]]
+    if given_time is None:
+        return float(f"{fraction * end_time:.2g}")
+    message = f"--at is {given_time:g} s: event {last_event.name} (action: stop) ends the motion at {end_time:.6g} s"
+    raise BadValueError(message, hint=f"take a time before that, such as {fraction * end_time:.2g} s")
 
 
-def _round_data(numbers: dict[str, str], t: float, p: Array, run: Result) -> ExerciseData:
+def _make_rounded_data(values: dict[str, str], t: float, p: Array, run: Result) -> ExerciseData:
     """Round positions and velocities at the end of a run to the digits that a sheet prints, and return its data.
 
     Velocities of rounding size become 0. Raises SolverError if the state is not finite.
@@ -170,9 +174,9 @@ def _round_data(numbers: dict[str, str], t: float, p: Array, run: Result) -> Exe
     decimals = DIGITS - 1 - int(np.floor(np.log10(size)))
     units = np.zeros((2, len(q)))
     for k in range(len(q)):
-        places = DIGITS if k % 3 == 2 else decimals
-        q[k], units[0, k] = round(q[k], places), 10.0**-places  # with whole turns, which drives and gears count
-        alike = v[2::3] if k % 3 == 2 else np.delete(v, np.s_[2::3])
-        v[k] = 0.0 if abs(v[k]) <= NOISE * np.abs(alike).max() else float(f"{v[k]:.{DIGITS}g}")
+        n_decimals = DIGITS if k % 3 == 2 else decimals
+        q[k], units[0, k] = round(q[k], n_decimals), 10.0**-n_decimals  # with whole turns, which drives and gears count
+        rates_of_kind = v[2::3] if k % 3 == 2 else np.delete(v, np.s_[2::3])
+        v[k] = 0.0 if abs(v[k]) <= NOISE * np.abs(rates_of_kind).max() else float(f"{v[k]:.{DIGITS}g}")
         units[1, k] = 10.0 ** (math.floor(math.log10(abs(v[k]))) + 1 - DIGITS) if v[k] else 0.0
-    return ExerciseData(numbers, t, q, v, p, run, units.ravel())
+    return ExerciseData(values, t, q, v, p, run, units.ravel())

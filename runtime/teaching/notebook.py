@@ -114,12 +114,12 @@ def _write_coordinates_code(model: Model, notation: Notation, names: dict[sp.Sym
     return "\n".join((*lines, "", f"q = {q}", f"v = {v}  # the rates of q"))
 
 
-def _write_column(items: list[str]) -> str:
-    """Return the Python text of a column vector of SymPy, with as many items in a line as fit."""
-    if sum(len(item) + 2 for item in items) < MAX_LINE_WIDTH:
-        return f"sp.Matrix([{', '.join(items)}])"
+def _write_column(entries: list[str]) -> str:
+    """Return the Python text of a column vector of SymPy, with as many entries in a line as fit."""
+    if sum(len(item) + 2 for item in entries) < MAX_LINE_WIDTH:
+        return f"sp.Matrix([{', '.join(entries)}])"
     lines, line = list[str](), ""
-    for item in items:
+    for item in entries:
         if line and len(line) + len(item) + 2 > MAX_LINE_WIDTH:
             lines.append(line)
             line = ""
@@ -197,9 +197,9 @@ def _write_pivot_code(model: Model, owner: str, name: str, rows: list[Row], name
     return "\n".join((*lines, f"{name} = first_{owner} - second_{owner}"))
 
 
-def _write_column_by_lines(items: list[str]) -> str:
+def _write_column_by_lines(entries: list[str]) -> str:
     """Return a column vector of SymPy with one item in each line."""
-    inside = ",\n    ".join(items)
+    inside = ",\n    ".join(entries)
     return f"sp.Matrix([\n    {inside},\n])"
 
 
@@ -229,17 +229,17 @@ def format_document(document: Document) -> str:
     return "\n\n".join(parts) + "\n"
 
 
-def format_block(shown: Block) -> str:
+def format_block(block: Block) -> str:
     """Return a paragraph, equation, table or sketch as Markdown; "" for what only a page can show."""
-    if isinstance(shown, Paragraph):
-        return format_text(shown.text)
-    if isinstance(shown, Equation):
-        return f"$$ {shown.left.latex} = {' '.join(term.latex for term in shown.terms)} $$"
-    if isinstance(shown, Table):
-        return _format_table(shown)
-    if isinstance(shown, EmbeddedHtml):
+    if isinstance(block, Paragraph):
+        return format_text(block.text)
+    if isinstance(block, Equation):
+        return f"$$ {block.left.latex} = {' '.join(term.latex for term in block.terms)} $$"
+    if isinstance(block, Table):
+        return _format_table(block)
+    if isinstance(block, EmbeddedHtml):
         return ""
-    return "\n".join(("```text", *shown.lines, "```"))
+    return "\n".join(("```text", *block.lines, "```"))
 
 
 def format_text(text: Text) -> str:
@@ -252,10 +252,10 @@ def escape_markdown(text: str) -> str:
     return _SIGNS.sub(r"\\\1", text)
 
 
-def _format_table(shown: Table) -> str:
+def _format_table(table: Table) -> str:
     """Return a table as Markdown."""
 
-    def row(cells: tuple[Text, ...]) -> str:
+    def format_row(cells: tuple[Text, ...]) -> str:
         """Return a row of the table."""
         return (
             "| "
@@ -263,7 +263,7 @@ def _format_table(shown: Table) -> str:
             + " |"
         )
 
-    return "\n".join((row(shown.header), "|" + " --- |" * len(shown.header), *map(row, shown.rows)))
+    return "\n".join((format_row(table.header), "|" + " --- |" * len(table.header), *map(format_row, table.rows)))
 
 
 def _yield_run_cells(model: Model, mechanism: str) -> Iterator[Cell]:
@@ -272,7 +272,7 @@ def _yield_run_cells(model: Model, mechanism: str) -> Iterator[Cell]:
     Each comparison is an assertion; without constraint equations there is none.
     """
     massless = any(body.missing_keys for body in model.scene.mechanism.bodies.values())
-    plain = not (model.clearances or model.frictions)
+    compares_accelerations = not (model.clearances or model.frictions)
     yield (
         "markdown",
         (
@@ -288,7 +288,7 @@ def _yield_run_cells(model: Model, mechanism: str) -> Iterator[Cell]:
     yield "markdown", "## The compiled simulator\n\nThe same equations as C, integrated or solved at each sample."
     yield "code", "run = simulation.simulate()\nrun"
     if model.rows:
-        yield "code", _write_run_comparison(model, massless, plain)
+        yield "code", _write_run_comparison(model, massless, compares_accelerations)
 
 
 def _write_functions_code(model: Model, massless: bool) -> str:
@@ -343,10 +343,10 @@ def _write_numpy_comparison(model: Model, mechanism: str) -> str:
     )
 
 
-def _write_run_comparison(model: Model, massless: bool, plain: bool) -> str:
+def _write_run_comparison(model: Model, massless: bool, compares_accelerations: bool) -> str:
     """Return the Python text of the cell that compares the derivation with the end of a run of the compiled simulator.
 
-    Accelerations are compared; if the scene has play or friction (not `plain`), only the Jacobian.
+    Accelerations are compared, or the Jacobian alone (not `compares_accelerations`) if the scene has play or friction.
     massless: drives alone determine the accelerations.
     """
     head = (
@@ -359,7 +359,7 @@ def _write_run_comparison(model: Model, massless: bool, plain: bool) -> str:
             'print(f"q̈ at {end:g} s: {np.abs(a - run.a[-1]).max():.1e} apart at most")\n'
             "assert np.allclose(a, run.a[-1], rtol=1e-6, atol=1e-6 * (1 + np.abs(a).max()))"
         )
-    if not plain:
+    if not compares_accelerations:
         return head + (
             "theirs = simulation.phi_q(end, run.q[-1])\n"
             'print(f"Φ_q at {end:g} s: {np.abs(entries - theirs).max():.1e} apart at most")\n'

@@ -109,9 +109,7 @@ def _ask_constraints(subject: Subject) -> Question:
 
 
 def _define_new_abbreviations(subject: Subject, quantity: str) -> list[Block]:
-    """Return the definitions of the abbreviations in "phi", "phi_q" or "gamma" that earlier solutions do not
-    explain.
-    """
+    """Return the definitions of abbreviations in "phi", "phi_q" or "gamma" that no earlier solution explains."""
     expressions_of = {
         "phi": [row.phi for _, row in subject.selected_rows],
         "phi_q": [entry for _, row in subject.selected_rows for entry in row.phi_q.values()],
@@ -133,7 +131,7 @@ def _ask_jacobian(subject: Subject) -> Question:
     model, drawn = subject.model, subject.drawn
     compiled = subject.simulation.compiled
     values = compiled.phi_q(drawn.t, drawn.q, drawn.p)
-    off = drawn.estimate_uncertainty(lambda q, v: compiled.phi_q(drawn.t, q, drawn.p))
+    errors = drawn.estimate_uncertainty(lambda q, v: compiled.phi_q(drawn.t, q, drawn.p))
     column_of = {q: k for k, q in enumerate(model.q)}
     numbers, rows, below = dict[str, float](), [], list[Block]()
     for k, row in subject.selected_rows:
@@ -147,7 +145,7 @@ def _ask_jacobian(subject: Subject) -> Question:
             if isinstance(formula, Name) and len(formula.text) > MAX_CELL_WIDTH:
                 below.append(subject.make_equation(left, entry))
                 formula = "below"
-            shown = subject.format_number(x, off=off[k - 1, column_of[q]])
+            shown = subject.format_number(x, uncertainty=errors[k - 1, column_of[q]])
             rows.append(make_row(left, formula, shown, _find_entry_unit(row.unit, column_of[q] % 3)))
     requested = [
         make_paragraph(f"At {drawn.t:g} s the bodies are at"),
@@ -166,9 +164,9 @@ def _ask_jacobian(subject: Subject) -> Question:
     return Question("The Jacobian at a position", tuple(requested), tuple(solved), numbers)
 
 
-def _find_entry_unit(row: str, axis: int) -> str:
-    """Return the unit of an entry of Φ_q; row: unit of the constraint equation; axis: 0 x, 1 y, 2 angle."""
-    return {("m", 2): "m/rad", ("rad", 0): "rad/m", ("rad", 1): "rad/m"}.get((row, axis), "1")
+def _find_entry_unit(row_unit: str, axis: int) -> str:
+    """Return the unit of an entry of Φ_q; row_unit: unit of the constraint equation; axis: 0 x, 1 y, 2 angle."""
+    return {("m", 2): "m/rad", ("rad", 0): "rad/m", ("rad", 1): "rad/m"}.get((row_unit, axis), "1")
 
 
 def _ask_gamma(subject: Subject) -> Question:
@@ -179,7 +177,7 @@ def _ask_gamma(subject: Subject) -> Question:
     drawn = subject.drawn
     compiled = subject.simulation.compiled
     values = compiled.gamma(drawn.t, drawn.q, drawn.v, drawn.p)
-    off = drawn.estimate_uncertainty(lambda q, v: compiled.gamma(drawn.t, q, v, drawn.p))
+    errors = drawn.estimate_uncertainty(lambda q, v: compiled.gamma(drawn.t, q, v, drawn.p))
     scale = float(np.abs(values).max())
     numbers, solved = dict[str, float](), _define_new_abbreviations(subject, "gamma")
     for k, row in subject.selected_rows:
@@ -192,7 +190,7 @@ def _ask_gamma(subject: Subject) -> Question:
                 solved.append(formula)
         unit = "m/s²" if row.unit == "m" else "rad/s²"
         solved.append(
-            subject.make_value_equation(make_indexed_symbol("gamma", k), numbers[row.name], unit, scale, off[k - 1])
+            subject.make_value_equation(make_indexed_symbol("gamma", k), numbers[row.name], unit, scale, errors[k - 1])
         )
     requested = [
         make_paragraph(f"At the same {drawn.t:g} s the rates are"),
@@ -236,17 +234,17 @@ def list_abbreviations(subject: Subject, expressions: Iterable[sp.Expr]) -> list
     """Return the abbreviations that occur in expressions, each after those that its definition contains."""
     notation, definitions, abbreviations = subject.notation, subject.model.symbols.definitions, list[sp.Symbol]()
 
-    def add(expression: sp.Expr) -> None:
+    def add_abbreviations(expression: sp.Expr) -> None:
         """Add the abbreviations of one expression, those of their definitions first."""
         for symbol in sorted(
             notation.expand(expression).free_symbols, key=lambda s: notation.format_expression(s).text
         ):
             if symbol in notation.kept and symbol in definitions and symbol not in abbreviations:
-                add(definitions[symbol])
+                add_abbreviations(definitions[symbol])
                 abbreviations.append(symbol)
 
     for expression in expressions:
-        add(expression)
+        add_abbreviations(expression)
     order = {symbol: k for k, symbol in enumerate(subject.model.symbols.definitions)}
     return sorted(abbreviations, key=order.__getitem__)
 
@@ -258,9 +256,7 @@ def define_abbreviations(subject: Subject, symbols: list[sp.Symbol]) -> list[Blo
 
 
 def _define_symbol(subject: Subject, symbol: sp.Symbol) -> list[Block]:
-    """Return the definition of one abbreviation as blocks; that of a drive with steps shows the progress of its
-    steps.
-    """
+    """Return the definition of one abbreviation as blocks; for a drive with steps with the progress of its steps."""
     value = subject.notation.expand(subject.model.symbols.definitions[symbol])
     for driven in subject.model.constraints.drive_angles.values():
         if symbol in driven:
@@ -314,9 +310,7 @@ def _find_clamped_progress(expression: sp.Max) -> sp.Expr | None:
 
 
 def _differentiate_in_time(term: sp.Expr, rates: dict[sp.Symbol, sp.Expr], t: sp.Symbol) -> sp.Expr:
-    """Return the time derivative of a product in which the symbols of `rates` have these rates, constant factors
-    first.
-    """
+    """Return the time derivative of a product whose symbols have these `rates`, constant factors first."""
     factor, rest = term.as_independent(*rates, as_Add=False)
     terms = (factor * rate * sp.expand(sp.diff(rest, s)) for s, rate in rates.items())
     return sp.Add(sp.diff(factor, t) * rest, *terms)
@@ -328,22 +322,22 @@ def _expand_progress(term: sp.Expr, steps: list[sp.Symbol]) -> sp.Expr:
     return sp.Mul(factor, sp.expand(rest), evaluate=False) if rest != 1 else term
 
 
-def make_indexed_symbol(quantity: str, k: int) -> Name:
-    """Return the symbol of a quantity with the index k, in LaTeX and as text; `quantity`: key of its letter."""
+def make_indexed_symbol(quantity: str, index: int) -> Name:
+    """Return the symbol of a quantity with an index, in LaTeX and as text; `quantity`: key of its letter."""
     name = make_letter(quantity)
-    return Name(f"{name.latex}_{{{k}}}", f"{name.text}_{k}")
+    return Name(f"{name.latex}_{{{index}}}", f"{name.text}_{index}")
 
 
-def tabulate_positions(subject: Subject, rates: bool, others: bool = False) -> list[Block]:
-    """Return a table of positions or rates of bodies in the chosen equations (others: of all other bodies)."""
+def tabulate_positions(subject: Subject, rates: bool, of_other_bodies: bool = False) -> list[Block]:
+    """Return a table of positions or rates of bodies in the chosen equations (of_other_bodies: of all others)."""
     model, drawn = subject.model, subject.drawn
-    expressions_of = {s for _, row in subject.selected_rows for s in row.phi_q}
+    selected_coordinates = {s for _, row in subject.selected_rows for s in row.phi_q}
     header = ("body", "x, m", "y, m", "angle, rad", "angle, degrees")
     if rates:
         header = ("body", "x, m/s", "y, m/s", "angle, rad/s", "")
     values, rows = drawn.v if rates else drawn.q, []
     for body in model.bodies:
-        if bool(expressions_of & set(body.q)) != others:
+        if bool(selected_coordinates & set(body.q)) != of_other_bodies:
             body_values = values[body.index : body.index + 3]
             angle = "" if rates else subject.format_number(float(np.degrees(body_values[2])), 5)
             rows.append(make_row(body.name, *(subject.format_number(float(x), 9) for x in body_values), angle))
@@ -360,10 +354,10 @@ def ask_acceleration(subject: Subject) -> Question:
     k = max(turning, key=lambda k: abs(a[k]))
     name = model.bodies[k // 3].name
     what = "angular acceleration of" if k % 3 == 2 else f"acceleration in {'xy'[k % 3]} of the centre of"
-    others = tabulate_positions(subject, rates=False, others=True)
+    others = tabulate_positions(subject, rates=False, of_other_bodies=True)
     requested = [
         *([make_paragraph("The other bodies are at"), *others, make_paragraph("with the rates")] if others else []),
-        *tabulate_positions(subject, rates=True, others=True),
+        *tabulate_positions(subject, rates=True, of_other_bodies=True),
         make_paragraph(
             "Drives determine the whole motion. Write all rows of ",
             ACCELERATIONS,
@@ -373,14 +367,16 @@ def ask_acceleration(subject: Subject) -> Question:
     phi_q, gamma = compiled.phi_q(drawn.t, drawn.q, drawn.p), compiled.gamma(drawn.t, drawn.q, drawn.v, drawn.p)
     signs = [make_letter(base, body.name, dots=2) for body in model.bodies for base in ("x", "y", "theta")]
     shown = range(len(gamma)) if len(gamma) <= MAX_SHOWN_ROWS else [r for r in range(len(gamma)) if phi_q[r, k]]
-    scale, off = (
+    scale, errors = (
         float(np.abs(gamma).max()),
         drawn.estimate_uncertainty(lambda q, v: compiled.gamma(drawn.t, q, v, drawn.p)),
     )
     solved = [
         make_paragraph("Row by row ", ACCELERATIONS, _format_omission(len(gamma)), " is, in m/s² and rad/s²,"),
         *(
-            _make_linear_equation(subject, subject.format_number(gamma[r], scale=scale, off=off[r]), phi_q[r], signs)
+            _make_linear_equation(
+                subject, subject.format_number(gamma[r], scale=scale, uncertainty=errors[r]), phi_q[r], signs
+            )
             for r in shown
         ),
         make_paragraph("The accelerations, of centres of mass and of angles, are"),
@@ -391,15 +387,13 @@ def ask_acceleration(subject: Subject) -> Question:
     return Question("Accelerations", tuple(requested), tuple(solved), {coordinate: float(a[k])})
 
 
-def _format_omission(rows: int) -> str:
-    """Return a remark that only some of the `rows` equations are shown; "" if all are."""
-    return "" if rows <= MAX_SHOWN_ROWS else f", of whose {rows} rows those with what is asked stand here,"
+def _format_omission(n_rows: int) -> str:
+    """Return a remark that only some of the `n_rows` equations are shown; "" if all are."""
+    return "" if n_rows <= MAX_SHOWN_ROWS else f", of whose {n_rows} rows those with what is asked stand here,"
 
 
 def _make_linear_equation(subject: Subject, left: Name, factors: Array, symbols_of_terms: list[Name]) -> Equation:
-    """Return the equation left = sum of factors times the symbols `symbols_of_terms`; factors of rounding size are
-    left out.
-    """
+    """Return the equation left = sum of factors times `symbols_of_terms`, without factors of rounding size."""
     symbols = [sp.Symbol(name.text) for name in symbols_of_terms]
     notation = replace(
         subject.notation,
@@ -437,7 +431,7 @@ def ask_reaction(subject: Subject) -> Iterator[Question]:
     message.append(make_paragraph("By ", KKT, f": what force does {name} put on {second.body}, in ground axes?"))
     lambdas = [(k, row) for k, row in enumerate(subject.model.rows, 1) if row.owner == name]
     solved: list[Block] = [
-        *_write_balance(subject, [k - 1 for k, _ in lambdas]),
+        *_make_balance_blocks(subject, [k - 1 for k, _ in lambdas]),
         *(
             subject.make_value_equation(
                 make_indexed_symbol("lambda", k),
@@ -457,7 +451,7 @@ def ask_reaction(subject: Subject) -> Iterator[Question]:
     yield Question("The force in a joint", tuple(message), tuple(solved), dict(zip(("Fx", "Fy", "F"), F, strict=True)))
 
 
-def _write_balance(subject: Subject, requested: list[int]) -> list[Block]:
+def _make_balance_blocks(subject: Subject, requested: list[int]) -> list[Block]:
     """Return the equations of motion of the coordinates as blocks, from which the multipliers follow."""
     model, drawn, compiled = subject.model, subject.drawn, subject.simulation.compiled
     phi_q = compiled.phi_q(drawn.t, drawn.q, drawn.p)
@@ -491,8 +485,8 @@ def _compute_applied_forces(subject: Subject) -> Array:
 
 def _tabulate_by_body(subject: Subject, values: Array, *header: str) -> list[Block]:
     """Return a table with three values (x, y, angle) for each body; header: titles of these columns."""
-    apart = values.reshape(-1, 3)
-    scales = [*2 * [float(np.abs(apart[:, :2]).max())], float(np.abs(apart[:, 2]).max())]
+    body_values = values.reshape(-1, 3)
+    scales = [*2 * [float(np.abs(body_values[:, :2]).max())], float(np.abs(body_values[:, 2]).max())]
     rows = [
         make_row(body.name, *(subject.format_number(float(values[body.index + k]), 5, scales[k]) for k in range(3)))
         for body in subject.model.bodies

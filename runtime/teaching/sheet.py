@@ -74,16 +74,16 @@ class Subject:
         """Return the chosen constraint equations with their numbers, from 1."""
         return [(k, row) for k, row in enumerate(self.model.rows, 1) if row.owner in self.owners]
 
-    def format_number(self, x: float, digits: int = 4, scale: float = 0.0, off: float = 0.0) -> Name:
+    def format_number(self, x: float, digits: int = 4, scale: float = 0.0, uncertainty: float = 0.0) -> Name:
         """Return a number as it is printed, rounded to significant digits.
 
-        scale: size of similar numbers; values below its rounding errors are 0. off: uncertainty from the rounding of
+        scale: size of similar numbers; values below its rounding errors are 0. uncertainty: that from the rounding of
         the data, which limits the printed digits.
         """
-        if abs(x) <= max(NOISE * scale, 0.5 * off):
+        if abs(x) <= max(NOISE * scale, 0.5 * uncertainty):
             return Name("0", "0")
-        if off > 0.0:
-            digits = min(digits, max(1, math.floor(math.log10(abs(x))) - math.ceil(math.log10(off)) + 1))
+        if uncertainty > 0.0:
+            digits = min(digits, max(1, math.floor(math.log10(abs(x))) - math.ceil(math.log10(uncertainty)) + 1))
         short = float(f"{x:.{digits}g}")
         return self.notation.format_expression(sp.Integer(0) if short == 0.0 else sp.Float(short, 17))
 
@@ -93,14 +93,15 @@ class Subject:
         return Equation(name, self.notation.terms(self.notation.expand(right)))
 
     def make_value_equation(
-        self, left: Name, x: float, unit: str = "", scale: float = 0.0, off: float = 0.0
+        self, left: Name, x: float, unit: str = "", scale: float = 0.0, uncertainty: float = 0.0
     ) -> Equation:
-        """Return the equation left = number unit; scale, off: as for `number`."""
-        number, sign = self.format_number(x, scale=scale, off=off), unit.replace("²", "^{2}").replace(" ", r" \, ")
+        """Return the equation left = number unit; scale, uncertainty: as for format_number()."""
+        number = self.format_number(x, scale=scale, uncertainty=uncertainty)
+        sign = unit.replace("²", "^{2}").replace(" ", r" \, ")
         return Equation(left, (Name(rf"{number.latex} \; \mathrm{{{sign}}}", f"{number.text} {unit}".rstrip()),))
 
 
-def make_subject(model: Model, simulation: Simulation, drawn: ExerciseData, seed: int) -> Subject:
+def make_subject(model: Model, simulation: Simulation, data: ExerciseData, seed: int) -> Subject:
     """Build the subject of a sheet, with at most two joints and one drive drawn from the seed."""
     rng = np.random.default_rng([seed, 1])
     owners_by_kind = {
@@ -111,7 +112,7 @@ def make_subject(model: Model, simulation: Simulation, drawn: ExerciseData, seed
         for kind, most in (("joint", 2), ("drive", 1))
         for name in np.array(owners_by_kind[kind], object)[sorted(rng.permutation(len(owners_by_kind[kind]))[:most])]
     ]
-    return Subject(model, make_notation(model), simulation, drawn, rng, tuple(selected))
+    return Subject(model, make_notation(model), simulation, data, rng, tuple(selected))
 
 
 def list_units(scene: Scene) -> dict[str, tuple[str, float]]:

@@ -196,7 +196,7 @@ def test_exports_that_do_not_fit(pendulum: Simulation, tmp_path: Path, monkeypat
             with pytest.raises(OutputError, match=r"x\.mat: No space left on device: it would take"):
                 of.to_mat(tmp_path / "x.mat", ["swing"])
         assert not [*tmp_path.iterdir()] and size > 16 * rows
-    monkeypatch.setattr(free_space, "LEAST", 0)
+    monkeypatch.setattr(free_space, "MIN_CHECKED_BYTES", 0)
     monkeypatch.setattr(free_space, "read_free_memory", lambda: 1e5)
     for export in (lambda: batch.to_mat(tmp_path / "x.mat", ["swing"]), lambda: batch.to_dataframe(["swing"])):
         with pytest.raises(MemoryError, match="of 3 runs would take"):
@@ -234,7 +234,7 @@ def test_what_follows_from_samples_and_a_file_that_is_too_large(
     """The run is kept; what cannot be evaluated, or saved, can be where there is room again."""
     run = pendulum.simulate(1.0, output=20_000)
     with monkeypatch.context() as short:
-        short.setattr(free_space, "LEAST", 0)
+        short.setattr(free_space, "MIN_CHECKED_BYTES", 0)
         short.setattr(free_space, "read_free_memory", lambda: 1e6)
         with pytest.raises(MemoryError, match="what follows from 20001 samples would take"):
             pendulum.compiled.evaluate(run.t, run.q, run.v, run.memory, run.p)

@@ -406,7 +406,7 @@ def test_given_data_hold_no_rounding_and_values_no_more_digits_than_they_carry(t
         _check_uncertainty(simulation, drawn, seed)
     of = subject("four_bar", "ideal")
     for x, off, text in ((-0.001782, 9e-6, "-0.00178"), (-0.001782, 0.0, "-0.001782"), (3e-7, 1e-6, "0")):
-        assert of.format_number(x, off=off).text == text
+        assert of.format_number(x, uncertainty=off).text == text
 
 
 def _check_uncertainty(simulation: Simulation, drawn: ExerciseData, seed: int) -> None:
