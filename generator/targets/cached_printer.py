@@ -105,7 +105,7 @@ def _find_method(printer: type, expression_class: type) -> Method:
     Functions of the table of functions have one method. Other functions match by their own name only. Raises
     ValueError if there is no method.
     """
-    if expression_class in CLASSES and (table_method := getattr(printer, "_print_of_table", None)):
+    if expression_class in CLASSES and (table_method := getattr(printer, "_print_table_function", None)):
         return table_method
     classes = expression_class.__mro__
     if sp.Function in classes:
@@ -121,16 +121,16 @@ def _find_method(printer: type, expression_class: type) -> Method:
 
 
 @lru_cache(20_000)
-def order_terms(total: sp.Expr) -> tuple[sp.Expr, ...]:
+def order_terms(expr: sp.Expr) -> tuple[sp.Expr, ...]:
     """Return the terms of a sum in SymPy's printing order: by the powers of their factors, higher ones first.
 
     Sums with numbers are ordered by SymPy itself. Results are cached.
     """
-    terms = total.args
-    if not total.is_Add or any(
+    terms = expr.args
+    if not expr.is_Add or any(
         isinstance(term, (sp.Number, sp.NumberSymbol)) or not term.is_commutative for term in terms
     ):
-        return tuple(total.as_ordered_terms())
+        return tuple(expr.as_ordered_terms())
     powers_and_number = {term: _split_powers(term) for term in terms}
     bases = sorted({base for powers, _ in powers_and_number.values() for base in powers}, key=sp.default_sort_key)
 

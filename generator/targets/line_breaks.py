@@ -26,17 +26,17 @@ def break_code(line: str, width: int, min_depth: int | None = None) -> list[str]
     return [*lines, line]
 
 
-def _find_break(line: str, first: int, width: int, min_depth: int | None) -> int:
+def _find_break(line: str, first_index: int, width: int, min_depth: int | None) -> int:
     """Return the index at which a line is broken; 0 if there is none.
 
-    first: the index of the first character after the indent. A break in the latter half of `width` is preferred, then
-    the one with the fewest open brackets, then the latest.
+    first_index: the index of the first character after the indent. A break in the latter half of `width` is preferred,
+    then the one with the fewest open brackets, then the latest.
     """
     candidates: list[tuple[float, int]] = []
     for depth, index in _find_possible_breaks(line):
         if index > width and candidates:
             break  # of a line of a megabyte no more is read than of a short one
-        if index > first + len(_INDENT) and (min_depth is None or depth >= min_depth):
+        if index > first_index + len(_INDENT) and (min_depth is None or depth >= min_depth):
             candidates.append((depth, index))
     late_breaks = [(depth, index) for depth, index in candidates if index > width // 2] or candidates
     return min(late_breaks, key=lambda x: (x[0], -x[1]))[1] if late_breaks else 0

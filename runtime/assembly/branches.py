@@ -26,26 +26,28 @@ SAME = 1e-5  # rad, or relative to the size: closer configurations are the same
 class Assembly:
     """Hold a closed configuration q (n,), and the guess of coordinates (m, rad) that selects it.
 
-    `off`: the guessed angle that is furthest from the file's guess, and its difference (rad).
+    `largest_guess_error`: the guessed angle that is furthest from the file's guess, and its difference (rad).
     """
 
     q: Array
     guess: dict[str, float]
-    off: tuple[str, float]
+    largest_guess_error: tuple[str, float]
     is_start: bool = False  # whether the file's own guess leads to it
 
 
-def find_assemblies(linkage: Linkage, p: Array, q: Array, along: Sequence[str], t: float = 0.0) -> list[Assembly]:
+def find_assemblies(
+    linkage: Linkage, p: Array, q: Array, movable_coordinates: Sequence[str], t: float = 0.0
+) -> list[Assembly]:
     """Find assemblies of a linkage by Newton's method from random angles; return them, that of the start q (n,) first.
 
-    along: coordinates that can move; they are held at their values in q, unless the file sets them. t: time of the
-    drives, s. Each assembly has a guess that selects it.
+    movable_coordinates: names of coordinates that can move; they are held at their values in q, unless the file sets
+    them. t: time of the drives, s. Each assembly has a guess that selects it.
     """
     index_of = {name: k for k, name in enumerate(linkage.source.coordinates)}
-    free = [name for name in along if name not in linkage.source.start_set]
+    free = [name for name in movable_coordinates if name not in linkage.source.start_set]
     closure = Closure(linkage, p, t, {name: float(q[index_of[name]]) for name in free})
     with np.errstate(all="ignore"):
-        configurations = _find_distinct(closure, q)
+        configurations = _find_distinct_configurations(closure, q)
         names = [name for name in linkage.source.coordinates if closure.is_angle[index_of[name]]]
         names += [name for name in linkage.source.coordinates if not closure.is_angle[index_of[name]]]
         distinguishing = _select_distinguishing_coordinates(configurations, closure, [index_of[name] for name in names])
@@ -54,14 +56,14 @@ def find_assemblies(linkage: Linkage, p: Array, q: Array, along: Sequence[str], 
             Assembly(
                 x,
                 {coordinates[k]: _reduce_coordinate(closure, x, k) for k in distinguishing},
-                _find_furthest_guess(closure, x),
+                _find_largest_guess_error(closure, x),
             )
             for x in configurations
         ]
     return [replace(assembly, is_start=k == 0) for k, assembly in enumerate(assemblies)]
 
 
-def _find_distinct(closure: Closure, start: Array) -> list[Array]:
+def _find_distinct_configurations(closure: Closure, start: Array) -> list[Array]:
     """Return the configurations found from random starts, without repetitions; `start` is the first.
 
     The search ends after MOST_TRIES starts, or IDLE successive ones without a new result. Angles that differ by full
@@ -72,8 +74,12 @@ def _find_distinct(closure: Closure, start: Array) -> list[Array]:
     for _ in range(MOST_TRIES):
         x = start + spread * rng.uniform(-1.0, 1.0, len(start))
         x[closure.set_index] = closure.set
-        x = closure.solve_newton(closure.place_angles(x))
-        new = closure.is_closed(x) and closure.is_near(x) and not any(_is_same(closure, x, y) for y in configurations)
+        x = closure.solve_newton(closure.determine_angles(x))
+        new = (
+            closure.is_closed(x)
+            and closure.has_bodies_in_range(x)
+            and not any(_are_same_configuration(closure, x, y) for y in configurations)
+        )
         configurations, idle = ([*configurations, x], 0) if new else (configurations, idle + 1)
         if idle >= IDLE:
             break
@@ -102,38 +108,38 @@ def compute_guess_distance(closure: Closure, x: Array, y: Array) -> float:
     return max([*far, *_compute_differences(closure, x, y)[closure.guessed].tolist()], default=0.0)
 
 
-def _is_same(closure: Closure, x: Array, y: Array) -> bool:
+def _are_same_configuration(closure: Closure, x: Array, y: Array) -> bool:
     """Return whether two configurations differ by less than SAME in every coordinate."""
     return bool(_compute_differences(closure, x, y).max(initial=0.0) < SAME)
 
 
 def _select_distinguishing_coordinates(
-    configurations: Sequence[Array], closure: Closure, order: Sequence[int]
+    configurations: Sequence[Array], closure: Closure, preferred_order: Sequence[int]
 ) -> list[int]:
     """Return the indices of few coordinates in which all configurations differ from each other.
 
-    They are chosen greedily by the number of pairs that they separate; `order`: preference among equals.
+    They are chosen greedily by the number of pairs that they separate; `preferred_order`: preference among equals.
     """
     selected: list[int] = []
     pairs = [_compute_differences(closure, x, y) for x, y in combinations(configurations, 2)]
     remaining = list(range(len(pairs)))
     while remaining:
-        best = max(order, key=lambda k: sum(bool(pairs[i][k] > APART) for i in remaining))
+        best = max(preferred_order, key=lambda k: sum(bool(pairs[i][k] > APART) for i in remaining))
         separated = [i for i in remaining if pairs[i][best] > APART]
         if not separated:  # near each other everywhere: the coordinate in which they differ most
-            best = max(order, key=lambda k: min(float(pairs[i][k]) for i in remaining))
+            best = max(preferred_order, key=lambda k: min(float(pairs[i][k]) for i in remaining))
             separated = remaining
         selected, remaining = [*selected, best], [i for i in remaining if i not in separated]
     return selected
 
 
-def _reduce_coordinate(closure: Closure, x: Array, k: int) -> float:
+def _reduce_coordinate(closure: Closure, x: Array, index: int) -> float:
     """Return coordinate k of a configuration; an angle is reduced to [−π, π)."""
-    value = float(x[k])
-    return float((value + np.pi) % (2.0 * np.pi) - np.pi) if closure.is_angle[k] else value
+    value = float(x[index])
+    return float((value + np.pi) % (2.0 * np.pi) - np.pi) if closure.is_angle[index] else value
 
 
-def _find_furthest_guess(closure: Closure, x: Array) -> tuple[str, float]:
+def _find_largest_guess_error(closure: Closure, x: Array) -> tuple[str, float]:
     """Return the name of the guessed angle that is furthest from its guess, and the difference (rad, positive).
 
     It is ("", 0) without guessed angles.

@@ -36,34 +36,34 @@ NOTHING: Mapping[str, float] = {}
 class Closure:
     """Hold the closure problem: constraint equations of the closed linkage, `start.set`, and weights of coordinates."""
 
-    def __init__(self, linkage: Linkage, p: Array, t: float, hold: Mapping[str, float] = NOTHING) -> None:
+    def __init__(self, linkage: Linkage, p: Array, t: float, held_values: Mapping[str, float] = NOTHING) -> None:
         source = linkage.source
         self.linkage, self.p, self.t = linkage, p, t
-        self.place = {name: k for k, name in enumerate(source.coordinates)}
+        self.coordinate_index = {name: k for k, name in enumerate(source.coordinates)}
         guess, fixed, rates = linkage.start_values(p)
-        fixed, self.apart = fixed[: len(source.start_set)], fixed[len(source.start_set) :]
-        self.rates, self.parting = rates[: len(source.start_rates)], rates[len(source.start_rates) :]
-        self.set = np.array([*fixed, *hold.values()])
-        held = [*source.start_set, *hold]
-        self.set_index = [self.place[name] for name in held]
+        fixed, self.start_eccentricities = fixed[: len(source.start_set)], fixed[len(source.start_set) :]
+        self.rates, self.start_eccentricity_rates = rates[: len(source.start_rates)], rates[len(source.start_rates) :]
+        self.set = np.array([*fixed, *held_values.values()])
+        held = [*source.start_set, *held_values]
+        self.set_index = [self.coordinate_index[name] for name in held]
         self.names = [row.name for row in source.start_rows] + [f"set {name}" for name in held]
-        self.apart_index = [self.names.index(name) for name in source.start_apart]
+        self.eccentricity_rows = [self.names.index(name) for name in source.start_apart]
         self.owners = [row.owner for row in source.start_rows] + ["start"] * len(held)
         self.is_angle = find_angles(source)
-        self.size = self.reach = compute_mechanism_size(linkage, p)
+        self.size = self.max_distance = compute_mechanism_size(linkage, p)
         self.units = [row.unit for row in source.start_rows]
         self.units += ["rad" if self.is_angle[k] else "m" for k in self.set_index]
         self.row_scale = np.array([self.size if unit == "m" else 1.0 for unit in self.units])
         self.weight = np.where(self.is_angle, FREE_ANGLE, FREE_POSITION / self.size)
         message = dict(zip(source.start_guess, guess.tolist(), strict=True))
-        self.guess = {name: value for name, value in message.items() if name in self.place}
-        self.guessed = [self.place[name] for name in self.guess]
+        self.guess = {name: value for name, value in message.items() if name in self.coordinate_index}
+        self.guessed = [self.coordinate_index[name] for name in self.guess]
         self.points = [
             (point, np.array([message[f"{point.name}.x"], message[f"{point.name}.y"]]))
             for point in source.points
             if f"{point.name}.x" in message
         ]
-        self.expected = np.zeros(len(self.place))  # guessed coordinates, as far as the constraint equations allow them
+        self.first_guess = np.zeros(len(self.coordinate_index))  # with the angles that equations determine
         self.weight[self.guessed] = np.where(self.is_angle[self.guessed], GUESSED, GUESSED / self.size)
 
     def compute_residual(self, q: Array, p: Array | None = None) -> Array:
@@ -72,11 +72,11 @@ class Closure:
         p: other parameter values than those of the closure, or None.
         """
         phi = self.linkage.closed_phi(self.t, q, self.p if p is None else p)
-        phi[self.apart_index] += self.apart  # Φ of these joints is −e
+        phi[self.eccentricity_rows] += self.start_eccentricities  # Φ of these joints is −e
         return np.concatenate([phi, q[self.set_index] - self.set])
 
     def compute_jacobian(self, q: Array, p: Array | None = None) -> Array:
-        """Return the Jacobian of `residual` with respect to q; p as there."""
+        """Return the Jacobian of all residuals with respect to q, (m, n); p: other parameter values, or None."""
         extra = np.zeros((len(self.set_index), len(q)))
         extra[np.arange(len(self.set_index)), self.set_index] = 1.0
         return np.concatenate([self.linkage.closed_phi_q(self.t, q, self.p if p is None else p), extra])
@@ -102,31 +102,31 @@ class Closure:
     ) -> Array:
         """Return the step (n,) of least weighted norm that closes the equations linearized at q with these residuals.
 
-        columns: mask of the coordinates that may change. It is 0 if a number is not finite; with dependent equations
-        it is a least-squares step.
+        columns: mask of the coordinates that may change. The step is 0 if a number is not finite; with dependent
+        equations it is a least-squares step.
         """
         weight = self.weight[columns]
         matrix = self.compute_jacobian(q)[:, columns] / self.row_scale[:, None] / weight
         target, step = -scaled_residual, np.zeros_like(q)
         if np.isfinite(matrix).all() and np.isfinite(target).all():  # a driven distance has no direction at zero
-            use_nearest_step = len(self.place) >= LARGE and len(matrix) > matrix.shape[1]
+            use_nearest_step = len(self.coordinate_index) >= LARGE and len(matrix) > matrix.shape[1]
             step[columns] = (solve_damped_least_squares if use_nearest_step else solve_minimum_norm)(
                 matrix, target
             ) / weight
         return step
 
     def build_first_guess(self) -> Array:
-        """Return the guessed configuration: guessed and held coordinates, angles that equations in angles alone
-        determine.
+        """Return the guessed configuration: guessed and held values, angles that equations in angles alone determine.
 
-        With guessed points, the configuration is fitted to them. Sets `expected` and `reach`.
+        Other coordinates are 0. With guessed points, the configuration is fitted to them. Sets `first_guess` and
+        `max_distance`.
         """
-        q = np.zeros(len(self.place))
+        q = np.zeros(len(self.coordinate_index))
         q[self.guessed] = list(self.guess.values())
         q[self.set_index] = self.set
-        self.expected = q = self.place_angles(q)
-        self.reach = self._find_farthest_position(q)
-        return self._fit_points(q) if self.points else q
+        self.first_guess = q = self.determine_angles(q)
+        self.max_distance = self._compute_max_distance(q)
+        return self._fit_guessed_points(q) if self.points else q
 
     def find_nearest(self) -> tuple[Array, bool]:
         """Return the closed configuration nearest to the guess and True; or the best open one and False.
@@ -136,25 +136,25 @@ class Closure:
         """
         guess = self.build_first_guess()
         first_result = self.solve_newton(guess)
-        if self._is_assembly(first_result) and self._compute_relative_miss(first_result) < 1.0:
+        if self._is_assembly(first_result) and self._compute_relative_guess_error(first_result) < 1.0:
             best = self._search_beyond_guess(first_result, guess)
-            if self._compute_relative_miss(best) < 1.0:
+            if self._compute_relative_guess_error(best) < 1.0:
                 return best, True
         results = [first_result]
         for spread in (1.0, np.pi) if self.guess else (np.pi,):
-            results += [self.solve_newton(other) for other in self._draw_other_starts(guess, spread)]
-            near_results = [q for q in results if self.is_near(q)]
+            results += [self.solve_newton(other) for other in self._draw_random_starts(guess, spread)]
+            near_results = [q for q in results if self.has_bodies_in_range(q)]
             closed_results = [self.unwind_angles(q) for q in near_results if self.is_closed(q)]
             if (
                 closed_results
-                and self._compute_relative_miss(best := min(closed_results, key=self.compute_distance)) < 1.0
+                and self._compute_relative_guess_error(best := min(closed_results, key=self.compute_distance)) < 1.0
             ):
                 return best, True
         if closed_results:  # none is near enough: more starts
             results = [
                 self.solve_newton(other)
                 for seed in range(1, MORE)
-                for other in self._draw_other_starts(guess, 1.0, seed)
+                for other in self._draw_random_starts(guess, 1.0, seed)
             ]
             more = (self.unwind_angles(q) for q in results if self._is_assembly(q))
             return min([best, *more], key=self.compute_distance), True
@@ -162,26 +162,26 @@ class Closure:
 
     def _is_assembly(self, q: Array) -> bool:
         """Return whether a configuration satisfies all equations and no body is lost far away."""
-        return self.is_closed(q) and self.is_near(q)
+        return self.is_closed(q) and self.has_bodies_in_range(q)
 
-    def _search_beyond_guess(self, closed: Array, guess: Array) -> Array:
-        """Return the closed configuration `closed`, or a nearer one found from starts on the other side of the guess.
+    def _search_beyond_guess(self, closed_configuration: Array, guess: Array) -> Array:
+        """Return `closed_configuration`, or one nearer to the guess, found from starts on the guess's other side.
 
-        Nothing is searched if it is near the guess.
+        Nothing is searched if `closed_configuration` is near the guess.
         """
-        if self._compute_relative_miss(closed) < MIRRORED:
-            return closed
-        beyond, mixed = 2.0 * guess - closed, closed.copy()
+        if self._compute_relative_guess_error(closed_configuration) < MIRRORED:
+            return closed_configuration
+        beyond, mixed = 2.0 * guess - closed_configuration, closed_configuration.copy()
         mixed[self.guessed] = beyond[self.guessed]
         for mirrored in (mixed, beyond):
             mirrored[self.set_index] = self.set
-            other = self.solve_newton(self.place_angles(mirrored))
+            other = self.solve_newton(self.determine_angles(mirrored))
             if not self._is_assembly(other):
                 continue
             other = self.unwind_angles(other)
-            if self.compute_distance(other) < (1.0 - NEARER) * self.compute_distance(closed):
-                closed = other
-        return closed
+            if self.compute_distance(other) < (1.0 - NEARER) * self.compute_distance(closed_configuration):
+                closed_configuration = other
+        return closed_configuration
 
     def compute_distance(self, q: Array) -> float:
         """Return the distance of a configuration from the guess: weighted coordinates, points relative to the size.
@@ -190,16 +190,14 @@ class Closure:
         """
         off = [self.compute_point_error(q, point, target) * (GUESSED / self.size) for point, target in self.points]
         free = np.where(np.isin(np.arange(len(q)), self.guessed), 1.0, 0.0 if self.points else 1.0)
-        return float(np.linalg.norm(np.concatenate([(q - self.expected) * self.weight * free, *off])))
+        return float(np.linalg.norm(np.concatenate([(q - self.first_guess) * self.weight * free, *off])))
 
     def compute_point_error(self, q: Array, point: PointInfo, target: Array) -> Array:
         """Return the vector (2,) in m from the guessed position `target` of a point to its position at q."""
         return compute_point_position(self.linkage.source, self.p, q, point) - target
 
-    def _fit_points(self, q: Array) -> Array:
-        """Return the configuration, found from q, whose guessed points are as near to their guesses as the equations
-        allow.
-        """
+    def _fit_guessed_points(self, q: Array) -> Array:
+        """Return the configuration, found from q, whose guessed points are as near to their guesses as possible."""
         held = np.diag(self.weight)[self.guessed]
 
         def compute_residuals(x: Array) -> Array:
@@ -210,7 +208,7 @@ class Closure:
         def compute_jacobian(x: Array) -> Array:
             """Return the Jacobian of these residuals."""
             rows = self.compute_jacobian(x) / self.row_scale[:, None]
-            return np.concatenate([rows, held, self._compute_points_jacobian(x) / self.size])
+            return np.concatenate([rows, held, self._compute_guessed_points_jacobian(x) / self.size])
 
         return self._minimize_residual(q, compute_residuals, compute_jacobian)
 
@@ -241,7 +239,7 @@ class Closure:
                 break
         return q
 
-    def _compute_points_jacobian(self, q: Array) -> Array:
+    def _compute_guessed_points_jacobian(self, q: Array) -> Array:
         """Return the Jacobian of the positions of the guessed points with respect to q, (2 · points, n)."""
         J, source = np.zeros((2 * len(self.points), len(q))), self.linkage.source
         for k, (point, _) in enumerate(self.points):
@@ -250,10 +248,8 @@ class Closure:
             J[2 * k, i], J[2 * k, i + 2], J[2 * k + 1, i + 1], J[2 * k + 1, i + 2] = 1.0, -arm[1], 1.0, arm[0]
         return J
 
-    def _find_farthest_position(self, guess: Array) -> float:
-        """Return the largest distance (m) from the origin that drives and start require; at least the size of the
-        mechanism.
-        """
+    def _compute_max_distance(self, guess: Array) -> float:
+        """Return the largest distance (m) from the origin in drives and guess; at least the size of the mechanism."""
         requested = np.abs(self.compute_residual(guess))[: len(self.linkage.source.start_rows)]
         lengths = [row.unit == "m" for row in self.linkage.source.start_rows]
         return float(
@@ -262,27 +258,27 @@ class Closure:
 
     def is_closed(self, q: Array) -> bool:
         """Return whether all equations are satisfied to rounding at q."""
-        return self.compute_norm(q) < CLOSED + ROUNDING * self.reach / self.size
+        return self.compute_norm(q) < CLOSED + ROUNDING * self.max_distance / self.size
 
-    def is_near(self, q: Array) -> bool:
-        """Return whether no body is so far away at q that every equation seems to be satisfied."""
-        return bool(np.abs(q[~self.is_angle]).max(initial=0.0) < AWAY * self.reach)
+    def has_bodies_in_range(self, q: Array) -> bool:
+        """Return whether no body at q is so far from the origin that every equation seems to be satisfied."""
+        return bool(np.abs(q[~self.is_angle]).max(initial=0.0) < AWAY * self.max_distance)
 
-    def _compute_relative_miss(self, q: Array) -> float:
-        """Return how far the worst guessed angle, position or point is off, relative to the limit for a longer search.
+    def _compute_relative_guess_error(self, q: Array) -> float:
+        """Return the largest error of the guessed angles, positions and points, relative to the limit for more starts.
 
         It is 0 without guesses.
         """
-        differences = np.where(np.isin(np.arange(len(q)), self.guessed), q - self.expected, 0.0)
+        differences = np.where(np.isin(np.arange(len(q)), self.guessed), q - self.first_guess, 0.0)
         position_errors = np.hypot(differences[0::3], differences[1::3]) / np.maximum(
-            self.size, np.hypot(self.expected[0::3], self.expected[1::3])
+            self.size, np.hypot(self.first_guess[0::3], self.first_guess[1::3])
         )
         point_errors = [
             np.linalg.norm(self.compute_point_error(q, *point)) / (APART * self.size) for point in self.points
         ]
         return float(max([*position_errors / APART, *np.abs(differences[2::3]) / FAR, *point_errors], default=0.0))
 
-    def _draw_other_starts(self, guess: Array, angle_range: float, seed: int = 0) -> Iterator[Array]:
+    def _draw_random_starts(self, guess: Array, angle_range: float, seed: int = 0) -> Iterator[Array]:
         """Yield random starts around the guess, the same in every run; driven and set coordinates keep their values.
 
         Each draw is followed by its mirror image in the axes of the bodies. A linkage that is turned or mirrored with
@@ -304,13 +300,13 @@ class Closure:
                 q[1::3] += position_steps.imag
                 q[2::3] += mirror * deviations[2::3]
                 q[self.set_index] = self.set
-                yield self.place_angles(q)
+                yield self.determine_angles(q)
 
     def unwind_angles(self, q: Array) -> Array:
         """Return the configuration with its angles within half a turn of the guess, unless an equation then opens."""
-        for k in np.flatnonzero(self.is_angle & (np.abs(q - self.expected) > np.pi)):
+        for k in np.flatnonzero(self.is_angle & (np.abs(q - self.first_guess) > np.pi)):
             reduced = q.copy()
-            reduced[k] -= 2.0 * np.pi * np.round((q[k] - self.expected[k]) / (2.0 * np.pi))
+            reduced[k] -= 2.0 * np.pi * np.round((q[k] - self.first_guess[k]) / (2.0 * np.pi))
             q = reduced if self.is_closed(reduced) else q
         return q
 
@@ -320,7 +316,7 @@ class Closure:
         Positions are adapted first. A Jacobian is used again while the norm falls to a tenth in each step. The result
         may be open.
         """
-        scaled_residual, rounding = self._compute_scaled_residual(q), ROUNDING * self.reach / self.size
+        scaled_residual, rounding = self._compute_scaled_residual(q), ROUNDING * self.max_distance / self.size
         if float(np.linalg.norm(scaled_residual)) < rounding:
             return q
         q = q + self._compute_newton_step(q, scaled_residual, ~self.is_angle)
@@ -351,10 +347,8 @@ class Closure:
             linearized_at = linearized_at if is_reused else q
         return q
 
-    def place_angles(self, q: Array) -> Array:
-        """Return a copy of q with the angles that equations in angles alone (drives, sliders) determine, by one Newton
-        step.
-        """
+    def determine_angles(self, q: Array) -> Array:
+        """Return q with the angles that equations in angles alone (drives, sliders) determine, by one Newton step."""
         rows = np.abs(self.compute_jacobian(q)[:, ~self.is_angle]).max(axis=1, initial=0.0) == 0.0
         matrix = self.compute_jacobian(q)[rows][:, self.is_angle] / self.weight[self.is_angle]
         q = q.copy()

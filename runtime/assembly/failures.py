@@ -82,15 +82,15 @@ def make_closure_error(closure: Closure, q: Array) -> AssemblyError:
     q: the best configuration that was found. The message may name lengths with a wrong unit, or a link whose change
     would close the linkage.
     """
-    scaled = np.abs(closure.compute_residual(q) / closure.row_scale)
-    if not np.isfinite(scaled).all():
+    scaled_residuals = np.abs(closure.compute_residual(q) / closure.row_scale)
+    if not np.isfinite(scaled_residuals).all():
         why = explain_undefined_ahead(closure.linkage.source, closure.p, closure.t, q, np.zeros_like(q))
         message = f"{why}\n  expected a number at the start" if why else "the constraints are not finite at the guess"
         return AssemblyError(f"the start cannot be assembled: {message}")
-    worst = np.argsort(-scaled)[:6]
-    worst = worst[scaled[worst] > 1e-3 * scaled.max()]
+    worst = np.argsort(-scaled_residuals)[:6]
+    worst = worst[scaled_residuals[worst] > 1e-3 * scaled_residuals.max()]
     rows = ", ".join(_format_open_equation(closure, q, k) for k in worst)
-    if more := int((scaled >= max(CLOSED, 1e-6 * scaled.max())).sum()) - len(worst):
+    if more := int((scaled_residuals >= max(CLOSED, 1e-6 * scaled_residuals.max())).sum()) - len(worst):
         rows += f" and {more} more, less far,"
     owners = ", ".join(dict.fromkeys(closure.owners[k] for k in worst if closure.owners[k] != "start"))
     sets = "what start.set holds, " if len(closure.set_index) else ""
@@ -102,11 +102,14 @@ def make_closure_error(closure: Closure, q: Array) -> AssemblyError:
     )
 
 
-def _format_open_equation(closure: Closure, q: Array, k: int) -> str:
-    """Return an open equation k with its residual and the line of its joint: "C.x (8.2 mm, line 14)"."""
-    left, line = float(closure.compute_residual(q)[k]), dict(closure.linkage.source.lines).get(closure.owners[k])
-    amount = format_length(left) if closure.units[k] == "m" else f"{np.degrees(left):.3g} deg"
-    return f"{closure.names[k]} ({amount}{f', line {line}' if line else ''})"
+def _format_open_equation(closure: Closure, q: Array, index: int) -> str:
+    """Return the name of an open equation with its residual and the line of its joint: "C.x (8.2 mm, line 14)"."""
+    left, line = (
+        float(closure.compute_residual(q)[index]),
+        dict(closure.linkage.source.lines).get(closure.owners[index]),
+    )
+    amount = format_length(left) if closure.units[index] == "m" else f"{np.degrees(left):.3g} deg"
+    return f"{closure.names[index]} ({amount}{f', line {line}' if line else ''})"
 
 
 def _describe_wrong_lengths(closure: Closure, q: Array) -> str:
@@ -170,10 +173,10 @@ def find_wrong_lengths(closure: Closure, q: Array) -> list[WrongLength]:
     q: the configuration with the least residuals.
     """
     with np.errstate(all="ignore"):
-        return sorted(_find_wrong_lengths(closure, q), key=lambda wrong: abs(wrong.missing))
+        return sorted(_search_wrong_lengths(closure, q), key=lambda wrong: abs(wrong.missing))
 
 
-def _find_wrong_lengths(closure: Closure, q: Array) -> Iterator[WrongLength]:
+def _search_wrong_lengths(closure: Closure, q: Array) -> Iterator[WrongLength]:
     """Yield the bodies of which a change of length would close the equations, in the order of the file."""
     source = closure.linkage.source
     connected = {end for part in source.parts if part.section != "forces" for end in part.ends}
@@ -184,30 +187,30 @@ def _find_wrong_lengths(closure: Closure, q: Array) -> Iterator[WrongLength]:
         if furthest_points is not None and distances[furthest_points] > 0.0:
             one, other = (point.name.partition(".")[2] for point in furthest_points)
             parameter_indices = sorted({k for point, _ in arms for k in (point.x, point.y) if k >= 0})
-            relative_change = _find_closing_change(closure, q, parameter_indices)
+            relative_change = _find_closing_length_change(closure, q, parameter_indices)
             if relative_change is not None:
                 yield WrongLength(
                     body.name, (one, other), distances[furthest_points], relative_change * distances[furthest_points]
                 )
 
 
-def _find_closing_change(closure: Closure, q: Array, indices: list[int]) -> float | None:
-    """Return the relative change of the lengths at `indices` of p that just closes the equations; None if none does.
+def _find_closing_length_change(closure: Closure, q: Array, length_indices: list[int]) -> float | None:
+    """Return the relative change of some lengths that just closes the equations; None if none does.
 
-    Newton's method on the norm of the least residual, then bisection between open and closed. q: first configuration.
-    Changes outside LEAST to MOST are not considered.
+    length_indices: the lengths' indices in p. q: first configuration. Newton's method on the norm of the least residual
+    is followed by bisection between open and closed. Changes outside LEAST to MOST are not considered.
     """
     p, open_change, closing_change, change = closure.p, 0.0, None, 0.0
 
-    def scaled(relative_change: float) -> Array:
+    def scale_lengths(relative_change: float) -> Array:
         """Return the parameter values with the lengths scaled by 1 + relative_change."""
         changed = np.array(p)
-        changed[indices] *= 1.0 + relative_change
+        changed[length_indices] *= 1.0 + relative_change
         return changed
 
     for _ in range(STEPS):
-        least_squares_q = closure.find_least_residual(q, scaled(change))
-        residual = closure.compute_residual(least_squares_q, scaled(change)) / closure.row_scale
+        least_squares_q = closure.find_least_residual(q, scale_lengths(change))
+        residual = closure.compute_residual(least_squares_q, scale_lengths(change)) / closure.row_scale
         size = float(np.linalg.norm(residual))
         if not np.isfinite(size):
             return None
@@ -217,7 +220,8 @@ def _find_closing_change(closure: Closure, q: Array, indices: list[int]) -> floa
             closing_change, change = change, 0.5 * (open_change + change)
             continue
         residual_above, residual_below = (
-            closure.compute_residual(least_squares_q, scaled(change + e)) / closure.row_scale for e in (NUDGE, -NUDGE)
+            closure.compute_residual(least_squares_q, scale_lengths(change + e)) / closure.row_scale
+            for e in (NUDGE, -NUDGE)
         )
         slope = float(residual @ (residual_above - residual_below)) / (2.0 * NUDGE)
         if abs(slope) < 1e-9 * size:

@@ -21,10 +21,9 @@ FOLLOWED = np.pi / 6  # rad; smaller differences from a guess are not reported
 
 
 def find_unfollowed_guesses(linkage: Linkage, p: Array, q: Array) -> dict[str, float]:
-    """Return the guessed coordinates that differ from their guess at q by more than a limit, with the difference (rad
-    or m).
+    """Return {name: difference from the guess} of guessed coordinates that differ at q by more than a limit.
 
-    Guessed points are included with their distance (m).
+    Differences are in rad or m. Guessed points are included with their distance (m).
     """
     source, differences = linkage.source, dict[str, float]()
     guess = dict(zip(source.start_guess, linkage.start_values(p)[0].tolist(), strict=True))
@@ -60,20 +59,19 @@ def warn_unfollowed_guesses(linkage: Linkage, p: Array, q: Array) -> None:
         warnings.warn(f"{message}; {LISTED}", stacklevel=find_user_stack_level())
 
 
-def warn_unfollowed_in_runs(source: KernelSource, noted: Sequence[Mapping[str, float]]) -> None:
-    """Issue one warning for all runs of a batch: which guesses are not followed, in how many runs, by how much at
-    most.
+def warn_unfollowed_in_runs(source: KernelSource, unfollowed_guesses: Sequence[Mapping[str, float]]) -> None:
+    """Issue one warning for all runs of a batch: guesses that starts do not follow, number of runs, largest difference.
 
-    noted: unfollowed guesses of each run. If a study collects notes in NOTED, they are added there instead.
+    unfollowed_guesses: {name: difference} of each run. If a study collects them in NOTED, they are added there instead.
     """
     if (kept := NOTED.get()) is not None:  # by who makes many batches
-        kept.extend(noted)
+        kept.extend(unfollowed_guesses)
         return
     message = []
-    for name in dict.fromkeys(name for off in noted for name in off):
-        deviations = [off[name] for off in noted if name in off]
+    for name in dict.fromkeys(name for off in unfollowed_guesses for name in off):
+        deviations = [off[name] for off in unfollowed_guesses if name in off]
         largest = format_guess_difference(name, max(map(abs, deviations)))
-        message.append(f"{name} in {len(deviations)} of {len(noted)} runs by up to {largest}")
+        message.append(f"{name} in {len(deviations)} of {len(unfollowed_guesses)} runs by up to {largest}")
     if message:
         text = f"runs begin away from their guess: {', '.join(message)}: {describe_missing_assembly(source)}; {LISTED}"
         warnings.warn(text, stacklevel=find_user_stack_level())
@@ -93,8 +91,6 @@ def format_guess_difference(name: str, difference: float) -> str:
 
 
 def describe_missing_assembly(source: KernelSource) -> str:
-    """Return a text that no nearer assembly was found; it mentions several guesses, since they may contradict each
-    other.
-    """
+    """Return a text that no nearer assembly was found, and that several guesses may contradict each other."""
     guessed = {name if name in source.coordinates else name.rpartition(".")[0] for name in source.start_guess}
     return f"no assembly nearer{' to all guesses together' if len(guessed) > 1 else ''} was found"

@@ -35,9 +35,9 @@ def check_journal_positions(linkage: Linkage, p: Array) -> None:
     for joint in linkage.source.clearances:
         if joint.name.endswith(".front_upper"):
             _check_slider_tilt(linkage, p, joint)
-    for joint, e, c in _iterate_placed_joints(linkage, p):
+    for joint, e, c in _iterate_joints_with_start_position(linkage, p):
         if joint.is_corner:
-            _check_corner(linkage, p, joint, e - c)
+            _check_corner_depth(linkage, p, joint, e - c)
             continue
         if joint.name in linkage.source.rigid and e > c * (1.0 + ROUNDED):
             length, most = format_distinct(1e3 * e, 1e3 * c)
@@ -84,7 +84,7 @@ def _check_slider_tilt(linkage: Linkage, p: Array, joint: ClearanceInfo) -> None
             )
 
 
-def _check_corner(linkage: Linkage, p: Array, joint: ClearanceInfo, depth: float) -> None:
+def _check_corner_depth(linkage: Linkage, p: Array, joint: ClearanceInfo, depth: float) -> None:
     """Raise AssemblyError for a slider's corner that is too deep in its wall; `depth` in m, negative outside."""
     rigid, c = joint.name in linkage.source.rigid, float(p[joint.clearance])
     most = ROUNDED * c if rigid else DEEPEST * float(p[joint.constants["R_i"]])
@@ -103,7 +103,7 @@ def _check_corner(linkage: Linkage, p: Array, joint: ClearanceInfo, depth: float
 
 def describe_journals_in_walls(linkage: Linkage, p: Array) -> Iterator[str]:
     """Yield a note on each joint whose journal or corner starts inside the wall; rigid surfaces are left out."""
-    for joint, e, c in _iterate_placed_joints(linkage, p):
+    for joint, e, c in _iterate_joints_with_start_position(linkage, p):
         if e > c and joint.name not in linkage.source.rigid:
             wall = "its wall" if joint.is_corner else "its bearing's wall"
             so = "a run begins in contact" if joint.dry else "there is no film there"
@@ -113,7 +113,7 @@ def describe_journals_in_walls(linkage: Linkage, p: Array) -> Iterator[str]:
             )
 
 
-def _iterate_placed_joints(linkage: Linkage, p: Array) -> Iterator[tuple[ClearanceInfo, float, float]]:
+def _iterate_joints_with_start_position(linkage: Linkage, p: Array) -> Iterator[tuple[ClearanceInfo, float, float]]:
     """Yield the joints with play whose positions the file's start sets, each with |e| and the clearance c (m).
 
     For a corner, e is its approach to the wall; for a contour, c is the largest clearance.
@@ -138,19 +138,19 @@ def _iterate_placed_joints(linkage: Linkage, p: Array) -> Iterator[tuple[Clearan
 
 
 def describe_contacts_without_onset(
-    compiled: CompiledModel, p: Array, t: float, q: Array, v: Array, memory: Array
+    compiled: CompiledModel, p: Array, t: float, q: Array, v: Array, discrete_states: Array
 ) -> tuple[str, ...]:
     """Return a note on each dry contact that a run begins with while the surfaces do not approach (δ̇ ≤ 0).
 
     Its approach speed δ̇⁻ at the onset is then a convention. q, v (n,) at time t (s). memory (n_memory,): contacts
     resumed from another run know their onset and are left out, as are laws that do not depend on δ̇⁻.
     """
-    joints = [k for k, joint in enumerate(compiled.source.clearances) if joint.dry and math.isnan(memory[k])]
+    joints = [k for k, joint in enumerate(compiled.source.clearances) if joint.dry and math.isnan(discrete_states[k])]
     notes: list[str] = []
     for index in joints:
         joint = compiled.source.clearances[index]
         if joint.is_corner:
-            notes += _check_parting_corner(compiled, p, t, q, v, memory, index)
+            notes += _describe_corner_without_onset(compiled, p, t, q, v, discrete_states, index)
             continue
         rows, e = find_eccentricity(compiled, p, t, q, joint)
         depth = math.hypot(*e) - float(p[joint.clearance]) - _find_contour_depth(compiled, p, q, joint, e)
@@ -159,73 +159,80 @@ def describe_contacts_without_onset(
                 deltadot_by_v = -(e / math.hypot(*e)) @ compiled.closed_phi_q(t, q, p)[rows]  # ∂δ̇/∂v
                 deltadot = float(deltadot_by_v @ v + (e / math.hypot(*e)) @ compiled.closed_nu(t, q, p)[rows])
                 approach = v + (1.0 - deltadot) / float(deltadot_by_v @ deltadot_by_v) * deltadot_by_v  # δ̇ = 1 m/s
-                if deltadot <= 0.0 and _has_approach_speed_dependence(compiled, p, t, q, approach, memory, index):
+                if deltadot <= 0.0 and _depends_on_approach_speed(compiled, p, t, q, approach, discrete_states, index):
                     notes.append(_format_onset_note(joint.name, depth, deltadot))
     return tuple(notes)
 
 
-def _check_parting_corner(
-    compiled: CompiledModel, p: Array, t: float, q: Array, v: Array, memory: Array, index: int
+def _describe_corner_without_onset(
+    compiled: CompiledModel, p: Array, t: float, q: Array, v: Array, discrete_states: Array, joint_index: int
 ) -> Iterator[str]:
-    """Yield the note of `describe_contacts_without_onset` for the corner of a slider, if it begins in contact without
-    approaching.
+    """Yield a note on the corner of a slider if it begins in contact without approaching its wall (δ̇ ≤ 0).
 
-    index: of the joint among those with play. Other arguments as in `describe_contacts_without_onset`.
+    joint_index: of the joint among those with play. Other arguments as in `describe_contacts_without_onset`.
     """
-    joint = compiled.source.clearances[index]
-    depth, deltadot = compute_corner_gap(compiled, p, t, q, v, index)
+    joint = compiled.source.clearances[joint_index]
+    depth, deltadot = compute_corner_gap(compiled, p, t, q, v, joint_index)
     if not (depth > 0.0 and deltadot <= 0.0):
         return
     steps = np.eye(len(v))
-    deltadot_by_v = np.array([compute_corner_gap(compiled, p, t, q, v + step, index)[1] - deltadot for step in steps])
+    deltadot_by_v = np.array(
+        [compute_corner_gap(compiled, p, t, q, v + step, joint_index)[1] - deltadot for step in steps]
+    )
     approach = v + (1.0 - deltadot) / float(deltadot_by_v @ deltadot_by_v) * deltadot_by_v  # δ̇ = 1 m/s
-    if _has_approach_speed_dependence(compiled, p, t, q, approach, memory, index):
+    if _depends_on_approach_speed(compiled, p, t, q, approach, discrete_states, joint_index):
         yield _format_onset_note(joint.name, depth, deltadot)
 
 
-def _find_contour_depth(compiled: CompiledModel, p: Array, q: Array, joint: ClearanceInfo, e: Array) -> float:
-    """Return the depth (m) of the bearing's contour beyond its circle in the direction of e (2,); 0 without a
-    contour.
+def _find_contour_depth(
+    compiled: CompiledModel, p: Array, q: Array, joint: ClearanceInfo, eccentricity: Array
+) -> float:
+    """Return the depth (m) of a bearing's contour beyond its circle in the direction of the eccentricity (2,).
+
+    It is 0 without a contour.
     """
     if (depths := find_contour(compiled.source, p, joint.name)) is None:
         return 0.0
     theta = q[compiled.source.bodies[joint.first].index + 2] if joint.first >= 0 else 0.0
-    return float(interpolate_depth(depths, math.atan2(e[1], e[0]) - theta))
+    return float(interpolate_depth(depths, math.atan2(eccentricity[1], eccentricity[0]) - theta))
 
 
 def find_eccentricity(
     compiled: CompiledModel, p: Array, t: float, q: Array, joint: ClearanceInfo
 ) -> tuple[list[int], Array]:
-    """Return the indices of a joint's equations in the closed linkage, and its eccentricity e (2,) in ground axes,
-    m.
-    """
+    """Return the indices of a joint's equations in the closed linkage, and its eccentricity (2,), m, in ground axes."""
     rows = [k for k, row in enumerate(compiled.source.start_rows) if row.owner == joint.name]
     return rows, -compiled.closed_phi(t, q, p)[rows]  # physics.md, section 2: Φ of the joint is −e
 
 
-def _has_approach_speed_dependence(
-    compiled: CompiledModel, p: Array, t: float, q: Array, v: Array, memory: Array, index: int
+def _depends_on_approach_speed(
+    compiled: CompiledModel, p: Array, t: float, q: Array, v: Array, discrete_states: Array, joint_index: int
 ) -> bool:
     """Return whether the force of a joint at this state differs for a small and an infinite approach speed δ̇⁻.
 
-    v: velocities at which the surfaces approach. index: of the joint among those with play. It is True if the state
-    cannot be evaluated.
+    v: velocities at which the surfaces approach. joint_index: of the joint among those with play. True is returned if
+    the state cannot be evaluated.
     """
-    contact_states = np.array([memory, memory])
-    contact_states[:, index] = 1e-3, np.inf
+    contact_states = np.array([discrete_states, discrete_states])
+    contact_states[:, joint_index] = 1e-3, np.inf
     try:
-        columns = compiled.evaluate([t, t], [q, q], [v, v], contact_states, p, parts=("clearance",)).clearance[:, index]
+        columns = compiled.evaluate([t, t], [q, q], [v, v], contact_states, p, parts=("clearance",)).clearance[
+            :, joint_index
+        ]
     except SingularError:  # the run itself tells
         return True
     force = columns[:, [CLEARANCE_Fx, CLEARANCE_Fy]]
     return bool((force[0] != force[1]).any())
 
 
-def _format_onset_note(joint: str, depth: float, deltadot: float) -> str:
-    """Return the note on a contact at the start whose onset is not known; depth in m, deltadot (≤ 0) in m/s."""
-    moves = f"part at {-deltadot:.4g} m/s" if deltadot < 0.0 else "are at rest"
+def _format_onset_note(joint_name: str, depth: float, penetration_rate: float) -> str:
+    """Return the note on a contact at the start whose onset is not known.
+
+    depth: m. penetration_rate: δ̇ ≤ 0, m/s.
+    """
+    moves = f"part at {-penetration_rate:.4g} m/s" if penetration_rate < 0.0 else "are at rest"
     return (
-        f"{joint} begins in contact, {1e6 * depth:.4g} µm deep, while its surfaces {moves}: the onset is not known, and"
-        " its rate δ̇⁻ is taken as that of one without loss, by the energy of motion and elastic force (run.impacts has"
-        " it, as deltadot); damping of this contact, and of no other, hangs on that choice"
+        f"{joint_name} begins in contact, {1e6 * depth:.4g} µm deep, while its surfaces {moves}: the onset is not"
+        " known, and its rate δ̇⁻ is taken as that of one without loss, by the energy of motion and elastic force (run."
+        "impacts has it, as deltadot); damping of this contact, and of no other, hangs on that choice"
     )

@@ -19,52 +19,54 @@ COLUMNS, SHARPER = 6, 6  # random columns that are filtered, and the number of f
 VANISHES = 1e-6  # of the largest singular value: smaller ones are ignored where equations depend on each other
 
 
-def solve_minimum_norm(matrix: Array, target: Array) -> Array:
-    """Return the shortest x (n,) with matrix x = target, or the shortest least-squares solution.
+def solve_minimum_norm(matrix: Array, right_hand_side: Array) -> Array:
+    """Return the shortest x (n,) with matrix x = right_hand_side, or the shortest least-squares solution.
 
     It is 0 if a number is not finite. From LARGE columns on sparse solvers are used.
     """
-    if not (np.isfinite(matrix).all() and np.isfinite(target).all()):
+    if not (np.isfinite(matrix).all() and np.isfinite(right_hand_side).all()):
         return np.zeros(matrix.shape[1])
     if matrix.shape[1] >= LARGE:
-        x = solve_independent_rows(matrix, target)
-        return x if x is not None else solve_dependent_rows(matrix, target)
-    return np.asarray(np.linalg.lstsq(matrix, target, rcond=1e-12)[0], dtype=np.float64)
+        x = solve_independent_rows(matrix, right_hand_side)
+        return x if x is not None else solve_dependent_rows(matrix, right_hand_side)
+    return np.asarray(np.linalg.lstsq(matrix, right_hand_side, rcond=1e-12)[0], dtype=np.float64)
 
 
-def solve_independent_rows(matrix: Array, target: Array) -> Array | None:
-    """Return the shortest x (n,) with matrix x = target by factorizing [I Aᵀ; A 0]; None if the rows depend on each
-    other.
+def solve_independent_rows(matrix: Array, right_hand_side: Array) -> Array | None:
+    """Return the shortest x (n,) with matrix x = right_hand_side; None if the rows of the matrix A are dependent.
+
+    The matrix [I Aᵀ; A 0] is factorized.
     """
     columns = matrix.shape[1]
     try:
-        x = _factorize(matrix, 0.0)(np.concatenate([np.zeros(columns), target]))[:columns]
+        x = _factorize(matrix, 0.0)(np.concatenate([np.zeros(columns), right_hand_side]))[:columns]
     except RuntimeError:  # exactly singular
         return None
-    fits = np.linalg.norm(matrix @ x - target) <= 1e-9 * (np.linalg.norm(target) + 1e-300)
+    fits = np.linalg.norm(matrix @ x - right_hand_side) <= 1e-9 * (np.linalg.norm(right_hand_side) + 1e-300)
     return np.asarray(x, dtype=np.float64) if fits else None
 
 
-def solve_dependent_rows(matrix: Array, target: Array) -> Array:
-    """Return about the shortest least-squares solution x (n,) of matrix x = target, if rows depend on each other.
+def solve_dependent_rows(matrix: Array, right_hand_side: Array) -> Array:
+    """Return about the shortest least-squares solution x (n,) of matrix x = right_hand_side.
 
-    Singular values below VANISHES of the largest are damped; four repetitions reduce the effect of the damping on the
-    others.
+    Rows may depend on each other. Singular values below VANISHES of the largest are damped; four repetitions reduce the
+    effect of the damping on the others.
     """
     columns, x = matrix.shape[1], np.zeros(matrix.shape[1])
     solve = _factorize(matrix, (VANISHES * _compute_norm_bound(matrix)) ** 2)
     for _ in range(4):  # damping takes a share of a step, less each time
-        x = x + solve(np.concatenate([np.zeros(columns), target - matrix @ x]))[:columns]
+        x = x + solve(np.concatenate([np.zeros(columns), right_hand_side - matrix @ x]))[:columns]
     return x
 
 
-def solve_damped_least_squares(matrix: Array, target: Array) -> Array:
-    """Return x (n,) that minimizes |matrix x − target| with a little damping, for Newton's first steps with too many
-    equations.
+def solve_damped_least_squares(matrix: Array, right_hand_side: Array) -> Array:
+    """Return x (n,) that minimizes |matrix x − right_hand_side| with a little damping.
+
+    Newton's first steps use it if there are more equations than coordinates.
     """
     rows = len(matrix)
     damping = DAMPING * float((matrix**2).sum()) + 1e-300
-    x = _factorize(matrix.T, damping)(np.concatenate([target, np.zeros(matrix.shape[1])]))[rows:]
+    x = _factorize(matrix.T, damping)(np.concatenate([right_hand_side, np.zeros(matrix.shape[1])]))[rows:]
     return np.asarray(x, dtype=np.float64)
 
 
@@ -89,11 +91,10 @@ def is_independent(matrix: Array, relative_limit: float) -> bool:
 
 
 def estimate_dependence_shares(matrix: Array, relative_limit: float) -> Array:
-    """Return for each row, (m,), about its share in vanishing combinations of rows: σ below `relative_limit` of the
-    largest.
+    """Return for each row, (m,), about its share in vanishing combinations of rows.
 
-    relative_limit ≥ 1e-7. (ε/(AAᵀ + ε))ᵏ filters these combinations from random columns, with ε = σ² at the limit. All
-    0 for numbers that are not finite.
+    They are those of singular values σ below `relative_limit` (at least 1e-7) times the largest. (ε/(AAᵀ + ε))ᵏ filters
+    them from random columns, with ε = σ² at the limit. All shares are 0 for numbers that are not finite.
     """
     rows, columns = matrix.shape
     if not rows or not np.isfinite(matrix).all():
@@ -127,8 +128,9 @@ def compute_rank_by_rows(matrix: Array, relative_limit: float) -> int:
 
 
 def _factorize(matrix: Array, damping: float) -> Callable[[Array], Array]:
-    """Return a function that solves [I Aᵀ; A −damping I] x = b by sparse factorization. Raises RuntimeError if it is
-    singular.
+    """Return a function that solves [I Aᵀ; A −damping I] x = b for a matrix A by sparse factorization.
+
+    Raises RuntimeError if the matrix is singular.
     """
     import_completely(*SPARSE)
     from scipy import sparse

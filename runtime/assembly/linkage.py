@@ -42,9 +42,7 @@ class Linkage(Protocol):
 
 
 def compute_mechanism_size(linkage: Linkage, p: Array) -> float:
-    """Return the size (m) of the mechanism with parameter values p, by which lengths are scaled; see
-    `compute_mechanism_sizes`.
-    """
+    """Return the size (m) of the mechanism with parameter values p, by which lengths are scaled."""
     return float(compute_mechanism_sizes(linkage.source, p))
 
 
@@ -63,9 +61,7 @@ def scale_rows(linkage: Linkage, p: Array, matrix: Array) -> Array:
 
 
 def find_point_in_body(p: Array, point: PointInfo) -> Array:
-    """Return the coordinates (2,) in m of a point in its body's centre-of-mass frame; of a ground point in ground
-    axes.
-    """
+    """Return the coordinates (2,) in m of a point in its body's frame (centre of mass), or in ground axes."""
     pairs = ((point.x, point.sign_x), (point.y, point.sign_y))
     return np.array([sign * float(p[k]) if k >= 0 else 0.0 for k, sign in pairs])
 

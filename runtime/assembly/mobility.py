@@ -70,7 +70,7 @@ def find_mobility(
         len(row_indices),
         motions.shape[1],
         coordinate_names,
-        _find_loose_bodies(linkage, matrices[regular]),
+        _find_unconnected_bodies(linkage, matrices[regular]),
         aligned,
     )
 
@@ -86,19 +86,19 @@ def compute_free_motions(linkage: Linkage, p: Array, q: Array, t: float = 0.0) -
     return _compute_null_space(matrix) * scale[:, None] if np.isfinite(matrix).all() else np.zeros((len(q), 0))
 
 
-def check_degrees_of_freedom(expected: float, location: Location, mobility: Mobility) -> None:
+def check_degrees_of_freedom(expected_dof: float, location: Location, mobility: Mobility) -> None:
     """Raise BadValueError at `location` if the file states another number of degrees of freedom than was found."""
-    if mobility.freedoms != expected:
+    if mobility.freedoms != expected_dof:
         directions_text = f": {', '.join(mobility.along)}" if mobility.along else ""
-        message = f"freedoms is {expected:g}, but with all joints closed there are {mobility.freedoms}{directions_text}"
+        message = (
+            f"freedoms is {expected_dof:g}, but with all joints closed there are {mobility.freedoms}{directions_text}"
+        )
         hint = "look for a joint or a drive that is missing or too many, or correct the number"
         raise BadValueError(message, location, f"expected {mobility.freedoms}, if that is meant; {hint}")
 
 
 def _compute_null_space(matrix: Array) -> Array:
-    """Return an orthonormal basis (n, dof) of the null space of a matrix, by singular values below RANK of the
-    largest.
-    """
+    """Return an orthonormal basis (n, dof) of the null space: singular values below RANK of the largest count as 0."""
     if not len(matrix):
         return np.eye(matrix.shape[1])
     _, values, right = np.linalg.svd(matrix)
@@ -107,32 +107,30 @@ def _compute_null_space(matrix: Array) -> Array:
 
 
 def _list_preferred_order(names: tuple[str, ...]) -> list[int]:
-    """Return the indices of coordinates in the order of preference: by body as in the file, the angle before x and
-    y.
-    """
+    """Return the indices of coordinates in order of preference: by body as in the file, the angle before x and y."""
     return [k + shift for k in range(0, len(names), 3) for shift in (2, 0, 1)]
 
 
-def _select_describing_coordinates(motions: Array, order: list[int]) -> list[int]:
+def _select_describing_coordinates(free_motions: Array, preferred_order: list[int]) -> list[int]:
     """Return the indices of the first coordinates in this order that distinguish all free motions (n, dof).
 
     Coordinates whose motion is mostly independent of those selected are preferred.
     """
-    basis, selected = np.zeros((0, motions.shape[1])), list[int]()
+    basis, selected = np.zeros((0, free_motions.shape[1])), list[int]()
     for independent_part in (0.1, 0.0):  # of a coordinate's motion that is its own; then those that only go with others
-        for k in order:
-            rest = motions[k] - (basis @ motions[k]) @ basis
+        for k in preferred_order:
+            rest = free_motions[k] - (basis @ free_motions[k]) @ basis
             length = float(np.linalg.norm(rest))
             if (
-                len(selected) < motions.shape[1]
+                len(selected) < free_motions.shape[1]
                 and length > INDEPENDENT
-                and length > independent_part * float(np.linalg.norm(motions[k]))
+                and length > independent_part * float(np.linalg.norm(free_motions[k]))
             ):
                 basis, selected = np.vstack([basis, rest / length]), [*selected, k]
     return selected
 
 
-def _find_loose_bodies(linkage: Linkage, matrix: Array) -> tuple[str, ...]:
+def _find_unconnected_bodies(linkage: Linkage, matrix: Array) -> tuple[str, ...]:
     """Return the names of the bodies that no joint or drive connects to the ground, not even through other bodies.
 
     matrix: rows of Φ_q, one for each equation.

@@ -68,9 +68,7 @@ def _compute_rank_by_svd(matrix: Array, relative_limit: float) -> int:
 
 
 def _compute_shares_by_svd(matrix: Array, relative_limit: float) -> Array:
-    """Return for each row of a small matrix its largest share in a vanishing combination, from the left singular
-    vectors.
-    """
+    """Return for each row of a small matrix its largest share in a vanishing combination, by singular vectors."""
     left, values, _ = np.linalg.svd(matrix)
     vanishing = left[:, int((values > relative_limit * values[0]).sum()) :]
     return np.asarray(np.abs(vanishing).max(axis=1, initial=0.0), dtype=np.float64)
@@ -92,7 +90,7 @@ def find_dependent_equations(compiled: CompiledModel, p: Array, t: float, q: Arr
     for k, rate in enumerate(source.start_rates):
         body, _, component = rate.partition(".")
         rates[k, source.coordinates.index(f"{body}.{_POSITION[component]}")] = 1.0
-    dependent = _find_dependent_names(
+    dependent = _find_dependent_rows(
         compiled, p, np.concatenate([compiled.closed_phi_q(t, q, p)[index], rates]), names, DEAD
     )
     if not dependent:
@@ -113,10 +111,10 @@ def find_nearly_dependent_equations(compiled: CompiledModel, p: Array, t: float,
     rows = compiled.source.rows
     if not rows or not np.isfinite(q).all():
         return ()
-    return _find_dependent_names(compiled, p, compiled.phi_q(t, q, p), [row.name for row in rows], NEAR)
+    return _find_dependent_rows(compiled, p, compiled.phi_q(t, q, p), [row.name for row in rows], NEAR)
 
 
-def _find_dependent_names(
+def _find_dependent_rows(
     compiled: CompiledModel, p: Array, matrix: Array, names: list[str], relative_limit: float
 ) -> tuple[str, ...]:
     """Return the names of the rows that depend on each other, after scaling, so that units do not matter.
@@ -128,13 +126,13 @@ def _find_dependent_names(
 
 
 def find_nearby_configurations(
-    linkage: Linkage, p: Array, q: Array, equation_indices: Sequence[int], count: int, t: float = 0.0
+    linkage: Linkage, p: Array, q: Array, equation_indices: Sequence[int], n_configurations: int, t: float = 0.0
 ) -> list[Array]:
-    """Return q and up to `count` configurations near it: random steps, closed by Newton's method.
+    """Return q and up to `n_configurations` configurations near it: random steps, closed by Newton's method.
 
     equation_indices: indices of the equations that must be satisfied. Configurations that do not close are left out.
     """
-    if not count:  # NumPy's random numbers are imported on request
+    if not n_configurations:  # NumPy's random numbers are imported on request
         return [q]
     rng, near_q, row_indices, size = (
         np.random.default_rng(0),
@@ -144,7 +142,7 @@ def find_nearby_configurations(
     )
     scale = np.where(find_angles(linkage.source), 1.0, size)
     units = np.array([size if linkage.source.start_rows[k].unit == "m" else 1.0 for k in row_indices])
-    for _ in range(count):
+    for _ in range(n_configurations):
         x = q + REACH * rng.standard_normal(len(q)) * scale
         for _ in range(50):
             residual = linkage.closed_phi(t, x, p)[row_indices] / units
@@ -168,9 +166,7 @@ def list_redundant_equations(compiled: CompiledModel) -> list[int]:
 
 
 def check_redundant_equations(compiled: CompiledModel, p: Array, t: float, q: Array) -> None:
-    """Raise AssemblyError if an equation that was redundant with the file's values would remove a degree of freedom at
-    q.
-    """
+    """Raise AssemblyError if an equation that was redundant with the file's values removes a degree of freedom at q."""
     extra = list_redundant_equations(compiled)
     if not extra:
         return
@@ -185,8 +181,7 @@ def check_redundant_equations(compiled: CompiledModel, p: Array, t: float, q: Ar
 
 
 def find_contradiction(problem: Problem, trajectory: Trajectory) -> SolverError | None:
-    """Return the error for the first sample of a trajectory at which a redundant equation is violated; None if there
-    is none.
+    """Return the error for the first sample at which a trajectory violates a redundant equation; None if none does.
 
     Of an interrupted run, at most MOST samples are checked, the last one among them. Raises KeyboardInterrupt.
     """
@@ -213,7 +208,7 @@ def find_contradiction(problem: Problem, trajectory: Trajectory) -> SolverError 
 
 
 def _describe_equations(compiled: CompiledModel, equation_indices: list[int]) -> str:
-    """Return the names of equations with those of their joints and of the joints with indeterminate forces."""
+    """Return a text with the names of equations, of their joints, and of the joints with indeterminate forces."""
     equations = [compiled.source.start_rows[k] for k in equation_indices]
     owners = dict.fromkeys([*(row.owner for row in equations), *compiled.source.indeterminate])
     return f"row {', '.join(row.name for row in equations)} (with {', '.join(owners)})"

@@ -76,13 +76,13 @@ def compute_start_velocities(closure: Closure, q: Array) -> Array:
     Raises AssemblyError if a rate is not finite or the equations contradict each other.
     """
     names = {"x": "vx", "y": "vy", "theta": "omega"}
-    expected = [f"{body}.{names[c]}" for body, c in (name.split(".") for name in closure.place)]
+    expected = [f"{body}.{names[c]}" for body, c in (name.split(".") for name in closure.coordinate_index)]
     index = [expected.index(name) for name in closure.linkage.source.start_rates]
     rate_rows = np.zeros((len(index), len(q)))
     rate_rows[np.arange(len(index)), index] = 1.0
     matrix = np.concatenate([closure.linkage.closed_phi_q(closure.t, q, closure.p), rate_rows])
     nu = closure.linkage.closed_nu(_choose_rate_time(closure), q, closure.p)
-    nu[closure.apart_index] -= closure.parting
+    nu[closure.eccentricity_rows] -= closure.start_eccentricity_rates
     target = np.concatenate([nu, closure.rates])
     if not (np.isfinite(target).all() and np.isfinite(matrix).all()):
         source = closure.linkage.source

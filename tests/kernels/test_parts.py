@@ -118,7 +118,7 @@ def test_what_declares_calls_or_jumps_stays(monkeypatch: pytest.MonkeyPatch) -> 
     *pieces, main = parts.split_kernel(Kernel("f", (), kernel.arguments, (Section("", (*front, *free, last)),)))
     assert [piece.name for piece in pieces] == ["f_part_1", "f_part_2", "f_part_3"]
     kept = [line for section in main.sections for line in section.statements if not isinstance(line, Statement)]
-    assert [functions.LinePrinter(printer.CPrinter()).line(line).strip() for line in kept] == [
+    assert [functions.LinePrinter(printer.CPrinter()).print_line(line).strip() for line in kept] == [
         "double passed[3];",
         "double b[2];",
         "fill(b);",

@@ -64,8 +64,8 @@ def describe_scene(
     """
     scene, mechanism = model.scene, model.scene.mechanism
     parameter_index = {symbol: k for k, symbol in enumerate(_list_parameter_symbols(model))}
-    body_of = {name: k for k, name in enumerate(model.geometry.bodies)} | {GROUND: -1}
-    row_of = {row.name: r for r, row in enumerate(model.rows)}
+    body_index = {name: k for k, name in enumerate(model.geometry.bodies)} | {GROUND: -1}
+    row_index = {row.name: r for r, row in enumerate(model.rows)}
     unit_of = {row.name: row.unit for row in model.all_rows}
     start_values = mechanism.start
     return KernelSource(
@@ -79,11 +79,11 @@ def describe_scene(
         stages=stages,
         coordinates=tuple(model.symbols.info[q].meaning for q in model.q),
         bodies=tuple(BodyInfo(body.name, body.index) for body in model.bodies),
-        points=_describe_points(model, parameter_index, body_of),
+        points=_describe_points(model, parameter_index, body_index),
         rows=tuple(map(_describe_constraint, model.rows)),
-        joints=_describe_joints(model, body_of, row_of),
-        drives=tuple(DriveInfo(name, row_of.get(name, -1), unit_of[name]) for name in mechanism.drives),
-        clearances=_describe_clearances(model, parameter_index, body_of),
+        joints=_describe_joints(model, body_index, row_index),
+        drives=tuple(DriveInfo(name, row_index.get(name, -1), unit_of[name]) for name in mechanism.drives),
+        clearances=_describe_clearances(model, parameter_index, body_index),
         series=tuple(SeriesInfo(name, unit) for name, (_, unit) in find_element_series(model).items()),
         start_rows=tuple(map(_describe_constraint, model.all_rows)),
         start_guess=tuple(start_values.guess),
@@ -195,7 +195,9 @@ def _name_inner_states(model: Model) -> tuple[str, ...]:
     )
 
 
-def _describe_joints(model: Model, body_of: Mapping[str, int], row_of: Mapping[str, int]) -> tuple[JointInfo, ...]:
+def _describe_joints(
+    model: Model, body_index: Mapping[str, int], row_index: Mapping[str, int]
+) -> tuple[JointInfo, ...]:
     """Return a JointInfo of each joint without play.
 
     It contains the name, the kind, the indices of both bodies, the point of the reaction and the indices of its rows.
@@ -204,10 +206,10 @@ def _describe_joints(model: Model, body_of: Mapping[str, int], row_of: Mapping[s
         JointInfo(
             joint.name,
             joint.kind,
-            body_of[joint.first.body],
-            body_of[joint.second.body],
+            body_index[joint.first.body],
+            body_index[joint.second.body],
             _format_point_names(joint.first if joint_types()[joint.kind].reaction_at == "first" else joint.second)[0],
-            tuple(row_of[row.name] for row in model.rows if row.owner == joint.name),
+            tuple(row_index[row.name] for row in model.rows if row.owner == joint.name),
         )
         for joint in find_constraining_joints(model)
     )
@@ -281,7 +283,7 @@ def _find_parameter_index(parameter_index: Mapping[sp.Symbol, int], value: sp.Ex
 
 
 def _describe_points(
-    model: Model, parameter_index: Mapping[sp.Symbol, int], body_of: Mapping[str, int]
+    model: Model, parameter_index: Mapping[sp.Symbol, int], body_index: Mapping[str, int]
 ) -> tuple[PointInfo, ...]:
     """Return a PointInfo of each point of a body, then of the ground: body, indices and signs of x and y in p.
 
@@ -290,7 +292,7 @@ def _describe_points(
     points = []
     for (body, name), (x, y) in model.geometry.local.items():
         (ix, sx), (iy, sy) = _find_parameter_index(parameter_index, x), _find_parameter_index(parameter_index, y)
-        points.append(PointInfo(f"{body}.{name}", body_of[body], ix, iy, sx, sy))
+        points.append(PointInfo(f"{body}.{name}", body_index[body], ix, iy, sx, sy))
     for name, vector in model.scene.mechanism.ground.items():
         x, y = model.geometry.ground_vector(vector)
         if all(value == 0 or value in parameter_index for value in (x, y)):
@@ -308,7 +310,7 @@ def _describe_points(
 
 
 def _describe_clearances(
-    model: Model, parameter_index: Mapping[sp.Symbol, int], body_of: Mapping[str, int]
+    model: Model, parameter_index: Mapping[sp.Symbol, int], body_index: Mapping[str, int]
 ) -> tuple[ClearanceInfo, ...]:
     """Return a ClearanceInfo of each joint with play.
 
@@ -318,8 +320,8 @@ def _describe_clearances(
     return tuple(
         ClearanceInfo(
             c.name,
-            body_of[c.joint.first.body],
-            body_of[c.joint.second.body],
+            body_index[c.joint.first.body],
+            body_index[c.joint.second.body],
             f"{c.joint.second.body}.{c.joint.second.point}",
             c.normal is not None,
             c.film is not None,

@@ -68,18 +68,20 @@ def emit_scene(program: Program, on_part_printed: PartCallback | None = None) ->
     return replace(described, taylor=taylor.FILE) if series else described
 
 
-def describe_program(program: Program, files: Mapping[str, str], units: tuple[int, ...] = ()) -> KernelSource:
+def describe_program(
+    program: Program, files: Mapping[str, str], compilation_units: tuple[int, ...] = ()
+) -> KernelSource:
     """Return the KernelSource of a program whose `files` are already printed.
 
     It contains names of coordinates and results, parameters, pivots, operation counts and the log of the reduction.
-    units: the parts of MAIN that are compiled separately; () for one unit.
+    compilation_units: the parts of MAIN that are compiled separately; () for one unit.
     """
     model, tree, integrated, course = program.model, program.tree, program.integrated, program.kinematics
     return describe_scene(
         model,
         files=files,
         main=MAIN,
-        units=units,
+        units=compilation_units,
         pivots=program.kkt.pivots,
         start_pivots=course.pivots if course else (),
         motion_pivots=integrated.pivots,
@@ -191,7 +193,7 @@ def _print_parameters_file(program: Program) -> str:
 def _print_constraints_file(program: Program) -> str:
     """Return the text of constraints.c: functions of the closed linkage, and `same_start` for integrated scenes."""
     at_start = (kernel for kernel in program.closed_linkage if kernel.name not in NOT_AT_START)
-    return _print_kernels(*program.closed_linkage) + (print_same_start(at_start) if program.integrates else "")
+    return _print_kernels(*program.closed_linkage) + (print_start_comparison(at_start) if program.integrates else "")
 
 
 def _print_newton_file(program: Program) -> str:
@@ -269,11 +271,11 @@ def _count_operations(program: Program) -> dict[str, int]:
     return {name: kernel.operations for name, kernel in (counted | laws).items()}
 
 
-def print_same_start(kernels: Iterable[Kernel]) -> str:
-    """Return the C function `same_start`, which compares all parameters that the `kernels` of a start read.
+def print_start_comparison(kernels: Iterable[Kernel]) -> str:
+    """Return the C function `same_start`, which returns whether two runs have equal parameters for closing the linkage.
 
-    The C function returns 0 if the kernels read tables or pass on all parameters, since members cannot be listed
-    then.
+    It compares the parameters that the `kernels` read. It returns 0 if the kernels read tables or pass on all
+    parameters, since members cannot be listed then.
     """
     lines = [line for kernel in kernels for section in kernel.sections for line in section.statements]
     parameters_read = [name for line in lines for name in _list_parameters_read(line)]
@@ -318,39 +320,45 @@ def print_reduced_file(model: Model, tree: TreeFunctions, render: Render, print_
                 "driven_loops.c.jinja",
                 kernels=kernels,
                 shares=_print_step_scales(chains),
-                turned=_list_direction_turns(chains),
+                turned=_list_direction_rotations(chains),
             )
         )
     return "\n".join(texts)
 
 
-def _print_step_scales(chains: ChainKernels) -> list[str]:
+def _print_step_scales(loop_kernels: ChainKernels) -> list[str]:
     """Return the C factors that make Newton's step of each dependent coordinate of the driven loops dimensionless.
 
     Driven loops are closed loops whose coordinates the drives determine. The factor is "1.0" for an angle and the
     inverse of the linkage's size for a sliding distance; "1.0" for all if the linkage has no size.
     """
     # without a size all points are one
-    inverse_size = f"1.0 / (p->{chains.size} + DBL_MIN)" if chains.size.is_Symbol else "1.0"
-    return ["1.0" if "." not in name else inverse_size for name in chains.chain.names]
+    inverse_size = f"1.0 / (p->{loop_kernels.size} + DBL_MIN)" if loop_kernels.size.is_Symbol else "1.0"
+    return ["1.0" if "." not in name else inverse_size for name in loop_kernels.chain.names]
 
 
-def _list_direction_turns(chains: ChainKernels) -> list[tuple[int, str]]:
+def _list_direction_rotations(loop_kernels: ChainKernels) -> list[tuple[int, str]]:
     """Return (index in q, C expression of the angle) of each direction that a step of the driven loops turns.
 
     Each direction has two entries in q, cosine and sine; the index is that of the cosine.
     """
 
-    def print_factor(c: sp.Expr) -> str:
+    def print_factor(coefficient: sp.Expr) -> str:
         """Return a coefficient as the factor in front of a step in C: "" for 1, a number, or ± a parameter."""
-        if c == 1:
+        if coefficient == 1:
             return ""
-        return f"{float(c)!r} * " if c.is_Number else f"-p->{-c} * " if (-c).is_Symbol else f"p->{c} * "
+        return (
+            f"{float(coefficient)!r} * "
+            if coefficient.is_Number
+            else f"-p->{-coefficient} * "
+            if (-coefficient).is_Symbol
+            else f"p->{coefficient} * "
+        )
 
-    first_direction = chains.first + len(chains.chain.names)
+    first_direction = loop_kernels.first + len(loop_kernels.chain.names)
     return [
         (first_direction + 2 * k, " + ".join(f"{print_factor(c)}step[{j}]" for j, c in d.turns.items()))
-        for k, d in enumerate(chains.chain.directions)
+        for k, d in enumerate(loop_kernels.chain.directions)
         if d.turns
     ]
 

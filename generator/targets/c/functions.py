@@ -95,129 +95,129 @@ _PLAIN: dict[type, str] = {
 
 
 class LinePrinter(ValuePrinter):
-    """Print the lines of one function as C; `number` is the C type of its locals."""
+    """Print the lines of one function as C; `number_type` is the C type of its locals."""
 
-    def __init__(self, printer: CPrinter, number: str = "double") -> None:
+    def __init__(self, printer: CPrinter, number_type: str = "double") -> None:
         super().__init__(printer)
-        self.number = number
+        self.number_type = number_type
 
-    def line(self, item: Line) -> str:
+    def print_line(self, line: Line) -> str:
         """Return a line of a kernel as indented C, broken into several lines if it is longer than WIDTH."""
-        if isinstance(item, Statement):
-            return self.print_statement(item)
-        return "\n".join(part for text in self._print_line(item) for part in break_code(f"    {text}"))
+        if isinstance(line, Statement):
+            return self.print_statement(line)
+        return "\n".join(part for text in self._print_line(line) for part in break_code(f"    {text}"))
 
-    def _print_line(self, item: Line) -> Sequence[str]:
+    def _print_line(self, line: Line) -> Sequence[str]:
         """Return one line of a kernel that is not an assignment as unindented lines of C.
 
         Each class of lines has its own form. A class with a fixed text is looked up in `_PLAIN`.
         """
-        match item:
+        match line:
             case Branch():
-                return self._print_branch(item)
+                return self._print_branch(line)
             case Declare():
-                return [f"{print_type(item.type)} {item.name}{''.join(f'[{n}]' for n in item.sizes)};"]
+                return [f"{print_type(line.type)} {line.name}{''.join(f'[{n}]' for n in line.sizes)};"]
             case Call():
-                return [f"{self._print_call(item)};"]
+                return [f"{self._print_call(line)};"]
             case Guard():
-                return self._print_guard(item)
+                return self._print_guard(line)
             case When():
-                return [f"if ({self.test(item.test)})", f"    {self.print_statement(item.statement).lstrip()}"]
+                return [f"if ({self.print_test(line.test)})", f"    {self.print_statement(line.statement).lstrip()}"]
             case ReturnIfOnlyJoints():
                 return ["if (!a)", "    return 0;"]
             case Return():
-                return ["return pivot;" if item.pivot else "return 0;"]
+                return ["return pivot;" if line.pivot else "return 0;"]
             case AssignStatus():
                 return [
-                    f"{'' if item.status == 'pivot' else 'const int '}{item.status} = {self._print_call(item.call)};"
+                    f"{'' if line.status == 'pivot' else 'const int '}{line.status} = {self._print_call(line.call)};"
                 ]
             case ReturnIfFailed():
-                return [f"if ({item.status})", f"    {'goto dependent' if item.jumps else f'return {item.status}'};"]
+                return [f"if ({line.status})", f"    {'goto dependent' if line.jumps else f'return {line.status}'};"]
             case Branches():
-                return _print_branch_arrays(item)
+                return _print_branch_arrays(line)
             case Sines():
-                return self._print_sines(item)
+                return self._print_sines(line)
             case SolveDependentRows():
-                return self._print_dependent_solution(item)
+                return self._print_dependent_solution(line)
             case Largest():
-                name = f"*{item.target}"
-                before = ["0.0", *[name] * len(item.values)]
+                name = f"*{line.target}"
+                before = ["0.0", *[name] * len(line.values)]
                 largest = [
-                    f"{name} = max_of({old}, fabs({self.expression(x)}));"
-                    for old, x in zip(before, item.values, strict=False)
+                    f"{name} = max_of({old}, fabs({self.print_expression(x)}));"
+                    for old, x in zip(before, line.values, strict=False)
                 ]
                 return largest or [f"{name} = 0.0;"]
             case LargestRow():
-                return self._print_largest_row(item)
+                return self._print_largest_row(line)
             case StoreRow():
-                values = ", ".join(map(self.expression, item.values))
-                return [f"{item.array}[{item.row}] = (Wide){{{values}}};"]
+                values = ", ".join(map(self.print_expression, line.values))
+                return [f"{line.array}[{line.row}] = (Wide){{{values}}};"]
             case MarkUnread():
-                return [f"(void){self.printer.get_name(item.name)};"]
-        return [_PLAIN[type(item)]]
+                return [f"(void){self.printer.get_name(line.name)};"]
+        return [_PLAIN[type(line)]]
 
-    def _print_branch(self, item: Branch) -> list[str]:
+    def _print_branch(self, branch: Branch) -> list[str]:
         """Return an if statement that assigns one of two values by the sign of a condition, below zero or not.
 
         A declaration of the target precedes it if the branch defines the target, and its comment if there is one.
         """
-        target = self.printer.get_name(item.target)
-        declaration = [f"{self.number} {target};"] if item.declared_local else []
-        comment = [f"/* {sanitize_comment(item.comment)} */"] if item.comment else []
+        target = self.printer.get_name(branch.target)
+        declaration = [f"{self.number_type} {target};"] if branch.declared_local else []
+        comment = [f"/* {sanitize_comment(branch.comment)} */"] if branch.comment else []
         return [
             *comment,
             *declaration,
-            f"if ({self.expression(item.branch)} < 0.0)",
-            f"    {target} = {self.expression(item.value_below)};",
+            f"if ({self.print_expression(branch.branch)} < 0.0)",
+            f"    {target} = {self.print_expression(branch.value_below)};",
             "else",
-            f"    {target} = {self.expression(item.value_above)};",
+            f"    {target} = {self.print_expression(branch.value_above)};",
         ]
 
-    def _print_call(self, item: Call) -> str:
+    def _print_call(self, call: Call) -> str:
         """Return the call of a function in C without a semicolon: its arguments, then the places of its results."""
         arguments = [
-            self.print_argument(x) if isinstance(x, Place) else self._print_argument_value(x) for x in item.given
+            self.print_argument(x) if isinstance(x, Place) else self._print_argument_value(x) for x in call.given
         ]
-        return f"{item.function}({', '.join([*arguments, *map(self.print_argument, item.results)])})"
+        return f"{call.function}({', '.join([*arguments, *map(self.print_argument, call.results)])})"
 
     def _print_argument_value(self, value: sp.Basic) -> str:
         """Return the value of an argument as C; an integer stays an integer, all others are printed as doubles."""
-        return str(value) if isinstance(value, sp.Integer) else self.expression(value)
+        return str(value) if isinstance(value, sp.Integer) else self.print_expression(value)
 
     def print_argument(self, place: Place) -> str:
         """Return a place as an argument in C: a struct inside another struct by its address, all others by name."""
         text = self.printer.get_name(place)
         return f"&{text}" if place.path else text
 
-    def _print_guard(self, item: Guard) -> list[str]:
+    def _print_guard(self, guard: Guard) -> list[str]:
         """Return the if statement that leaves the function, or jumps to `dependent`, if a pivot fails its test.
 
-        The test is a comparison or a call of a function. `item.condition` restricts it to states that satisfy a
+        The test is a comparison or a call of a function. `guard.condition` restricts it to states that satisfy a
         condition.
         """
-        failure = self._print_call(item.test) if isinstance(item.test, Call) else f"!({self.test(item.test)})"
-        condition = f"{self.test(item.condition)} && " if item.condition else ""
-        if not item.jumps:
-            return [f"if ({condition}{failure})", f"    return {item.number};"]
-        return [f"if ({condition}{failure}) {{", f"    pivot = {item.number};", "    goto dependent;", "}"]
+        failure = self._print_call(guard.test) if isinstance(guard.test, Call) else f"!({self.print_test(guard.test)})"
+        condition = f"{self.print_test(guard.condition)} && " if guard.condition else ""
+        if not guard.jumps:
+            return [f"if ({condition}{failure})", f"    return {guard.number};"]
+        return [f"if ({condition}{failure}) {{", f"    pivot = {guard.number};", "    goto dependent;", "}"]
 
-    def _print_sines(self, item: Sines) -> list[str]:
+    def _print_sines(self, sines: Sines) -> list[str]:
         """Return the declarations and the call that compute sines and cosines of several angles in vectors of four.
 
-        In lanes one call computes one angle of all runs. Otherwise four angles share a call, and `item.count` groups
+        In lanes one call computes one angle of all runs. Otherwise four angles share a call, and `sines.count` groups
         of four share one call of many_sines_and_cosines.
         """
-        angles, suffix = [self.expression(angle) for angle in item.angles], item.suffix
-        if item.lanes:
+        angles, suffix = [self.print_expression(angle) for angle in sines.angles], sines.suffix
+        if sines.lanes:
             lanes_call = f"sines_and_cosines({angles[0]}, &sines_{suffix}, &cosines_{suffix}, rare);"
             return [f"Lanes sines_{suffix}, cosines_{suffix};", lanes_call]
         groups = [", ".join(angles[k : k + 4]) for k in range(0, len(angles), 4)]
-        if item.count:
+        if sines.count:
             values = ", ".join(f"{{{group}}}" for group in groups)
             return [
-                f"const Four angles_{suffix}[{item.count}] = {{{values}}};",
-                f"Four sines_{suffix}[{item.count}], cosines_{suffix}[{item.count}];",
-                f"many_sines_and_cosines({item.count}, angles_{suffix}, sines_{suffix}, cosines_{suffix});",
+                f"const Four angles_{suffix}[{sines.count}] = {{{values}}};",
+                f"Four sines_{suffix}[{sines.count}], cosines_{suffix}[{sines.count}];",
+                f"many_sines_and_cosines({sines.count}, angles_{suffix}, sines_{suffix}, cosines_{suffix});",
             ]
         return [
             f"const Four angles_{suffix} = {{{groups[0]}}};",
@@ -225,16 +225,16 @@ class LinePrinter(ValuePrinter):
             f"sines_and_cosines(&angles_{suffix}, &sines_{suffix}, &cosines_{suffix});",
         ]
 
-    def _print_dependent_solution(self, item: SolveDependentRows) -> list[str]:
+    def _print_dependent_solution(self, solution: SolveDependentRows) -> list[str]:
         """Return the code at the label `dependent`, which solves dependent equations after a vanished pivot.
 
-        Without forces in `item`, the equations of all bodies are solved instead. The label `powers` follows in both
+        Without forces in `solution`, the equations of all bodies are solved instead. The label `powers` follows in both
         cases.
         """
-        if not item.force:
+        if not solution.force:
             return ["dependent:", "pivot = solve_by_absolute(t, q, v, discrete, p, a, rhs);", "powers:"]
-        arrays = (("force", item.force), ("gamma_stab", item.rhs))
-        stores = (f"{name}[{k}] = {self.expression(x)};" for name, values in arrays for k, x in enumerate(values))
+        arrays = (("force", solution.force), ("gamma_stab", solution.rhs))
+        stores = (f"{name}[{k}] = {self.print_expression(x)};" for name, values in arrays for k, x in enumerate(values))
         return [
             "dependent: {",
             "    double force[N_Q], gamma_stab[N_ROWS];",
@@ -244,53 +244,53 @@ class LinePrinter(ValuePrinter):
             "powers:",
         ]
 
-    def _print_largest_row(self, item: LargestRow) -> list[str]:
+    def _print_largest_row(self, largest_row: LargestRow) -> list[str]:
         """Return the code that sets *row to the number (from 1) of the value with the largest magnitude."""
-        first, *others = map(self.expression, item.values)
+        first, *others = map(self.print_expression, largest_row.values)
         lines = ["*row = 1;", *([f"double most = fabs({first});"] if others else [])]
         for r, value in enumerate(others, 2):
             lines += [f"if (fabs({value}) > most) {{", f"    most = fabs({value});", f"    *row = {r};", "}"]
         return lines
 
-    def print_statement(self, item: Statement) -> str:
+    def print_statement(self, statement: Statement) -> str:
         """Return one assignment as indented C; its comment follows if it fits in the line, else precedes it."""
-        target = self.printer.get_name(item.target)
-        left_side = f"const {self.number} {target}" if item.declared_local else target
-        code = break_code(f"    {left_side} = {self.expression(item.value)};")
-        if not item.comment:
+        target = self.printer.get_name(statement.target)
+        left_side = f"const {self.number_type} {target}" if statement.declared_local else target
+        code = break_code(f"    {left_side} = {self.print_expression(statement.value)};")
+        if not statement.comment:
             return "\n".join(code)
-        comment = f"/* {sanitize_comment(item.comment)} */"
+        comment = f"/* {sanitize_comment(statement.comment)} */"
         if len(code) == 1 and len(code[0]) + len(comment) + 2 <= WIDTH:
             return f"{code[0]}  {comment}"
         return "\n".join([f"    {comment}", *code])
 
 
-def _print_branch_arrays(item: Branches) -> list[str]:
+def _print_branch_arrays(branches: Branches) -> list[str]:
     """Return the declarations of `branch` (the active branches) and of `g` (values of switching functions).
 
-    `branch` is NULL if no branch is held. `g` is omitted, a local array, or part of the results, as `item` specifies.
+    `branch` is NULL if no branch is held. `g` is omitted, a local array, or part of the results, as `branches` says.
     """
     stored_branches = (
         "discrete->held ? discrete->branch : NULL;"
-        if item.held
+        if branches.held
         else "NULL; /* of corners within corners: as they are */"
     )
     declarations = {"": [], "nobody": ["double g[N_SWITCHES + 1];"], "rhs": ["double *const g = rhs->g;"]}[
-        item.output_target
+        branches.output_target
     ]
     return [f"const double *const branch = {stored_branches}", *declarations]
 
 
-def print_statements(items: Sequence[Statement]) -> str:
+def print_statements(statements: Sequence[Statement]) -> str:
     """Return statements as lines of C for the body of a function in a template; "" without statements."""
-    return "\n".join(text for text, _ in print_each_statement(items))
+    return "\n".join(text for text, _ in print_each_statement(statements))
 
 
-def print_each_statement(items: Sequence[Statement]) -> list[tuple[str, Line]]:
+def print_each_statement(statements: Sequence[Statement]) -> list[tuple[str, Line]]:
     """Return (text in C, line of the kernel) of each statement; branches that a statement needs precede it."""
-    readable_lines = make_readable_statements(items)
-    writer = LinePrinter(CPrinter(readable_lines))
-    return [(writer.line(line), line) for section in readable_lines.sections for line in section.statements]
+    readable_lines = make_readable_statements(statements)
+    line_printer = LinePrinter(CPrinter(readable_lines))
+    return [(line_printer.print_line(line), line) for section in readable_lines.sections for line in section.statements]
 
 
 def print_shared_call(call: SharedFunctionCall, arguments: Sequence[str], results: Sequence[str]) -> str:
@@ -315,16 +315,16 @@ def find_unread_branches(calls: Iterable[SharedFunctionCall], statements: Iterab
     return [] if has_switches else [name for name in ("branch", "g") if name not in names_read]
 
 
-def print_arguments(items: tuple[Argument, ...]) -> str:
+def print_arguments(arguments: tuple[Argument, ...]) -> str:
     """Return the declarations of a function's arguments in C, separated by commas."""
-    return ", ".join(map(_declare_argument, items))
+    return ", ".join(map(_declare_argument, arguments))
 
 
-def _declare_argument(item: Argument) -> str:
+def _declare_argument(argument: Argument) -> str:
     """Return the declaration of one argument in C; arguments that are read or written through a pointer get a star."""
-    constant = "const " * (item.access in (Access.CONSTANT, Access.READ))
-    pointer = "*" * (item.access in (Access.READ, Access.WRITTEN))
-    return f"{constant}{print_type(item.type)} {pointer}{item.name}"
+    constant = "const " * (argument.access in (Access.CONSTANT, Access.READ))
+    pointer = "*" * (argument.access in (Access.READ, Access.WRITTEN))
+    return f"{constant}{print_type(argument.type)} {pointer}{argument.name}"
 
 
 def print_type(number_or_struct: Type) -> str:
@@ -332,18 +332,18 @@ def print_type(number_or_struct: Type) -> str:
     return _NUMBERS[number_or_struct] if isinstance(number_or_struct, Number) else number_or_struct
 
 
-def print_kernel(item: Kernel) -> str:
+def print_kernel(kernel: Kernel) -> str:
     """Return a kernel as a C function; a long kernel is split into parts, whose functions precede it."""
-    return "\n".join("".join(f"{text}\n" for text, _ in texts) for _, _, texts in print_kernel_parts(item))
+    return "\n".join("".join(f"{text}\n" for text, _ in texts) for _, _, texts in print_kernel_parts(kernel))
 
 
-def _find_names_used(item: Kernel) -> frozenset[str]:
+def _find_names_used(kernel: Kernel) -> frozenset[str]:
     """Return the C names of all arguments and locals that a function's lines read or write."""
-    lines = [line for section in item.sections for line in section.statements]
+    lines = [line for section in kernel.sections for line in section.statements]
     names = NONE.union(*(line.reads | line.writes for line in lines))
     keys = names | {find_key(s) for line in lines for x in line.expressions for s in find_symbols(x)}
-    called = (item.names.get(key, key) for key in keys)
-    corner_argument = NONE if item.first_switch is None else {FIRST_SWITCH.name}
+    called = (kernel.names.get(key, key) for key in keys)
+    corner_argument = NONE if kernel.first_switch is None else {FIRST_SWITCH.name}
     return names | corner_argument | {key.base if isinstance(key, Place) else key for key in called}
 
 
@@ -354,8 +354,8 @@ def print_comment(doc: Sequence[str]) -> str:
 
 
 def print_function(
-    item: Kernel,
-    writer: LinePrinter,
+    kernel: Kernel,
+    line_printer: LinePrinter,
     readable_sections: Readable,
     names_used: frozenset[str] = NONE,
     *,
@@ -369,14 +369,14 @@ def print_function(
     return "".join(
         f"{text}\n"
         for text, _ in print_function_lines(
-            item, writer, readable_sections, names_used, is_called_by_engine=is_called_by_engine
+            kernel, line_printer, readable_sections, names_used, is_called_by_engine=is_called_by_engine
         )
     )
 
 
 def print_function_lines(
-    item: Kernel,
-    writer: LinePrinter,
+    kernel: Kernel,
+    line_printer: LinePrinter,
     readable_sections: Readable,
     names_used: frozenset[str] = NONE,
     *,
@@ -387,33 +387,33 @@ def print_function_lines(
     None belongs to the head, to the casts of unread arguments, to titles of sections and to the closing brace. The
     arguments are those of `print_function`.
     """
-    attribute = f"__attribute__(({item.attribute})) " if item.attribute else ""
-    inline = "inline " if item.inline else ""
+    attribute = f"__attribute__(({kernel.attribute})) " if kernel.attribute else ""
+    inline = "inline " if kernel.inline else ""
     static = "" if is_called_by_engine else "static "
-    result = "int" if item.status else "void"
-    signature = f"{attribute}{static}{inline}{result} {item.name}({print_arguments(item.arguments)})"
+    result = "int" if kernel.status else "void"
+    signature = f"{attribute}{static}{inline}{result} {kernel.name}({print_arguments(kernel.arguments)})"
     joined = signature.replace(", ", ",\n").replace(" ", "\0").replace("\n", " ")  # an argument is never parted
     signature = "\n".join(textwrap.wrap(joined, WIDTH, subsequent_indent="    ")).replace("\0", " ")
-    yield f"{print_comment(item.doc)}{signature}\n{{", None
-    names_used |= _find_names_used(item)
-    if unread := ", ".join(f"(void){a.name}" for a in item.arguments if a.name not in names_used):
+    yield f"{print_comment(kernel.doc)}{signature}\n{{", None
+    names_used |= _find_names_used(kernel)
+    if unread := ", ".join(f"(void){a.name}" for a in kernel.arguments if a.name not in names_used):
         yield "\n".join(break_code(f"    {unread};")), None
     for k, section in enumerate(readable_sections.sections):
         title = [f"    /* {sanitize_comment(section.title)} */"] * bool(section.title)
         if heading := [*([""] * bool(k)), *title]:
             yield "\n".join(heading), None
-        yield from ((writer.line(line), line) for line in section.statements)
+        yield from ((line_printer.print_line(line), line) for line in section.statements)
     if not readable_sections.sections:
         yield "    /* this scene has none */", None
     yield "}", None
 
 
-def print_kernel_parts(item: Kernel) -> Iterator[tuple[Kernel, Readable, list[tuple[str, Line | None]]]]:
+def print_kernel_parts(kernel: Kernel) -> Iterator[tuple[Kernel, Readable, list[tuple[str, Line | None]]]]:
     """Yield (kernel, its readable lines, [(text, line or None)]) of each part into which a kernel is split.
 
     A short kernel is its only part. Parts come before the functions that call them.
     """
-    for part in split_kernel(item):
+    for part in split_kernel(kernel):
         readable_lines = make_readable(part)
         yield (
             part,

@@ -42,7 +42,7 @@ def print_lanes_files(program: Program, render: Render) -> dict[str, str]:
     model = program.model
     joint_functions = [
         *map(lanes_printer.print_kernel, program.laws),
-        *(_print_joint_function(pin, render, model.law_states) for pin in program.joints),
+        *(_print_joint_function(joint, render, model.law_states) for joint in program.joints),
     ]
     kernels = (*program.tree.unpaired_kernels, program.methods.unpaired_closing)
     parameters = [model.parameter_table.find_field_name(symbol) for symbol in model.parameter_table.list_symbols()]
@@ -64,18 +64,18 @@ def print_lanes_files(program: Program, render: Render) -> dict[str, str]:
     }
 
 
-def _print_joint_function(pin: JointFunctions, render: Render, states: int) -> str:
+def _print_joint_function(joint: JointFunctions, render: Render, n_states: int) -> str:
     """Return the function of a joint with play for lanes, from a template.
 
-    Each joint has `states` inner states of laws. Dry contact and film are included as far as the joint has them.
+    Each joint has `n_states` inner states of laws. Dry contact and film are included as far as the joint has them.
     """
-    clearance = pin.clearance
+    clearance = joint.clearance
     step_names = ("gap", "before_dry", "after_dry", "before_film", "after_film", "share")
-    substitutions = {name: lanes_printer.print_statements(getattr(pin, name)) for name in step_names}
+    substitutions = {name: lanes_printer.print_statements(getattr(joint, name)) for name in step_names}
     if clearance.normal is not None:
-        substitutions["dry_law"] = print_dry_calls(pin, "lanes_max_of(delta, all_of(0.0))", "Lanes")
+        substitutions["dry_law"] = print_dry_calls(joint, "lanes_max_of(delta, all_of(0.0))", "Lanes")
     if clearance.film is not None:
-        substitutions["film_law"] = print_film_calls(pin, "Lanes")
+        substitutions["film_law"] = print_film_calls(joint, "Lanes")
     return render(
         "play/lane_pin.c.jinja",
         joint=clearance.label,
@@ -83,29 +83,31 @@ def _print_joint_function(pin: JointFunctions, render: Render, states: int) -> s
         dry=clearance.normal is not None,
         film=clearance.film is not None,
         ratio_name="unclipped" if clearance.clip_ratio else "ratio",
-        rates=print_rates("rate", clearance, states, "all_of(0.0)"),
-        still=print_rates("", clearance, states, "all_of(0.0)"),
-        first=pin.switch_indices.start,
-        last=pin.switch_indices.stop,
-        states=states,
+        rates=print_rates("rate", clearance, n_states, "all_of(0.0)"),
+        still=print_rates("", clearance, n_states, "all_of(0.0)"),
+        first=joint.switch_indices.start,
+        last=joint.switch_indices.stop,
+        states=n_states,
         wall=bool(clearance.wall),
         **substitutions,
     )
 
 
-def _print_linearized_equations(pins: Sequence[JointFunctions], methods: Methods, render: Render, states: int) -> str:
+def _print_linearized_equations(
+    joints: Sequence[JointFunctions], methods: Methods, render: Render, n_states: int
+) -> str:
     """Return the linearized equations of motion and Newton's matrix for lanes, without the tables of newton.c.
 
     Derivatives of the joints' forces come first, then the kernels for real and complex steps.
     """
     newton = methods.newton
-    pick_slopes = _PICK_SLOPES.replace("i < 4", f"i < {4 + states}").replace("k < 5", f"k < {5 + states}")
-    slopes = [print_shared_slopes(pins, render, "Lanes", "LaneSlopes", states) + pick_slopes] if pins else []
+    pick_slopes = _PICK_SLOPES.replace("i < 4", f"i < {4 + n_states}").replace("k < 5", f"k < {5 + n_states}")
+    slopes = [print_shared_slopes(joints, render, "Lanes", "LaneSlopes", n_states) + pick_slopes] if joints else []
     slopes += map(lanes_printer.print_kernel, methods.derivative_kernels)
-    for clearance in (pin.clearance for pin in pins):
+    for clearance in (joint.clearance for joint in joints):
         slopes.append(
             _print_force_tangent(
-                newton.system.model, clearance, methods.derivative_calls[clearance.name], render, states
+                newton.system.model, clearance, methods.derivative_calls[clearance.name], render, n_states
             )
         )
     state_kernels = map(lanes_printer.print_kernel_with_rare, (newton.linearize_kernel, newton.factor_kernel))
@@ -122,19 +124,27 @@ def _print_linearized_equations(pins: Sequence[JointFunctions], methods: Methods
 
 
 def _print_force_tangent(
-    model: Model, clearance: Clearance, parts: Mapping[str, SharedFunctionCall], render: Render, states: int
+    model: Model,
+    clearance: Clearance,
+    derivative_calls: Mapping[str, SharedFunctionCall],
+    render: Render,
+    n_states: int,
 ) -> str:
     """Return the function with the derivatives of the force of a joint with play, for lanes.
 
-    parts: the calls of the derivatives of film, dry contact and their blend; a missing part is left out.
+    derivative_calls: the calls of the derivatives of film, dry contact and their blend; a missing part is left out.
     """
     arguments_and_result = {"film": (STATE, "out"), "dry": (STATE, "&dry"), "share": (("delta",), "share")}
     calls = {
-        part: functions.print_shared_call(parts[part], arguments, (result,)) if part in parts else ""
+        part: functions.print_shared_call(derivative_calls[part], arguments, (result,))
+        if part in derivative_calls
+        else ""
         for part, (arguments, result) in arguments_and_result.items()
     }
     calls |= {"joint": clearance.label, "kind": clearance.kind.capitalize(), "c": f"p->{clearance.pair.c}"}
     calls["rise"] = (
         lanes_printer.print_expression(read_parameters_at_places(model, clearance.wall.rise)) if clearance.wall else ""
     )
-    return render("play/lane_tangent.c.jinja", rows=4 + states, columns=5 + states, wall=bool(clearance.wall), **calls)
+    return render(
+        "play/lane_tangent.c.jinja", rows=4 + n_states, columns=5 + n_states, wall=bool(clearance.wall), **calls
+    )

@@ -51,7 +51,7 @@ _TYPES: dict[Type, Type] = {
 }
 _RARE = make_output_argument("rare", "LaneBits")
 # Lines of single runs without a counterpart in lanes, such as the treatment of vanishing pivots.
-_LEFT_OUT = (Status, ReturnIfOnlyJoints, Jump, SolveDependentRows, Return)
+_SINGLE_RUN_LINES = (Status, ReturnIfOnlyJoints, Jump, SolveDependentRows, Return)
 
 
 class LanesPrinter(printer.CPrinter):
@@ -62,20 +62,20 @@ class LanesPrinter(printer.CPrinter):
         text: str = self._print(expr)
         return text if expr.free_symbols else f"all_of({text})"
 
-    def _print_call(self, function: str, *arguments: sp.Expr) -> str:
+    def _print_call(self, function_name: str, *arguments: sp.Expr) -> str:
         """Print a call of a function of vectors; with constant arguments only, the call of the function of numbers."""
         if not any(argument.free_symbols for argument in arguments):
-            return super()._print_call(function, *arguments)
-        return f"lanes_{function}({', '.join(map(self._print_vector, arguments))})"
+            return super()._print_call(function_name, *arguments)
+        return f"lanes_{function_name}({', '.join(map(self._print_vector, arguments))})"
 
-    def _print_nested_calls(self, function: str, expr: sp.Expr) -> str:
+    def _print_nested_calls(self, function_name: str, expr: sp.Expr) -> str:
         """Print nested calls of a function of two vectors, for example a maximum; constants come last."""
         if not expr.free_symbols:
-            return super()._print_nested_calls(function, expr)
+            return super()._print_nested_calls(function_name, expr)
         arguments = sorted(expr.args, key=lambda a: (a.is_Number, str(a)))
         text = self._print_vector(arguments[0])
         for argument in arguments[1:]:
-            text = f"lanes_{function}({text}, {self._print_vector(argument)})"
+            text = f"lanes_{function_name}({text}, {self._print_vector(argument)})"
         return text
 
     def _print_Heaviside(self, expr: sp.Expr) -> str:
@@ -122,56 +122,58 @@ class LaneLines(functions.LinePrinter):
     def __init__(self, printer: LanesPrinter) -> None:
         super().__init__(printer, "Lanes")
 
-    def expression(self, value: Value) -> str:
+    def print_expression(self, value: Value) -> str:
         """Return a value as a vector in C; a condition becomes a choice by a mask."""
         match value:
             case sp.Basic():
                 return self.printer._print_vector(value)
             case Conditional():
-                then, otherwise = self.expression(value.then), self.expression(value.otherwise)
-                return f"pick({self.test(value.test)}, {then}, {otherwise})"
+                then, otherwise = self.print_expression(value.then), self.print_expression(value.otherwise)
+                return f"pick({self.print_test(value.test)}, {then}, {otherwise})"
             case _:
-                return super().expression(value)
+                return super().print_expression(value)
 
-    def test(self, item: Test) -> str:
+    def print_test(self, test: Test) -> str:
         """Return a comparison as a mask of lanes in C; bounds stay numbers where possible."""
         value_printer = ValuePrinter(self.printer)
-        if not item.relation:
-            return f"{value_printer.expression(item.value)} > 0.0"
-        if not item.is_relative_to_value:
-            number_test = value_printer.test(replace(item, compares_magnitude=False))
+        if not test.relation:
+            return f"{value_printer.print_expression(test.value)} > 0.0"
+        if not test.is_relative_to_value:
+            number_test = value_printer.print_test(replace(test, compares_magnitude=False))
             return (
-                f"lanes_fabs({value_printer.expression(item.value)}){number_test.removeprefix(value_printer.expression(item.value))}"
-                if item.compares_magnitude
+                f"lanes_fabs({value_printer.print_expression(test.value)}){number_test.removeprefix(value_printer.print_expression(test.value))}"
+                if test.compares_magnitude
                 else number_test
             )
-        value = value_printer.expression(item.value)
-        size = f"lanes_fabs({value})" if item.compares_magnitude else value
+        value = value_printer.print_expression(test.value)
+        size = f"lanes_fabs({value})" if test.compares_magnitude else value
         return f"({size} > 0.0) & ({size} < INFINITY)"
 
-    def _print_line(self, item: Line) -> Sequence[str]:
+    def _print_line(self, line: Line) -> Sequence[str]:
         """Return one line of a kernel as lines of C for vectors.
 
         Branches become choices by masks. A lane whose pivot fails its test is marked in `rare` instead of leaving.
         """
-        match item:
+        match line:
             case Branch():
-                declaration = f"{'const Lanes ' * bool(item.declared_local)}{self.printer.get_name(item.target)}"
-                branch, then, otherwise = map(self.expression, (item.branch, item.value_above, item.value_below))
+                declaration = f"{'const Lanes ' * bool(line.declared_local)}{self.printer.get_name(line.target)}"
+                branch, then, otherwise = map(self.print_expression, (line.branch, line.value_above, line.value_below))
                 return [f"{declaration} = pick({branch} < 0.0, {otherwise}, {then});"]
             case Guard(test=Test() as test, condition=None):
-                return [f"*rare |= ~({self.test(test)});"]
+                return [f"*rare |= ~({self.print_test(test)});"]
             case Call():
-                values = (*item.given, *item.results)
-                arguments = [self.print_argument(x) if isinstance(x, Place) else self.expression(x) for x in values]
-                return [f"{item.function}({', '.join(arguments)});"]
+                values = (*line.given, *line.results)
+                arguments = [
+                    self.print_argument(x) if isinstance(x, Place) else self.print_expression(x) for x in values
+                ]
+                return [f"{line.function}({', '.join(arguments)});"]
             case Declare(type=Number.REAL):
-                return super()._print_line(replace(item, type="Lanes"))
+                return super()._print_line(replace(line, type="Lanes"))
             case DeclareParameters():
                 return ["const LaneParameters *const p = lin->p;"]
             case Branches():
                 stored_branches, local_array = (
-                    "held_branches(discrete)" if item.held else "NULL",
+                    "held_branches(discrete)" if line.held else "NULL",
                     "Lanes g[N_SWITCHES + 1];",
                 )
                 declarations_of_target = {
@@ -179,51 +181,52 @@ class LaneLines(functions.LinePrinter):
                     "nobody": [local_array],
                     "rhs": ["Lanes *const g = reported_branches(rhs);"],
                 }
-                return [f"const Lanes *const branch = {stored_branches};", *declarations_of_target[item.output_target]]
+                return [f"const Lanes *const branch = {stored_branches};", *declarations_of_target[line.output_target]]
             case Largest():
-                name = f"*{item.target}"
-                before = ["all_of(0.0)", *[name] * len(item.values)]
+                name = f"*{line.target}"
+                before = ["all_of(0.0)", *[name] * len(line.values)]
                 largest = [
-                    f"{name} = lanes_max_of({old}, lanes_fabs({self.expression(x)}));"
-                    for old, x in zip(before, item.values, strict=False)
+                    f"{name} = lanes_max_of({old}, lanes_fabs({self.print_expression(x)}));"
+                    for old, x in zip(before, line.values, strict=False)
                 ]
                 return largest or [f"{name} = all_of(0.0);"]
             case StoreRow():
                 return [
-                    f"{item.array}[{WIDE * item.row + i}] = {self.expression(x)};" for i, x in enumerate(item.values)
+                    f"{line.array}[{WIDE * line.row + i}] = {self.print_expression(x)};"
+                    for i, x in enumerate(line.values)
                 ]
             case Sines():
-                return super()._print_line(item)
-        raise ValueError(f"a line of a kernel that has no counterpart for vectors: {item}")
+                return super()._print_line(line)
+        raise ValueError(f"a line of a kernel that has no counterpart for vectors: {line}")
 
 
 def print_expression(value: Value) -> str:
     """Return a value as a vector in C, for use outside of a printed function."""
-    return LaneLines(LanesPrinter()).expression(value)
+    return LaneLines(LanesPrinter()).print_expression(value)
 
 
-def print_statements(items: Sequence[Statement]) -> str:
+def print_statements(statements: Sequence[Statement]) -> str:
     """Return statements as lines of C for the body of a lane function in a template; "" without statements."""
-    readable_lines = make_readable_statements(items)
+    readable_lines = make_readable_statements(statements)
     return (
-        "\n".join(map(LaneLines(LanesPrinter(readable_lines)).line, readable_lines.sections[0].statements))
+        "\n".join(map(LaneLines(LanesPrinter(readable_lines)).print_line, readable_lines.sections[0].statements))
         if readable_lines.sections
         else ""
     )
 
 
-def print_kernel(item: Kernel) -> str:
+def print_kernel(kernel: Kernel) -> str:
     """Return a kernel as a C function for vectors, which marks the lanes that it cannot compute in `rare`.
 
     Lines of single runs without a counterpart in lanes are left out. The function returns no status.
     """
     kept_sections = (
-        Section(section.title, tuple(x for x in section.statements if not isinstance(x, _LEFT_OUT)))
-        for section in item.sections
+        Section(section.title, tuple(x for x in section.statements if not isinstance(x, _SINGLE_RUN_LINES)))
+        for section in kernel.sections
     )
-    arguments = tuple(replace(a, type=_TYPES.get(a.type, a.type)) for a in item.arguments)
+    arguments = tuple(replace(a, type=_TYPES.get(a.type, a.type)) for a in kernel.arguments)
     sections = tuple(section for section in kept_sections if section.statements)
-    lanes_kernel = replace(item, sections=sections, arguments=arguments, status=False)
+    lanes_kernel = replace(kernel, sections=sections, arguments=arguments, status=False)
     marks_rare = any(isinstance(x, (Guard, Sines)) for section in sections for x in section.statements)
     readable_lines = make_readable(lanes_kernel)
     return functions.print_function(
@@ -234,17 +237,17 @@ def print_kernel(item: Kernel) -> str:
     )
 
 
-def print_motion_kernel(item: Kernel) -> str:
+def print_motion_kernel(kernel: Kernel) -> str:
     """Return a kernel as a C function for vectors whose sines are computed one angle at a time for all lanes.
 
     The function has the further argument `rare`. Kernels of the motion are printed so.
     """
-    return print_kernel_with_rare(call_sines_by_lane(item))
+    return print_kernel_with_rare(call_sines_by_lane(kernel))
 
 
-def print_kernel_with_rare(item: Kernel) -> str:
-    """Return a kernel as a C function for vectors with the further argument `rare`.
+def print_kernel_with_rare(kernel: Kernel) -> str:
+    """Return a kernel as a C function for vectors with the further argument `rare`, a mask of lanes.
 
-    It is the mask of lanes that need a single run.
+    The C function marks the lanes in which it is not valid; the engine computes them as single runs.
     """
-    return print_kernel(replace(item, arguments=(*item.arguments, _RARE)))
+    return print_kernel(replace(kernel, arguments=(*kernel.arguments, _RARE)))

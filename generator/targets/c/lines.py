@@ -58,30 +58,32 @@ def locate_function(kernel: Kernel, files: Mapping[str, str]) -> Iterator[Locate
         yield LocatedFunction(file, part.name, readable_part, first_line, line_number - 1, tuple(stores))
 
 
-def _find_stores(text: Sequence[str], line: Line | str | None, first: int) -> list[StoredLines]:
-    """Return the stores in a text of C that begins at line `first` of a file.
+def _find_stores(text: Sequence[str], line: Line | str | None, first_line: int) -> list[StoredLines]:
+    """Return the variables that a text of C stores to, each with its lines in the file.
 
-    line: the statement that the text prints, or the name of a local; other lines of a kernel store nothing and give [].
-    A branch gives two stores, of the lines below and above its switching point.
+    text: the lines of C, which begin at line `first_line` of the file. line: the kernel's line that the text prints, or
+    the name of a local; lines that are not assignments give []. A branch gives two entries, one for each side of its
+    switching point.
     """
-    lines = range(first, first + len(text))
+    lines = range(first_line, first_line + len(text))
     if isinstance(line, str):
         return [StoredLines(line, lines)]
     if isinstance(line, Statement):
         return [StoredLines(line.target, lines)]
     if not isinstance(line, Branch):
         return []
-    else_line, condition = first + text.index("    else"), line.branch.name if line.branch.is_Symbol else ""
-    below, above = range(first, else_line), range(else_line, lines.stop)
+    else_line, condition = first_line + text.index("    else"), line.branch.name if line.branch.is_Symbol else ""
+    below, above = range(first_line, else_line), range(else_line, lines.stop)
     return [StoredLines(line.target, below, f"<{condition}"), StoredLines(line.target, above, f">{condition}")]
 
 
 def locate_stores(
     function_text: str, stores: Iterable[tuple[str, Line | str]], files: Mapping[str, str]
 ) -> tuple[str, list[StoredLines]]:
-    """Return (file, stores) of a function that a template printed; each store is found by its text, in order.
+    """Return the file of a function that a template printed, and the lines that store to its variables.
 
-    ("", []) is returned if no file contains the function.
+    stores: (text of C, the kernel's line or the name of a local) of each assignment, found in order. files: the text of
+    each file by name. ("", []) is returned if no file contains the function.
     """
     file, lines = locate_text(function_text, files)
     remaining_text, line_number, located_stores = wrap_file(function_text), lines.start, list[StoredLines]()
@@ -95,7 +97,7 @@ def locate_stores(
 
 
 def locate_text(text: str, files: Mapping[str, str]) -> tuple[str, range]:
-    """Return (file, lines) of a text that is printed in one piece; ("", empty range) if no file contains it."""
+    """Return the file that contains a text, and its lines there, counted from 1; ("", empty range) if none does."""
     wrapped = wrap_file(text)
     file = next((name for name, file_text in files.items() if wrapped in file_text), "")
     if not file or not wrapped.strip():

@@ -31,10 +31,10 @@ from gudgeon.generator.targets.c import printer
 from gudgeon.generator.targets.c.printer import break_code, sanitize_comment
 from gudgeon.language.units import DIMENSIONLESS, POWER, PRESSURE, VISCOSITY, Dimension
 
-_NAMED = {PRESSURE: "Pa", VISCOSITY: "Pa*s", POWER: "W"}
+_UNIT_NAMES = {PRESSURE: "Pa", VISCOSITY: "Pa*s", POWER: "W"}
 
 
-def list_parameter_fields(slots: ParameterTable) -> list[tuple[str, str]]:
+def list_parameter_fields(parameter_table: ParameterTable) -> list[tuple[str, str]]:
     """Return (name, comment) of each field of the C struct Parameters, in order.
 
     Entries of the file come first, then derived parameters. A table is one array field. The comment has the address
@@ -42,22 +42,24 @@ def list_parameter_fields(slots: ParameterTable) -> list[tuple[str, str]]:
     """
     dimensions: dict[sp.Symbol, Dimension | None] = {}
     fields = []
-    table_entries = {symbol for table in slots.tables.values() for symbol in table[1:]}
-    sizes = {table[0]: f"{name}[{len(table)}]" for name, table in slots.tables.items()}
-    for entry in slots.entries.values():
+    table_entries = {symbol for table in parameter_table.tables.values() for symbol in table[1:]}
+    sizes = {table[0]: f"{name}[{len(table)}]" for name, table in parameter_table.tables.items()}
+    for entry in parameter_table.entries.values():
         dimensions[entry.symbol] = entry.dimension
         if entry.symbol in table_entries:
             continue
         is_angle = entry.address.endswith(".theta") and entry.dimension == DIMENSIONLESS
         unit = "rad" if is_angle else _describe_law_unit(entry.address) or format_unit(entry.dimension)
-        name = sizes.get(entry.symbol, slots.find_field_name(entry.symbol))
+        name = sizes.get(entry.symbol, parameter_table.find_field_name(entry.symbol))
         address = entry.address.rpartition(".")[0] if entry.symbol in sizes else entry.address
         fields.append((name, sanitize_comment(f"{address}, {unit}")))
-    for symbol, value in slots.derived.items():
+    for symbol, value in parameter_table.derived.items():
         dimensions[symbol] = _derive_dimension(value, dimensions)
         dimension = dimensions[symbol]
-        comment_parts = (slots.symbols.info[symbol].meaning, format_unit(dimension) if dimension else "")
-        fields.append((slots.find_field_name(symbol), sanitize_comment(", ".join(filter(None, comment_parts)))))
+        comment_parts = (parameter_table.symbols.info[symbol].meaning, format_unit(dimension) if dimension else "")
+        fields.append(
+            (parameter_table.find_field_name(symbol), sanitize_comment(", ".join(filter(None, comment_parts))))
+        )
     return fields
 
 
@@ -71,7 +73,7 @@ def _describe_law_unit(address: str) -> str:
 
 def format_unit(dimension: Dimension) -> str:
     """Return a dimension as a unit in ASCII: N*m, Pa, N*s/m^1.5, kg*m^2; "1" for a plain number and rad."""
-    if unit := _NAMED.get(dimension):
+    if unit := _UNIT_NAMES.get(dimension):
         return unit
     powers = {"kg": dimension.mass, "m": dimension.length, "s": dimension.time}
     if dimension.mass == 1 and dimension.time in (-1, -2):
@@ -118,7 +120,7 @@ def _derive_dimension(value: sp.Expr, dimensions: dict[sp.Symbol, Dimension | No
 Sizes = dict[str, tuple[int | float, str]]
 
 _POSITION = {"vx": "x", "vy": "y", "omega": "theta"}  # coordinate of which each rate is the derivative
-_OF_JOINTS = {
+_PARAMETER_MEANINGS = {
     "radial_clearance": "Radial clearance of joint i with play, m.",
     "deepest": "The penetration beyond which contact laws mean nothing, m: a tenth of the bearing's radius.",
     "min_approach_speed": "The least velocity that counts as that of an impact, m/s.",
@@ -146,7 +148,7 @@ def make_header_values(program: Program, bounds: Kernel | None) -> dict[str, Any
     They are fields of Parameters, #defines of sizes and thresholds, tables, and gains of Newton's matrix. bounds: the
     kernel of `make_bounds_kernel`, or None.
     """
-    model, scene_sizes = program.model, count_sizes(program, bounds)
+    model, scene_sizes = program.model, list_size_macros(program, bounds)
     if series := program.series:
         scene_sizes["TAYLOR"] = (max(len(series.products), 1), "products of the Taylor series of the motion")
     mechanism = model.scene.mechanism
@@ -160,24 +162,24 @@ def make_header_values(program: Program, bounds: Kernel | None) -> dict[str, Any
         "thresholds": _print_defines(_THRESHOLDS),
         "tables": _print_tables(program, scene_sizes),
         "engine_ends": ENGINE_ENDS,
-        "gains": _list_gains(program),
+        "gains": _list_newton_gains(program),
     }
 
 
-def count_sizes(program: Program, bounds: Kernel | None) -> Sizes:
+def list_size_macros(program: Program, bounds: Kernel | None) -> Sizes:
     """Return {macro: (value, meaning)} of all sizes in model.h; code for what has size 0 is left out of the library.
 
     bounds: the kernel of `make_bounds_kernel`, or None.
     """
     return (
-        _count_linkage(program)
-        | _count_motion(program)
-        | _count_monitored(program, bounds)
-        | _count_start_values(program)
+        _list_linkage_sizes(program)
+        | _list_motion_sizes(program)
+        | _list_monitoring_sizes(program, bounds)
+        | _list_start_sizes(program)
     )
 
 
-def _count_linkage(program: Program) -> Sizes:
+def _list_linkage_sizes(program: Program) -> Sizes:
     """Return {macro: (value, meaning)} of coordinates, constraint equations, joints, drives and switching functions."""
     model = program.model
     switches = max(model.symbols.switches.count, program.integrated.system.model.symbols.switches.count)
@@ -196,7 +198,7 @@ def _count_linkage(program: Program) -> Sizes:
     }
 
 
-def _count_motion(program: Program) -> Sizes:
+def _list_motion_sizes(program: Program) -> Sizes:
     """Return {macro: (value, meaning)} of the integrated equations, driven loops, Newton's matrix and its factors.
 
     Flags have the values 0 and 1.
@@ -220,7 +222,7 @@ def _count_motion(program: Program) -> Sizes:
         ),
         "TREE_PIVOTS": (len(integrated.pivots) - len(chain.rows) if chain else 0, "statuses of chains follow these"),
         "RESCUED": (int(tree is not None and tree.has_fallback), "pivots may vanish: all bodies' equations help"),
-        "LARGEST_BLOCK": (_find_largest_block(program), "rows that are solved together"),
+        "LARGEST_BLOCK": (_find_largest_block_size(program), "rows that are solved together"),
         "N_VALUES": (newton.values.size if newton else 0, "of the linearized equations"),
         "N_FACTORS": (newton.factors.size if newton else 0, "of their factors L and U"),
         "IMPLICIT_STAGES": (int(program.has_complex_stages), "1: there are methods that find their stages together"),
@@ -228,7 +230,7 @@ def _count_motion(program: Program) -> Sizes:
     }
 
 
-def _count_monitored(program: Program, bounds: Kernel | None) -> Sizes:
+def _list_monitoring_sizes(program: Program, bounds: Kernel | None) -> Sizes:
     """Return {macro: (value, meaning)} of what is monitored within a step: event functions, time terms, jumps.
 
     Macros for rigid contacts, remainders, curves, contours and guides exist only if the scene has them.
@@ -266,7 +268,7 @@ def _count_monitored(program: Program, bounds: Kernel | None) -> Sizes:
     return sizes
 
 
-def _count_start_values(program: Program) -> Sizes:
+def _list_start_sizes(program: Program) -> Sizes:
     """Return {macro: (value, meaning)} of the coordinates that the start guesses or sets and of the rates that it sets.
 
     N_APART, the number of specified eccentricities of journals, exists only if there are any.
@@ -335,7 +337,7 @@ def get_max_penetration(clearance: Clearance) -> sp.Expr:
     return sp.Min(clearance.constants[DEEPEST], tenth) if DEEPEST in clearance.constants else tenth
 
 
-def _find_largest_block(program: Program) -> int:
+def _find_largest_block_size(program: Program) -> int:
     """Return the largest number of constraint equations that are solved together; 0 for none.
 
     Such blocks occur in positions that follow from drives and in driven loops.
@@ -344,10 +346,10 @@ def _find_largest_block(program: Program) -> int:
     return max(rows.largest if rows else 0, chains.square.largest if chains else 0)
 
 
-def _print_defines(values: Sizes) -> list[str]:
+def _print_defines(sizes: Sizes) -> list[str]:
     """Return aligned #define lines with the value and its meaning as a comment."""
-    width = max(len(f"{name} {value}") for name, (value, _) in values.items())
-    return [f"#define {f'{name} {value}':<{width}} /* {meaning} */" for name, (value, meaning) in values.items()]
+    width = max(len(f"{name} {value}") for name, (value, _) in sizes.items())
+    return [f"#define {f'{name} {value}':<{width}} /* {meaning} */" for name, (value, meaning) in sizes.items()]
 
 
 def _print_tables(program: Program, scene_sizes: Sizes) -> list[str]:
@@ -386,7 +388,7 @@ def _print_tables(program: Program, scene_sizes: Sizes) -> list[str]:
         tables |= {("short", "idle"): unused_switches}
     if program.integrates:
         tables |= _list_monitoring_tables(program, scene_sizes) | {
-            ("int", "friction_of_pivot"): _find_friction_of_pivots(program.integrated.kkt)
+            ("int", "friction_of_pivot"): _find_friction_indices_of_pivots(program.integrated.kkt)
         }
     return [_print_table(kind, name, values) for (kind, name), values in tables.items()]
 
@@ -413,17 +415,18 @@ def _list_monitoring_tables(program: Program, scene_sizes: Sizes) -> dict[tuple[
     }
 
 
-def _mark_continuous_switches(model: Model, count: int) -> list[int]:
-    """Return a list of `count` flags, 1 for switching functions of contact laws whose branches meet without a jump.
+def _mark_continuous_switches(model: Model, n_switches: int) -> list[int]:
+    """Return a flag for each switching function: 1 for those of contact laws whose branches meet without a jump.
 
-    Other switching functions, and those of films with the option `as_printed`, may jump and have 0.
+    The list has `n_switches` flags. Other switching functions, and those of films with the option `as_printed`, may
+    jump and have 0.
     """
     joints_as_printed = {c.name for c in model.clearances if c.film is not None and c.film.options.get("as_printed")}
     owners = {switch.index: switch.owner for switch in model.symbols.switches.switch_by_key.values()}
-    return [int(bool(owners.get(k)) and owners[k] not in joints_as_printed) for k in range(count)]
+    return [int(bool(owners.get(k)) and owners[k] not in joints_as_printed) for k in range(n_switches)]
 
 
-def _find_friction_of_pivots(kkt: KKT) -> list[int]:
+def _find_friction_indices_of_pivots(kkt: KKT) -> list[int]:
     """Return the index of the friction element of each pivot that follows the pivots of constraint equations."""
     names = [friction.name for friction in kkt.frictions]
     return [names.index(pivot) for pivot in kkt.pivots[len(kkt.rows) : len(kkt.rows) + len(names)]]
@@ -461,7 +464,7 @@ def list_joint_parameters(model: Model) -> list[tuple[str, str, list[str]]]:
             f"{name}_of": [c.normal.parameters[name] if c.rigid and c.normal else 0 for c in model.clearances]
             for name in ("restitution", "threshold")
         }
-    meanings = dict(_OF_JOINTS)
+    meanings = dict(_PARAMETER_MEANINGS)
     if any(DEEPEST in c.constants for c in model.clearances):
         meanings["deepest"] = meanings["deepest"].replace("radius.", "radius, or a law's own.")
     if any(c.wall for c in model.clearances):
@@ -476,8 +479,8 @@ def list_joint_parameters(model: Model) -> list[tuple[str, str, list[str]]]:
     ]
 
 
-def _list_gains(program: Program) -> list[tuple[str, str]]:
-    """Return (name, C expression) of the gains of Newton's matrix; gains that the formulation lacks are 0.
+def _list_newton_gains(program: Program) -> list[tuple[str, str]]:
+    """Return (name, C expression) of the stabilization gains in Newton's matrix, "0.0" for gains that do not occur.
 
     [] without implicit methods.
     """

@@ -45,20 +45,20 @@ def print_newton_functions(newton: Newton, render: Render) -> str:
     )
 
 
-def print_tangent_functions(pins: Sequence[JointFunctions], methods: Methods, render: Render, states: int) -> str:
+def print_tangent_functions(joints: Sequence[JointFunctions], methods: Methods, render: Render, n_states: int) -> str:
     """Return the C function `tangent_<joint>` of every joint with play, after the shared derivatives of laws.
 
-    Each joint has `states` inner states of laws. Contours and walls of guides have their own templates. "" without
+    Each joint has `n_states` inner states of laws. Contours and walls of guides have their own templates. "" without
     play.
     """
-    if not pins:
+    if not joints:
         return ""
-    contours = any(pin.clearance.contour for pin in pins)
-    dimensions = {"rows": 4 + states, "columns": 5 + states}
-    functions_ = [CONTOURS * contours + print_shared_slopes(pins, render, "double", "PinSlopes", states)]
+    contours = any(joint.clearance.contour for joint in joints)
+    dimensions = {"rows": 4 + n_states, "columns": 5 + n_states}
+    functions_ = [CONTOURS * contours + print_shared_slopes(joints, render, "double", "PinSlopes", n_states)]
     functions_ += [render("play/contour_slopes.c.jinja")] * contours
     functions_ += map(functions.print_kernel, methods.derivative_kernels)
-    for clearance in (pin.clearance for pin in pins):
+    for clearance in (joint.clearance for joint in joints):
         if clearance.contour:
             functions_.append(
                 _print_contour_tangent(
@@ -88,7 +88,7 @@ def print_tangent_functions(pins: Sequence[JointFunctions], methods: Methods, re
 
 
 def _print_contour_tangent(
-    clearance: Clearance, contour: Contour, dry_slopes: SharedFunctionCall, render: Render
+    clearance: Clearance, contour: Contour, dry_slopes_call: SharedFunctionCall, render: Render
 ) -> str:
     """Return the tangent function of a bearing with a contour, which has dry contact only."""
     arguments = [symbol.name for symbol in CONTOUR_INPUTS]
@@ -97,23 +97,29 @@ def _print_contour_tangent(
         joint=clearance.label,
         c=f"p->{clearance.pair.c}",
         worn=[print_expression(contour.compute_depth(beta_i, order)) for order in range(3)],
-        unread="g" in functions.find_unread_branches([dry_slopes]),
-        call=functions.print_shared_call(dry_slopes, (*arguments, "contact"), ("&F",)),
+        unread="g" in functions.find_unread_branches([dry_slopes_call]),
+        call=functions.print_shared_call(dry_slopes_call, (*arguments, "contact"), ("&F",)),
     )
 
 
-def print_shared_slopes(pins: Sequence[JointFunctions], render: Render, number: str, type_: str, states: int) -> str:
+def print_shared_slopes(
+    joints: Sequence[JointFunctions], render: Render, number_type: str, slopes_type: str, n_states: int
+) -> str:
     """Return the C functions that combine derivatives of joints with play, for numbers or for vectors.
 
-    number, type_: the C types of a value and of a set of derivatives. Blending and walls of guides are included if a
-    joint needs them.
+    number_type, slopes_type: the C types of a value and of a set of derivatives. n_states: inner states of laws of each
+    joint. Blending and walls of guides are included if a joint needs them.
     """
     blend_function = (
-        _BLENDING.replace("{number}", number).replace("{type}", type_).replace("k < 5", f"k < {5 + states}")
+        _BLENDING.replace("{number}", number_type)
+        .replace("{type}", slopes_type)
+        .replace("k < 5", f"k < {5 + n_states}")
     )
-    blending = blend_function if any(pin.has_transition for pin in pins) else ""
-    substitutions = {"number": number, "type": type_, "rows": 4 + states, "columns": 5 + states}
-    wall_slopes = render("play/wall_slopes.c.jinja", **substitutions) if any(pin.clearance.wall for pin in pins) else ""
+    blending = blend_function if any(joint.has_transition for joint in joints) else ""
+    substitutions = {"number": number_type, "type": slopes_type, "rows": 4 + n_states, "columns": 5 + n_states}
+    wall_slopes = (
+        render("play/wall_slopes.c.jinja", **substitutions) if any(joint.clearance.wall for joint in joints) else ""
+    )
     return render("play/pin_slopes.c.jinja", blending=blending, **substitutions) + wall_slopes
 
 

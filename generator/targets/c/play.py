@@ -37,7 +37,7 @@ Stores = list[tuple[str, Line | str]]
 
 
 @dataclass(frozen=True)
-class PinFunction:
+class PrintedFunction:
     """Represent a function of a joint with play and its stores in order: text with the line, or a local's name."""
 
     name: str
@@ -47,15 +47,15 @@ class PinFunction:
 
 def print_clearances_file(program: Program, render: Render) -> str:
     """Return the text of clearance.c: all force laws, then the functions of each joint with play."""
-    states = program.model.law_states
-    joint_functions = (print_clearance_functions(pin, render, states) for pin in program.joints)
-    include = CONTOURS * any(pin.clearance.contour is not None for pin in program.joints)
+    n_states = program.model.law_states
+    joint_functions = (print_clearance_functions(joint, render, n_states) for joint in program.joints)
+    include = CONTOURS * any(joint.clearance.contour is not None for joint in program.joints)
     return include + "\n".join([*map(functions.print_kernel, program.laws), *joint_functions])
 
 
-def print_clearance_functions(pin: JointFunctions, render: Render, states: int) -> str:
-    """Return the C functions of one joint with play; each joint has `states` inner states of laws."""
-    return "\n".join(part.text for part in print_joint_functions(pin, render, states))
+def print_clearance_functions(joint: JointFunctions, render: Render, n_states: int) -> str:
+    """Return the C functions of one joint with play; each joint has `n_states` inner states of laws."""
+    return "\n".join(part.text for part in print_joint_functions(joint, render, n_states))
 
 
 def get_function_name(part: str, joint: str) -> str:
@@ -63,37 +63,37 @@ def get_function_name(part: str, joint: str) -> str:
     return f"{part}_{joint}_"
 
 
-def print_joint_functions(pin: JointFunctions, render: Render, states: int) -> Iterator[PinFunction]:
+def print_joint_functions(joint: JointFunctions, render: Render, n_states: int) -> Iterator[PrintedFunction]:
     """Yield the functions of a joint with their stores: dry contact and film, if it has them, then the total force.
 
-    states: the number of inner states of laws that each joint has.
+    n_states: the number of inner states of laws that each joint has.
     """
-    joint, clearance = pin.clearance.label, pin.clearance
+    label, clearance = joint.clearance.label, joint.clearance
     if clearance.normal is not None:
-        yield _print_dry_function(pin, render, states)
+        yield _print_dry_function(joint, render, n_states)
     if clearance.film is not None:
-        yield _print_film_function(pin, render, states)
+        yield _print_film_function(joint, render, n_states)
     text = render(
-        _select_template(pin),
-        joint=joint,
+        _select_template(joint),
+        joint=label,
         kind=clearance.kind,
         arguments=_ARGUMENTS % _print_further_parameters(clearance),
-        further="".join(f", {name}" for name in _list_further_arguments(pin)),
-        gap=_print_statements(pin.gap),
-        share=_print_statements(pin.share),
+        further="".join(f", {name}" for name in _list_further_arguments(joint)),
+        gap=_print_statements(joint.gap),
+        share=_print_statements(joint.share),
         rigid=clearance.rigid,
         closed="contact->closed" if clearance.rigid else CLOSED,
-        store=_print_result_store(clearance, states),
+        store=_print_result_store(clearance, n_states),
         message=_print_transition_comment(clearance),
         law=_print_mixed_law_comment(clearance),
-        first=pin.switch_indices.start,
-        last=pin.switch_indices.stop,
+        first=joint.switch_indices.start,
+        last=joint.switch_indices.stop,
     )
-    stores: Stores = [*functions.print_each_statement(pin.gap), *functions.print_each_statement(pin.share)]
+    stores: Stores = [*functions.print_each_statement(joint.gap), *functions.print_each_statement(joint.share)]
     stores += [
-        (_BLENDED.format(component), f"F.{component}") for component in ("n", "t", "M_i", "M_j") if pin.has_transition
+        (_BLENDED.format(component), f"F.{component}") for component in ("n", "t", "M_i", "M_j") if joint.has_transition
     ]
-    yield PinFunction(get_function_name("clearance", joint), text, stores)
+    yield PrintedFunction(get_function_name("clearance", label), text, stores)
 
 
 def _print_further_parameters(clearance: Clearance) -> str:
@@ -121,122 +121,127 @@ def _print_mixed_law_comment(clearance: Clearance) -> str:
     return functions.print_comment(describe_law(clearance.mixed)) if clearance.mixed else ""
 
 
-def _print_dry_function(pin: JointFunctions, render: Render, states: int) -> PinFunction:
+def _print_dry_function(joint: JointFunctions, render: Render, n_states: int) -> PrintedFunction:
     """Return the function of a joint's dry contact: its text from a template, and its stores in order."""
-    joint, clearance = pin.clearance.label, pin.clearance
+    label, clearance = joint.clearance.label, joint.clearance
     ratio_name = "unclipped" if clearance.clip_ratio else "ratio"
-    calls = _list_dry_calls(pin, "max_of(delta, 0.0)", "double")
+    calls = _list_dry_calls(joint, "max_of(delta, 0.0)", "double")
     substitutions: dict[str, Any] = {
-        "before": _print_statements(pin.before_dry),
-        "after": _print_statements(pin.after_dry),
+        "before": _print_statements(joint.before_dry),
+        "after": _print_statements(joint.after_dry),
     }
     substitutions["along"] = "-F_N" if clearance.contour else "-F_n"
-    substitutions["further"] = "".join(f", double {name}" for name in _list_further_arguments(pin))
-    laws = [pin.laws[role] for role in ("normal", "friction") if role in pin.laws]
-    substitutions["unread"] = functions.find_unread_branches(laws, (*pin.before_dry, *pin.after_dry))
-    substitutions |= {"law": _join_calls(calls), "rates": print_rates("rate", clearance, states)}
+    substitutions["further"] = "".join(f", double {name}" for name in _list_further_arguments(joint))
+    laws = [joint.laws[role] for role in ("normal", "friction") if role in joint.laws]
+    substitutions["unread"] = functions.find_unread_branches(laws, (*joint.before_dry, *joint.after_dry))
+    substitutions |= {"law": _join_calls(calls), "rates": print_rates("rate", clearance, n_states)}
     text = render(
-        "play/dry.c.jinja", joint=joint, kind=clearance.kind, ratio=_RATIO, ratio_name=ratio_name, **substitutions
+        "play/dry.c.jinja", joint=label, kind=clearance.kind, ratio=_RATIO, ratio_name=ratio_name, **substitutions
     )
     stores: Stores = [
         (f"    const double {ratio_name} = {_RATIO};", ratio_name),
-        *functions.print_each_statement(pin.before_dry),
+        *functions.print_each_statement(joint.before_dry),
     ]
-    stores += [*((code, local) for code, local in calls if local), *functions.print_each_statement(pin.after_dry)]
-    return PinFunction(get_function_name("dry", joint), text, stores)
+    stores += [*((code, local) for code, local in calls if local), *functions.print_each_statement(joint.after_dry)]
+    return PrintedFunction(get_function_name("dry", label), text, stores)
 
 
-def _list_further_arguments(pin: JointFunctions) -> tuple[str, ...]:
+def _list_further_arguments(joint: JointFunctions) -> tuple[str, ...]:
     """Return the names of further arguments of the dry contact of a contour; () for other joints."""
-    return _OF_CONTOUR if pin.clearance.contour else ()
+    return _OF_CONTOUR if joint.clearance.contour else ()
 
 
-def _print_film_function(pin: JointFunctions, render: Render, states: int) -> PinFunction:
+def _print_film_function(joint: JointFunctions, render: Render, n_states: int) -> PrintedFunction:
     """Return the function of a joint's film: its text from a template, and its stores in order."""
-    calls, joint = _list_film_calls(pin, "double"), pin.clearance.label
+    calls, label = _list_film_calls(joint, "double"), joint.clearance.label
     substitutions: dict[str, Any] = {
-        "before": _print_statements(pin.before_film),
-        "after": _print_statements(pin.after_film),
+        "before": _print_statements(joint.before_film),
+        "after": _print_statements(joint.after_film),
         "law": _join_calls(calls),
     }
-    substitutions["unread"] = functions.find_unread_branches([pin.laws["film"]], (*pin.before_film, *pin.after_film))
-    text = render("play/film.c.jinja", joint=joint, rates=print_rates("", pin.clearance, states), **substitutions)
+    substitutions["unread"] = functions.find_unread_branches(
+        [joint.laws["film"]], (*joint.before_film, *joint.after_film)
+    )
+    text = render("play/film.c.jinja", joint=label, rates=print_rates("", joint.clearance, n_states), **substitutions)
     stores: Stores = [
-        *functions.print_each_statement(pin.before_film),
+        *functions.print_each_statement(joint.before_film),
         *((code, local) for code, local in calls if local),
     ]
-    return PinFunction(
-        get_function_name("film", joint), text, [*stores, *functions.print_each_statement(pin.after_film)]
+    return PrintedFunction(
+        get_function_name("film", label), text, [*stores, *functions.print_each_statement(joint.after_film)]
     )
 
 
-def _print_result_store(clearance: Clearance, states: int) -> str:
+def _print_result_store(clearance: Clearance, n_states: int) -> str:
     """Return the C code that stores a joint's force, motion and torques in *out.
 
     Rates of inner states and the position at a guide's wall are added if the joint has them.
     """
-    rates = print_rates("F.state_rate", clearance, states)
+    rates = print_rates("F.state_rate", clearance, n_states)
     position = _AT_WALL if clearance.wall else _JOURNAL
     further_members = f", .state_rate = {rates}" if rates else ""
     further_members += ",\n        .from_x = e_x, .from_y = e_y" * bool(clearance.wall)
     return _STORE % (*position, further_members + ", .at_wall = 1" * bool(clearance.wall and clearance.rigid))
 
 
-def print_rates(array: str, clearance: Clearance, states: int, none: str = "0.0") -> str:
-    """Return an array of the rates of a joint's inner states as an initializer in C; "" if no law has states.
+def print_rates(array_name: str, clearance: Clearance, n_states: int, fill_value: str = "0.0") -> str:
+    """Return the initializer in C of the `n_states` rates of a joint's inner states; "" if no law has states.
 
-    `none` stands for the states that this joint does not have. An empty name `array` means that it has none.
+    array_name: the array with the joint's rates, "" for none. fill_value: the rate of states that the joint does not
+    have.
     """
-    count = len(clearance.states) if array else 0
-    rates = [f"{array}[{k}]" if k < count else none for k in range(states)]
+    count = len(clearance.states) if array_name else 0
+    rates = [f"{array_name}[{k}]" if k < count else fill_value for k in range(n_states)]
     return f"{{{', '.join(rates)}}}" if rates else ""
 
 
-def print_dry_calls(pin: JointFunctions, delta: str, number: str) -> str:
+def print_dry_calls(joint: JointFunctions, penetration: str, number_type: str) -> str:
     """Return the C code that calls normal force and friction, one call per line.
 
-    delta: the penetration that the normal law gets. number: the C type of a number.
+    penetration: the penetration that the normal law gets. number_type: the C type of a number.
     """
-    return _join_calls(_list_dry_calls(pin, delta, number))
+    return _join_calls(_list_dry_calls(joint, penetration, number_type))
 
 
-def _list_dry_calls(pin: JointFunctions, delta: str, number: str) -> list[tuple[str, str]]:
+def _list_dry_calls(joint: JointFunctions, penetration: str, number_type: str) -> list[tuple[str, str]]:
     """Return (code, local that it sets or "") for each line of normal force and friction.
 
     Without friction its force is 0. For rigid surfaces, a line takes the friction force of an impact instead.
     """
-    arguments: Sequence[str] = [delta, "ratio", *map(print_expression, pin.further_places)]
-    normal = functions.print_shared_call(pin.laws["normal"], arguments, ("&F_n",))
-    calls = [(f"{number} F_n;", ""), (normal, "F_n")]
-    normal_force = "F_N" if pin.contour_normal_force else "F_n"
-    normal_steps = zip(functions.print_each_statement(pin.contour_normal_force), pin.contour_normal_force, strict=True)
+    arguments: Sequence[str] = [penetration, "ratio", *map(print_expression, joint.further_places)]
+    normal = functions.print_shared_call(joint.laws["normal"], arguments, ("&F_n",))
+    calls = [(f"{number_type} F_n;", ""), (normal, "F_n")]
+    normal_force = "F_N" if joint.contour_normal_force else "F_n"
+    normal_steps = zip(
+        functions.print_each_statement(joint.contour_normal_force), joint.contour_normal_force, strict=True
+    )
     calls += [(code.strip(), step.declared_local) for (code, _), step in normal_steps]
-    if "friction" in pin.laws:
-        states = range(len(pin.clearance.states))
+    if "friction" in joint.laws:
+        states = range(len(joint.clearance.states))
         arguments, rates = [f"contact->state[{k}]" for k in states], [f"&rate[{k}]" for k in states]
         results = ("&F_along_t_dry", *rates)
-        friction = functions.print_shared_call(pin.laws["friction"], (normal_force, "v_t", *arguments), results)
-        calls.append((f"{number} F_along_t_dry{f', rate[{len(states)}]' if states else ''};", ""))
+        friction = functions.print_shared_call(joint.laws["friction"], (normal_force, "v_t", *arguments), results)
+        calls.append((f"{number_type} F_along_t_dry{f', rate[{len(states)}]' if states else ''};", ""))
         calls.append((friction, "F_along_t_dry"))
-        if pin.clearance.rigid:
+        if joint.clearance.rigid:
             calls.append((_IN_BLOW, ""))
     else:
-        zero = "0.0" if number == "double" else "all_of(0.0)"
-        calls.append((f"const {number} F_along_t_dry = {zero}; /* no friction */", "F_along_t_dry"))
+        zero = "0.0" if number_type == "double" else "all_of(0.0)"
+        calls.append((f"const {number_type} F_along_t_dry = {zero}; /* no friction */", "F_along_t_dry"))
     return [(_break_line(code), local) for code, local in calls]
 
 
-def print_film_calls(pin: JointFunctions, number: str) -> str:
-    """Return the C code that calls the film law for its two forces and its shear torque; `number` is the C type."""
-    return _join_calls(_list_film_calls(pin, number))
+def print_film_calls(joint: JointFunctions, number_type: str) -> str:
+    """Return the C code that calls the film law for its two forces and its shear torque; number_type: their C type."""
+    return _join_calls(_list_film_calls(joint, number_type))
 
 
-def _list_film_calls(pin: JointFunctions, number: str) -> list[tuple[str, str]]:
+def _list_film_calls(joint: JointFunctions, number_type: str) -> list[tuple[str, str]]:
     """Return (code, local that it sets or "") of the film's forces."""
     results = ("&F_r", "&F_along_t_film", "&T0")
-    call = functions.print_shared_call(pin.laws["film"], ("epsilon", "w_n", "w_t"), results)
+    call = functions.print_shared_call(joint.laws["film"], ("epsilon", "w_n", "w_t"), results)
     unread = "(void)T0; /* read only with shear */"
-    calls = [(f"{number} F_r, F_along_t_film, T0;", ""), (call, "F_r"), (unread, "")]
+    calls = [(f"{number_type} F_r, F_along_t_film, T0;", ""), (call, "F_r"), (unread, "")]
     return [(_break_line(code), local) for code, local in calls]
 
 
@@ -255,8 +260,8 @@ def _print_statements(statements: Sequence[Statement]) -> str:
     return functions.print_statements(statements)
 
 
-def _select_template(pin: JointFunctions) -> str:
+def _select_template(joint: JointFunctions) -> str:
     """Return the name of the template for a joint's force: dry contact, film, or film and dry contact."""
-    if pin.clearance.film is None:
+    if joint.clearance.film is None:
         return "play/clearance_dry.c.jinja"
-    return "play/clearance_transition.c.jinja" if pin.has_transition else "play/clearance_film.c.jinja"
+    return "play/clearance_transition.c.jinja" if joint.has_transition else "play/clearance_film.c.jinja"

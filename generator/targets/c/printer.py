@@ -119,11 +119,11 @@ class CPrinter(CachedPrinter, C99CodePrinter):
             return f"1.0/{self._print_call('sqrt', base)}"
         return self._print_call("pow", base, exponent)
 
-    def _print_call(self, function: str, *arguments: sp.Expr) -> str:
+    def _print_call(self, function_name: str, *arguments: sp.Expr) -> str:
         """Print a call of a C function with its arguments."""
-        return f"{function}({', '.join(map(self._print, arguments))})"
+        return f"{function_name}({', '.join(map(self._print, arguments))})"
 
-    def _print_nested_calls(self, function: str, expr: sp.Expr) -> str:
+    def _print_nested_calls(self, function_name: str, expr: sp.Expr) -> str:
         """Print nested calls of a function of two arguments.
 
         Numbers come last, since max_of(x, 0) keeps a NaN in x.
@@ -131,10 +131,10 @@ class CPrinter(CachedPrinter, C99CodePrinter):
         arguments = sorted(expr.args, key=lambda a: (a.is_Number, str(a)))
         text = self._print(arguments[0])
         for argument in arguments[1:]:
-            text = f"{function}({text}, {self._print(argument)})"
+            text = f"{function_name}({text}, {self._print(argument)})"
         return text
 
-    def _print_of_table(self, expr: sp.Expr) -> str:
+    def _print_table_function(self, expr: sp.Expr) -> str:
         """Print a function of the table of functions (gudgeon.language.functions)."""
         name = CLASSES[type(expr)].in_c
         return (
@@ -254,47 +254,47 @@ class ValuePrinter:
     def __init__(self, printer: CPrinter) -> None:
         self.printer = printer
 
-    def expression(self, value: Value) -> str:
+    def print_expression(self, value: Value) -> str:
         """Return a value as C by its class; any other value is printed as a SymPy expression."""
         match value:
             case Place():
                 return self.printer.get_name(value)
             case Conditional():
-                then, otherwise = self.expression(value.then), self.expression(value.otherwise)
-                return f"{self.test(value.test)} ? {then} : {otherwise}"
+                then, otherwise = self.print_expression(value.then), self.print_expression(value.otherwise)
+                return f"{self.print_test(value.test)} ? {then} : {otherwise}"
             case Sum():
                 return " + ".join(map(self.printer.get_name, value.places))
             case ParameterOrDefault():
-                return f"is_given[{value.k}] ? given[{value.k}] : {self.expression(value.default)}"
+                return f"is_given[{value.k}] ? given[{value.k}] : {self.print_expression(value.default)}"
             case _:
                 return self.printer.doprint(value)
 
-    def test(self, item: Test) -> str:
+    def print_test(self, test: Test) -> str:
         """Return a comparison as C.
 
         A test of a value itself checks that it is positive (or not 0) and finite. A test without a relation is its
         value.
         """
-        value = self.expression(item.value)
-        left_side = f"fabs({value})" if item.compares_magnitude else value
-        if item.is_relative_to_value:
+        value = self.print_expression(test.value)
+        left_side = f"fabs({value})" if test.compares_magnitude else value
+        if test.is_relative_to_value:
             return (
                 f"{left_side} > 0.0 && {value} < INFINITY"
-                if not item.compares_magnitude
+                if not test.compares_magnitude
                 else f"{value} != 0.0 && isfinite({value})"
             )
-        bound = " * ".join(map(self._print_factor, item.bound))
-        return f"{left_side} {item.relation} {bound}" if item.relation else left_side
+        bound = " * ".join(map(self._print_factor, test.bound))
+        return f"{left_side} {test.relation} {bound}" if test.relation else left_side
 
     def _print_factor(self, value: sp.Basic | float) -> str:
         """Return a factor of a bound as C; a threshold is printed by its name in model.h or by its place."""
         if isinstance(value, Threshold):
             return self.printer.get_name(value.place) if value.place else value.name
-        return repr(value) if isinstance(value, float) else self.expression(value)
+        return repr(value) if isinstance(value, float) else self.print_expression(value)
 
 
 _text = ValuePrinter(CPrinter())
-print_expression, test = _text.expression, _text.test
+print_expression, print_test = _text.print_expression, _text.print_test
 
 
 def sanitize_comment(text: str) -> str:

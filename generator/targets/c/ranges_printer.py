@@ -36,17 +36,17 @@ class RangesPrinter(printer.CPrinter):
         text: str = self._print(expr)
         return text if expr.free_symbols else f"only({text})"
 
-    def _print_call(self, function: str, *arguments: sp.Expr) -> str:
+    def _print_call(self, function_name: str, *arguments: sp.Expr) -> str:
         """Print a call of a function of ranges; with constant arguments only, the call of the function of numbers."""
         if not any(argument.free_symbols for argument in arguments):
-            return super()._print_call(function, *arguments)
-        return f"range_{function}({', '.join(map(self._print_range, arguments))})"
+            return super()._print_call(function_name, *arguments)
+        return f"range_{function_name}({', '.join(map(self._print_range, arguments))})"
 
-    def _print_chained_calls(self, function: str, arguments: tuple[sp.Expr, ...]) -> str:
+    def _print_chained_calls(self, function_name: str, arguments: tuple[sp.Expr, ...]) -> str:
         """Print a function of two ranges applied to all arguments, from the first on."""
         text = self._print_range(arguments[0])
         for argument in arguments[1:]:
-            text = f"range_{function}({text}, {self._print_range(argument)})"
+            text = f"range_{function_name}({text}, {self._print_range(argument)})"
         return text
 
     def _print_Add(self, expr: sp.Expr, order: object = None) -> str:
@@ -84,11 +84,11 @@ class RangesPrinter(printer.CPrinter):
             return f"range_inverse({self._print_call('sqrt', base)})"
         return self._print_call("pow", base, exponent)
 
-    def _print_nested_calls(self, function: str, expr: sp.Expr) -> str:
+    def _print_nested_calls(self, function_name: str, expr: sp.Expr) -> str:
         """Print nested calls of a function of two ranges, for example a maximum; constants come last."""
         if not expr.free_symbols:
-            return super()._print_nested_calls(function, expr)
-        return self._print_chained_calls(function, tuple(sorted(expr.args, key=lambda a: (a.is_Number, str(a)))))
+            return super()._print_nested_calls(function_name, expr)
+        return self._print_chained_calls(function_name, tuple(sorted(expr.args, key=lambda a: (a.is_Number, str(a)))))
 
     def _print_Heaviside(self, expr: sp.Expr) -> str:
         """Print the step function of a range."""
@@ -131,23 +131,23 @@ class _RangeLines(functions.LinePrinter):
 
     printer: RangesPrinter
 
-    def expression(self, value: Value) -> str:
+    def print_expression(self, value: Value) -> str:
         """Return a value as a range; a value that depends on no state becomes a range of one value."""
         if isinstance(value, sp.Basic):
             return self.printer._print_range(value)
-        text = super().expression(value)
+        text = super().print_expression(value)
         return text if value.names & _RANGES else f"only({text})"
 
 
-def print_kernel(item: Kernel) -> str:
+def print_kernel(kernel: Kernel) -> str:
     """Return a kernel as a C function of ranges for t, q and v; parameters stay numbers.
 
     The results in RhsOutputs become ranges in the argument `out`. The engine calls the function.
     """
     arguments = tuple(
-        replace(a, name=_NAMES.get(a.name, a.name), type=_TYPES.get(a.type, a.type)) for a in item.arguments
+        replace(a, name=_NAMES.get(a.name, a.name), type=_TYPES.get(a.type, a.type)) for a in kernel.arguments
     )
-    range_kernel = replace(item, arguments=arguments)
+    range_kernel = replace(kernel, arguments=arguments)
     readable_lines = make_readable(range_kernel, branching=False)
     return functions.print_function(
         range_kernel, _RangeLines(RangesPrinter(readable_lines), "Range"), readable_lines, is_called_by_engine=True

@@ -101,12 +101,12 @@ def _format_count(items: Sized, singular: str, plural: str = "") -> str:
     return f"{len(items)} {singular if len(items) == 1 else plural or singular + 's'}"
 
 
-def _describe_reading_order(program: Program, names: Collection[str]) -> list[str]:
+def _describe_reading_order(program: Program, file_names: Collection[str]) -> list[str]:
     """Return the lines of README.md that say which files to read first and which symbols they use.
 
-    names: the files of the scene, of which positions.c or reduced.c is mentioned if present.
+    file_names: the files of the scene, of which positions.c or reduced.c is mentioned if present.
     """
-    integrated_file = next((name for name in ("positions.c", "reduced.c") if name in names), "")
+    integrated_file = next((name for name in ("positions.c", "reduced.c") if name in file_names), "")
     continuation = f", and `{integrated_file}`, which is what runs" if integrated_file else ""
     return [
         f"Read `model.h` first, for the names, then `dynamics.c`, which is the textbook's{continuation}.",
@@ -114,7 +114,7 @@ def _describe_reading_order(program: Program, names: Collection[str]) -> list[st
     ]
 
 
-def _describe_calls(program: Program, names: Collection[str]) -> list[str]:
+def _describe_calls(program: Program, file_names: Collection[str]) -> list[str]:
     """Return the lines of README.md that say how the scene is compiled, and which C functions start and run it.
 
     The functions differ for scenes that are integrated and kinematically driven ones.
@@ -125,7 +125,7 @@ def _describe_calls(program: Program, names: Collection[str]) -> list[str]:
         else ("`gudgeon_kinematic_begin`, then `gudgeon_kinematic`")
     )
     lanes_note = ["`lanes.c` is a library of its own, compiled in the same way without the engine."] * (
-        "lanes.c" in names
+        "lanes.c" in file_names
     )
     return [
         "## How it is called",

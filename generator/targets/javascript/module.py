@@ -56,7 +56,7 @@ def print_equations_script(program: Program) -> str:
     members_read: set[str] = set()
     methods = [print_method(dynamics, members_read, find_right_hand_side_locals(dynamics, model))]
     methods += [print_method(kernel, members_read) for kernel in (*kernels, *program.laws)]
-    methods += [method_text for pin in program.joints for method_text in print_joint_functions(pin, members_read)]
+    methods += [method_text for joint in program.joints for method_text in print_joint_functions(joint, members_read)]
     tree_methods = print_tree_functions(program, members_read)
     methods = [
         *tree_methods.values(),

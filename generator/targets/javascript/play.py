@@ -25,20 +25,22 @@ _OF_CONTOUR = ("e", "steep", "worn_slope")
 _FILM = ("e", "deltadot", "de_t", "omega_i", "omega_j", "p", "of")
 
 
-def print_joint_functions(pin: JointFunctions, members_read: set[str]) -> list[str]:
+def print_joint_functions(joint: JointFunctions, members_read: set[str]) -> list[str]:
     """Return the JavaScript methods `dry_A`, `film_A` and `clearance_A` of joint A.
 
     The first two exist only if the joint has them.
     members_read: a set that gets the read members of p. The methods store their values in `of` by the function's
     name: `of.dry_A.a_i`; the force in ground axes goes to `of.force`.
     """
-    joint, methods = pin.clearance.label, []
-    if pin.clearance.normal is not None:
-        methods.append(_print_method(f"dry_{joint}_", _list_dry_arguments(pin), _print_dry_contact(pin, members_read)))
-    if pin.clearance.film is not None:
-        methods.append(_print_method(f"film_{joint}_", _FILM, _print_film(pin, members_read)))
-    arguments = (*map(str, list_motion_symbols(pin.clearance)), "contact", "p", "of")
-    return [*methods, _print_method(f"clearance_{joint}_", arguments, _print_joint_force(pin, members_read))]
+    label, methods = joint.clearance.label, []
+    if joint.clearance.normal is not None:
+        methods.append(
+            _print_method(f"dry_{label}_", _list_dry_arguments(joint), _print_dry_contact(joint, members_read))
+        )
+    if joint.clearance.film is not None:
+        methods.append(_print_method(f"film_{label}_", _FILM, _print_film(joint, members_read)))
+    arguments = (*map(str, list_motion_symbols(joint.clearance)), "contact", "p", "of")
+    return [*methods, _print_method(f"clearance_{label}_", arguments, _print_joint_force(joint, members_read))]
 
 
 def list_motion_symbols(clearance: Clearance) -> tuple[sp.Symbol, ...]:
@@ -51,9 +53,9 @@ def list_motion_symbols(clearance: Clearance) -> tuple[sp.Symbol, ...]:
     return (*MOTION, contact.theta_i) if clearance.contour else MOTION
 
 
-def _list_dry_arguments(pin: JointFunctions) -> tuple[str, ...]:
+def _list_dry_arguments(joint: JointFunctions) -> tuple[str, ...]:
     """Return the argument names of a joint's dry contact; those of a contour have three more."""
-    return (*_DRY[:5], *_OF_CONTOUR, *_DRY[5:]) if pin.clearance.contour else _DRY
+    return (*_DRY[:5], *_OF_CONTOUR, *_DRY[5:]) if joint.clearance.contour else _DRY
 
 
 def _print_method(name: str, arguments: Iterable[str], body: Iterable[str]) -> str:
@@ -61,60 +63,68 @@ def _print_method(name: str, arguments: Iterable[str], body: Iterable[str]) -> s
     return "\n".join([f"{name}({', '.join(arguments)}) {{", *(f"    {line}" for line in body), "}"])
 
 
-def _print_dry_contact(pin: JointFunctions, members_read: set[str]) -> list[str]:
+def _print_dry_contact(joint: JointFunctions, members_read: set[str]) -> list[str]:
     """Return the lines of a joint's dry contact: normal force, friction (0 if there is none) and moments."""
-    ratio_name = "unclipped" if pin.clearance.clip_ratio else "ratio"
-    before, after = _PrintedStatements(pin.before_dry, members_read), _PrintedStatements(pin.after_dry, members_read)
+    ratio_name = "unclipped" if joint.clearance.clip_ratio else "ratio"
+    before, after = (
+        _PrintedStatements(joint.before_dry, members_read),
+        _PrintedStatements(joint.after_dry, members_read),
+    )
     body = [f"const {ratio_name} = contact.closed ? deltadot / contact.deltadot_minus : 1;", *before.text]
     body += _print_law_call(
-        pin.laws["normal"], ("max_of(delta, 0)", "ratio", *map(str, pin.further_places)), ("F_n",), members_read
+        joint.laws["normal"], ("max_of(delta, 0)", "ratio", *map(str, joint.further_places)), ("F_n",), members_read
     )
-    pressing = _PrintedStatements(pin.contour_normal_force, members_read)
-    normal_force, body = "F_N" if pin.contour_normal_force else "F_n", [*body, *pressing.text]
-    if "friction" in pin.laws:
-        states = (f"contact.state[{k}]" for k in range(len(pin.clearance.states)))
-        body += _print_law_call(pin.laws["friction"], (normal_force, "v_t", *states), ("F_along_t_dry",), members_read)
+    pressing = _PrintedStatements(joint.contour_normal_force, members_read)
+    normal_force, body = "F_N" if joint.contour_normal_force else "F_n", [*body, *pressing.text]
+    if "friction" in joint.laws:
+        states = (f"contact.state[{k}]" for k in range(len(joint.clearance.states)))
+        body += _print_law_call(
+            joint.laws["friction"], (normal_force, "v_t", *states), ("F_along_t_dry",), members_read
+        )
     else:
         body.append("const F_along_t_dry = 0;")
     locals_ = [ratio_name, *before.locals, "F_n", *pressing.locals, "F_along_t_dry", *after.locals]
     return [
         *body,
         *after.text,
-        _print_store(f"dry_{pin.clearance.label}_", locals_),
+        _print_store(f"dry_{joint.clearance.label}_", locals_),
         _print_return_force(f"-{normal_force}", "dry"),
     ]
 
 
-def _print_film(pin: JointFunctions, members_read: set[str]) -> list[str]:
+def _print_film(joint: JointFunctions, members_read: set[str]) -> list[str]:
     """Return the lines of a joint's film: its law's forces and moments."""
-    before, after = _PrintedStatements(pin.before_film, members_read), _PrintedStatements(pin.after_film, members_read)
+    before, after = (
+        _PrintedStatements(joint.before_film, members_read),
+        _PrintedStatements(joint.after_film, members_read),
+    )
     forces = ("F_r", "F_along_t_film", "T0")
     body = [
         *before.text,
-        *_print_law_call(pin.laws["film"], ("epsilon", "w_n", "w_t"), forces, members_read),
+        *_print_law_call(joint.laws["film"], ("epsilon", "w_n", "w_t"), forces, members_read),
         *after.text,
     ]
     locals_ = [*before.locals, *forces, *after.locals]
-    return [*body, _print_store(f"film_{pin.clearance.label}_", locals_), _print_return_force("F_r", "film")]
+    return [*body, _print_store(f"film_{joint.clearance.label}_", locals_), _print_return_force("F_r", "film")]
 
 
-def _print_joint_force(pin: JointFunctions, members_read: set[str]) -> list[str]:
+def _print_joint_force(joint: JointFunctions, members_read: set[str]) -> list[str]:
     """Return the lines of a joint's force: the gap and its normal, then dry contact, film or their blend.
 
     Without a film, the force is dry if the contact is closed (rigid) or δ > 0, else 0. A joint with a film alone
     returns its force. With both, the film acts alone for δ ≤ 0, else the blend. `members_read` gets the parameters that
     are read.
     """
-    joint = pin.clearance.label
-    gap, blend = _PrintedStatements(pin.gap, members_read), _PrintedStatements(pin.share, members_read)
-    parts = (("dry", _list_dry_arguments(pin)), ("film", _FILM))
-    dry, film = (f"functions.{part}_{joint}_({', '.join(call_arguments)})" for part, call_arguments in parts)
-    body = [*gap.text, _print_store(f"clearance_{joint}_", gap.locals)]
-    if pin.clearance.film is None:
-        condition = "contact.closed" if pin.clearance.rigid else "delta > 0"
-        at_wall = "{...F, M_i: F.M_i + along * F.n}" if pin.clearance.wall else "F"
+    label = joint.clearance.label
+    gap, blend = _PrintedStatements(joint.gap, members_read), _PrintedStatements(joint.share, members_read)
+    parts = (("dry", _list_dry_arguments(joint)), ("film", _FILM))
+    dry, film = (f"functions.{part}_{label}_({', '.join(call_arguments)})" for part, call_arguments in parts)
+    body = [*gap.text, _print_store(f"clearance_{label}_", gap.locals)]
+    if joint.clearance.film is None:
+        condition = "contact.closed" if joint.clearance.rigid else "delta > 0"
+        at_wall = "{...F, M_i: F.M_i + along * F.n}" if joint.clearance.wall else "F"
         return [*body, f"const F = {condition} ? {dry} : {_NOTHING};", _print_return_in_ground_axes(at_wall)]
-    if pin.clearance.normal is None:
+    if joint.clearance.normal is None:
         return [*body, _print_return_in_ground_axes(film)]
     share_locals = ", ".join(blend.locals)
     blend_lines = (
@@ -125,7 +135,7 @@ def _print_joint_force(pin: JointFunctions, members_read: set[str]) -> list[str]
         *body,
         f"if (!(delta > 0)) {_print_return_in_ground_axes(film)}",
         *blend.text,
-        f"const F = {dry}, own = Object.assign(of.clearance_{joint}_, {{{share_locals}}});",
+        f"const F = {dry}, own = Object.assign(of.clearance_{label}_, {{{share_locals}}});",
         "if (share < 1) {",
         f"    const film = {film};",
         *(f"    {line}" for line in blend_lines),
@@ -142,21 +152,24 @@ def _print_return_in_ground_axes(force: str) -> str:
 class _PrintedStatements:
     """Contain the JavaScript lines of statements and the locals that they store."""
 
-    def __init__(self, statements: Sequence[Statement], read: set[str]) -> None:
-        writer = LinePrinter(make_readable_statements(statements), read)
+    def __init__(self, statements: Sequence[Statement], members_read: set[str]) -> None:
+        writer = LinePrinter(make_readable_statements(statements), members_read)
         self.text, self.locals = writer.print_lines(), writer.locals
 
 
 def _print_law_call(
-    call: SharedFunctionCall, arguments: Iterable[str], locals_: Sequence[str], members_read: set[str]
+    call: SharedFunctionCall, arguments: Iterable[str], local_names: Sequence[str], members_read: set[str]
 ) -> list[str]:
-    """Return the lines that call a law; its first results become the locals `locals_`, all go to `of` by its name."""
+    """Return the lines that call a law, store its results in `of` by its name, and name the first results.
+
+    local_names: the locals for the first results. members_read: a set that gets the read members of p.
+    """
     function, parameters = (
         call.kernel.name,
         map(JavaScriptPrinter(Readable(()), members_read).get_name, call.parameters),
     )
     destructured = ", ".join(
-        f"{result}: {name}" for result, name in zip(list_results(call.kernel), locals_, strict=False)
+        f"{result}: {name}" for result, name in zip(list_results(call.kernel), local_names, strict=False)
     )
     call_text = f"functions.{function}({', '.join([*arguments, *parameters])})"
     return [f"const {{{destructured}}} = of.{function} = {call_text};"]

@@ -69,17 +69,17 @@ _SIDES = tuple(Place(argument.name) for argument in BRANCHES)
 class JavaScriptPrinter(CPrinter):
     """Print C's expressions with JavaScript's paths of places.
 
-    `numbers` is a set that gets the members of p that are read.
+    `members_read` is a set that gets the members of p that are read.
     """
 
-    def __init__(self, readable_lines: Readable, numbers: set[str]) -> None:
+    def __init__(self, readable_lines: Readable, members_read: set[str]) -> None:
         super().__init__(readable_lines)
-        self.numbers = numbers
+        self.members_read = members_read
 
     def print_place(self, place: Place) -> str:
-        """Return the path of a place in JavaScript, and add the member to `numbers` if the place is a parameter."""
+        """Return the path of a place in JavaScript; the member of a parameter is added to `members_read`."""
         if place.is_parameter:
-            self.numbers.add(place.member)
+            self.members_read.add(place.member)
         return str(place)
 
     def _print_BranchOf(self, expr: sp.Expr) -> str:
@@ -97,21 +97,23 @@ class JavaScriptPrinter(CPrinter):
         return f"contour(p.{expr.table}, {expr.order}, {self._print(expr.args[3])})"
 
 
-def print_method(kernel: Kernel, numbers: set[str], only: Collection[str] | None = None) -> str:
+def print_method(kernel: Kernel, members_read: set[str], local_names: Collection[str] | None = None) -> str:
     """Return a kernel as a JavaScript method that returns an object with its locals and arrays by name.
 
-    numbers: a set to which the read members of p are added. `only`: the locals to compute; None for all. If a
-    pivot vanishes, the method ends and later values are undefined. Raises ValueError for a line without a counterpart.
+    members_read: a set that gets the read members of p. local_names: the locals to compute; None for all. If a pivot
+    vanishes, the method ends and later values are undefined. Raises ValueError for a line without a counterpart.
     """
     readable_lines = make_readable(kernel)
-    may_end = only is None and any(isinstance(line, Guard) for part in kernel.sections for line in part.statements)
-    writer = LinePrinter(readable_lines, numbers, "var" if may_end else "const")
-    body = writer.print_lines(only)
+    may_end = local_names is None and any(
+        isinstance(line, Guard) for part in kernel.sections for line in part.statements
+    )
+    writer = LinePrinter(readable_lines, members_read, "var" if may_end else "const")
+    body = writer.print_lines(local_names)
     body = ["solved: {", *(f"    {line}" for line in body), "}"] if may_end else body
-    outputs = list_results(kernel) if only is None else []
+    outputs = list_results(kernel) if local_names is None else []
     outputs = [out for out in outputs if out not in writer.locals]
     arrays = [f"    const {', '.join(f'{out} = []' for out in outputs)};"] if outputs else []
-    if rhs := _print_outputs_literal(kernel) if only is None else "":
+    if rhs := _print_outputs_literal(kernel) if local_names is None else "":
         arrays, outputs = [*arrays, f"    const rhs = {rhs};"], [*outputs, "rhs"]
     argument_names = ", ".join(list_arguments(kernel))
     returned = ", ".join(dict.fromkeys([*writer.locals, *outputs]))
@@ -154,65 +156,70 @@ class _JavaScript(ValuePrinter):
 
     def _print_factor(self, value: sp.Basic | float) -> str:
         """Return a factor of a bound in JavaScript; a threshold is printed as a number."""
-        return repr(float(value)) if isinstance(value, float) else self.expression(value)
+        return repr(float(value)) if isinstance(value, float) else self.print_expression(value)
 
 
 class LinePrinter:
-    """Print the lines of one function as JavaScript; `locals` are the names that they declare with `word`."""
+    """Print the lines of one function as JavaScript; `locals` are the names that they declare with `keyword`."""
 
-    def __init__(self, readable_lines: Readable, numbers: set[str], word: str = "const") -> None:
-        self.readable_lines, self.text, self.word = (
+    def __init__(self, readable_lines: Readable, members_read: set[str], keyword: str = "const") -> None:
+        self.readable_lines, self.value_printer, self.keyword = (
             readable_lines,
-            _JavaScript(JavaScriptPrinter(readable_lines, numbers)),
-            word,
+            _JavaScript(JavaScriptPrinter(readable_lines, members_read)),
+            keyword,
         )
         self.locals: list[str] = []
 
-    def print_lines(self, only: Collection[str] | None = None) -> list[str]:
-        """Return all lines in JavaScript, or those that store to one of the names `only`."""
+    def print_lines(self, local_names: Collection[str] | None = None) -> list[str]:
+        """Return the lines that store to one of `local_names` in JavaScript; all lines for None."""
         all_lines = (line for section in self.readable_lines.sections for line in section.statements)
-        selected = (line for line in all_lines if only is None or getattr(line, "target", "") in only)
+        selected = (line for line in all_lines if local_names is None or getattr(line, "target", "") in local_names)
         return [text for line in selected for text in self.print_line(line)]
 
-    def print_line(self, item: Line) -> list[str]:
+    def print_line(self, line: Line) -> list[str]:
         """Return one line of a kernel in JavaScript; [] for lines that only single runs of C need.
 
         A new local is declared and added to `locals`. A test of a pivot that fails leaves the block `solved`; the call
         of a joint stores the force of its function. Raises ValueError for a line without a counterpart.
         """
-        if isinstance(item, (Branches, Status, ReturnIfOnlyJoints, Jump, SolveDependentRows, Return, LargestRow)):
+        if isinstance(line, (Branches, Status, ReturnIfOnlyJoints, Jump, SolveDependentRows, Return, LargestRow)):
             return []
-        if isinstance(item, Sines):
-            return self._print_sines(item)
-        if isinstance(item, Guard) and isinstance(item.test, Test):
-            only = f"{self.text.test(item.condition)} && " if item.condition else ""
-            return [f"if ({only}!({self.text.test(item.test)})) break solved;"]
-        if isinstance(item, Call) and item.function.startswith("clearance_"):
-            call_arguments = ", ".join(self._print_argument(x) for x in item.given if x not in _SIDES)
-            return [f"Object.assign({item.results[0]}, functions.{item.function}({call_arguments}, {{}}).force);"]
-        if not isinstance(item, (Statement, Branch)):
-            raise ValueError(f"a line of a function that has no counterpart in JavaScript: {item}")
-        target = self.text.printer.get_name(item.target)
-        declaration = f"{self.word} " * isinstance(item.target, (str, Result))
+        if isinstance(line, Sines):
+            return self._print_sines(line)
+        if isinstance(line, Guard) and isinstance(line.test, Test):
+            only = f"{self.value_printer.print_test(line.condition)} && " if line.condition else ""
+            return [f"if ({only}!({self.value_printer.print_test(line.test)})) break solved;"]
+        if isinstance(line, Call) and line.function.startswith("clearance_"):
+            call_arguments = ", ".join(self._print_argument(x) for x in line.given if x not in _SIDES)
+            return [f"Object.assign({line.results[0]}, functions.{line.function}({call_arguments}, {{}}).force);"]
+        if not isinstance(line, (Statement, Branch)):
+            raise ValueError(f"a line of a function that has no counterpart in JavaScript: {line}")
+        target = self.value_printer.printer.get_name(line.target)
+        declaration = f"{self.keyword} " * isinstance(line.target, (str, Result))
         if declaration:
             self.locals.append(target)
-        if isinstance(item, Statement):
-            return [f"{declaration}{target} = {self.text.expression(item.value)};"]
-        below, otherwise = self.text.expression(item.value_below), self.text.expression(item.value_above)
-        return [f"{declaration}{target} = {self.text.expression(item.branch)} < 0 ? {below} : {otherwise};"]
+        if isinstance(line, Statement):
+            return [f"{declaration}{target} = {self.value_printer.print_expression(line.value)};"]
+        below, otherwise = (
+            self.value_printer.print_expression(line.value_below),
+            self.value_printer.print_expression(line.value_above),
+        )
+        return [
+            f"{declaration}{target} = {self.value_printer.print_expression(line.branch)} < 0 ? {below} : {otherwise};"
+        ]
 
     def _print_argument(self, value: sp.Basic | Place) -> str:
         """Return an argument of a call in JavaScript."""
-        return str(value) if isinstance(value, Place) else self.text.expression(value)
+        return str(value) if isinstance(value, Place) else self.value_printer.print_expression(value)
 
-    def _print_sines(self, item: Sines) -> list[str]:
+    def _print_sines(self, sines: Sines) -> list[str]:
         """Return declarations of arrays with the sines and cosines of several angles.
 
-        `item.count` selects an array of groups of four; without it the array has all values.
+        `sines.count` selects an array of groups of four; without it the array has all values.
         """
-        angles, declarations = [self.text.expression(angle) for angle in item.angles], []
-        for function, array in zip(("sin", "cos"), item.arrays, strict=True):
+        angles, declarations = [self.value_printer.print_expression(angle) for angle in sines.angles], []
+        for function, array in zip(("sin", "cos"), sines.arrays, strict=True):
             values = [f"{function}({angle})" for angle in angles]
             groups = ", ".join(f"[{', '.join(values[k : k + 4])}]" for k in range(0, len(values), 4))
-            declarations.append(f"const {array} = {f'[{groups}]' if item.count else groups};")
+            declarations.append(f"const {array} = {f'[{groups}]' if sines.count else groups};")
         return declarations

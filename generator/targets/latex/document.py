@@ -166,17 +166,19 @@ MOST_ROWS = 32  # a table does not break over pages
 def make_tables(
     header: tuple[Text, ...],
     rows: list[tuple[Text, ...]],
-    wide: tuple[int, ...] = (),
+    text_columns: tuple[int, ...] = (),
     tokens: Sequence[Sequence[str]] = (),
     upright: bool = False,
 ) -> list[Block]:
     """Return rows as tables of at most MOST_ROWS rows, since a table does not break over pages; [] for no rows.
 
-    wide: the columns with running text. tokens: highlighting tokens by row. upright: columns become rows on a phone.
+    text_columns: the columns with running text. tokens: highlighting tokens by row. upright: whether columns become
+    rows on a phone.
     """
     starts = range(0, len(rows), MOST_ROWS)
     return [
-        Table(header, tuple(rows[k : k + MOST_ROWS]), wide, tuple(tokens[k : k + MOST_ROWS]), upright) for k in starts
+        Table(header, tuple(rows[k : k + MOST_ROWS]), text_columns, tuple(tokens[k : k + MOST_ROWS]), upright)
+        for k in starts
     ]
 
 

@@ -43,16 +43,21 @@ def make_equation(
     right: sp.Expr,
     notation: Notation,
     tokens: Sequence[str] = (),
-    pick: str = "",
-    value: str = "",
+    selection_token: str = "",
+    value_name: str = "",
 ) -> Equation:
     """Return an equation that may break between the terms of the right side; tokens and value as in document.py."""
     left_name = left if isinstance(left, Name) else notation.format_expression(left)
-    return Equation(left_name, notation.terms(right), tokens, pick, value)
+    return Equation(left_name, notation.terms(right), tokens, selection_token, value_name)
 
 
 def make_equation_block(
-    left: Name, right: sp.Expr, notation: Notation, tokens: Sequence[str] = (), pick: str = "", value: str = ""
+    left: Name,
+    right: sp.Expr,
+    notation: Notation,
+    tokens: Sequence[str] = (),
+    selection_token: str = "",
+    value_name: str = "",
 ) -> Block:
     """Return an equation as a block.
 
@@ -60,7 +65,7 @@ def make_equation_block(
     """
     n_operations = sp.count_ops(right)
     if n_operations <= LONGEST:
-        return make_equation(left, right, notation, tokens, pick, value)
+        return make_equation(left, right, notation, tokens, selection_token, value_name)
     return make_paragraph(
         left, f" follows by differentiation; written out it has {n_operations} operations.", tokens=tokens
     )
@@ -78,7 +83,7 @@ def make_kinematics_sections(model: Model, notation: Notation) -> list[Section]:
         return sections
     return [
         *sections,
-        Section("Constraints", tuple(_describe_rows(model, notation))),
+        Section("Constraints", tuple(_describe_constraints(model, notation))),
         Section("Jacobian", tuple(_describe_jacobian(model))),
     ]
 
@@ -112,7 +117,7 @@ def _describe_abbreviations(model: Model, notation: Notation) -> Iterator[Block]
     equations = [
         make_equation(symbol, notation.expand(definition), notation)
         for symbol, definition in model.symbols.definitions.items()
-        if symbol in notation.kept and symbol not in others
+        if symbol in notation.shown_symbols and symbol not in others
     ]
     yield from equations
     if any("where(" in term.text for equation_ in equations for term in equation_.terms):
@@ -123,7 +128,7 @@ def _describe_abbreviations(model: Model, notation: Notation) -> Iterator[Block]
         yield make_paragraph("H is the unit step.")
 
 
-def _describe_rows(model: Model, notation: Notation) -> list[Block]:
+def _describe_constraints(model: Model, notation: Notation) -> list[Block]:
     """Return the rows of Φ of each joint and drive with their entries of Φ_q, ν and γ, and an introduction."""
     blocks: list[Block] = [
         make_paragraph(
@@ -145,12 +150,14 @@ def _describe_rows(model: Model, notation: Notation) -> list[Block]:
             " is not zero:",
         )
     ]
-    for title, rows in _group_by_owner(model):
+    for title, rows in _group_rows_by_owner(model):
         first_row = rows[0][1]
         tokens = [make_owner_token(first_row), *(make_row_token(k) for k, _ in rows)]
-        blocks.append(make_paragraph(f"{title}, ", *_list_multipliers(rows), f"; {_name_rows(rows)}:", tokens=tokens))
+        blocks.append(
+            make_paragraph(f"{title}, ", *_list_multipliers(rows), f"; {_format_row_names(rows)}:", tokens=tokens)
+        )
         blocks += [_make_row_equation(k, row, model, notation) for k, row in rows]
-        blocks += _describe_entries(rows, model, notation)
+        blocks += _describe_jacobian_entries(rows, model, notation)
         nu = [notation.expand(row.nu) for _, row in rows]
         gamma = [format_gamma(row, model, notation) for _, row in rows]
         for vector, values in ((NU, nu), (GAMMA, gamma)):
@@ -158,8 +165,8 @@ def _describe_rows(model: Model, notation: Notation) -> list[Block]:
     return blocks
 
 
-def _make_row_equation(number: int, row: Row, model: Model, notation: Notation) -> Equation:
-    """Return row `number` of Φ as an equation; each term is highlighted with its own entries and temporaries."""
+def _make_row_equation(row_number: int, row: Row, model: Model, notation: Notation) -> Equation:
+    """Return row `row_number` of Φ as an equation; each term is highlighted with its own entries and temporaries."""
     column_of = {q: i for i, q in enumerate(model.q, 1)}
     term_tokens: dict[sp.Expr, list[str]] = {}
     for part in sp.Add.make_args(row.phi):
@@ -170,16 +177,20 @@ def _make_row_equation(number: int, row: Row, model: Model, notation: Notation) 
     def list_tokens(term: sp.Expr) -> list[str]:
         """Return the highlighting tokens of a term: its entries of Φ_q and its named parts."""
         columns = sorted(column_of[s] for s in model.symbols.expand_definitions(term).free_symbols if s in row.phi_q)
-        return [*(make_entry_token(number, i) for i in columns), *term_tokens.get(term, ())]
+        return [*(make_entry_token(row_number, i) for i in columns), *term_tokens.get(term, ())]
 
-    left = name_component(PHI, number)
+    left = name_component(PHI, row_number)
     terms = notation.terms(notation.expand(row.phi), list_tokens)
     return Equation(
-        left, terms, [make_row_token(number), make_owner_token(row)], make_row_token(number), f"phi.{number}"
+        left,
+        terms,
+        [make_row_token(row_number), make_owner_token(row)],
+        make_row_token(row_number),
+        f"phi.{row_number}",
     )
 
 
-def _group_by_owner(model: Model) -> Iterator[tuple[str, list[tuple[int, Row]]]]:
+def _group_rows_by_owner(model: Model) -> Iterator[tuple[str, list[tuple[int, Row]]]]:
     """Yield (title, [(number of the row, row)]) of each joint and drive.
 
     The title has its type and its line of the file.
@@ -193,7 +204,7 @@ def _group_by_owner(model: Model) -> Iterator[tuple[str, list[tuple[int, Row]]]]
             yield f"Drive {owner}, line {mechanism.drives[owner].where.line} of the file", list(rows)
 
 
-def _name_rows(rows: Sequence[tuple[int, Row]]) -> str:
+def _format_row_names(rows: Sequence[tuple[int, Row]]) -> str:
     """Return the names and units of rows as text."""
     return ("row " if len(rows) == 1 else "rows ") + ", ".join(f"{row.name} ({row.unit})" for _, row in rows)
 
@@ -220,7 +231,7 @@ def _describe_jacobian(model: Model) -> list[Block]:
     ]
 
 
-def _describe_entries(rows: Sequence[tuple[int, Row]], model: Model, notation: Notation) -> list[Block]:
+def _describe_jacobian_entries(rows: Sequence[tuple[int, Row]], model: Model, notation: Notation) -> list[Block]:
     """Return the block of Φ_q of one joint or drive: a table of the columns with nonzero entries.
 
     If the table would be wider than WIDEST characters, each entry gets its own equation.
@@ -228,17 +239,19 @@ def _describe_entries(rows: Sequence[tuple[int, Row]], model: Model, notation: N
     column_of = {q: k for k, q in enumerate(model.q)}
     columns = sorted({q for _, row in rows for q in row.phi_q}, key=column_of.__getitem__)
 
-    def make_entry(k: int, row: Row, q: sp.Symbol) -> Name:
+    def make_jacobian_entry(row_number: int, row: Row, q: sp.Symbol) -> Name:
         """Return one entry of Φ_q as a formula, with its token and value if it is not zero."""
         name = notation.format_expression(notation.expand(row.phi_q.get(q, sp.Integer(0))))
         if q not in row.phi_q:
             return name
         constant = row.phi_q[q].is_number
         return replace(
-            name, of=[make_entry_token(k, column_of[q] + 1)], value="" if constant else f"phi_q.{k}.{column_of[q] + 1}"
+            name,
+            of=[make_entry_token(row_number, column_of[q] + 1)],
+            value="" if constant else f"phi_q.{row_number}.{column_of[q] + 1}",
         )
 
-    entries = [[make_entry(k, row, q) for q in columns] for k, row in rows]
+    entries = [[make_jacobian_entry(k, row, q) for q in columns] for k, row in rows]
     if sum(3 + max(len(entry.text) for entry in column) for column in zip(*entries, strict=True)) > WIDEST:
         return [
             _make_entry_equation(k, q, row, column_of[q], notation)
@@ -253,13 +266,13 @@ def _describe_entries(rows: Sequence[tuple[int, Row]], model: Model, notation: N
     return make_tables(make_row("", *map(notation.format_expression, columns)), table_rows, tokens=tokens, upright=True)
 
 
-def _make_entry_equation(number: int, q: sp.Symbol, row: Row, column: int, notation: Notation) -> Block:
-    """Return the equation of one entry of Φ_q as a block; row `number` counts from 1, `column` from 0."""
+def _make_entry_equation(row_number: int, q: sp.Symbol, row: Row, column: int, notation: Notation) -> Block:
+    """Return the equation of one entry of Φ_q as a block; row `row_number` counts from 1, `column` from 0."""
     coordinate = notation.format_expression(q)
-    left = Name(rf"\partial \Phi_{{{number}}} / \partial {coordinate.latex}", f"∂Φ_{number}/∂{coordinate.text}")
-    tokens = [make_entry_token(number, column + 1)]
+    left = Name(rf"\partial \Phi_{{{row_number}}} / \partial {coordinate.latex}", f"∂Φ_{row_number}/∂{coordinate.text}")
+    tokens = [make_entry_token(row_number, column + 1)]
     return make_equation_block(
-        left, notation.expand(row.phi_q[q]), notation, tokens, value=f"phi_q.{number}.{column + 1}"
+        left, notation.expand(row.phi_q[q]), notation, tokens, value_name=f"phi_q.{row_number}.{column + 1}"
     )
 
 

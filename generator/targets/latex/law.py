@@ -144,7 +144,7 @@ def _make_document(law: Law, name: str) -> Document:
         "Other choices": _describe_choices(others),
         "Numbers": make_tables(
             make_row("key", "letter", "unit", "bounds", "default", "meaning"),
-            [_list_number_cells(field) for field in fields if field.kind == NUMBER],
+            [_list_parameter_cells(field) for field in fields if field.kind == NUMBER],
             (5,),
         ),
         "Options": [_describe_option(field) for field in fields if field.kind != NUMBER],
@@ -159,20 +159,22 @@ def _make_document(law: Law, name: str) -> Document:
     )
 
 
-def _describe_equations(law: Law, form: Form, others: Sequence[Form]) -> Iterator[Block]:
+def _describe_equations(law: Law, default_form: Form, other_forms: Sequence[Form]) -> Iterator[Block]:
     """Yield the blocks on a law's default form: its letters, inner states, constants and steps.
 
-    others: forms of other choices, whose letters are listed, too.
+    other_forms: forms of other choices, whose letters are listed, too.
     """
-    letters = {name: letter_ for each_form in (*reversed(others), form) for name, letter_ in each_form.used}
+    letters = {
+        name: letter_ for each_form in (*reversed(other_forms), default_form) for name, letter_ in each_form.used
+    }
     rows = [make_row(letters[name], *_MEANINGS[name]) for name in _MEANINGS if name in letters]
     yield from make_tables(make_row("letter", "meaning", "unit"), rows)
     yield from describe_states(law)
-    if form.constants:
+    if default_form.constants:
         yield make_paragraph("Once a run:")
-        yield from form.constants
+        yield from default_form.constants
     yield make_paragraph("At each evaluation:")
-    yield from form.steps
+    yield from default_form.steps
 
 
 def _describe_choices(other_forms: Sequence[Form]) -> Iterator[Block]:
@@ -184,7 +186,7 @@ def _describe_choices(other_forms: Sequence[Form]) -> Iterator[Block]:
             yield from form.equations
 
 
-def _list_number_cells(parameter: Field) -> tuple[tuple[str | Name, ...], ...]:
+def _list_parameter_cells(parameter: Field) -> tuple[tuple[str | Name, ...], ...]:
     """Return the table row of a number of a law: key, letter, unit, bounds, default, meaning."""
     unit = "any" if parameter.dimension is None else format_unit(find_si_unit(parameter.dimension)) or "-"
     default = "needed" if parameter.required else "-" if parameter.default is None else f"{parameter.default:g}"
@@ -247,21 +249,23 @@ def _derive_form(
         _make_probe_symbol(name): value for name, value in probed_law.derived.items() if value.is_Symbol
     }
 
-    def replace_repeated(value: sp.Expr) -> sp.Expr:
+    def replace_repeated_constants(value: sp.Expr) -> sp.Expr:
         """Return a value with repeated constants replaced by their numbers."""
         while value.free_symbols & {*repeated_constants}:
             value = value.xreplace(repeated_constants)
         return value
 
-    names = _restore_names(assign_unique_names(_assign_names(law, numbers, probed_law.derived, probed_law.steps)))
+    names = _restore_law_names(
+        assign_unique_names(_propose_symbol_names(law, numbers, probed_law.derived, probed_law.steps))
+    )
     notation = Notation(Symbols(), names, frozenset(), {})
     constants = {
-        _make_probe_symbol(name): replace_repeated(value)
+        _make_probe_symbol(name): replace_repeated_constants(value)
         for name, value in probed_law.derived.items()
         if _make_probe_symbol(name) not in repeated_constants
     }
     steps = {
-        sp.Symbol(name, real=True): replace_repeated(value)
+        sp.Symbol(name, real=True): replace_repeated_constants(value)
         for name, value in probed_law.steps.items()
         if value != 0 or name not in zero_steps
     }
@@ -282,8 +286,8 @@ def _derive_form(
     return Form(selected, make_equations(constants), make_equations(steps), letters)
 
 
-def _assign_names(
-    law: Law, numbers: Sequence[str], constants: Mapping[str, sp.Expr], steps: Mapping[str, sp.Expr]
+def _propose_symbol_names(
+    law: Law, number_names: Sequence[str], constants: Mapping[str, sp.Expr], steps: Mapping[str, sp.Expr]
 ) -> Iterator[tuple[sp.Symbol, Name]]:
     """Yield (symbol, name) in the order in which they get their letters: variables, results, numbers, constants, steps.
 
@@ -297,7 +301,7 @@ def _assign_names(
         symbol = sp.Symbol(name, real=True)
         if name in ("F_n", "F_r", "F_t"):
             yield symbol, NAMES.get(symbol) or make_letter("F", "t")
-    for name in numbers:
+    for name in number_names:
         yield _make_probe_symbol(name), make_name(get_latex_symbol(parameters[name]))
     for name in PAIR:
         base, _, index = name.partition("_")
@@ -308,8 +312,8 @@ def _assign_names(
         yield sp.Symbol(name, real=True), name_law_step(law, name)
 
 
-def _restore_names(names: Mapping[sp.Symbol, Name]) -> dict[sp.Symbol, Name]:
-    """Return the names, with the law's own word for a symbol that gave way, instead of the symbol's name here."""
+def _restore_law_names(names: Mapping[sp.Symbol, Name]) -> dict[sp.Symbol, Name]:
+    """Return the names, in which a name with the probe's prefix gets the law's name without it unless that is used."""
     used_texts = {name.text for name in names.values()}
     restored = dict(names)
     for symbol, name in names.items():

@@ -140,7 +140,7 @@ def _print_keys_table(fields: Sequence[Field]) -> Iterator[str]:
     """Yield the Markdown table of a law's keys."""
     yield from ("| key | letter | unit | condition | without it | meaning |", "|" + "---|" * 6)
     for parameter in fields:
-        cells = _list_number_cells(parameter) if parameter.kind == NUMBER else _list_option_cells(parameter)
+        cells = _list_parameter_cells(parameter) if parameter.kind == NUMBER else _list_option_cells(parameter)
         yield (
             "| "
             + " | ".join(cell.replace("|", "\\|") for cell in (f"`{parameter.name}`", *cells, parameter.meaning))
@@ -149,7 +149,7 @@ def _print_keys_table(fields: Sequence[Field]) -> Iterator[str]:
     yield ""
 
 
-def _list_number_cells(parameter: Field) -> tuple[str, ...]:
+def _list_parameter_cells(parameter: Field) -> tuple[str, ...]:
     """Return the cells of a number: letter, unit, condition, default."""
     unit = "any" if parameter.dimension is None else format_unit(find_si_unit(parameter.dimension))
     default = (

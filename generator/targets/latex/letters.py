@@ -66,10 +66,10 @@ class Name:
         return 2 + sum(c.isascii() and (c.isalnum() or c == "_") for c in self.text) // 2
 
 
-def make_letter(base: str, *subscripts: str, dots: int = 0, hat: bool = False, raised: str = "") -> Name:
-    """Return the name of a letter or word (Greek by its English name) with dots or a hat, subscripts and a raised 0.
+def make_letter(base: str, *subscripts: str, dots: int = 0, hat: bool = False, superscript: str = "") -> Name:
+    """Return the name of a symbol in LaTeX and plain text: a letter or word with accents, subscripts and superscript.
 
-    raised: "" or "0".
+    base: a letter, a word, or a Greek letter's English name. dots: number of time derivatives. superscript: "" or "0".
     """
     latex = (
         get_greek_command(base)
@@ -85,7 +85,7 @@ def make_letter(base: str, *subscripts: str, dots: int = 0, hat: bool = False, r
     if subscripts:
         latex += f"_{{{_print_subscripts(subscripts)}}}"
         text += "_" + ".".join(GREEK.get(s, s) for s in subscripts)
-    return Name(latex + (f"^{{{raised}}}" if raised else ""), text + {"": "", "0": "⁰"}[raised])
+    return Name(latex + (f"^{{{superscript}}}" if superscript else ""), text + {"": "", "0": "⁰"}[superscript])
 
 
 def get_greek_command(word: str) -> str:
@@ -118,9 +118,8 @@ def make_name(latex: str) -> Name:
 
 
 def assign_unique_names(proposed: Iterable[tuple[sp.Expr, Name]]) -> dict[sp.Symbol, Name]:
-    """Return a unique name for each symbol of (expression, proposed name).
+    """Return {symbol: unique name} for pairs (expression, proposed name); other expressions than symbols are left out.
 
-    Expressions that are not symbols are left out.
     The first symbol gets the letter. Others get the name of their symbol in C if that is a word ("T0"), else primes.
     """
     names: dict[sp.Symbol, Name] = {}
@@ -135,9 +134,9 @@ def assign_unique_names(proposed: Iterable[tuple[sp.Expr, Name]]) -> dict[sp.Sym
     return names
 
 
-def add_primes(name: Name, used: Collection[str]) -> Name:
+def add_primes(name: Name, used_names: Collection[str]) -> Name:
     """Return a name with as many primes as make it different from those that are used."""
-    while name.text in used:
+    while name.text in used_names:
         name = Name(f"{{{name.latex}}}'", f"{name.text}'")
     return name
 

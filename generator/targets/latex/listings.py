@@ -21,7 +21,7 @@ LARGEST_FILE = 1_000_000  # bytes of a mechanism's file
 _CARRIED = "gudgeon-c"  # id of what is not shown
 
 
-def make_listing_sections(model: Model, trace_: Trace) -> list[Section]:
+def make_listing_sections(model: Model, highlights: Trace) -> list[Section]:
     """Return the section with the listing of the mechanism's file and that of its C.
 
     The file is left out if it is missing or has changed.
@@ -30,8 +30,8 @@ def make_listing_sections(model: Model, trace_: Trace) -> list[Section]:
     hint = make_paragraph("Select any equation, entry, line or part: everything that has to do with it is lit.")
     if (text := _read_mechanism_file(model)) is not None:
         name = Path(model.scene.mechanism.file).name
-        blocks.append(Listing(name, tuple(text.splitlines()), list_yaml_tokens(model, trace_)))
-    return [Section("From the file to the C", (hint, *blocks, EmbeddedHtml(_print_c_listing(trace_))))]
+        blocks.append(Listing(name, tuple(text.splitlines()), list_yaml_tokens(model, highlights)))
+    return [Section("From the file to the C", (hint, *blocks, EmbeddedHtml(_print_c_listing(highlights))))]
 
 
 def _read_mechanism_file(model: Model) -> str | None:
@@ -50,14 +50,14 @@ def _read_mechanism_file(model: Model) -> str | None:
     return data.decode("utf-8", "replace") if hashlib.sha256(data).hexdigest() == mechanism.sha256 else None
 
 
-def _print_c_listing(trace_: Trace) -> str:
+def _print_c_listing(highlights: Trace) -> str:
     """Return the HTML of the C listing, compressed in a script element that light.js unfolds.
 
     The files in SHOWN are included while they fit into MOST_C characters; all others are only named.
     """
     texts, remaining_size = dict[str, str](), MOST_C
     for name in SHOWN:
-        text = trace_.source.files.get(name)
+        text = highlights.source.files.get(name)
         if text is None or len(text) > remaining_size:
             continue
         remaining_size -= len(text)
@@ -65,23 +65,25 @@ def _print_c_listing(trace_: Trace) -> str:
     data = json.dumps(
         {
             "of": {
-                name: _list_by_line(
-                    text, {k: " ".join(sorted(marks)) for k, marks in trace_.lines.get(name, {}).items()}
+                name: _list_line_texts(
+                    text, {k: " ".join(sorted(marks)) for k, marks in highlights.lines.get(name, {}).items()}
                 )
                 for name, text in texts.items()
             },
             "values": {
-                name: _list_by_line(text, _shorten_values(text, trace_.values.get(name, {})))
+                name: _list_line_texts(text, _shorten_value_names(text, highlights.values.get(name, {})))
                 for name, text in texts.items()
             },
             "texts": texts,
-            "equations": _print_equations_script(trace_),
+            "equations": _print_equations_script(highlights),
         },
         ensure_ascii=False,
         separators=(",", ":"),
     )
     packed = base64.b64encode(gzip.compress(data.encode(), 9, mtime=0)).decode("ascii")
-    unlisted_files = sorted(name for name in trace_.source.files if name.endswith((".c", ".h")) and name not in texts)
+    unlisted_files = sorted(
+        name for name in highlights.source.files if name.endswith((".c", ".h")) and name not in texts
+    )
     note = f" Not listed here: {', '.join(unlisted_files)}." if unlisted_files else ""
     return (
         f"<p>The emitted C; what of it computes what was selected is shown at the foot of the page.{note}</p>\n"
@@ -91,16 +93,19 @@ def _print_c_listing(trace_: Trace) -> str:
     )
 
 
-def _list_by_line(text: str, text_by_line: Mapping[int, str]) -> list[str]:
-    """Return a list with the text of each line of `text`, "" for lines without one.
+def _list_line_texts(text: str, text_by_line: Mapping[int, str]) -> list[str]:
+    """Return the entries of `text_by_line` as a list with an item for each line of `text`, "" for lines without one.
 
-    This is smaller than line numbers.
+    text_by_line: {line number from 1: text}. As JSON the list is smaller than the mapping.
     """
     return [text_by_line.get(k, "") for k in range(1, text.count("\n") + 2)]
 
 
-def _shorten_values(text: str, values: Mapping[int, str]) -> dict[int, str]:
-    """Return values without their last part where the line itself shows what it stores, as light.js reads it."""
+def _shorten_value_names(text: str, values: Mapping[int, str]) -> dict[int, str]:
+    """Return {line: name of its value}; a name's last part is left out where the line of `text` itself shows it.
+
+    values: {line number from 1: full name}. light.js completes the names.
+    """
     lines, shortened = text.split("\n"), dict[int, str]()
     for line_number, value in values.items():
         left_side = lines[line_number - 1].partition(" = ")[0].removesuffix(" +").split()
@@ -115,10 +120,10 @@ def _load_script(name: str) -> str:
     return compress_script(Path(__file__).with_name(name).read_text(encoding="utf-8"))
 
 
-def _print_equations_script(trace_: Trace) -> str:
+def _print_equations_script(highlights: Trace) -> str:
     """Return the script that computes values; "" for scenes with curves, whose pages show only their state."""
     try:
-        return print_equations_script(trace_.program)
+        return print_equations_script(highlights.program)
     except ValueError:
         return ""
 

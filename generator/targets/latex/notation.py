@@ -57,18 +57,18 @@ class PrimedSymbol:
     """Represent a symbol that has a prime because its letter is used for another one."""
 
     name: Name
-    what: str
+    meaning: str
     letter: Name
-    other: str
+    letter_meaning: str
 
 
 @dataclass(frozen=True)
 class Notation:
-    """Contain the names of a model's symbols; `kept` are derived symbols that equations show by their own letter."""
+    """Contain the names of a model's symbols; `shown_symbols`: derived ones shown by their own letter."""
 
     symbols: Symbols
     names: Mapping[sp.Symbol, Name]
-    kept: frozenset[sp.Symbol]
+    shown_symbols: frozenset[sp.Symbol]
     order: Mapping[sp.Symbol, int]  # coordinates and velocities by body: the order of a sum's terms
     primed_symbols: tuple[PrimedSymbol, ...] = ()  # in the order of the file
 
@@ -77,10 +77,10 @@ class Notation:
         return replace(self, names={**self.names, **names})
 
     def expand(self, expression: sp.Expr) -> sp.Expr:
-        """Return an expression with derived symbols written out, except those in `kept`."""
+        """Return an expression with derived symbols written out, except those in `shown_symbols`."""
         definitions = self.symbols.definitions
         while replacements := {
-            s: definitions[s] for s in expression.free_symbols if s in definitions and s not in self.kept
+            s: definitions[s] for s in expression.free_symbols if s in definitions and s not in self.shown_symbols
         }:
             expression = expression.xreplace(replacements)
         return expression
@@ -100,7 +100,11 @@ class Notation:
         expression = remove_numerical_forms(sp.sympify(expression))
         signs = self._text.split_signed_terms(expression)
         return tuple(
-            Name(sign + self._latex.long(term), sign.replace("{}", "") + self._text.doprint(term), list_tokens(term))
+            Name(
+                sign + self._latex.print_breakable(term),
+                sign.replace("{}", "") + self._text.doprint(term),
+                list_tokens(term),
+            )
             for sign, term in signs
         )
 
@@ -229,10 +233,10 @@ def name_parameter(address: str) -> Name:
             return make_letter(rest[-1], contact)
         case ["start", _, body, coordinate]:
             base, dots = _RATES.get(coordinate, (coordinate, 0))
-            return make_letter(base, body, dots=dots, raised="0")
+            return make_letter(base, body, dots=dots, superscript="0")
         case [_, owner, field]:
             return (
-                make_letter(_FREE[field], owner, raised="0")
+                make_letter(_FREE[field], owner, superscript="0")
                 if field in _FREE
                 else make_letter(get_field_letter(field), owner)
             )
@@ -271,7 +275,10 @@ def _name_temporary(meaning: str) -> Name:
 
 
 def _name_drive_distance(name: str) -> Name:
-    """Return the name of a distance that a drive prescribes: "pull_span_x", "pull_length", "pull_along_x"."""
+    """Return the name of a distance that a drive prescribes, from its identifier in C.
+
+    name: "pull_span_x", "pull_length" or "pull_along_x" of a drive `pull`.
+    """
     for marker, base, hat in (("_span_", "Delta", False), ("_along_", "e", True)):
         owner, is_found, axis = name.rpartition(marker)
         if is_found:

@@ -38,13 +38,13 @@ def draw_jacobian_pattern(model: Model) -> list[Block]:
     dots = _list_nonzero_entries(model)
     if not _is_small_enough(len(model.rows), len(model.q)):
         return []
-    cell = compute_cell_side(len(model.q), SMALL)
+    cell_side = compute_cell_side(len(model.q), SMALL)
     parts = [
-        *_print_body_names(model, 24, cell),
-        *_print_row_numbers(model, 24, cell),
-        *_print_dots(dots, 30, 24, "entry", cell),
+        *_print_body_names(model, 24, cell_side),
+        *_print_row_numbers(model, 24, cell_side),
+        *_print_squares(dots, 30, 24, "entry", cell_side),
     ]
-    size = 30 + cell * len(model.q) + 4, 24 + cell * len(model.rows) + 4
+    size = 30 + cell_side * len(model.q) + 4, 24 + cell_side * len(model.rows) + 4
     caption = "Rows and columns of the Jacobian with its entries that are not zero"
     return [
         Picture(caption, print_svg(*size, caption, parts), _print_character_grid(len(model.rows), len(model.q), dots))
@@ -60,33 +60,33 @@ def draw_assembled_matrix(model: Model) -> list[Block]:
     masses = [Dot(k, k, f"body-{body.name}") for body in model.bodies for k in range(body.index, body.index + 3)]
     jacobian = [Dot(n + dot.row, dot.column, dot.of) for dot in entries]
     transposed = [Dot(dot.column, n + dot.row, dot.of) for dot in entries]
-    cell = compute_cell_side(n + m, TINY)
-    total = cell * (n + m)
+    cell_side = compute_cell_side(n + m, TINY)
+    total = cell_side * (n + m)
     lines = [
-        f'<path class="rule" d="M0 {cell * n}H{total}M{cell * n} 0V{total}"/>' if m else "",
+        f'<path class="rule" d="M0 {cell_side * n}H{total}M{cell_side * n} 0V{total}"/>' if m else "",
         f'<rect class="frame" x=".5" y=".5" width="{total - 1}" height="{total - 1}"/>',
     ]
     parts = [
-        *_print_dots(masses, 0, 0, "mass", cell),
-        *_print_dots([*transposed, *jacobian], 0, 0, "entry", cell),
+        *_print_squares(masses, 0, 0, "mass", cell_side),
+        *_print_squares([*transposed, *jacobian], 0, 0, "entry", cell_side),
         *lines,
     ]
     caption = "The assembled matrix: M on its diagonal, the Jacobian below and its transpose on the right"
     return [Picture(caption, print_svg(total, total, caption, parts))]
 
 
-def _is_small_enough(rows: int, columns: int) -> bool:
+def _is_small_enough(n_rows: int, n_columns: int) -> bool:
     """Return whether a matrix is small enough for a picture."""
-    return rows <= MOST_ROWS and columns <= MOST_COLUMNS
+    return n_rows <= MOST_ROWS and n_columns <= MOST_COLUMNS
 
 
-def compute_cell_side(columns: int, least: int) -> int:
+def compute_cell_side(n_columns: int, min_side: int) -> int:
     """Return the side of an entry in pixels; fewer entries are larger."""
-    return min(LARGE, max(least, ROOM // max(1, columns)))
+    return min(LARGE, max(min_side, ROOM // max(1, n_columns)))
 
 
 def _list_nonzero_entries(model: Model) -> list[Dot]:
-    """Return the nonzero entries of Φ_q."""
+    """Return a Dot for each nonzero entry of Φ_q, row by row."""
     column_of = {q: k for k, q in enumerate(model.q)}
     return [
         Dot(r, column_of[q], make_entry_token(r + 1, column_of[q] + 1))
@@ -95,63 +95,67 @@ def _list_nonzero_entries(model: Model) -> list[Dot]:
     ]
 
 
-def _print_dots(dots: Sequence[Dot], x: int, y: int, kind: str, cell: int) -> list[str]:
-    """Return a group of squares, whose size the page reads from it."""
+def _print_squares(dots: Sequence[Dot], left: int, top: int, css_class: str, cell_side: int) -> list[str]:
+    """Return a group of SVG squares, one for each nonzero entry of a matrix, whose size the page reads from it.
+
+    left, top: the position of the matrix in pixels. css_class: "entry" or "mass". cell_side: pixels.
+    """
     squares = (
-        f'<rect x="{x + cell * dot.column}" y="{y + cell * dot.row}" data-of="{html.escape(dot.of)}"/>' for dot in dots
+        f'<rect x="{left + cell_side * dot.column}" y="{top + cell_side * dot.row}" data-of="{html.escape(dot.of)}"/>'
+        for dot in dots
     )
-    return [f'<g class="{kind} cells" style="--cell: {cell - 1}px">', *squares, "</g>"]
+    return [f'<g class="{css_class} cells" style="--cell: {cell_side - 1}px">', *squares, "</g>"]
 
 
-def _print_body_names(model: Model, top: int, cell: int) -> list[str]:
+def _print_body_names(model: Model, top: int, cell_side: int) -> list[str]:
     """Return the SVG of the names of the bodies above their three columns, each with a rule on its left.
 
-    top: the vertical position of the matrix. cell: the side of an entry. Long names are shortened.
+    top: the vertical position of the matrix. cell_side: the side of an entry. Long names are shortened.
     """
-    parts, max_letters = [], 3 * cell // 7  # letters that fit above three columns
-    bottom = top + cell * len(model.rows)
+    parts, max_letters = [], 3 * cell_side // 7  # letters that fit above three columns
+    bottom = top + cell_side * len(model.rows)
     for body in model.bodies:
-        x = 30 + cell * body.index
+        x = 30 + cell_side * body.index
         name = html.escape(body.name if len(body.name) <= max_letters else f"{body.name[: max_letters - 1]}…")
         parts.append(f'<path class="rule" d="M{x - 0.5} {top - 6}V{bottom}"/>')
         parts.append(f'<text x="{x + 1}" y="{top - 9}" data-of="body-{html.escape(body.name)}">{name}</text>')
     return parts
 
 
-def _print_row_numbers(model: Model, top: int, cell: int) -> list[str]:
+def _print_row_numbers(model: Model, top: int, cell_side: int) -> list[str]:
     """Return the SVG of the numbers of the rows on the left of a matrix."""
     return [
-        f'<text class="end" x="25" y="{top + cell * r + cell // 2 + 3}" '
+        f'<text class="end" x="25" y="{top + cell_side * r + cell_side // 2 + 3}" '
         f'data-of="{make_row_token(r + 1)}">{r + 1}</text>'
         for r in range(len(model.rows))
     ]
 
 
-def _print_character_grid(rows: int, columns: int, dots: Sequence[Dot]) -> tuple[str, ...]:
+def _print_character_grid(n_rows: int, n_columns: int, dots: Sequence[Dot]) -> tuple[str, ...]:
     """Return the pattern of a matrix as numbered lines of characters; () if it is too wide."""
-    if columns > WIDEST_GRID:
+    if n_columns > WIDEST_GRID:
         return ()
-    grid = [[EMPTY] * columns for _ in range(rows)]
+    grid = [[EMPTY] * n_columns for _ in range(n_rows)]
     for dot in dots:
         grid[dot.row][dot.column] = FULL
     return tuple(f"{r:>3}  {''.join(line)}" for r, line in enumerate(grid, 1))
 
 
-def draw_tree(story: ReductionLog, joints: Collection[str]) -> list[Block]:
+def draw_tree(reduction_log: ReductionLog, joints: Collection[str]) -> list[Block]:
     """Return the picture of the tree of bodies with its joints; [] if there is no tree, or if it is too large.
 
     joints: the names of the file's joints, which are highlighted.
     """
     children: dict[str, list[tuple[str, str]]] = {}
-    for link in story.tree:
+    for link in reduction_log.tree:
         children.setdefault(link.parent, []).append((link.body, link.joint))
-    if not story.tree or len(story.tree) > MOST_ROWS:
+    if not reduction_log.tree or len(reduction_log.tree) > MOST_ROWS:
         return []
     positions: dict[str, tuple[float, int]] = {}
     lines: list[str] = []
     _arrange_subtree(children, "ground", "", 0, [0], positions, lines)
     caption = "The tree: who places whom, and by which joint"
-    return [Picture(caption, _print_tree_svg(story, joints, positions, caption), tuple(lines))]
+    return [Picture(caption, _print_tree_svg(reduction_log, joints, positions, caption), tuple(lines))]
 
 
 def _arrange_subtree(
@@ -186,12 +190,12 @@ STEP_X, STEP_Y = 120, 34
 
 
 def _print_tree_svg(
-    story: ReductionLog, joints: Collection[str], positions: Mapping[str, tuple[float, int]], caption: str
+    reduction_log: ReductionLog, joints: Collection[str], positions: Mapping[str, tuple[float, int]], caption: str
 ) -> str:
     """Return the tree of bodies as SVG: a box for each body, a curve with the joint's name to its parent."""
     centres = {body: (50 + STEP_X * depth, 20 + STEP_Y * row) for body, (row, depth) in positions.items()}
     parts = []
-    for link in story.tree:
+    for link in reduction_log.tree:
         (x0, y0), (x1, y1) = centres[link.parent], centres[link.body]
         line_class = "rule" if link.joint else "rule loose"
         parts.append(f'<path class="{line_class}" d="M{x0} {y0:g}C{x0 + 60} {y0:g} {x1 - 60} {y1:g} {x1} {y1:g}"/>')

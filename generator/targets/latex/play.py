@@ -31,8 +31,7 @@ from gudgeon.generator.targets.latex.notation import Notation
 from gudgeon.generator.targets.latex.plots import plot_law
 from gudgeon.generator.targets.latex.trace import Functions, Trace
 from gudgeon.generator.targets.latex.values import LONGEST, Values, format_as_written
-from gudgeon.language.plot_units import format_quantity as in_unit
-from gudgeon.language.plot_units import format_unit
+from gudgeon.language.plot_units import format_quantity, format_unit
 from gudgeon.language.units import find_si_unit
 
 
@@ -103,7 +102,7 @@ def describe_onset(joint: JointWithPlay, approach_speed: Name) -> Block:
         ". ",
         approach_speed,
         " is the speed of approach at the onset, "
-        f"at least {in_unit(min_approach_speed, 'm/s')}, kept until separation; before an onset is accepted ",
+        f"at least {format_quantity(min_approach_speed, 'm/s')}, kept until separation; before an onset is accepted ",
         Name(r"\dot{\delta} / ", "δ̇ / "),
         approach_speed,
         " counts as 1.",
@@ -142,9 +141,9 @@ class JointWithPlay:
         self.of_law = [f"law-{self.play.contact.name}", *self.of]
         self.alike = [c.label for c in model.clearances if _have_same_play(model.scene.play[c.joint.name], self.play)]
         self.notation = notation.rename_symbols(contact_names.name_joint_symbols(model, clearance))
-        self.numbers = list(self._list_numbers())
+        self.numbers = list(self._list_joint_numbers())
 
-    def _list_numbers(self) -> Iterator[tuple[Quantity, str, str]]:
+    def _list_joint_numbers(self) -> Iterator[tuple[Quantity, str, str]]:
         """Yield (quantity, letter in LaTeX if it is not a run-time parameter, meaning) of the joint's numbers.
 
         They are dimensions, elastic constants if there is dry contact, numbers of laws and the width of the
@@ -183,7 +182,7 @@ class JointWithPlay:
         ]
 
     def make_equations(self, steps: list[Step]) -> list[Block]:
-        """Return steps as equations."""
+        """Return an equation symbol = value for each step, in this joint's letters and with the law's tokens."""
         return [
             make_equation(step.symbol, self.notation.expand(step.value), self.notation, self.of_law, self.of_law[0])
             for step in steps
@@ -218,9 +217,11 @@ def make_play_sections(model: Model, notation: Notation, functions: Functions) -
     return sections
 
 
-def _have_same_play(a: Play, b: Play) -> bool:
+def _have_same_play(first: Play, second: Play) -> bool:
     """Return whether two joints have the same play: equal bearing and contact, and no contour."""
-    return a is b or (a.bearing == b.bearing and a.contact == b.contact and not a.contour and not b.contour)
+    return first is second or (
+        first.bearing == second.bearing and first.contact == second.contact and not first.contour and not second.contour
+    )
 
 
 def _describe_geometry(joint: JointWithPlay, is_first: bool) -> list[Block]:

@@ -198,12 +198,12 @@ def list_laws(model: Model, clearance: Clearance) -> list[tuple[LawEquations, La
     return list(zip(clearance.laws, model.scene.play[clearance.joint.name].contact.laws, strict=True))
 
 
-def list_given_parameters(equations: LawEquations, use: LawUse) -> list[tuple[Field, Quantity]]:
+def list_given_parameters(equations: LawEquations, law_use: LawUse) -> list[tuple[Field, Quantity]]:
     """Return (field, quantity) of the parameters of a law, without optional ones that the file leaves out."""
     return [
-        (parameter, use.quantities[parameter.name])
+        (parameter, law_use.quantities[parameter.name])
         for parameter in equations.law.parameters
-        if parameter.name in use.quantities
+        if parameter.name in law_use.quantities
     ]
 
 

@@ -34,7 +34,7 @@ class Curve:
     """Represent y over the plot's x, with a label."""
 
     y: Any
-    describe: str
+    label: str
 
 
 @dataclass(frozen=True)
@@ -49,27 +49,27 @@ class Plot:
     caption: str
 
 
-def plot_law(functions: Functions, joints: Sequence[str], role: str, law: Law) -> list[Block]:
-    """Return the plot of a role's law in joints that share it.
+def plot_law(functions: Functions, joint_labels: Sequence[str], role: str, law: Law) -> list[Block]:
+    """Return the plot of a law, with a mark for the state of each joint that has it.
 
-    [] is returned for rigid contacts and laws with inner states. It is also returned if the law is missing or cannot
-    be evaluated to finite values.
+    role: "normal", "friction", "film" or "mixed". [] is returned for rigid contacts and laws with inner states, and if
+    the law is missing or cannot be evaluated to finite values.
     """
-    pin_indices = {pin.clearance.label: k for k, pin in enumerate(functions.program.joints)}
-    pin = functions.program.joints[pin_indices[joints[0]]]
-    call = pin.laws.get(role)
+    pin_indices = {joint.clearance.label: k for k, joint in enumerate(functions.program.joints)}
+    joint = functions.program.joints[pin_indices[joint_labels[0]]]
+    call = joint.laws.get(role)
     if call is None or law.states or law.rigid:
         return []
     parameters = _evaluate_parameters(functions)
     try:
         with np.errstate(all="ignore"):
-            plot = _DRAWN[role](functions, pin, call, parameters)
+            plot = _DRAWN[role](functions, joint, call, parameters)
     except (ArithmeticError, ValueError, TypeError, AttributeError):  # a law of the user's own that arrays do not fit
         return []
     if not all(np.isfinite(curve.y).all() for curve in plot.curves):
         return []
     part, local = plot.now
-    mark_values = {name: f"{get_function_name(part, name)}.{local}" for name in joints}
+    mark_values = {name: f"{get_function_name(part, name)}.{local}" for name in joint_labels}
     return [Picture(plot.caption, print_plot_svg(plot, mark_values))]
 
 
@@ -97,42 +97,46 @@ def _evaluate_law(
     return _compile_kernel(functions, call.kernel)(*arguments, *(parameters[place.member] for place in call.parameters))
 
 
-def _get_value(functions: Functions, parameters: Mapping[str, float], value: Any) -> float:
+def _evaluate_symbol(functions: Functions, parameters: Mapping[str, float], symbol: Any) -> float:
     """Return the value of a symbol that is a parameter, or of a number."""
     return (
-        parameters[functions.model.parameter_table.find_field_name(value)]
-        if value in functions.model.symbols.info
-        else float(value)
+        parameters[functions.model.parameter_table.find_field_name(symbol)]
+        if symbol in functions.model.symbols.info
+        else float(symbol)
     )
 
 
 def _plot_normal_force(
-    functions: Functions, pin: JointFunctions, call: SharedFunctionCall, parameters: Mapping[str, float]
+    functions: Functions, joint: JointFunctions, call: SharedFunctionCall, parameters: Mapping[str, float]
 ) -> Plot:
     """Return the plot of a normal force over the penetration, a curve for each of three ratios δ̇/δ̇⁻: 1, 0, −1."""
-    delta = np.linspace(0.0, DEEPEST, POINTS) * _get_value(functions, parameters, pin.clearance.pair.c)
+    delta = np.linspace(0.0, DEEPEST, POINTS) * _evaluate_symbol(functions, parameters, joint.clearance.pair.c)
     curves = []
     for ratio in (1.0, 0.0, -1.0):
-        rate_argument = [ratio * FAST] if pin.further_variables else []
+        rate_argument = [ratio * FAST] if joint.further_variables else []
         y = np.broadcast_to(_evaluate_law(functions, call, parameters, delta, ratio, *rate_argument), delta.shape)
-        curves.append(Curve(y, f"δ̇/δ̇⁻ = {ratio:g}" + (f", δ̇ = {ratio * FAST:g} m/s" if pin.further_variables else "")))
+        curves.append(
+            Curve(y, f"δ̇/δ̇⁻ = {ratio:g}" + (f", δ̇ = {ratio * FAST:g} m/s" if joint.further_variables else ""))
+        )
     caption = "The normal force over the penetration, while the surfaces approach, rest and part"
     return Plot(delta, tuple(curves), ("δ", "m"), ("F_n", "N"), ("clearance", "delta"), caption)
 
 
 def _plot_friction(
-    functions: Functions, pin: JointFunctions, call: SharedFunctionCall, parameters: Mapping[str, float]
+    functions: Functions, joint: JointFunctions, call: SharedFunctionCall, parameters: Mapping[str, float]
 ) -> Plot:
     """Return the plot of a friction force over the slip, for a normal force of 1 N.
 
     The slip reaches three times the largest velocity among the law's numbers.
     """
-    law = pin.clearance.friction
+    law = joint.clearance.friction
     numbers = law.parameters if law else {}
     speed_names = (
         {law_field.name for law_field in law.law.parameters if law_field.dimension == VELOCITY} if law else set()
     )
-    speeds = [_get_value(functions, parameters, symbol) for name, symbol in numbers.items() if name in speed_names]
+    speeds = [
+        _evaluate_symbol(functions, parameters, symbol) for name, symbol in numbers.items() if name in speed_names
+    ]
     v_t = np.linspace(-1.0, 1.0, 2 * POINTS) * 3.0 * (max(speeds, default=0.0) or FAST)
     y = np.broadcast_to(_evaluate_law(functions, call, parameters, 1.0, v_t), v_t.shape)
     caption = "Friction over the slip, for a normal force of 1 N"
@@ -140,7 +144,7 @@ def _plot_friction(
 
 
 def _plot_film(
-    functions: Functions, pin: JointFunctions, call: SharedFunctionCall, parameters: Mapping[str, float]
+    functions: Functions, joint: JointFunctions, call: SharedFunctionCall, parameters: Mapping[str, float]
 ) -> Plot:
     """Return the plot of both film forces over the eccentricity ratio, for rotation at 1 rad/s without squeeze."""
     epsilon = np.linspace(0.0, 0.9, POINTS)
@@ -175,21 +179,21 @@ def print_plot_svg(plot: Plot, mark_values: Mapping[str, str]) -> str:
 
     parts = [
         f'<path class="rule" d="M{LEFT} {TOP}V{BOTTOM}M{LEFT} {scale_y(0.0):.1f}H{RIGHT}"/>',
-        *_print_axis_labels(plot, y_min, y_max, x_min, x_max, float(scale_y(0.0))),
+        *_print_axis_labels(plot, y_min, y_max, x_min, x_max),
     ]
     for k, curve in enumerate(plot.curves):
         points = zip(scale_x(plot.x).tolist(), scale_y(np.asarray(curve.y, dtype=float)).tolist(), strict=True)
         path = " ".join(f"{x:.1f},{y:.1f}" for x, y in points)
         parts.append(f'<polyline class="curve dash{k}" points="{path}"/>')
-        if curve.describe:
+        if curve.label:
             y = TOP + 12 + 15 * k
             parts.append(f'<path class="curve dash{k}" d="M{LEFT + 12} {y - 4}h26"/>')
-            parts.append(f'<text x="{LEFT + 44}" y="{y}">{_print_label(curve.describe)}</text>')
+            parts.append(f'<text x="{LEFT + 44}" y="{y}">{_print_label(curve.label)}</text>')
     parts += [_print_state_mark(name, value, x_min, x_max, len(plot.curves)) for name, value in mark_values.items()]
     return print_svg(WIDTH, HEIGHT, f"{plot.y_axis[0]} over {plot.x_axis[0]}", parts)
 
 
-def _print_axis_labels(plot: Plot, y_min: float, y_max: float, x_min: float, x_max: float, zero: float) -> list[str]:
+def _print_axis_labels(plot: Plot, y_min: float, y_max: float, x_min: float, x_max: float) -> list[str]:
     """Return the SVG of labels and limits of the axes, in units that suit their ranges.
 
     The arguments are the limits of both axes.
@@ -222,11 +226,11 @@ def _print_label(text: str) -> str:
     return "".join((first, *subscripts))
 
 
-def _print_state_mark(name: str, value: str, x_min: float, x_max: float, n_curves: int) -> str:
+def _print_state_mark(name: str, value_name: str, x_min: float, x_max: float, n_curves: int) -> str:
     """Return the SVG of a line at the joint's present state with a dot per curve, hidden until live.js moves it."""
     dots = '<circle r="3"/>' * n_curves
     return (
-        f'<g class="now" data-value="tmp.law.{value}" data-range="{x_min!r} {x_max!r} {LEFT} {RIGHT}"'
+        f'<g class="now" data-value="tmp.law.{value_name}" data-range="{x_min!r} {x_max!r} {LEFT} {RIGHT}"'
         f' visibility="hidden"><path d="M0 {TOP}V{BOTTOM}"/>{dots}'
         f'<text class="middle" y="{TOP - 2}">{html.escape(name)}</text></g>'
     )

@@ -31,9 +31,9 @@ class _BodyOrder:
     def _as_ordered_terms(self, expr: sp.Expr, order: str | None = None) -> list[sp.Expr]:
         """Return the terms of a sum in this order."""
         terms = super()._as_ordered_terms(expr, order=order)  # type: ignore[misc]
-        return sorted(terms, key=self._sort_key)
+        return sorted(terms, key=self._get_sort_key)
 
-    def _sort_key(self, term: sp.Expr) -> tuple[int, bool]:
+    def _get_sort_key(self, term: sp.Expr) -> tuple[int, bool]:
         """Return the sort key of a term: the lowest body among its symbols, and products after single symbols.
 
         Terms without coordinates come last, those with a minus sign after the others.
@@ -129,23 +129,23 @@ class TextPrinter(_BodyOrder, StrPrinter):
 
 
 class TexPrinter(_BodyOrder, LatexPrinter):
-    """Print LaTeX for amsmath. `long` prints a term that does not fit on a line so that it can break at its signs."""
+    """Print LaTeX for amsmath. `print_breakable` lets long terms break at their signs."""
 
     def __init__(
-        self, names: Mapping[sp.Symbol, Name], order: Mapping[sp.Symbol, int], breakable: bool = False
+        self, names: Mapping[sp.Symbol, Name], order: Mapping[sp.Symbol, int], is_breakable: bool = False
     ) -> None:
         settings: dict[str, Any] = {
             "symbol_names": {symbol: name.latex for symbol, name in names.items()},
             "fold_func_brackets": True,
             "inv_trig_style": "full",
-            "root_notation": not breakable,
+            "root_notation": not is_breakable,
             "mul_symbol": r" \, ",
         }
         super().__init__(settings)
-        self._order, self._breakable, self._names = order, breakable, names
+        self._order, self._breakable, self._names = order, is_breakable, names
         self._text = TextPrinter({symbol: "x" * name.width for symbol, name in names.items()}, order)
 
-    def long(self, expr: sp.Expr) -> str:
+    def print_breakable(self, expr: sp.Expr) -> str:
         """Return an expression in LaTeX; one longer than LONG is printed so that a line may break in it.
 
         A long one has brackets of fixed size and fractions with slashes.
@@ -303,12 +303,12 @@ def format_number(value: float) -> str:
     return text
 
 
-def split_comparison(pick: sp.Expr) -> tuple[sp.Expr, sp.Expr, sp.Expr, sp.Expr]:
+def split_comparison(choice: sp.Expr) -> tuple[sp.Expr, sp.Expr, sp.Expr, sp.Expr]:
     """Return (left, right, value if left < right, other value) of a choice, as the file wrote it.
 
     Terms of the condition with a minus sign are put on the right side.
     """
-    condition, otherwise, if_less = pick.args
+    condition, otherwise, if_less = choice.args
     difference = condition.args[0] if isinstance(condition, sp.sign) else condition
     terms = sp.Add.make_args(difference)
     right = [-term for term in terms if term.could_extract_minus_sign()]

@@ -77,15 +77,15 @@ def _compare_matrices(
     None stands for a formulation that factors no matrix.
     """
 
-    def get_both(property_name: str) -> tuple[int | None, int | None]:
+    def get_full_and_reduced(property_name: str) -> tuple[int | None, int | None]:
         """Return a property of the factored matrix in the full and in the reduced formulation."""
         full, reduced = (getattr(solve, property_name) if solve else None for solve in (full_solve, reduced_solve))
         return full, reduced
 
     return [
-        ("rows of the matrix that is factored", *get_both("size")),
-        ("its entries that are not zero", *get_both("entries")),
-        ("entries of its factor", *get_both("factor")),
+        ("rows of the matrix that is factored", *get_full_and_reduced("size")),
+        ("its entries that are not zero", *get_full_and_reduced("entries")),
+        ("entries of its factor", *get_full_and_reduced("factor")),
     ]
 
 

@@ -149,12 +149,12 @@ LETTER = {r"\small": 0.0106, r"\footnotesize": 0.0096, r"\scriptsize": 0.009}  #
 GAP = 0.025  # between two columns
 
 
-def render_document(document: Document, suffix: str, **slots: str) -> str:
+def render_document(document: Document, suffix: str, **page_parts: str) -> str:
     """Return the document in the format of a file's suffix: "tex", "txt" or "html", without trailing spaces.
 
-    slots: further HTML for places in the frame of a page.
+    page_parts: further HTML for places in the frame of a page.
     """
-    text = _get_template_environment().get_template(f"equations.{suffix}.jinja").render(document=document, **slots)
+    text = _get_template_environment().get_template(f"equations.{suffix}.jinja").render(document=document, **page_parts)
     return "\n".join(line.rstrip() for line in text.splitlines()).strip("\n") + "\n"
 
 
@@ -211,10 +211,11 @@ def _print_tex_line(text: Text) -> str:
     return "".join(f"${part.latex}$" if isinstance(part, Name) else escape_latex(part) for part in text)
 
 
-def _print_tex_row(row: tuple[Text, ...], wide: tuple[int, ...]) -> str:
-    """Return a row of a table in LaTeX; columns with running text, `wide`, are ragged."""
+def _print_tex_row(row: tuple[Text, ...], text_columns: tuple[int, ...]) -> str:
+    """Return a row of a table in LaTeX; columns with running text, `text_columns`, are ragged."""
     cells = [
-        rf"\raggedright {_print_tex_line(cell)}" if k in wide else _print_tex_line(cell) for k, cell in enumerate(row)
+        rf"\raggedright {_print_tex_line(cell)}" if k in text_columns else _print_tex_line(cell)
+        for k, cell in enumerate(row)
     ]
     return " & ".join(cells) + r" \tabularnewline"
 
@@ -241,9 +242,9 @@ def _select_tex_size(block: Sketch | Picture | Table) -> str:
     return r"\small" if width <= 105 else r"\footnotesize" if width <= 125 else r"\scriptsize"
 
 
-def _measure_column(table: Table, k: int) -> int:
-    """Return the number of characters of a table's column `k`, the header included."""
-    return max(_measure_width(_print_plain_line(row[k])) for row in (table.header, *table.rows))
+def _measure_column(table: Table, column: int) -> int:
+    """Return the number of characters of a table's column `column`, the header included."""
+    return max(_measure_width(_print_plain_line(row[column])) for row in (table.header, *table.rows))
 
 
 def _print_plain_line(text: Text) -> str:

@@ -58,9 +58,8 @@ def name_component(vector: Name, index: int) -> Name:
 
 
 def collect_theory_letters(model: Model) -> dict[str, str]:
-    """Return {plain text of a letter: meaning} of the theory in a scene's document.
+    """Return {plain text of a letter: meaning} of the theory in a scene's document; user-defined names avoid these.
 
-    User-defined names avoid these letters.
     The first meaning of a letter counts; t, time, is left out.
     """
     meanings: dict[str, str] = {}
@@ -128,7 +127,7 @@ def _list_sketch_letters(type_: JointType | ElementType) -> Iterator[tuple[str, 
 
 def _list_play_letters(model: Model, clearance: Clearance) -> Iterator[str]:
     """Yield the letters of a joint with play: those of its steps, parameters, laws and parts."""
-    used_symbols = {contact.stored, *_list_symbols(_list_steps(clearance))}
+    used_symbols = {contact.stored, *_list_step_symbols(_list_equation_steps(clearance))}
     step_names = name_contact_steps(clearance)
     yield from (
         name.text
@@ -146,7 +145,7 @@ def _list_play_letters(model: Model, clearance: Clearance) -> Iterator[str]:
         yield from ("W", "F", "w")
 
 
-def _list_steps(clearance: Clearance) -> Iterator[Step]:
+def _list_equation_steps(clearance: Clearance) -> Iterator[Step]:
     """Yield the equations of a joint with play from eccentricity to force, those of its laws included."""
     yield from (
         Step(symbol, sp.Integer(0))
@@ -173,7 +172,7 @@ def _list_steps(clearance: Clearance) -> Iterator[Step]:
         )
 
 
-def _list_symbols(steps: Iterable[Step]) -> Iterator[sp.Symbol]:
+def _list_step_symbols(steps: Iterable[Step]) -> Iterator[sp.Symbol]:
     """Yield the symbols of steps: each result, then the symbols in its value."""
     for step in steps:
         yield step.symbol

@@ -21,21 +21,21 @@ from gudgeon.generator.targets.latex.notation import make_notation
 _FUNCTIONS = ("sin", "cos", "tan")
 
 
-def print_attributes(tokens: Collection[str], pick: str = "", focus: bool = False) -> str:
+def print_attributes(tokens: Collection[str], selection_token: str = "", is_focusable: bool = False) -> str:
     """Return the attribute `data-of` and others of an HTML element, with a leading space; "" without tokens.
 
-    tokens: the highlighting tokens. pick: the token that selecting the element highlights, if not all. focus: whether
-    the keyboard can reach the element.
+    tokens: the highlighting tokens. selection_token: the token that selecting the element highlights; "" for all.
+    is_focusable: whether the keyboard can reach the element.
     """
     if not tokens:
         return ""
-    pick_attribute = f' data-pick="{html.escape(pick)}"' if pick else ""
-    return f' data-of="{html.escape(" ".join(tokens))}"{pick_attribute}' + ' tabindex="0"' * focus
+    pick_attribute = f' data-pick="{html.escape(selection_token)}"' if selection_token else ""
+    return f' data-of="{html.escape(" ".join(tokens))}"{pick_attribute}' + ' tabindex="0"' * is_focusable
 
 
-def print_value_element(value: str) -> str:
-    """Return the HTML element in which a running page shows a value; "" for an empty name of the value."""
-    return f'<output data-value="{html.escape(value)}"></output>' if value else ""
+def print_value_element(value_name: str) -> str:
+    """Return the HTML element in which a running page shows the value of this name; "" for an empty name."""
+    return f'<output data-value="{html.escape(value_name)}"></output>' if value_name else ""
 
 
 def print_line(text: Text) -> str:
@@ -112,7 +112,7 @@ def _insert_function_spaces(element: Element) -> None:
 def print_listing(block: Listing) -> str:
     """Return a file as HTML with an element per line, its tokens and a folding frame."""
     lines = (
-        f'<span class="line"{print_attributes(sorted(block.of.get(k, ())), focus=True)}>'
+        f'<span class="line"{print_attributes(sorted(block.of.get(k, ())), is_focusable=True)}>'
         f"{html.escape(text) or ' '}</span>"
         for k, text in enumerate(block.lines, 1)
     )

@@ -38,7 +38,7 @@ from gudgeon.generator.targets.latex.document import (
 )
 
 # Functions of the closed linkage by the letter of what they give: `constraints` gives phi[r].
-GIVES = {"constraints": "phi", "jacobian": "phi_q", "velocity_rhs": "nu", "acceleration_rhs": "gamma"}
+RESULT_SYMBOLS = {"constraints": "phi", "jacobian": "phi_q", "velocity_rhs": "nu", "acceleration_rhs": "gamma"}
 Tokens = Mapping[int, Marks]  # by line
 
 
@@ -80,10 +80,10 @@ def make_trace(model: Model, source: KernelSource | None = None) -> Trace:
     if source is None or source.formulation != program.formulation:
         source = emit_scene(program)
     collector = _TokenCollector(program, source)
-    collector.collect_all()
+    collector.collect_tokens()
     lines = {file: {k: frozenset(v) for k, v in sorted(own.items())} for file, own in collector.lines.items()}
     return Trace(
-        program.model, program, source, source.files, lines, collector.values, collector.get_marks_by_address()
+        program.model, program, source, source.files, lines, collector.values, collector.get_tokens_by_address()
     )
 
 
@@ -112,7 +112,7 @@ class _TokenCollector:
         self.in_chains = {make_identifier(f"phi_{row.name}"): row.name for row in in_chains}
         self.shown = {name for row in self.model.rows for name in find_symbol_names(row.phi)}
 
-    def collect_all(self) -> None:
+    def collect_tokens(self) -> None:
         """Collect tokens and values of every function that concerns constraint equations, bodies or laws.
 
         `prepare` comes last, since its lines get the tokens of the parameters that they compute.
@@ -120,80 +120,80 @@ class _TokenCollector:
         program = self.program
         tree_kernels = program.tree.all_kernels if program.tree else ()
         for kernel in (*program.closed_linkage, program.dynamics, *tree_kernels):
-            self._collect_function(kernel)
+            self._collect_kernel_tokens(kernel)
         for pin in program.joints:
             contact = self.model.scene.play[pin.clearance.joint.name].contact.name
             joint_marks = frozenset(list_joint_tokens(pin.clearance))
             for call in pin.laws.values():
                 law_marks = frozenset({f"law-{contact}", *joint_marks})
-                self._mark_text(functions.print_kernel(call.kernel), law_marks)
+                self._add_text_tokens(functions.print_kernel(call.kernel), law_marks)
                 self._add_stores(call.kernel, {})
                 for number in call.parameters:
                     self.numbers[number] |= law_marks
             for part in print_joint_functions(pin, render_template, self.model.law_states):
-                self._mark_text(part.text, joint_marks)
+                self._add_text_tokens(part.text, joint_marks)
                 file, stored_lines = locate_stores(part.text, part.stores, self.files)
                 for stored_line in stored_lines:
-                    self._add_value(file, stored_line, f"law.{part.name}.{{}}".format)
-        self._collect_prepare()
+                    self._add_value_name(file, stored_line, f"law.{part.name}.{{}}".format)
+        self._collect_parameter_tokens()
 
-    def _collect_function(self, kernel: Kernel) -> None:
+    def _collect_kernel_tokens(self, kernel: Kernel) -> None:
         """Collect the tokens of one function's lines, and those of the parameters that these lines depend on."""
-        dependence = propagate_marks(make_readable(kernel), lambda line: self._find_marks(kernel.name, line))
+        dependence = propagate_marks(make_readable(kernel), lambda line: self._find_line_tokens(kernel.name, line))
         for number, marks in dependence.by_parameter.items():
             self.numbers[number] |= marks
         self._add_stores(kernel, dependence.by_target)
 
-    def _add_stores(self, kernel: Kernel, marks_by_target: Mapping[Key, Marks]) -> None:
+    def _add_stores(self, kernel: Kernel, tokens_by_target: Mapping[Key, Marks]) -> None:
         """Add tokens and values of all stores of a kernel to `lines` and `values`.
 
-        marks_by_target: the tokens of each stored value.
+        tokens_by_target: the tokens of each stored value.
         """
         for function_lines in locate_function(kernel, self.files):
             for stored_line in function_lines.lines:
-                marks = marks_by_target.get(stored_line.target, NO_MARKS) | self._get_line_mark(
+                marks = tokens_by_target.get(stored_line.target, NO_MARKS) | self._get_single_line_tokens(
                     kernel.name, stored_line.target
                 )
                 for number in stored_line.lines:
                     self.lines[function_lines.file][number] |= marks
-                self._add_value(
+                self._add_value_name(
                     function_lines.file, stored_line, partial(self._name_local, kernel.name, function_lines.own.names)
                 )
 
-    def _add_value(self, file: str, stored_line: StoredLines, name_value: Callable[[Key], str]) -> None:
+    def _add_value_name(self, file: str, stored_line: StoredLines, get_value_name: Callable[[Key], str]) -> None:
         """Add the name of the value that a line stores to `values`, on its last line; nothing if the value has no name.
 
-        A branch is added with its sign and the name of its condition. name_value: function from a local to the
+        A branch is added with its sign and the name of its condition. get_value_name: function from a local to the
         value's name.
         """
         sign, condition_name = (
             stored_line.condition[:1],
-            name_value(stored_line.condition[1:]) if stored_line.condition[1:] else "",
+            get_value_name(stored_line.condition[1:]) if stored_line.condition[1:] else "",
         )
-        if (target_name := name_value(stored_line.target)) and (condition_name or sign != "<"):
+        if (target_name := get_value_name(stored_line.target)) and (condition_name or sign != "<"):
             self.values[file][stored_line.lines[-1]] = (
                 f"{target_name}{sign}{condition_name.rpartition('.')[2]}" if condition_name else target_name
             )
 
-    def _name_local(self, function: str, names: Mapping[Key, Key], key: Key) -> str:
+    def _name_local(self, function_name: str, local_names: Mapping[Key, Key], key: Key) -> str:
         """Return the name of the value of a local in a part of a function.
 
-        names: the names of the part, which may differ from those of the kernel.
+        local_names: the names of the part, which may differ from those of the kernel.
         """
-        return self._name_value(function, names.get(key, key))
+        return self._name_value(function_name, local_names.get(key, key))
 
-    def _name_value(self, function: str, key: Key) -> str:
-        """Return the name by which a page knows the value that a line of `function` stores; "" if it has none."""
+    def _name_value(self, function_name: str, key: Key) -> str:
+        """Return the name by which a page knows the value that a line of `function_name` stores; "" if it has none."""
         target_name = str(key)
-        if function in GIVES:
-            return f"{GIVES[function]}.{target_name}"
-        if function == "dynamics":
+        if function_name in RESULT_SYMBOLS:
+            return f"{RESULT_SYMBOLS[function_name]}.{target_name}"
+        if function_name == "dynamics":
             return self._name_dynamics_value(key)
-        if function in self.in_tree:
-            return f"tree.{function}.{target_name}"
-        if function in self.laws:
-            return f"law.{function}.{target_name}"
-        if function == "prepare" and target_name in self.place_in_p:
+        if function_name in self.in_tree:
+            return f"tree.{function_name}.{target_name}"
+        if function_name in self.laws:
+            return f"law.{function_name}.{target_name}"
+        if function_name == "prepare" and target_name in self.place_in_p:
             return f"p.{self.place_in_p[target_name]}"
         return ""
 
@@ -213,66 +213,66 @@ class _TokenCollector:
             return f"lambda.{self.multipliers[key]}"
         return f"rhs.{name}" if row and name in self.computed else ""
 
-    def _find_marks(self, function: str, line: Statement | Branch) -> Marks:
+    def _find_line_tokens(self, function_name: str, line: Statement | Branch) -> Marks:
         """Return the highlighting tokens of the value that a line of a C function stores.
 
         A mass gets the token of its body, an entry of Φ, ν or γ that of its row, and an entry of Φ_q its own. Named
         terms, values of the dynamics and closures, and values of a step of driven loops get theirs. Others get none.
         """
         target, (array, index) = line.target, _split_element(line.target)
-        if function == "mass_matrix" and index >= 0:
+        if function_name == "mass_matrix" and index >= 0:
             return frozenset({f"body-{self.model.bodies[index // 3].name}"})
-        if function in GIVES:
-            name_marks = self._get_term_mark(target) if function == "constraints" else NO_MARKS
+        if function_name in RESULT_SYMBOLS:
+            name_marks = self._get_term_tokens(target) if function_name == "constraints" else NO_MARKS
             if index < 0:
                 return name_marks
-            if function == "jacobian":
+            if function_name == "jacobian":
                 row, column = divmod(index, len(self.model.q))
                 number = self.number_of.get(self.every[row].name)
                 return name_marks | ({make_entry_token(number, column + 1)} if number else NO_MARKS)
-            return name_marks | self._get_row_mark(self.every[index].name)
-        if function in ("dynamics", "closures", "closure_rates"):
-            return self._find_dynamics_marks(function, line.declared_local, array, index)
-        if function == STEP:
-            return self._get_row_mark(self.in_chains.get(line.declared_local, ""))
+            return name_marks | self._get_row_tokens(self.every[index].name)
+        if function_name in ("dynamics", "closures", "closure_rates"):
+            return self._find_dynamics_tokens(function_name, line.declared_local, array, index)
+        if function_name == STEP:
+            return self._get_row_tokens(self.in_chains.get(line.declared_local, ""))
         return NO_MARKS
 
-    def _find_dynamics_marks(self, function: str, local: str, array: str, index: int) -> Marks:
+    def _find_dynamics_tokens(self, function_name: str, local_name: str, array: str, index: int) -> Marks:
         """Return the token of the row that a store in the equations of motion belongs to, as a set; empty if none."""
-        rows = self.model.rows if function == "dynamics" else self.program.integrated.system.rows
+        rows = self.model.rows if function_name == "dynamics" else self.program.integrated.system.rows
         if index >= 0 and array in ("phi", "phi_dot", "out"):
-            return self._get_row_mark(rows[index].name)
-        name = next((row.name for row in rows if local == make_identifier(f"rhs_{row.name}")), "")
-        return self._get_row_mark(name)
+            return self._get_row_tokens(rows[index].name)
+        name = next((row.name for row in rows if local_name == make_identifier(f"rhs_{row.name}")), "")
+        return self._get_row_tokens(name)
 
-    def _get_row_mark(self, name: str) -> Marks:
+    def _get_row_tokens(self, name: str) -> Marks:
         """Return the token of a constraint equation by its name as a set; empty if the scene does not have it."""
         return frozenset({make_row_token(self.number_of[name])}) if name in self.number_of else NO_MARKS
 
-    def _get_term_mark(self, target: Key) -> Marks:
+    def _get_term_tokens(self, target: Key) -> Marks:
         """Return the token of a term that the document shows by name as a set; empty for other terms."""
         return frozenset({f"name-{target}"}) if target in self.shown else NO_MARKS
 
-    def _get_line_mark(self, function: str, target: Key) -> Marks:
+    def _get_single_line_tokens(self, function_name: str, target: Key) -> Marks:
         """Return the token that only the line itself gets: of the sum of a row of Φ, or of a multiplier.
 
         The set is empty for other lines.
         """
         array, index = _split_element(target)
-        if function == "constraints" and index >= 0:
+        if function_name == "constraints" and index >= 0:
             number = self.number_of.get(self.every[index].name)
             return frozenset({make_sum_token(number)} if number else ())
-        if function == "dynamics" and array == "lambda" and 0 <= index < len(self.model.rows):
-            return self._get_row_mark(self.model.rows[index].name)
+        if function_name == "dynamics" and array == "lambda" and 0 <= index < len(self.model.rows):
+            return self._get_row_tokens(self.model.rows[index].name)
         return NO_MARKS
 
-    def _mark_text(self, text: str, marks: Marks) -> None:
+    def _add_text_tokens(self, text: str, tokens: Marks) -> None:
         """Add tokens to all lines of a text that is printed in one piece."""
         file, lines = locate_text(text, self.files)
         for number in lines:
-            self.lines[file][number] |= marks
+            self.lines[file][number] |= tokens
 
-    def _collect_prepare(self) -> None:
+    def _collect_parameter_tokens(self) -> None:
         """Collect the tokens of the lines of `prepare` from those of the parameters that they compute."""
         kernel = self.program.prepare
         places = {s.name: self.model.parameter_table.find_place(s) for s in self.model.parameter_table.list_symbols()}
@@ -288,7 +288,7 @@ class _TokenCollector:
             self.numbers[target] |= marks
         self._add_stores(kernel, dependence.by_target)
 
-    def get_marks_by_address(self) -> dict[str, Marks]:
+    def get_tokens_by_address(self) -> dict[str, Marks]:
         """Return {address: tokens} of all run-time parameters."""
         slots = self.model.parameter_table
         return {
@@ -309,7 +309,7 @@ def _find_stored_parameter(line: Statement | Branch, places: Mapping[str, Place]
     return next((name for name, place in places.items() if line.target in (name, place)), "")
 
 
-def list_yaml_tokens(model: Model, trace_: Trace) -> dict[int, Marks]:
+def list_yaml_tokens(model: Model, highlights: Trace) -> dict[int, Marks]:
     """Return the tokens of each line of the mechanism's file: of its entries, and of what depends on its numbers.
 
     Rows belong to the line of their joint or drive. Lines without any token are left out.
@@ -329,6 +329,6 @@ def list_yaml_tokens(model: Model, trace_: Trace) -> dict[int, Marks]:
         for quantity in iterate_quantities(play.contact):
             tokens[quantity.where.line].add(f"law-{play.contact.name}")
     for quantity in (*iterate_quantities(mechanism), *model.scene.parameters.values()):
-        if quantity.address in trace_.numbers:
-            tokens[quantity.where.line] |= trace_.numbers[quantity.address]
+        if quantity.address in highlights.numbers:
+            tokens[quantity.where.line] |= highlights.numbers[quantity.address]
     return {line: frozenset({f"yaml-{line}", *line_tokens}) for line, line_tokens in tokens.items()}

@@ -43,10 +43,10 @@ class Values:
         if quantity is None:
             return ("",)
         if quantity.address not in self._slots.entries:
-            return ("0",) if quantity.is_zero else self._format_varying(quantity)
+            return ("0",) if quantity.is_zero else self._format_varying_quantity(quantity)
         return self.slot(self._slots.entries[quantity.address])
 
-    def _format_varying(self, quantity: Quantity) -> Text:
+    def _format_varying_quantity(self, quantity: Quantity) -> Text:
         """Return an expression of time and motion; a long one is replaced by its letter and collected for `below`.
 
         An expression of a cam's angle, or with named expressions, stays as the file writes it.
@@ -75,14 +75,14 @@ class Values:
         if (measured := _split_unit(entry.expression)) is not None:
             return self._format_with_unit(*measured)
         return self.format_dependency(entry) + self._format_with_unit(
-            entry.default, get_si_unit(entry), exact=not entry.depends_on_parameters
+            entry.default, get_si_unit(entry), is_exact=not entry.depends_on_parameters
         )
 
     def format_in_si(self, entry: ParameterEntry) -> Text:
         """Return the default of a parameter in SI without its unit, after the text of the file if that differs."""
         expression, may_be_angle = entry.expression, entry.dimension in (DIMENSIONLESS, RATE)
         angle_text = format_angle(entry.default) if may_be_angle and find_fraction_of_pi(entry.default) else None
-        number = angle_text or self._format_number(entry.default, exact=isinstance(expression, Number))
+        number = angle_text or self._format_number(entry.default, is_exact=isinstance(expression, Number))
         if expression is None or entry.depends_on_parameters:
             return (*self.format_dependency(entry), number)
         if isinstance(expression, Number):
@@ -128,26 +128,26 @@ class Values:
                 )
         return [*blocks, Equation(left_side, notation.terms(value))]
 
-    def _format_with_unit(self, x: float, unit: str, exact: bool = True) -> Text:
+    def _format_with_unit(self, value: float, unit: str, is_exact: bool = True) -> Text:
         """Return a number with its unit; an angle as a fraction of π or in degrees has none.
 
-        exact: False for results of arithmetic, which are rounded.
+        is_exact: False for results of arithmetic, which are rounded.
         """
-        number = self._format_number(x, unit == "rad", exact)
+        number = self._format_number(value, unit == "rad", is_exact)
         if unit == "deg":
             return (Name(rf"{number.latex}^{{\circ}}", f"{number.text}°"),)
         return (
             (number, f" {format_unit(unit)}") if unit and not any(sign in number.text for sign in "π°") else (number,)
         )
 
-    def _format_number(self, x: float, angle: bool = False, exact: bool = False) -> Name:
-        """Return a number as people write it: rounded to six digits unless `exact`, small ones with a power of ten.
+    def _format_number(self, value: float, is_angle: bool = False, is_exact: bool = False) -> Name:
+        """Return a number as people write it: rounded to six digits unless `is_exact`, small ones with a power of ten.
 
-        angle: whether it may be written as a fraction of π or in degrees.
+        is_angle: whether it may be written as a fraction of π or in degrees.
         """
-        if angle and (angle_name := format_angle(x)) is not None:
+        if is_angle and (angle_name := format_angle(value)) is not None:
             return angle_name
-        rounded = x if exact else float(f"{x:.6g}")
+        rounded = value if is_exact else float(f"{value:.6g}")
         if not 0.0 < abs(rounded) < SMALL:
             return Name(*(self._notation.format_expression(sp.Float(rounded, 17)).latex, format_number(rounded)))
         digits, _, power = f"{Decimal(repr(rounded)).normalize():e}".partition("e")
@@ -194,13 +194,13 @@ class Values:
         return (*x, ",  ", *y)
 
 
-def _split_unit(tree: Expr | None) -> tuple[float, str] | None:
+def _split_unit(expression: Expr | None) -> tuple[float, str] | None:
     """Return (value, unit) of a number in the file with a unit, negative ones included; None for other expressions."""
-    if isinstance(tree, Unary) and (operand := _split_unit(tree.operand)) is not None:
+    if isinstance(expression, Unary) and (operand := _split_unit(expression.operand)) is not None:
         return -operand[0], operand[1]
-    if not isinstance(tree, Number) or not get_unit(tree) or tree.text.startswith("pi"):
+    if not isinstance(expression, Number) or not get_unit(expression) or expression.text.startswith("pi"):
         return None
-    return float(tree.text.removesuffix(get_unit(tree))), get_unit(tree)
+    return float(expression.text.removesuffix(get_unit(expression))), get_unit(expression)
 
 
 def get_unit(number: Number) -> str:
@@ -226,18 +226,18 @@ def get_si_unit(entry: ParameterEntry) -> str:
 
 
 def format_as_written(
-    tree: Expr, outer_strength: int = 0, expressions: Mapping[str, Quantity] = MappingProxyType({})
+    expression: Expr, outer_strength: int = 0, expressions: Mapping[str, Quantity] = MappingProxyType({})
 ) -> str:
     """Return an expression as in the file, with its numbers, units and names, and brackets where they are needed.
 
     outer_strength: how strongly the operator around it binds. expressions: named expressions, which appear by their
     names.
     """
-    if (name := next((name for name, of in expressions.items() if of.value is tree), "")) and not isinstance(
-        tree, Number
+    if (name := next((name for name, of in expressions.items() if of.value is expression), "")) and not isinstance(
+        expression, Number
     ):
         return name
-    match tree:
+    match expression:
         case Number(value=value, text=text):
             return text or repr(value)
         case Unary(operand=operand):
@@ -260,5 +260,5 @@ def format_as_written(
             )
             return f"{function}({', '.join(call_arguments)})"
         case _:
-            return tree.path
+            return expression.path
     return f"({text})" if strength < outer_strength else text

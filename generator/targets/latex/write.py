@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.generator.equations.model import Model
-from gudgeon.generator.equations.notes import write_scene_notes as notes
+from gudgeon.generator.equations.notes import write_scene_notes
 from gudgeon.generator.targets.latex.document import (
     Block,
     Document,
@@ -25,8 +25,7 @@ from gudgeon.generator.targets.latex.document import (
 )
 from gudgeon.generator.targets.latex.kinematics import make_kinematics_sections
 from gudgeon.generator.targets.latex.letters import Name
-from gudgeon.generator.targets.latex.listings import make_listing_sections
-from gudgeon.generator.targets.latex.listings import print_scripts as own_scripts
+from gudgeon.generator.targets.latex.listings import make_listing_sections, print_scripts
 from gudgeon.generator.targets.latex.mechanism import make_part_sections
 from gudgeon.generator.targets.latex.motion import make_motion_sections
 from gudgeon.generator.targets.latex.notation import Notation, make_notation
@@ -50,7 +49,7 @@ def make_document(model: Model, functions: Functions) -> Document:
     functions: the functions of the scene (trace.py).
     """
     mechanism, notation = model.scene.mechanism, make_notation(model)
-    notes_ = notes(model)
+    scene_notes = write_scene_notes(model)
     sections = [
         *make_part_sections(model, notation),
         *make_kinematics_sections(model, notation),
@@ -58,8 +57,8 @@ def make_document(model: Model, functions: Functions) -> Document:
         *make_play_sections(model, notation, functions),
         *make_reduction_sections(functions),
         *(
-            [Section("Left out of this scene", tuple(make_paragraph(make_sentence(n)) for n in notes_))]
-            if notes_
+            [Section("Left out of this scene", tuple(make_paragraph(make_sentence(n)) for n in scene_notes))]
+            if scene_notes
             else []
         ),
     ]
@@ -83,7 +82,7 @@ def make_primes_table(notation: Notation, formulas: Iterable[Name]) -> list[Bloc
     """Return the table of primed symbols that occur in the given formulas; [] if there are none."""
     text = " ".join(name.text for name in formulas)
     rows = [
-        make_row(primed_symbol.name, primed_symbol.what, primed_symbol.letter, primed_symbol.other)
+        make_row(primed_symbol.name, primed_symbol.meaning, primed_symbol.letter, primed_symbol.letter_meaning)
         for primed_symbol in notation.primed_symbols
         if primed_symbol.name.text in text
     ]
@@ -110,11 +109,11 @@ def _list_texts(block: Block) -> list[Text]:
 
 def add_paper_section(sections: Sequence[Section]) -> tuple[Section, ...]:
     """Return the sections, followed by one that names the paper if any block mentions it."""
-    is_named = any(_has_mention_of_paper(block) for section in sections for block in section.blocks)
+    is_named = any(_mentions_paper(block) for section in sections for block in section.blocks)
     return (*sections, Section("The paper", (make_paragraph(PAPER),))) if is_named else (*sections,)
 
 
-def _has_mention_of_paper(block: Block) -> bool:
+def _mentions_paper(block: Block) -> bool:
     """Return whether a sketch, a sentence or a cell mentions the paper."""
     if isinstance(block, (Sketch, Picture)):
         return any("the paper" in line for line in block.lines)
@@ -142,4 +141,4 @@ def equations_html(
     page_trace = make_trace(model, source)
     document = make_document(model, page_trace)
     document = replace(document, sections=(*document.sections, *make_listing_sections(model, page_trace)))
-    return render_document(document, "html", head=head, app=app, scripts=own_scripts() + scripts)
+    return render_document(document, "html", head=head, app=app, scripts=print_scripts() + scripts)

@@ -24,9 +24,9 @@ class NumPyLinkage:
         model: Model,
         source: KernelSource,
         given_values: Mapping[str, float | str] | None = None,
-        closed: ClosedLinkage | None = None,
+        closed_linkage: ClosedLinkage | None = None,
     ) -> None:
-        self.source, self.n, self.closed = source, len(model.q), closed or ClosedLinkage(model)
+        self.source, self.n, self.closed = source, len(model.q), closed_linkage or ClosedLinkage(model)
         self.defaults = self.closed.prepare(given_values)
         self.names = [model.parameter_table.find_field_name(symbol) for symbol in model.parameter_table.list_symbols()]
         self.p = np.array([_get_parameter(self.defaults, name) for name in self.names])

@@ -157,19 +157,19 @@ class ClosedLinkage:
 
     def phi(self, t: float, q: ArrayLike, p: SimpleNamespace) -> Array:
         """Return Φ(q, t), (m,), in m and rad."""
-        return self._evaluate("constraints", self.m, t, _list(q), p)
+        return self._evaluate("constraints", self.m, t, _convert_to_list(q), p)
 
     def phi_q(self, t: float, q: ArrayLike, p: SimpleNamespace) -> Array:
         """Return the Jacobian ∂Φ/∂q, (m, n)."""
-        return self._evaluate("jacobian", self.m * self.n, t, _list(q), p).reshape(self.m, self.n)
+        return self._evaluate("jacobian", self.m * self.n, t, _convert_to_list(q), p).reshape(self.m, self.n)
 
     def nu(self, t: float, q: ArrayLike, p: SimpleNamespace) -> Array:
         """Return ν = −Φ_t, (m,), of Φ_q v = ν."""
-        return self._evaluate("velocity_rhs", self.m, t, _list(q), p)
+        return self._evaluate("velocity_rhs", self.m, t, _convert_to_list(q), p)
 
     def gamma(self, t: float, q: ArrayLike, v: ArrayLike, p: SimpleNamespace) -> Array:
         """Return γ, (m,), of Φ_q a = γ."""
-        return self._evaluate("acceleration_rhs", self.m, t, _list(q), _list(v), p)
+        return self._evaluate("acceleration_rhs", self.m, t, _convert_to_list(q), _convert_to_list(v), p)
 
     def start_values(self, p: SimpleNamespace) -> tuple[Array, Array, Array]:
         """Return (guesses, exact values, rates) of the start as arrays; the last two end with those of journals."""
@@ -244,7 +244,7 @@ class NumPyModel(ClosedLinkage):
             status=0,
         )
         with np.errstate(all="ignore"):
-            rhs.status = self.functions["dynamics"](t, _list(q), _list(v), memory, p, rhs.a, rhs)
+            rhs.status = self.functions["dynamics"](t, _convert_to_list(q), _convert_to_list(v), memory, p, rhs.a, rhs)
         return rhs
 
 
@@ -283,10 +283,10 @@ def _convert_numbers_by_name(
     if numbers.shape != (len(names),):
         message = f"{argument_name} of shape {numbers.shape}: expected ({len(names)},)"
         raise ArrayError(message, hint=f"one each for {', '.join(names)}" if names else "this scene has none")
-    return _list(numbers)
+    return _convert_to_list(numbers)
 
 
-def _list(values: ArrayLike) -> list[float]:
+def _convert_to_list(values: ArrayLike) -> list[float]:
     """Return an array as a list, whose elements have faster arithmetic."""
     return np.asarray(values, dtype=float).tolist()
 
@@ -320,14 +320,14 @@ def knots(of, x):
     return np.where(k % 2, -1.0, 1.0) * np.where(x == of[k], 0.0, 1.0)'''
 
 
-def print_called_curves(curves: Mapping[str, Curve], text: str, existing: str = "") -> str:
+def print_called_curves(curves: Mapping[str, Curve], text: str, existing_text: str = "") -> str:
     """Return the Python tables of the curves that a text calls, and the functions that evaluate them.
 
-    Parts that the text `existing` contains are left out; "" is returned if the text calls no curve.
+    Parts that the text `existing_text` contains are left out; "" is returned if the text calls no curve.
     """
     called_curves = [curve for curve in curves.values() if f"({make_curve_name(curve.name)}," in text]
     parts = [_CURVE, *map(_print_curve_table, called_curves)] if called_curves else []
-    return "".join(f"{part}\n\n\n" for part in parts if part not in existing)
+    return "".join(f"{part}\n\n\n" for part in parts if part not in existing_text)
 
 
 def _print_curve_table(curve: Curve) -> str:
@@ -429,38 +429,40 @@ def print_joint_function(joint_with_play: JointFunctions) -> str:
     return "\n".join([*break_code(signature), *indent_lines(body)])
 
 
-def _print_dry_contact(pin_: JointFunctions) -> list[str]:
+def _print_dry_contact(joint: JointFunctions) -> list[str]:
     """Return the lines of dry contact for δ > 0; at an onset the approach speed is the present one, ratio 1.
 
     Without friction its force is 0.
     """
-    ratio, states = "unclipped" if pin_.clearance.clip_ratio else "ratio", range(len(pin_.clearance.states))
+    ratio, states = "unclipped" if joint.clearance.clip_ratio else "ratio", range(len(joint.clearance.states))
     states_read, rates = [f"contact.state[{k}]" for k in states], [f"out.state_rate[{k}]" for k in states]
-    normal_force = "F_N" if pin_.contour_normal_force else "F_n"
+    normal_force = "F_N" if joint.contour_normal_force else "F_n"
     friction_call = (
-        _print_law_call(pin_.laws["friction"], normal_force, "v_t", *states_read) if "friction" in pin_.laws else "0.0"
+        _print_law_call(joint.laws["friction"], normal_force, "v_t", *states_read)
+        if "friction" in joint.laws
+        else "0.0"
     )
     return [
         f"{ratio} = deltadot / contact.deltadot_minus if contact.closed else 1.0",
-        *print_statements(pin_.before_dry),
+        *print_statements(joint.before_dry),
         *print_assignment(
             "F_n",
-            _print_law_call(pin_.laws["normal"], "delta", "ratio", *map(print_name, pin_.further_places)),
+            _print_law_call(joint.laws["normal"], "delta", "ratio", *map(print_name, joint.further_places)),
             is_call=True,
         ),
-        *print_statements(pin_.contour_normal_force),
+        *print_statements(joint.contour_normal_force),
         *print_assignment(", ".join(["F_along_t_dry", *rates]), friction_call, is_call=True),
-        *print_statements(pin_.after_dry),
+        *print_statements(joint.after_dry),
         f"F = -{normal_force}, {', '.join(_DRY[1:])}",
     ]
 
 
-def _print_film(pin_: JointFunctions) -> list[str]:
+def _print_film(joint: JointFunctions) -> list[str]:
     """Return the lines that compute a film's forces and moments."""
     film_call = print_assignment(
-        "F_r, F_along_t_film, T0", _print_law_call(pin_.laws["film"], "epsilon", "w_n", "w_t"), is_call=True
+        "F_r, F_along_t_film, T0", _print_law_call(joint.laws["film"], "epsilon", "w_n", "w_t"), is_call=True
     )
-    return [*print_statements(pin_.before_film), *film_call, *print_statements(pin_.after_film)]
+    return [*print_statements(joint.before_film), *film_call, *print_statements(joint.after_film)]
 
 
 def _print_law_call(call: SharedFunctionCall, *arguments: str) -> str:

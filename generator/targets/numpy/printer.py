@@ -16,8 +16,7 @@ from sympy.printing.pycode import PythonCodePrinter
 
 from gudgeon.generator.ir.branches import Branch, ReturnIfOnlyJoints
 from gudgeon.generator.ir.kernels import Kernel
-from gudgeon.generator.ir.readable import Readable, convert_to_fraction_of_pi, make_readable
-from gudgeon.generator.ir.readable import make_readable_statements as readable_lines
+from gudgeon.generator.ir.readable import Readable, convert_to_fraction_of_pi, make_readable, make_readable_statements
 from gudgeon.generator.ir.signatures import BRANCHES
 from gudgeon.generator.ir.statements import (
     Branches,
@@ -117,7 +116,7 @@ class NumPyPrinter(CachedPrinter, PythonCodePrinter):
             return f"np.power({self._print(base)}, {self._print(exponent)})"
         return f"{self.parenthesize(base, 70)}**{self.parenthesize(exponent, 70)}"
 
-    def _print_of_table(self, expr: sp.Expr) -> str:
+    def _print_table_function(self, expr: sp.Expr) -> str:
         """Print a function of the table of functions; minima and maxima of two arguments each."""
         name, arguments = f"np.{CLASSES[type(expr)].in_numpy}", list(map(self._print, expr.args))
         if isinstance(expr, (sp.Max, sp.Min)):
@@ -205,77 +204,77 @@ class LinePrinter:
     def __init__(self, readable_lines: Readable) -> None:
         self.printer = NumPyPrinter(readable_lines)
 
-    def print_lines(self, items: Iterable[Line]) -> list[str]:
+    def print_lines(self, lines: Iterable[Line]) -> list[str]:
         """Return lines of a kernel as Python, broken to fit; lines for single runs of C are left out."""
-        return [text for item in items if not isinstance(item, _NOWHERE) for text in self._print_line(item)]
+        return [text for item in lines if not isinstance(item, _NOWHERE) for text in self._print_line(item)]
 
-    def expression(self, value: Value) -> str:
+    def print_expression(self, value: Value) -> str:
         """Return a value as Python by its class; any other value is printed as a SymPy expression."""
         match value:
             case Place():
                 return self.printer.get_name(value)
             case Conditional():
-                then, otherwise = self.expression(value.then), self.expression(value.otherwise)
-                return f"np.where({self._print_test(value.test)}, {then}, {otherwise})"
+                then, otherwise = self.print_expression(value.then), self.print_expression(value.otherwise)
+                return f"np.where({self.print_test(value.test)}, {then}, {otherwise})"
             case Sum():
                 return " + ".join(map(print_name, value.places))
             case ParameterOrDefault():
-                return f"given[{value.k}] if is_given[{value.k}] else {self.expression(value.default)}"
+                return f"given[{value.k}] if is_given[{value.k}] else {self.print_expression(value.default)}"
             case _:
                 return str(self.printer.doprint(value))
 
-    def _print_test(self, item: Test) -> str:
+    def print_test(self, test: Test) -> str:
         """Return a comparison as Python; a test of a value itself checks that it is positive and finite."""
-        value = self.expression(item.value)
-        left_side = f"np.abs({value})" if item.compares_magnitude else value
-        if item.is_relative_to_value:
+        value = self.print_expression(test.value)
+        left_side = f"np.abs({value})" if test.compares_magnitude else value
+        if test.is_relative_to_value:
             return f"0 < {left_side} < np.inf"
-        bound = " * ".join(map(self._print_factor, item.bound))
-        return f"{left_side} {item.relation} {bound}" if item.relation else left_side
+        bound = " * ".join(map(self._print_factor, test.bound))
+        return f"{left_side} {test.relation} {bound}" if test.relation else left_side
 
     def _print_factor(self, value: sp.Basic | float) -> str:
         """Return a factor of a bound as Python; a threshold is printed by its name."""
         if isinstance(value, Threshold):
             return value.name
-        return repr(value) if isinstance(value, float) else self.expression(value)
+        return repr(value) if isinstance(value, float) else self.print_expression(value)
 
-    def _print_line(self, item: Line) -> list[str]:
+    def _print_line(self, line: Line) -> list[str]:
         """Return one line of a kernel as lines of Python, broken to fit.
 
         A branch becomes np.where. A test of a pivot that fails returns its number, the end of the function 0. Raises
         ValueError for a kind of line without a counterpart.
         """
-        match item:
+        match line:
             case Statement():
-                target, value = self.printer.get_name(item.target), self.expression(item.value)
-                return print_assignment(target, value, item.comment, isinstance(item.value, Conditional))
+                target, value = self.printer.get_name(line.target), self.print_expression(line.value)
+                return print_assignment(target, value, line.comment, isinstance(line.value, Conditional))
             case Branch():
-                branch, then, otherwise = map(self.expression, (item.branch, item.value_above, item.value_below))
+                branch, then, otherwise = map(self.print_expression, (line.branch, line.value_above, line.value_below))
                 value = f"np.where({branch} < 0, {otherwise}, {then})"
-                return print_assignment(self.printer.get_name(item.target), value, item.comment, is_call=True)
+                return print_assignment(self.printer.get_name(line.target), value, line.comment, is_call=True)
             case When():
                 return [
-                    *break_code(f"if {self._print_test(item.test)}:"),
-                    *indent_lines(self._print_line(item.statement)),
+                    *break_code(f"if {self.print_test(line.test)}:"),
+                    *indent_lines(self._print_line(line.statement)),
                 ]
             case Call():
-                arguments = [self.expression(x) for x in (*item.given, *item.results) if x not in _HELD]
-                return break_code(f"{item.function}({', '.join(arguments)})")
+                arguments = [self.print_expression(x) for x in (*line.given, *line.results) if x not in _HELD]
+                return break_code(f"{line.function}({', '.join(arguments)})")
             case Guard(test=Test() as test):
-                condition = f"{self._print_test(item.condition)} and " if item.condition else ""
-                return [*break_code(f"if {condition}not ({self._print_test(test)}):"), f"    return {item.number}"]
+                condition = f"{self.print_test(line.condition)} and " if line.condition else ""
+                return [*break_code(f"if {condition}not ({self.print_test(test)}):"), f"    return {line.number}"]
             case Largest():
-                inner = ", ".join(f"np.abs({self.expression(x)})" for x in item.values)
-                value = f"max({inner}, 0.0)" if item.values else "0.0"
-                return print_assignment(f"{item.target}[0]", value, is_call=True)
+                inner = ", ".join(f"np.abs({self.print_expression(x)})" for x in line.values)
+                value = f"max({inner}, 0.0)" if line.values else "0.0"
+                return print_assignment(f"{line.target}[0]", value, is_call=True)
             case Return():
                 return ["return 0"]
-        raise ValueError(f"a line of a function that has no counterpart in Python: {item}")
+        raise ValueError(f"a line of a function that has no counterpart in Python: {line}")
 
 
-def print_statements(items: Sequence[Statement]) -> list[str]:
+def print_statements(statements: Sequence[Statement]) -> list[str]:
     """Return statements as lines of Python for a function that is not a kernel."""
-    readable_statements = readable_lines(items)
+    readable_statements = make_readable_statements(statements)
     return LinePrinter(readable_statements).print_lines(
         line for section in readable_statements.sections for line in section.statements
     )

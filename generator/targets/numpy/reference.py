@@ -35,8 +35,8 @@ def compute_reference_values(program: Program, source: KernelSource) -> dict[str
     """Return {"p": parameters, "given": …, "states": [{t, q, v, memory, values}]} for the emitted `source`.
 
     Numbers are SI; "values" has the arrays of an Evaluation by name, flat, and phi, nu, gamma and mass. "given" has the
-    parameters where every second slot is given (`make_given_parameters`), from the first and from the second on. {} for
-    large linkages.
+    parameters of two runs in which every second one is given, from the first and from the second on. {} for large
+    linkages.
     """
     if len(program.model.q) > MAX_COORDINATES:
         return {}
@@ -54,7 +54,7 @@ def _compute_reference(program: Program, source: KernelSource) -> dict[str, Any]
     """
     model = program.model
     numpy_model = NumPyModel(program)
-    linkage, rng = NumPyLinkage(model, source, closed=numpy_model), np.random.default_rng(1)
+    linkage, rng = NumPyLinkage(model, source, closed_linkage=numpy_model), np.random.default_rng(1)
     clearances = [abs(float(linkage.p[joint.clearance])) for joint in source.clearances]
     text = print_function(program.closed_linkage[-1]) + "\n"
     imports = f"import numpy as np\n\n\n{print_called_curves(model.scene.mechanism.curves, text)}"
@@ -62,7 +62,7 @@ def _compute_reference(program: Program, source: KernelSource) -> dict[str, Any]
     states, candidates = [], []
     for k in range(N_STATES):
         t = float(f"{0.05 + 0.3 * rng.uniform():.9f}")
-        q = _find_near_closed(numpy_model, t, linkage.defaults, min([1e-3, *clearances]), rng)
+        q = _find_nearly_closed_position(numpy_model, t, linkage.defaults, min([1e-3, *clearances]), rng)
         v = np.array([float(f"{x:.4g}") for x in rng.normal(0.0, 0.3, len(q))])
         latches = [0.1 if k and not model.rigid else np.nan] * len(model.clearances)
         candidates.append((t, q, v, (latches, [1.0 - 2.0 * k] * len(model.frictions), 0.0)))
@@ -105,22 +105,26 @@ def _compute_given_parameters(numpy_model: NumPyModel, linkage: NumPyLinkage) ->
 
 
 def _find_contact_states(
-    numpy_model: NumPyModel, p: Any, start_state: tuple[float, Array, Array, Any], play: float, rng: np.random.Generator
+    numpy_model: NumPyModel,
+    p: Any,
+    start_state: tuple[float, Array, Array, Any],
+    displacement_scale: float,
+    rng: np.random.Generator,
 ) -> list[tuple[float, Array, Array, Any]]:
     """Return states (t, q, v, discrete states) in which contacts and films are fast or slow, slip and separate.
 
-    Of N_TRIED random candidates those are selected whose forces differ most (`_list_features`); [] without play. A
-    candidate with a vanished pivot or an infinity is dropped.
+    Of N_TRIED random candidates those are selected whose forces differ most (`_list_force_features`); [] without play.
+    A candidate with a vanished pivot or an infinity is dropped.
     """
     model, (t, q, _, (latches, modes, _)) = numpy_model.model, start_state
     if not model.clearances:
         return []
     candidates: tuple[list[Any], list[Any]] = [], []  # in contact; free, or in a film
-    q = _find_near_closed(numpy_model, t, p, 0.0, rng)
+    q = _find_nearly_closed_position(numpy_model, t, p, 0.0, rng)
     for n in range(N_TRIED):
         if n % 2 == 0:
             is_free = n % 4 == 0 or bool(model.rigid)
-            distance = play * 10.0 ** rng.uniform(-1.5 if is_free else -1.0, -0.3 if is_free else 0.3)
+            distance = displacement_scale * 10.0 ** rng.uniform(-1.5 if is_free else -1.0, -0.3 if is_free else 0.3)
             x = _round_to_digits(q + distance * rng.normal(0.0, 1.0, len(q)), 7)
             velocities = 10.0 ** rng.uniform(SLOWEST, FASTEST) * rng.normal(0.0, 0.3, len(q))
             onset = np.nan if is_free else float(f"{10.0 ** rng.uniform(-3.0, 0.0):.4g}")
@@ -136,7 +140,7 @@ def _find_contact_states(
         except (ArithmeticError, ValueError):
             continue
         if not result.status and np.isfinite(result.a).all():
-            candidates[int(is_free)].append((_list_features(result), state))
+            candidates[int(is_free)].append((_list_force_features(result), state))
     return [state for states in candidates for state in _select_most_different(states)]
 
 
@@ -156,7 +160,7 @@ def _select_most_different(candidates: list[tuple[set[tuple[Any, ...]], Any]]) -
     return selected
 
 
-def _list_features(result: Any) -> set[tuple[Any, ...]]:
+def _list_force_features(result: Any) -> set[tuple[Any, ...]]:
     """Return a set of features of the forces in joints with play: contact or film, signs, direction, approach.
 
     Joints without a force have none.
@@ -186,10 +190,13 @@ def _is_steady(value: Array, neighbour: Array) -> bool:
     return bool(np.isfinite(value).all() and (np.abs(neighbour - value) <= SENSITIVE * scale).all())
 
 
-def _find_near_closed(numpy_model: NumPyModel, t: float, p: Any, play: float, rng: np.random.Generator) -> Array:
-    """Return positions q (n,) near a closed linkage, with seven digits, displaced at random by about `play`.
+def _find_nearly_closed_position(
+    numpy_model: NumPyModel, t: float, p: Any, displacement_scale: float, rng: np.random.Generator
+) -> Array:
+    """Return positions q (n,) near a closed linkage, displaced at random, rounded to seven digits.
 
-    A few Gauss–Newton steps from a random position close the linkage; they end early at a value that is not finite.
+    displacement_scale: standard deviation of the displacements, m or rad. A few Gauss–Newton steps from a random
+    position close the linkage; they end early at a value that is not finite.
     """
     q = rng.uniform(0.1, 0.6, numpy_model.n)
     for _ in range(CLOSINGS if numpy_model.m else 0):
@@ -197,14 +204,14 @@ def _find_near_closed(numpy_model: NumPyModel, t: float, p: Any, play: float, rn
         if not (np.isfinite(phi).all() and np.isfinite(phi_q).all()):
             break
         q = q - np.linalg.lstsq(phi_q, phi, rcond=1e-6)[0]
-    q = np.clip(q, -1e3, 1e3) + play * rng.normal(0.0, 1.0, numpy_model.n)
+    q = np.clip(q, -1e3, 1e3) + displacement_scale * rng.normal(0.0, 1.0, numpy_model.n)
     return np.array([float(f"{x:.7g}") for x in q])
 
 
 def _evaluate_functions(
     model: Model,
     numpy_model: NumPyModel,
-    outputs: Any,
+    compute_outputs: Any,
     p: Any,
     state: tuple[float, Array, Array],
     discrete_states: tuple[list[float], list[float], float],
@@ -235,7 +242,7 @@ def _evaluate_functions(
     out = [np.zeros(size) for size in (reactions, drives, len(find_element_series(model)), N_ENERGY)]
     try:
         with np.errstate(all="ignore"):
-            outputs(t, q.tolist(), v.tolist(), p, result.lambda_, *out)
+            compute_outputs(t, q.tolist(), v.tolist(), p, result.lambda_, *out)
     except (ArithmeticError, ValueError):
         return None
     return values | dict(zip(("reactions", "torques", "series", "energy"), out, strict=True))
