@@ -269,7 +269,7 @@ def pump(tmp_path: Path) -> str:
 @pytest.fixture
 def no_pictures(monkeypatch: pytest.MonkeyPatch) -> None:
     """`gudgeon run` draws nothing: a picture takes longer than a short run."""
-    monkeypatch.setattr("gudgeon.commands.run._draw", lambda *_: None)
+    monkeypatch.setattr("gudgeon.commands.run._draw_picture", lambda *_: None)
 
 
 @pytest.fixture

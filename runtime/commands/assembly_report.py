@@ -16,7 +16,7 @@ from gudgeon.assembly.guess_warnings import describe_missing_assembly, find_unfo
 from gudgeon.assembly.journals import check_journal_positions, describe_journals_in_walls
 from gudgeon.assembly.mobility import Mobility, check_degrees_of_freedom, find_mobility
 from gudgeon.assembly.start import compute_start_velocities
-from gudgeon.commands.common import check_addresses, evaluate_linkage
+from gudgeon.commands.common import apply_settings, check_addresses
 from gudgeon.errors import GudgeonError
 from gudgeon.language.tree import Number
 from gudgeon.model.seams import iterate_seam_notes
@@ -27,22 +27,22 @@ if TYPE_CHECKING:
     from gudgeon.model.compiled import Array
 
 LARGEST = 50.0  # m: larger lengths are probably numbers without a unit that were meant in mm
-QUICK = 45  # number of coordinates up to which assemblies are searched without --branches
+MAX_SEARCHED_COORDINATES = 45  # number of coordinates up to which assemblies are searched without --branches
 # Assemblies whose deviations from the guesses differ by less are ambiguous; rad, or fraction of the size.
 MAX_GUESS_DIFFERENCE = math.radians(5.0)
 
 
 @dataclass(frozen=True)
 class AssembledScene:
-    """Hold the result of assembling one scene: position, mobility of the closed linkage and of the scene, missed
-    guesses.
+    """Hold the result of assembling one scene: position, mobility of the closed linkage and of the scene, and
+    deviations from guesses.
     """
 
     linkage: NumPyLinkage
     q: Array
-    closed: Mobility
-    scene: Mobility
-    off: Mapping[str, float]  # guesses that are not followed: rad, or m
+    closed_mobility: Mobility
+    scene_mobility: Mobility
+    guess_deviations: Mapping[str, float]  # guesses that are not followed: rad, or m
 
 
 @dataclass(frozen=True)
@@ -67,33 +67,35 @@ class Findings:
 
 
 def assemble_scenes(mechanism: Mechanism, branches: bool, given: Mapping[str, float | str] | None = None) -> Findings:
-    """Assemble every scene of a mechanism, and find its other assemblies if `branches` is set or the
-    linkage is small.
+    """Assemble every scene of a mechanism; find its other assemblies if `branches` is set or the linkage is small.
 
     given: values in place of the file's, by address. An address of one scene holds for that scene. An error of a scene
-    is stored in `failed`. Raises UnknownNameError for an address that no scene has, and an error for wrong `freedoms`.
+    is stored in `errors` of the result. Raises UnknownNameError for an address that no scene has, and an error if the
+    file's `freedoms` are wrong.
     """
     from gudgeon.generator.pipeline import build_closed_linkage
 
     scenes: dict[str, AssembledScene] = {}
-    failed: dict[str, GudgeonError] = {}
+    errors: dict[str, GudgeonError] = {}
     assemblies: tuple[Assembly, ...] = ()
     linkages = {name: build_closed_linkage(mechanism, name) for name in mechanism.scenes}
-    numbers = given or {}
-    check_addresses(numbers, mechanism.file, [linkage.source for linkage, _ in linkages.values()])
+    settings = given or {}
+    check_addresses(settings, mechanism.file, [linkage.source for linkage, _ in linkages.values()])
     for name, (linkage, rows) in linkages.items():
-        linkage = evaluate_linkage(mechanism, linkage, numbers)
+        linkage = apply_settings(mechanism, linkage, settings)
         try:
             scenes[name] = _assemble_scene(linkage, rows)
         except GudgeonError as error:
-            failed[name] = error
+            errors[name] = error
             continue
-        scene_assemblies = scenes[name]
+        assembled_scene = scenes[name]
         if (expected := mechanism.freedoms) is not None and isinstance(expected.value, Number):
-            check_degrees_of_freedom(expected.value.value, expected.where, scene_assemblies.closed)
-        if not assemblies and (branches or linkage.n <= QUICK):
-            assemblies = tuple(find_assemblies(linkage, linkage.p, scene_assemblies.q, scene_assemblies.closed.along))
-    return Findings(scenes, failed, assemblies)
+            check_degrees_of_freedom(expected.value.value, expected.where, assembled_scene.closed_mobility)
+        if not assemblies and (branches or linkage.n <= MAX_SEARCHED_COORDINATES):
+            assemblies = tuple(
+                find_assemblies(linkage, linkage.p, assembled_scene.q, assembled_scene.closed_mobility.along)
+            )
+    return Findings(scenes, errors, assemblies)
 
 
 def _assemble_scene(linkage: NumPyLinkage, rows: Sequence[int]) -> AssembledScene:
@@ -115,14 +117,14 @@ def _assemble_scene(linkage: NumPyLinkage, rows: Sequence[int]) -> AssembledScen
     return AssembledScene(linkage, q, every, mobility, find_unfollowed_guesses(linkage, p, q))
 
 
-def format_freedoms(findings: Findings) -> str:
+def format_degrees_of_freedom(findings: Findings) -> str:
     """Return the degrees of freedom as text, grouped by scene: "degrees of freedom 0 (ideal), 4 (dry, lubricated)".
 
     If all scenes agree, names are left out; if none assembles, the text says so.
     """
     by_count: dict[int, list[str]] = {}
     for name, scene in findings.scenes.items():
-        by_count.setdefault(scene.scene.freedoms, []).append(name)
+        by_count.setdefault(scene.scene_mobility.freedoms, []).append(name)
     if len(by_count) == 1 and not findings.errors:
         return f"degrees of freedom {next(iter(by_count))}"
     counts = [f"{count} ({', '.join(names)})" for count, names in by_count.items()]
@@ -133,7 +135,9 @@ def list_scenes_without_masses(mechanism: Mechanism, findings: Findings) -> list
     """Return the names of the scenes that have degrees of freedom, if a body of the file lacks mass or inertia; else
     [].
     """
-    moved = [name for name in mechanism.scenes if name in findings.scenes and findings.scenes[name].scene.freedoms]
+    moved = [
+        name for name in mechanism.scenes if name in findings.scenes and findings.scenes[name].scene_mobility.freedoms
+    ]
     return moved if any(body.missing_keys for body in mechanism.bodies.values()) else []
 
 
@@ -176,7 +180,7 @@ def yield_remarks(mechanism: Mechanism, findings: Findings) -> Iterator[tuple[st
         for message in describe_journals_in_walls(scene.linkage, scene.linkage.p)
     )
     yield from (("start", message) for message in dict.fromkeys(deep))
-    closed = first.closed
+    closed = first.closed_mobility
     if closed.loose:
         yield "loose", f"nothing ties {', '.join(closed.loose)} to the ground: no joint, no drive"
     if closed.freedoms and mechanism.freedoms is None:
@@ -198,23 +202,23 @@ def yield_remarks(mechanism: Mechanism, findings: Findings) -> Iterator[tuple[st
                 " there (a dead centre), and accelerations and reactions are not determined; begin beside it"
             ),
         )
-    message = {name: off for scene in findings.scenes.values() for name, off in scene.off.items()}
-    for name, off in message.items():
+    deviations = {name: x for scene in findings.scenes.values() for name, x in scene.guess_deviations.items()}
+    for name, deviation in deviations.items():
         yield (
             "guess",
-            f"{name} is {format_guess_difference(name, off)} from your guess: "
+            f"{name} is {format_guess_difference(name, deviation)} from your guess: "
             f"{describe_missing_assembly(first.linkage.source)}",
         )
     if not closed.freedoms or mechanism.freedoms is not None:
         yield from _yield_ambiguity_remark(findings)
 
 
-def _yield_shaft_remarks(mechanism: Mechanism, closed: Mobility) -> Iterator[tuple[str, str]]:
+def _yield_shaft_remarks(mechanism: Mechanism, mobility: Mobility) -> Iterator[tuple[str, str]]:
     """Yield a remark for each driven body that can move away because no joint connects it to the drive's reference."""
     joined = {frozenset((joint.first.body, joint.second.body)) for joint in mechanism.joints.values()}
     for drive in mechanism.drives.values():
         other = drive.reference or "ground"
-        moves = any(name.rpartition(".")[0] == drive.body for name in closed.along)
+        moves = any(name.rpartition(".")[0] == drive.body for name in mobility.along)
         if drive.kind == "angle" and moves and frozenset((drive.body, other)) not in joined:
             whom = "the ground" if other == "ground" else other
             yield "shaft", f"no joint ties {drive.body} to {whom}, against which drive {drive.name} turns it"
@@ -305,13 +309,13 @@ def _build_scene_document(scene: AssembledScene) -> dict[str, Any]:
     """Return the results of one assembled scene as a dictionary for `--json`."""
     return {
         "assembles": True,
-        "degrees of freedom": scene.scene.freedoms,
-        "with all joints closed": scene.closed.freedoms,
-        "by counting": scene.closed.gruebler,
-        "redundant rows": scene.closed.redundant,
-        "along": list(scene.closed.along),
-        "loose": list(scene.closed.loose),
-        "guesses not followed": dict(scene.off),
+        "degrees of freedom": scene.scene_mobility.freedoms,
+        "with all joints closed": scene.closed_mobility.freedoms,
+        "by counting": scene.closed_mobility.gruebler,
+        "redundant rows": scene.closed_mobility.redundant,
+        "along": list(scene.closed_mobility.along),
+        "loose": list(scene.closed_mobility.loose),
+        "guesses not followed": dict(scene.guess_deviations),
     }
 
 

@@ -21,18 +21,18 @@ def bench_file(request: Request, methods: tuple[str, ...] = ()) -> int:
     Raises BadValueError for unknown methods before anything is run.
     """
     step, t_end = request.parse_time("--mark-step", request.mark), request.parse_time("--t-end", request.t_end)
-    loaded = load_scenes(request)
+    simulations = load_scenes(request)
     method_names = [name.strip() for text in methods for name in text.split(",") if name.strip()] if methods else None
     if method_names == []:
         raise BadValueError(f"--methods {', '.join(map(repr, methods))}: expected names of methods", hint=EVERY)
-    for simulation in loaded:
+    for simulation in simulations:
         if simulation.source.degrees_of_freedom != 0:
             select_methods(
                 simulation, method_names, request.quick
             )  # raises for an unknown method before anything is run
-    table = request.find_table_path(loaded[0].source.mechanism, "bench")
+    table = request.find_table_path(simulations[0].source.mechanism, "bench")
 
-    def one(simulation: Simulation, report: Report | None) -> SceneBench:
+    def measure_one_scene(simulation: Simulation, report: Report | None) -> SceneBench:
         """Measure one scene; its steps include the step of `--mark-step`."""
         parameters, steps = request.select_parameters(simulation), None
         if step is not None and simulation.source.degrees_of_freedom != 0:
@@ -47,7 +47,7 @@ def bench_file(request: Request, methods: tuple[str, ...] = ()) -> int:
             progress=report,
         )
 
-    measured_scenes, interrupted = measure_scenes(loaded, one, request.json)
+    measured_scenes, interrupted = measure_scenes(simulations, measure_one_scene, request.json)
     if measured_scenes:
-        report_bench(loaded[0].source, measured_scenes, table, step, request.json)
-    return find_exit_code(loaded, measured_scenes, interrupted)
+        report_bench(simulations[0].source, measured_scenes, table, step, request.json)
+    return find_exit_code(simulations, measured_scenes, interrupted)

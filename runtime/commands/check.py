@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
-from gudgeon.commands import assembly_report as story
+from gudgeon.commands import assembly_report
 from gudgeon.commands.common import parse_settings
 from gudgeon.commands.progress import show_status_line
 from gudgeon.contract.kernel_source import KernelSource
@@ -38,16 +38,16 @@ REFERENCE_SOLVERS = ("scipy:*", "sundials:*")  # reference solvers that fit wher
 
 
 def check_mechanism(
-    name: str, verbose: bool, as_json: bool, branches: bool = False, numbers: Sequence[str] = ()
+    name: str, verbose: bool, as_json: bool, branches: bool = False, settings: Sequence[str] = ()
 ) -> int:
     """Run `gudgeon check`: check a mechanism file, print the result, and return the exit code.
 
-    name: shipped name or path. numbers: texts ADDRESS=VALUE, in place of the file's values. Raises InputError for an
+    name: shipped name or path. settings: texts ADDRESS=VALUE, in place of the file's values. Raises InputError for an
     invalid file (with `as_json` it is printed), AssemblyError if a scene does not assemble.
     """
     from gudgeon.generator.reader.read import read_mechanism
 
-    given, file = parse_settings(numbers), find_mechanism(name)
+    given, file = parse_settings(settings), find_mechanism(name)
     try:
         data = read_bytes(file)
         mechanism = read_mechanism(data, str(file))
@@ -58,36 +58,36 @@ def check_mechanism(
         return error.exit_code
     seconds: dict[str, dict[str, float]] = {scene: {} for scene in mechanism.scenes}
     with show_status_line(quiet=as_json):
-        assemblies_by_scene = story.assemble_scenes(mechanism, branches, given)
+        findings = assembly_report.assemble_scenes(mechanism, branches, given)
         scenes = {
             scene: derive_kernel_source(data, file, scene, seconds=seconds[scene])
             for scene in mechanism.scenes
             if verbose
         }
     if as_json:
-        print_json(_build_document(mechanism, scenes, seconds, assemblies_by_scene))
-        return _find_exit_code(mechanism, assemblies_by_scene)
+        print_json(_build_check_document(mechanism, scenes, seconds, findings))
+        return _find_exit_code(mechanism, findings)
     print(
-        _wrap_lines(
-            story.format_verdict(mechanism, assemblies_by_scene),
-            f"{_format_counts(mechanism)}; {story.format_freedoms(assemblies_by_scene)}",
+        _wrap_labelled_text(
+            assembly_report.format_verdict(mechanism, findings),
+            f"{_format_counts(mechanism)}; {assembly_report.format_degrees_of_freedom(findings)}",
         )
     )
-    for whose, remark in story.yield_remarks(mechanism, assemblies_by_scene):
-        print(_wrap_lines(f"  {whose}", remark))
-    for line in story.yield_assembly_lines(assemblies_by_scene) if branches else ():
+    for whose, remark in assembly_report.yield_remarks(mechanism, findings):
+        print(_wrap_labelled_text(f"  {whose}", remark))
+    for line in assembly_report.yield_assembly_lines(findings) if branches else ():
         print(line)
     if scenes:
         _print_scenes(mechanism, scenes, seconds)
-    for scene, problem in assemblies_by_scene.errors.items():
-        message = "" if len(assemblies_by_scene.errors) == len(mechanism.scenes) else f"scene {scene}: "
+    for scene, problem in findings.errors.items():
+        message = "" if len(findings.errors) == len(mechanism.scenes) else f"scene {scene}: "
         raise AssemblyError(f"{message}{problem}")
-    return _find_exit_code(mechanism, assemblies_by_scene)
+    return _find_exit_code(mechanism, findings)
 
 
-def _find_exit_code(mechanism: Mechanism, findings: story.Findings) -> int:
+def _find_exit_code(mechanism: Mechanism, findings: assembly_report.Findings) -> int:
     """Return the exit code: that of the first scene that does not assemble, else that of a missing mass, else 0."""
-    lacking = MissingKeyError.exit_code if story.list_scenes_without_masses(mechanism, findings) else 0
+    lacking = MissingKeyError.exit_code if assembly_report.list_scenes_without_masses(mechanism, findings) else 0
     return next((error.exit_code for error in findings.errors.values()), lacking)
 
 
@@ -118,11 +118,11 @@ def _format_counts(mechanism: Mechanism) -> str:
     return f"{', '.join(words)}; scenes {', '.join(mechanism.scenes)}"
 
 
-def _count_facts(source: KernelSource) -> dict[str, int]:
+def _build_scene_counts(source: KernelSource) -> dict[str, int]:
     """Return the counts of a scene for the table, by label: unknowns, constraint equations, degrees of freedom,
     operations.
     """
-    facts = {
+    counts = {
         "unknowns": len(source.coordinates),
         "rows": len(source.rows),
         "degrees of freedom": source.degrees_of_freedom,
@@ -131,7 +131,7 @@ def _count_facts(source: KernelSource) -> dict[str, int]:
         "numbers that can be set": len(source.slots),
         **({"of them depths of contours": len(find_contour_parameters(source))} if source.contours else {}),
     }
-    return facts | {_format_kernel_label(name): count for name, count in source.operations.items()}
+    return counts | {_format_kernel_label(name): count for name, count in source.operations.items()}
 
 
 def find_solved_drives(source: KernelSource) -> tuple[str, ...]:
@@ -154,7 +154,7 @@ def _can_run_in_reference_solvers(source: KernelSource) -> bool:
 
 
 def _describe_reduction(source: KernelSource) -> dict[str, Any]:
-    """Return what is integrated, the operations of the accelerations in both formulations, and the methods that fit."""
+    """Return for `--json` what is integrated, the operations of the accelerations, and the methods that fit."""
     operations = {"full": source.operations["dynamics"]}
     if "reduced_dynamics" in source.operations:
         operations["reduced"] = source.operations["reduced_dynamics"]
@@ -169,7 +169,7 @@ def _describe_reduction(source: KernelSource) -> dict[str, Any]:
     }
 
 
-def _yield_further_lines(source: KernelSource, seconds: Mapping[str, float]) -> Iterator[tuple[str, str]]:
+def _yield_method_lines(source: KernelSource, seconds: Mapping[str, float]) -> Iterator[tuple[str, str]]:
     """Yield the (label, text) lines below the reduction log: methods, events, notes, seconds of each stage."""
     yield (
         "methods",
@@ -194,13 +194,13 @@ def _format_kernel_label(kernel: str) -> str:
     return kernel if " " in kernel else f"operations in {kernel}"
 
 
-def _build_document(
+def _build_check_document(
     mechanism: Mechanism,
     scenes: Mapping[str, KernelSource],
     seconds: Mapping[str, Mapping[str, float]],
-    findings: story.Findings,
+    findings: assembly_report.Findings,
 ) -> dict[str, Any]:
-    """Return the whole result for `--json`."""
+    """Return the whole result of the check as a dictionary for `--json`."""
     return {
         "valid": True,
         "name": mechanism.name,
@@ -208,9 +208,9 @@ def _build_document(
         "bodies": list(mechanism.bodies),
         "joints": list(mechanism.joints),
         "drives": list(mechanism.drives),
-        "verdict": story.format_verdict(mechanism, findings),
-        "assembled": story.build_scene_documents(findings),
-        "assemblies": story.build_assembly_documents(findings),
+        "verdict": assembly_report.format_verdict(mechanism, findings),
+        "assembled": assembly_report.build_scene_documents(findings),
+        "assemblies": assembly_report.build_assembly_documents(findings),
         "scenes": {
             name: _build_scene_document(scenes[name]) | {"seconds": seconds[name]} if name in scenes else {}
             for name in mechanism.scenes
@@ -225,7 +225,7 @@ def _build_scene_document(source: KernelSource) -> dict[str, Any]:
         "notes": list(source.notes),
         "story": build_log_document(source.story),
     }
-    return {**_count_facts(source), **_describe_reduction(source), **document}
+    return {**_build_scene_counts(source), **_describe_reduction(source), **document}
 
 
 def _print_scenes(
@@ -237,58 +237,60 @@ def _print_scenes(
     """
     from gudgeon.language.text_output import format_one_line, make_plain_console
 
-    facts = {scene: _count_facts(source) for scene, source in scenes.items()}
+    counts_by_scene = {scene: _build_scene_counts(source) for scene, source in scenes.items()}
     names = [
         name
-        for name in dict.fromkeys(name for counts in facts.values() for name in counts)
-        if not name.startswith("operations") or any(counts.get(name) for counts in facts.values())
+        for name in dict.fromkeys(name for counts in counts_by_scene.values() for name in counts)
+        if not name.startswith("operations") or any(counts.get(name) for counts in counts_by_scene.values())
     ]  # without kernels that are zero in every scene
     console, title = make_plain_console(WIDTH), format_one_line(mechanism.title or mechanism.name)
-    for some in _group_columns(scenes, max(map(len, names))):
-        console.print(_make_count_table(title, names, {scene: facts[scene] for scene in some}))
-    for part in yield_reduction_logs(scenes, lambda source: _yield_further_lines(source, seconds[source.scene])):
+    for scene_names in _group_columns(scenes, max(map(len, names))):
+        console.print(_make_count_table(title, names, {scene: counts_by_scene[scene] for scene in scene_names}))
+    for part in yield_reduction_logs(scenes, lambda source: _yield_method_lines(source, seconds[source.scene])):
         console.print(part)
 
 
-def _wrap_lines(name: str, text: str) -> str:
-    """Return "name: text" in lines of at most WIDTH columns; continuation lines are indented."""
-    below = " " * min(len(name) + 2, MAX_INDENT)
-    lines = textwrap.wrap(f"{name}: {text}", WIDTH, subsequent_indent=below, break_on_hyphens=False)
+def _wrap_labelled_text(label: str, text: str) -> str:
+    """Return "label: text" in lines of at most WIDTH columns; continuation lines are indented."""
+    indent = " " * min(len(label) + 2, MAX_INDENT)
+    lines = textwrap.wrap(f"{label}: {text}", WIDTH, subsequent_indent=indent, break_on_hyphens=False)
     return "\n".join(lines)
 
 
-def _group_columns(scenes: Mapping[str, KernelSource], label: int) -> Iterator[list[str]]:
-    """Yield groups of scene names whose columns fit next to each other in one table; label: width of the first
-    column.
+def _group_columns(scenes: Mapping[str, KernelSource], label_width: int) -> Iterator[list[str]]:
+    """Yield groups of scene names whose columns fit next to each other in one table.
+
+    label_width: width of the first column.
     """
-    some: list[str] = []
+    scene_names: list[str] = []
     for scene in scenes:
-        widths = [max(len(name), len("999,999")) + GAP for name in [*some, scene]]
-        if some and MARGIN + label + sum(widths) > WIDTH:
-            yield some
-            some = []
-        some.append(scene)
-    yield some
+        widths = [max(len(name), len("999,999")) + GAP for name in [*scene_names, scene]]
+        if scene_names and MARGIN + label_width + sum(widths) > WIDTH:
+            yield scene_names
+            scene_names = []
+        scene_names.append(scene)
+    yield scene_names
 
 
-def _make_count_table(title: str, names: Sequence[str], facts: Mapping[str, Mapping[str, int]]) -> Table:
+def _make_count_table(title: str, names: Sequence[str], counts_by_scene: Mapping[str, Mapping[str, int]]) -> Table:
     """Return a table of rich with one column for each scene and one row for each count; "–" where a scene lacks it."""
     from rich.box import SIMPLE_HEAD
     from rich.table import Table
 
     table = Table(title=title, title_justify="left", title_style="bold", box=SIMPLE_HEAD)
     table.add_column("", no_wrap=True)
-    for scene in facts:
+    for scene in counts_by_scene:
         table.add_column(scene, justify="right", no_wrap=True)
     for name in names:
-        table.add_row(name, *(f"{counts[name]:,}" if name in counts else "–" for counts in facts.values()))
+        table.add_row(name, *(f"{counts[name]:,}" if name in counts else "–" for counts in counts_by_scene.values()))
     return table
 
 
 def yield_reduction_logs(
-    scenes: Mapping[str, KernelSource], rest: Callable[[KernelSource], Iterable[tuple[str, str]]]
+    scenes: Mapping[str, KernelSource], yield_further_lines: Callable[[KernelSource], Iterable[tuple[str, str]]]
 ) -> Iterator[Text | Table]:
-    """Yield heading and reduction log of each scene, its outcome, and the (label, text) lines of `rest`, for rich.
+    """Yield heading and reduction log of each scene, its outcome, and the (label, text) lines of `yield_further_lines`,
+    for rich.
 
     If an earlier scene has the same log, only the lines that differ are shown.
     """
@@ -296,27 +298,27 @@ def yield_reduction_logs(
 
     printed_logs: list[tuple[str, list[tuple[int, int, str]], list[tuple[str, str]]]] = []
     for scene, source in scenes.items():
-        ledger, lines = list(describe_steps(source)), [*describe_outcome(source), *rest(source)]
-        same = next((other for other in printed_logs if other[1] == ledger), None)
-        if same:
-            lines = [line for line in lines if line not in same[2]]
-            yield Text(f"scene {scene}: as {same[0]}{', but' if lines else ''}", style="bold")
+        steps, lines = list(describe_steps(source)), [*describe_outcome(source), *yield_further_lines(source)]
+        earlier_log = next((other for other in printed_logs if other[1] == steps), None)
+        if earlier_log:
+            lines = [line for line in lines if line not in earlier_log[2]]
+            yield Text(f"scene {scene}: as {earlier_log[0]}{', but' if lines else ''}", style="bold")
         else:
-            printed_logs.append((scene, ledger, lines))
+            printed_logs.append((scene, steps, lines))
             yield Text(f"scene {scene}", style="bold")
-        yield _make_log_table([] if same else ledger, lines)
+        yield _make_log_table([] if earlier_log else steps, lines)
 
 
-def _make_log_table(ledger: Sequence[tuple[int, int, str]], lines: Iterable[tuple[str, str]]) -> Table:
+def _make_log_table(steps: Sequence[tuple[int, int, str]], lines: Iterable[tuple[str, str]]) -> Table:
     """Return a table without rules: remaining coordinates, remaining constraint equations, and the step's text."""
     from rich.table import Table
     from rich.text import Text
 
-    table = Table(box=None, padding=(0, 2, 0, 0), pad_edge=False, show_header=bool(ledger))
+    table = Table(box=None, padding=(0, 2, 0, 0), pad_edge=False, show_header=bool(steps))
     for name in ("coordinates", "rows"):
         table.add_column(name, justify="right", no_wrap=True, min_width=len(name))
     table.add_column()
-    for n, m, text in ledger:
+    for n, m, text in steps:
         table.add_row(f"{n:,}", f"{m:,}", Text(text))
     for name, text in lines:
         table.add_row(name, "", Text(text))

@@ -38,27 +38,29 @@ def read_scene_names(mechanism: str) -> tuple[str, ...]:
     file = find_mechanism(mechanism)
     data = read_bytes(file)
 
-    def make(folder: Path) -> None:
+    def write_names(folder: Path) -> None:
         """Write the names of the scenes into the new cache entry `folder`."""
         from gudgeon.generator.reader.read import read_mechanism
 
         names = list(read_mechanism(data, str(file)).scenes)
         (folder / SCENES).write_text(json.dumps(names), encoding="utf-8")
 
-    entry = get_default_cache().fetch("scenes", compute_digest(["scenes/1", data, compute_generator_hash()]), make)
+    entry = get_default_cache().fetch(
+        "scenes", compute_digest(["scenes/1", data, compute_generator_hash()]), write_names
+    )
     return tuple(json.loads((entry / SCENES).read_text(encoding="utf-8")))
 
 
-def select_scenes(mechanism: str, expected: tuple[str, ...]) -> tuple[str, ...]:
+def select_scenes(mechanism: str, requested: tuple[str, ...]) -> tuple[str, ...]:
     """Return the requested scenes, each once, or all scenes if none is requested.
 
     Raises UnknownNameError, with the nearest name, for a scene that the file does not have.
     """
     names = read_scene_names(mechanism)
-    for scene in expected:
+    for scene in requested:
         if scene not in names:
             raise make_unknown_error(f"no scene {scene!r} in {mechanism}", scene, names)
-    return tuple(dict.fromkeys(expected)) or names
+    return tuple(dict.fromkeys(requested)) or names
 
 
 def parse_settings(texts: Iterable[str]) -> dict[str, float | str]:
@@ -80,13 +82,13 @@ def parse_settings(texts: Iterable[str]) -> dict[str, float | str]:
     return settings
 
 
-def check_addresses(names: Iterable[str], file: str, sources: Sequence[KernelSource]) -> None:
+def check_addresses(addresses: Iterable[str], file: str, sources: Sequence[KernelSource]) -> None:
     """Raise UnknownNameError for the first address of `--set` that no scene has.
 
-    The error says what stands there if it is no parameter, else it names the nearest address.
+    The error says what the file has at the address, else it names the nearest one. `file`: name for the message.
     """
     known_addresses = tuple(dict.fromkeys(address for source in sources for address in list_addresses(source)))
-    for name in names:
+    for name in addresses:
         if name in known_addresses:
             continue
         for source in sources:
@@ -105,8 +107,8 @@ def select_known_settings(source: KernelSource, given: Mapping[str, float | str]
     return {address: number for address, number in given.items() if address in known_addresses}
 
 
-def evaluate_linkage(mechanism: Mechanism, linkage: NumPyLinkage, given: Mapping[str, float | str]) -> NumPyLinkage:
-    """Return the closed linkage of a scene at other parameter values; the same object if nothing that matters is given.
+def apply_settings(mechanism: Mechanism, linkage: NumPyLinkage, given: Mapping[str, float | str]) -> NumPyLinkage:
+    """Return the closed linkage of a scene with the values `given` by --set; the same object if none of them matters.
 
     Addresses of other scenes are ignored. Raises BadValueError for values out of range.
     """
@@ -140,22 +142,24 @@ def check_output_folder(option: str, out: Path) -> None:
     import tempfile
 
     try:
-        there = next(path for path in (out.absolute(), *out.absolute().parents) if path.exists())
-        for name in out.absolute().relative_to(there).parts:
+        existing_folder = next(path for path in (out.absolute(), *out.absolute().parents) if path.exists())
+        for name in out.absolute().relative_to(existing_folder).parts:
             with suppress(FileNotFoundError, NotADirectoryError):
-                (there / name).lstat()  # a name too long
+                (existing_folder / name).lstat()  # a name too long
     except OSError as error:  # a name too long, a folder that may not be entered
         message = f"{option} {shorten_path(out)}: {error.strerror or error}"
         raise InputError(message, hint="name another folder") from error
-    if not there.is_dir():
-        raise InputError(f"{option} {shorten_path(out)}: {shorten_path(there)} is a file", hint="name a folder")
+    if not existing_folder.is_dir():
+        raise InputError(
+            f"{option} {shorten_path(out)}: {shorten_path(existing_folder)} is a file", hint="name a folder"
+        )
     try:
-        with tempfile.TemporaryFile(dir=there):  # permissions are not sufficient: the file system may be read-only
+        # permissions are not sufficient: the file system may be read-only
+        with tempfile.TemporaryFile(dir=existing_folder):
             pass
     except OSError as error:
-        message = (
-            f"{option} {shorten_path(out)}: nothing can be written to {shorten_path(there)} ({error.strerror or error})"
-        )
+        folder, reason = shorten_path(existing_folder), error.strerror or error
+        message = f"{option} {shorten_path(out)}: nothing can be written to {folder} ({reason})"
         raise InputError(message, hint="name another folder") from error
 
 
@@ -168,9 +172,7 @@ def check_output_file(option: str, path: Path) -> None:
 
 
 def check_output_name(option: str, path: Path) -> None:
-    """Raise InputError if no file `path` can be written, as for a folder or a link; its parent has been checked
-    before.
-    """
+    """Raise InputError if `path` is a folder or a link, or cannot be a file; its parent folder is not checked."""
     try:
         check_target(path)
     except OutputError as error:
@@ -184,9 +186,9 @@ def require_suffix(path: Path, suffixes: tuple[str, ...]) -> None:
         raise InputError(f"{shorten_path(path)}: expected a name that ends in {ends}")
 
 
-def has_packages(what: str, *packages: str) -> bool:
-    """Return whether the packages that write `what` are installed; print a note to stderr if one is missing."""
+def has_packages(output_kind: str, *packages: str) -> bool:
+    """Return whether the packages that write this kind of output are installed; if not, print a note to stderr."""
     missing = [package for package in packages if find_spec(package) is None]
     if missing:
-        print(f"note: no {what}: {' and '.join(missing)} not installed", file=sys.stderr)
+        print(f"note: no {output_kind}: {' and '.join(missing)} not installed", file=sys.stderr)
     return not missing

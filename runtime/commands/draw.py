@@ -15,9 +15,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gudgeon.commands.common import (
+    apply_settings,
     check_addresses,
     check_output_file,
-    evaluate_linkage,
     parse_settings,
     require_suffix,
     select_scenes,
@@ -96,7 +96,7 @@ def draw_file(request: Request) -> int:
     draw_time = 0.0 if request.at is None else parse_quantity(insert_space_before_unit(request.at), "--at", (0, 0, 1))
     if draw_time < 0.0:
         raise BadValueError(f"--at is {draw_time:g} s: the motion starts at 0 s", hint="take a time of the motion")
-    with _report_undrawable(target):
+    with _convert_drawing_errors(target):
         if draw_time > 0.0:
             drawn, failure = _draw_at_time(request, draw_time, values), None
         else:
@@ -111,8 +111,8 @@ def draw_file(request: Request) -> int:
 
 
 @contextmanager
-def _report_undrawable(target: Path) -> Iterator[None]:
-    """Raise GudgeonError for a ValueError or ArithmeticError in the with block: values are too large to be drawn.
+def _convert_drawing_errors(target: Path) -> Iterator[None]:
+    """Raise GudgeonError in place of a ValueError or ArithmeticError in the with block: values too large to be drawn.
 
     NumPy's warnings about them are suppressed.
     """
@@ -127,7 +127,7 @@ def _report_undrawable(target: Path) -> Iterator[None]:
 
 
 def _draw_at_time(request: Request, draw_time: float, values: Mapping[str, float | str]) -> Picture:
-    """Run the scene to the time `at` (s) and return the picture there.
+    """Run the scene to the time `draw_time` (s) and return the picture there.
 
     Raises SolverError if the run fails before, BadValueError for an impossible time, KeyboardInterrupt after Ctrl-C.
     """
@@ -137,9 +137,9 @@ def _draw_at_time(request: Request, draw_time: float, values: Mapping[str, float
     with show_status_line():
         simulation = load(request.file, request.scene)
     check_addresses(values, request.file, [simulation.source])
-    with show_progress_bars() as bar:
+    with show_progress_bars() as make_bar:
         try:
-            run = simulation.simulate(draw_time, parameters=values, progress=bar(request.scene), peaks=())
+            run = simulation.simulate(draw_time, parameters=values, progress=make_bar(request.scene), peaks=())
         except SolverError as error:  # its advice is for who keeps a run
             why, _, _ = str(error).partition("\n")
             hint = "draw an earlier time, or let gudgeon run show the motion until then"
@@ -173,13 +173,13 @@ def _draw_start(request: Request, file: Path, values: Mapping[str, float | str])
     mechanism = read_mechanism(read_bytes(file), str(file))
     linkage, _ = build_closed_linkage(mechanism, request.scene)
     check_addresses(values, request.file, [linkage.source])
-    linkage = evaluate_linkage(mechanism, linkage, values)
+    linkage = apply_settings(mechanism, linkage, values)
     closure = Closure(linkage, linkage.p, 0.0)
     with np.errstate(all="ignore"):
         q, closed = closure.find_nearest()
     caption = _format_caption(mechanism.title or mechanism.name, request.scene, 0.0)
     if not closed:
-        return _draw_unclosed(mechanism, closure, q, caption)
+        return _draw_unclosed_linkage(mechanism, closure, q, caption)
     v, failure = _find_velocities(closure, q)
     if request.branches:
         sketches, titles = _draw_assemblies(mechanism, closure, q)
@@ -230,7 +230,9 @@ def _make_sketches(mechanism: Mechanism, closure: Closure, postures: Sequence[Po
     return sketches
 
 
-def _draw_unclosed(mechanism: Mechanism, closure: Closure, q: Array, caption: str) -> tuple[Picture, GudgeonError]:
+def _draw_unclosed_linkage(
+    mechanism: Mechanism, closure: Closure, q: Array, caption: str
+) -> tuple[Picture, GudgeonError]:
     """Return the picture of a linkage that does not close, with its gaps marked, and its error.
 
     The error is raised if q or the gaps are not finite.

@@ -32,13 +32,14 @@ def emit_c(mechanism: str, folder: Path, scene_names: tuple[str, ...]) -> int:
     if folder.suffix.lower() == ".fmu":
         return _emit_fmu(mechanism, folder, scene_names)
     check_output_folder("--out", folder)
-    scenes, rooms = select_scenes(mechanism, scene_names), _group_engine_files()
+    scenes, engine_folders = select_scenes(mechanism, scene_names), _group_engine_files()
     _check_distinct_folders(scenes)
     for scene in scenes:
         refuse_foreign_files(folder / scene)
-    for room in rooms:
+    for engine_folder in engine_folders:
         refuse_foreign_files(
-            folder / room, {inner.rpartition("/")[2] for inner in rooms if inner.startswith(f"{room}/")}
+            folder / engine_folder,
+            {inner.rpartition("/")[2] for inner in engine_folders if inner.startswith(f"{engine_folder}/")},
         )
     file = find_mechanism(mechanism)
     data = read_bytes(file)
@@ -51,8 +52,8 @@ def emit_c(mechanism: str, folder: Path, scene_names: tuple[str, ...]) -> int:
         report_written(scene, folder / scene, f": {', '.join(texts)}")
         needs_engine |= not source.cdef
     if needs_engine:
-        for room, texts in rooms.items():
-            _write_folder(folder / room, {name: text.encode() for name, text in texts.items()})
+        for engine_folder, texts in engine_folders.items():
+            _write_folder(folder / engine_folder, {name: text.encode() for name, text in texts.items()})
         report_written(ENGINE, folder / ENGINE, ": what all scenes share")
     return 0
 
@@ -99,11 +100,11 @@ def _check_distinct_folders(scenes: tuple[str, ...]) -> None:
 
 def _group_engine_files() -> dict[str, dict[str, str]]:
     """Return the engine's texts and README files by folder ("engine/run") and file name, outer folders first."""
-    rooms: dict[str, dict[str, str]] = {}
+    engine_folders: dict[str, dict[str, str]] = {}
     for path, text in sorted((*read_engine_files().items(), read_engine_readme())):
-        room, _, name = path.rpartition("/")
-        rooms.setdefault(room, {})[name] = text
-    return dict(sorted(rooms.items()))
+        engine_folder, _, name = path.rpartition("/")
+        engine_folders.setdefault(engine_folder, {})[name] = text
+    return dict(sorted(engine_folders.items()))
 
 
 def _write_folder(folder: Path, texts: dict[str, bytes]) -> None:
@@ -112,44 +113,44 @@ def _write_folder(folder: Path, texts: dict[str, bytes]) -> None:
     Unchanged files that an earlier version wrote and this one does not are removed. A list of old and new files is
     written first, so that every file is listed even if the process is killed.
     """
-    old, new = _read_list(folder), {name: {sha256(text).hexdigest()} for name, text in texts.items()}
-    both = {name: old.get(name, set()) | new.get(name, set()) for name in (*new, *(old.keys() - new.keys()))}
-    with AtomicFiles(folder, follow=False) as aside:
-        aside.write(LIST, _format_list(both))
+    old, new = _read_checksums(folder), {name: {sha256(text).hexdigest()} for name, text in texts.items()}
+    old_and_new = {name: old.get(name, set()) | new.get(name, set()) for name in (*new, *(old.keys() - new.keys()))}
+    with AtomicFiles(folder, follow=False) as atomic_files:
+        atomic_files.write(LIST, _format_checksums(old_and_new))
         for name, text in texts.items():
-            aside.write(name, text)
-        aside.write(LIST, _format_list(new))
-        aside.move(1 + len(texts))
+            atomic_files.write(name, text)
+        atomic_files.write(LIST, _format_checksums(new))
+        atomic_files.move(1 + len(texts))
         for name in old.keys() - new.keys():
-            aside.remove(name, lambda data, sums=old[name]: sha256(data).hexdigest() in sums)  # type: ignore[misc]
+            atomic_files.remove(name, lambda data, sums=old[name]: sha256(data).hexdigest() in sums)  # type: ignore[misc]
         for path in folder.iterdir():
             if PART.fullmatch(path.name):  # a temporary file of a killed process
-                aside.remove(path.name, lambda data: any(text.startswith(data) for text in texts.values()))
-        aside.move()
+                atomic_files.remove(path.name, lambda data: any(text.startswith(data) for text in texts.values()))
+        atomic_files.move()
 
 
-def _format_list(sums: Mapping[str, set[str]]) -> bytes:
+def _format_checksums(sums: Mapping[str, set[str]]) -> bytes:
     """Return the list of checksums in the format of `sha256sum -c`."""
     return "".join(f"{total}  {name}\n" for name, totals in sums.items() for total in sorted(totals)).encode()
 
 
-def _read_list(folder: Path) -> dict[str, set[str]]:
+def _read_checksums(folder: Path) -> dict[str, set[str]]:
     """Return the checksums of files that an earlier `emit` wrote into the folder, by file name; {} without a valid
     list.
     """
-    files_by_owner: dict[str, set[str]] = {}
+    sums_by_name: dict[str, set[str]] = {}
     for line in (read_regular(folder / LIST) or b"").decode(errors="replace").splitlines():
         parts = _LINE.fullmatch(line)
         if not parts:
             return {}
-        files_by_owner.setdefault(parts[2], set()).add(parts[1])
-    return files_by_owner
+        sums_by_name.setdefault(parts[2], set()).add(parts[1])
+    return sums_by_name
 
 
-def refuse_foreign_files(folder: Path, inner: Collection[str] = ()) -> None:
+def refuse_foreign_files(folder: Path, subfolders: Collection[str] = ()) -> None:
     """Raise InputError if the folder contains anything but unchanged files of an earlier `emit`; it may be absent.
 
-    A link is refused too. inner: names of subfolders that are checked separately.
+    A link is refused too. subfolders: names of those that are checked separately.
     """
     shown = shorten_path(folder)
     try:
@@ -159,38 +160,44 @@ def refuse_foreign_files(folder: Path, inner: Collection[str] = ()) -> None:
             return
         if not folder.is_dir():
             raise InputError(f"{shown} is a file", hint="name another folder")
-        listed = _read_list(folder)
-        if not listed and read_regular(folder / LIST):
+        sums_by_name = _read_checksums(folder)
+        if not sums_by_name and read_regular(folder / LIST):
             message = f"{folder / LIST} is no list as `emit` writes it: it does not tell which files there are its own"
             raise InputError(message, hint="put the list back as it was, remove the folder, or name another one")
-        kept = (path.name for path in folder.iterdir() if _is_unchanged_output(path, listed) or _is_folder(path, inner))
+        kept = (
+            path.name
+            for path in folder.iterdir()
+            if _is_unchanged_output(path, sums_by_name) or _is_named_folder(path, subfolders)
+        )
         foreign = sorted({path.name for path in folder.iterdir()} - set(kept))
     except OSError as error:
         raise InputError(f"{shown} cannot be read: {error.strerror or error}", hint="name another folder") from error
-    listed_names = [name for name in foreign if name in listed]
+    listed_names = [name for name in foreign if name in sums_by_name]
     if foreign and listed_names == foreign:
         message = (
             f"{shown}: {', '.join(listed_names[:5])} and the checksums in {LIST} differ: files or list were changed"
         )
         raise InputError(message, hint="put back what was changed, move those files away or name another folder")
     if foreign:
-        foreign, hint = [name for name in foreign if name not in listed], "move them away or name another folder"
+        foreign, hint = [name for name in foreign if name not in sums_by_name], "move them away or name another folder"
         raise InputError(f"{shown} holds files that `emit` did not write so: {', '.join(foreign[:5])}", hint=hint)
 
 
-def _is_folder(path: Path, names: Collection[str]) -> bool:
+def _is_named_folder(path: Path, names: Collection[str]) -> bool:
     """Return whether `path` is a folder, not a link, with one of the names."""
     return path.name in names and path.is_dir() and not path.is_symlink()
 
 
-def _is_unchanged_output(path: Path, listed: Mapping[str, set[str]]) -> bool:
-    """Return whether a file is unchanged since `emit` wrote it, is the list, or is a temporary file of a killed
-    `emit`."""
+def _is_unchanged_output(path: Path, sums_by_name: Mapping[str, set[str]]) -> bool:
+    """Return whether a file is as `emit` wrote it, is the list of checksums, or is a temporary file of `emit`.
+
+    `sums_by_name`: the checksums in the list.
+    """
     if path.is_symlink() or not path.is_file():
         return False
     if path.name == LIST:
-        return bool(listed) or path.stat().st_size == 0
+        return bool(sums_by_name) or path.stat().st_size == 0
     if PART.fullmatch(path.name):
         return True
-    data = read_regular(path) if path.name in listed else None
-    return data is not None and sha256(data).hexdigest() in listed[path.name]
+    data = read_regular(path) if path.name in sums_by_name else None
+    return data is not None and sha256(data).hexdigest() in sums_by_name[path.name]

@@ -32,12 +32,14 @@ def write_exercise(mechanism: str, target: Path, scene: str, seed: int, at: str 
         check_output_file("--out", file)
     select_scenes(mechanism, (scene,))
     with show_status_line():
-        sheet, solved, drawn = make_exercise(mechanism, scene, seed, at)
-        texts = [_format_document(document, target.suffix.lower(), drawn) for document in (sheet, solved)]
-    with AtomicFiles(target.parent) as aside:  # both files or neither: a sheet needs its own solutions
+        sheet, solutions_sheet, exercise_data = make_exercise(mechanism, scene, seed, at)
+        texts = [
+            _format_document(document, target.suffix.lower(), exercise_data) for document in (sheet, solutions_sheet)
+        ]
+    with AtomicFiles(target.parent) as atomic_files:  # both files or neither: a sheet needs its own solutions
         for file, text in zip((target, solutions), texts, strict=True):
-            aside.write(file.name, text.encode())
-        aside.move()
+            atomic_files.write(file.name, text.encode())
+        atomic_files.move()
     report_written("exercise", target)
     report_written("solutions", solutions)
     return 0
@@ -60,7 +62,7 @@ def make_exercise(mechanism: str, scene: str, seed: int, at: str | None) -> tupl
 
     with report_work(f"running {file.stem}, scene {scene}, with other numbers"):
         try:
-            drawn = draw_parameters(simulation, seed, at, list_units(read_scene(data, str(file), scene)))
+            exercise_data = draw_parameters(simulation, seed, at, list_units(read_scene(data, str(file), scene)))
         except (AssemblyError, SolverError) as error:
             failure = GudgeonError(f"no sheet: the run that its numbers come from fails, the file's own too: {error}")
             failure.exit_code = error.exit_code
@@ -69,47 +71,49 @@ def make_exercise(mechanism: str, scene: str, seed: int, at: str | None) -> tupl
         from gudgeon.generator.pipeline import derive_scene
         from gudgeon.teaching.questions import make_questions
 
-        subject = make_subject(derive_scene(data, str(file), scene, drawn.parameters), simulation, drawn, seed)
-        return *make_sheets(subject, make_questions(subject), seed), drawn
+        subject = make_subject(
+            derive_scene(data, str(file), scene, exercise_data.parameters), simulation, exercise_data, seed
+        )
+        return *make_sheets(subject, make_questions(subject), seed), exercise_data
 
 
-def _format_document(document: Document, suffix: str, drawn: ExerciseData) -> str:
+def _format_document(document: Document, suffix: str, exercise_data: ExerciseData) -> str:
     """Return a document in the format of a suffix; .html and .tex include a picture if matplotlib is installed."""
     from gudgeon.generator.targets.latex.render import render_document
     from gudgeon.teaching.notebook import format_document
 
     if suffix == ".md":
         return format_document(document)
-    slots = {".html": _fill_page_slots, ".tex": _fill_tex_slots}.get(suffix, lambda _: {})(drawn)
+    slots = {".html": _fill_html_slots, ".tex": _fill_tex_slots}.get(suffix, lambda _: {})(exercise_data)
     return render_document(document, suffix.removeprefix("."), **slots)
 
 
-def _fill_page_slots(drawn: ExerciseData) -> dict[str, str]:
+def _fill_html_slots(exercise_data: ExerciseData) -> dict[str, str]:
     """Return the texts for the slots of the HTML template by name; "app" has the sketch as SVG if matplotlib is
     installed.
     """
     texts = {"head": "", "app": "", "scripts": ""}
-    if (sketch := _make_sketch(drawn)) is not None:
+    if (sketch := _make_sketch(exercise_data)) is not None:
         from gudgeon.drawing.picture import build_figure, encode_figure
 
-        svg = encode_figure(build_figure([sketch], [""], f"at {drawn.t:g} s"), ".svg").decode()
+        svg = encode_figure(build_figure([sketch], [""], f"at {exercise_data.t:g} s"), ".svg").decode()
         texts["app"] = f"<figure>{svg[svg.index('<svg') :]}</figure>"
     return texts
 
 
-def _fill_tex_slots(drawn: ExerciseData) -> dict[str, str]:
+def _fill_tex_slots(exercise_data: ExerciseData) -> dict[str, str]:
     """Return the texts for the slots of the LaTeX template: the sketch as TikZ and its caption; {} without
     matplotlib.
     """
-    if (sketch := _make_sketch(drawn)) is None:
+    if (sketch := _make_sketch(exercise_data)) is None:
         return {}
     from gudgeon.drawing.tikz import write_tikz
     from gudgeon.generator.targets.latex.render import escape_latex
 
-    return {"drawing": write_tikz(sketch, escape_latex), "caption": f"at {drawn.t:g} s"}
+    return {"drawing": write_tikz(sketch, escape_latex), "caption": f"at {exercise_data.t:g} s"}
 
 
-def _make_sketch(drawn: ExerciseData) -> Sketch | None:
+def _make_sketch(exercise_data: ExerciseData) -> Sketch | None:
     """Return a sketch of the mechanism at the time of the sheet; None without matplotlib, which places the names."""
     try:
         import matplotlib  # noqa: F401
@@ -117,4 +121,4 @@ def _make_sketch(drawn: ExerciseData) -> Sketch | None:
         return None
     from gudgeon.results.figures.mechanism_plots import draw_sketch_at_time
 
-    return draw_sketch_at_time(drawn.run, drawn.run.t[-1])
+    return draw_sketch_at_time(exercise_data.run, exercise_data.run.t[-1])

@@ -49,13 +49,13 @@ Function = Callable[..., Mapping[str, Any]]
 
 @dataclass(frozen=True)
 class _SelectedLaw:
-    """Hold a law with all its values and options; `message` lists those that are not the law's defaults."""
+    """Hold a law with all its values and options; `description` lists those that are not the law's defaults."""
 
     law: Law
     name: str
     numbers: Mapping[str, Any]
     options: Mapping[str, str | bool]
-    message: str
+    description: str
 
 
 def plot_law(law: Law, name: str, target: Path, settings: Mapping[str, float | str]) -> None:
@@ -81,25 +81,27 @@ def make_law_figure(law: Law, name: str, settings: Mapping[str, float | str]) ->
             f"{name} has no curve: its force is whatever keeps surfaces apart that do not give\n"
             f"  gudgeon laws {name} tells what it does"
         )
-    selected = _choose_values(law, name, settings)
+    selected_law = _select_law_values(law, name, settings)
     from matplotlib import rc_context
     from matplotlib.figure import Figure
 
     from gudgeon.generator.kinds.laws.built import make_law_function
 
-    function = make_law_function(law, selected.numbers, selected.options, STEEL)
+    function = make_law_function(law, selected_law.numbers, selected_law.options, STEEL)
     with rc_context(plots.STYLE), np.errstate(all="ignore"):
         figure = Figure(figsize=(6.4, 4.2), dpi=120, layout="constrained")
         ax = figure.subplots()
         ax.set_prop_cycle(color=plots.COLOURS)
-        _DRAWN[law.role](ax, function, selected)
+        _DRAWN[law.role](ax, function, selected_law)
         ax.legend(fontsize=8)
-        figure.suptitle(f"{name}: {selected.message}" if selected.message else name, fontsize=10, x=0.012, ha="left")
+        figure.suptitle(
+            f"{name}: {selected_law.description}" if selected_law.description else name, fontsize=10, x=0.012, ha="left"
+        )
     return figure
 
 
-def _choose_values(law: Law, name: str, settings: Mapping[str, float | str]) -> _SelectedLaw:
-    """Return the law with the settings of the user, and defaults or usual values for the rest. Raises as `plot_law`."""
+def _select_law_values(law: Law, name: str, settings: Mapping[str, float | str]) -> _SelectedLaw:
+    """Return the law with the values of `settings`, and default or usual ones for the rest. Raises as `plot_law`."""
     from gudgeon.generator.field import resolve_dimensions
 
     fields = {field.name: field for field in resolve_dimensions(law.fields_as(name), settings)}
@@ -109,33 +111,33 @@ def _choose_values(law: Law, name: str, settings: Mapping[str, float | str]) -> 
     made: Mapping[str, str | bool] = law.also.get(name, {})
     options = {field.name: made.get(field.name, field.default_option) for field in law.options}
     numbers: dict[str, Any] = {}
-    message = []
+    description = []
     for field in fields.values():
         if field in law.options:
             if field.name in settings:
-                options[field.name] = _read_option(field, settings[field.name])
-                message.append(f"{field.name}: {settings[field.name]}")
+                options[field.name] = _parse_option(field, settings[field.name])
+                description.append(f"{field.name}: {settings[field.name]}")
         elif field.varies:
             text = str(settings.get(field.name, FORCE))
-            numbers[field.name] = _read_expression(field, text)
-            message.append(f"{field.name} = {text}")
-        elif (value := _find_value(field, settings)) is not None:
+            numbers[field.name] = _parse_law_expression(field, text)
+            description.append(f"{field.name} = {text}")
+        elif (value := _find_parameter_value(field, settings)) is not None:
             numbers[field.name] = value
             if value != field.default or field.name in settings:
-                message.append(f"{field.name} = {format_quantity(value, _get_unit(field))}")
+                description.append(f"{field.name} = {format_quantity(value, _get_unit(field))}")
     law.check(numbers)
-    return _SelectedLaw(law, name, numbers, options, ", ".join(message))
+    return _SelectedLaw(law, name, numbers, options, ", ".join(description))
 
 
 def list_default_parameters(law: Law) -> dict[str, float | str]:
     """Return the parameter values of a law without settings: defaults or usual values in SI; expressions as text."""
     return {
-        **_choose_values(law, law.name, {}).numbers,
+        **_select_law_values(law, law.name, {}).numbers,
         **dict.fromkeys((expression.name for expression in law.expressions), FORCE),
     }
 
 
-def _read_expression(field: Field, text: str) -> Any:
+def _parse_law_expression(field: Field, text: str) -> Any:
     """Parse an expression of the one variable that the key allows, and return it in SymPy.
 
     Raises UnknownNameError for other names, UnitError for another dimension, and ExpressionError.
@@ -165,7 +167,7 @@ def _get_unit(field: Field) -> str:
     return "" if unit == "-" else unit
 
 
-def _find_value(field: Field, settings: Mapping[str, float | str]) -> float | None:
+def _find_parameter_value(field: Field, settings: Mapping[str, float | str]) -> float | None:
     """Return the value of a key: the setting, the law's default, or the usual value; None for an omitted optional key.
 
     Raises MissingKeyError for a required key without any of them.
@@ -186,8 +188,8 @@ def _find_value(field: Field, settings: Mapping[str, float | str]) -> float | No
     return usual
 
 
-def _read_option(field: Field, given: float | str) -> str | bool:
-    """Return the option value that `given` names. Raises UnknownNameError."""
+def _parse_option(field: Field, given: float | str) -> str | bool:
+    """Return the value of an option from the text or number `given`. Raises UnknownNameError for other values."""
     words: dict[str, str | bool] = {
         str(value).lower() if isinstance(value, bool) else value: value for value in field.values
     }
@@ -201,25 +203,25 @@ def _draw_curves(
 ) -> None:
     """Draw the curves (values, label) over x with scaled units; values that are not finite are gaps.
 
-    across, up: symbol and unit of the axes. Raises BadValueError if a curve has no finite value.
+    x_axis, y_axis: symbol and unit. Raises BadValueError if a curve has no finite value.
     """
-    curves = [(np.where(np.isfinite(y), y, np.nan), message) for y, message in lines]
-    for y, message in curves:
+    curves = [(np.where(np.isfinite(y), y, np.nan), description) for y, description in lines]
+    for y, description in curves:
         if np.isnan(y).all():
-            raise BadValueError(f"nothing to draw: with these numbers {message} is no finite number anywhere")
+            raise BadValueError(f"nothing to draw: with these numbers {description} is no finite number anywhere")
     wide, x_unit = choose_prefix(float(np.abs(x).max()), x_axis[1])
     high, y_unit = choose_prefix(float(np.nanmax([np.nanmax(np.abs(y)) for y, _ in curves])), y_axis[1])
-    for y, message in curves:
-        ax.plot(wide * x, high * y, label=message)
+    for y, description in curves:
+        ax.plot(wide * x, high * y, label=description)
     ax.set(xlabel=format_label(x_axis[0], x_unit), ylabel=format_label(y_axis[0], y_unit))
 
 
-def _draw_normal(ax: Axes, law: Function, selected: _SelectedLaw) -> None:
+def _draw_normal_force(ax: Axes, law: Function, selected_law: _SelectedLaw) -> None:
     """Draw the normal force over penetration during approach, rest and separation; one curve if they agree."""
     from gudgeon.generator.kinds.laws.built import count_further_variables
 
     delta = np.linspace(0.0, MAX_PENETRATION * STEEL["c"], POINTS)
-    further = [SPEED] * count_further_variables(selected.law)
+    further = [SPEED] * count_further_variables(selected_law.law)
     curves = {ratio: law(delta, ratio, *(ratio * x for x in further))["F_n"] for ratio in RATIOS}
     same = np.array_equal(curves[1.0], curves[-1.0])
     lines = (
@@ -232,22 +234,24 @@ def _draw_normal(ax: Axes, law: Function, selected: _SelectedLaw) -> None:
     ax.set_title(PAIR + f", δ̇⁻ = {SPEED:g} m/s" * by_speed)
 
 
-def _draw_friction(ax: Axes, law: Function, selected: _SelectedLaw) -> None:
+def _draw_friction_force(ax: Axes, law: Function, selected_law: _SelectedLaw) -> None:
     """Draw F_t/F_n over the slip velocity; for laws with inner states over two oscillations of the slip.
 
     The largest velocity is three times the law's largest parameter with the unit m/s.
     """
     speeds = [
-        selected.numbers[parameter.name] for parameter in selected.law.parameters if _get_unit(parameter) == "m/s"
+        selected_law.numbers[parameter.name]
+        for parameter in selected_law.law.parameters
+        if _get_unit(parameter) == "m/s"
     ]
     fastest = 3.0 * max(speeds, default=SPEED / 3.0)
-    if not selected.law.states:
+    if not selected_law.law.states:
         v_t = np.linspace(-fastest, fastest, 2 * POINTS)
         _draw_curves(ax, v_t, iter([(law(1.0, v_t)["F_t"], "F_t/F_n")]), ("v_t", "m/s"), ("F_t/F_n", ""))
         ax.set_title("the force on the journal by the slip of its surface on the bearing's")
         return
     for amplitude in (2e-5, 2e-4):
-        v_t, force = _simulate_slip_oscillation(law, selected.law, fastest, amplitude)
+        v_t, force = _simulate_slip_oscillation(law, selected_law.law, fastest, amplitude)
         text = f"to and fro, {format_quantity(2 * amplitude, 'm', 2)} apart"
         _draw_curves(ax, v_t, iter([(force, text)]), ("v_t", "m/s"), ("F_t/F_n", ""))
     ax.set_title("slip as a cosine, third time, F_n = 1 N: what is bent follows")
@@ -265,7 +269,7 @@ def _simulate_slip_oscillation(
 
     omega = fastest / amplitude
 
-    def rates(t: float, z: Any) -> list[float]:
+    def compute_state_rates(t: float, z: Any) -> list[float]:
         """Return the rates of the inner states z at the time t."""
         solution = law(1.0, fastest * np.cos(omega * t), *z)
         return [float(solution[f"{state.name}_rate"]) for state in law_description.states]
@@ -273,7 +277,7 @@ def _simulate_slip_oscillation(
     times = np.linspace(4.0 * np.pi, 6.0 * np.pi, 2 * POINTS) / omega
     none = [0.0] * len(law_description.states)
     try:
-        solution = solve_ivp(rates, (0.0, times[-1]), none, "Radau", t_eval=times, rtol=1e-6, atol=1e-12)
+        solution = solve_ivp(compute_state_rates, (0.0, times[-1]), none, "Radau", t_eval=times, rtol=1e-6, atol=1e-12)
     except ValueError:  # rates, or their slopes, overflow
         solution = None
     if solution is None or solution.y.shape[1] < len(times):
@@ -283,7 +287,7 @@ def _simulate_slip_oscillation(
     return v_t, law(1.0, v_t, *solution.y)["F_t"]
 
 
-def _draw_film(ax: Axes, law: Function, selected: _SelectedLaw) -> None:
+def _draw_film_force(ax: Axes, law: Function, selected_law: _SelectedLaw) -> None:
     """Draw the film force over ε of a journal that turns, closes the gap, or opens it (ω_s, ε̇ = 1 1/s).
 
     Raises BadValueError if all forces are 0.
@@ -303,13 +307,18 @@ def _draw_film(ax: Axes, law: Function, selected: _SelectedLaw) -> None:
     ax.set_title(f"{PAIR}; ω_s = 1 rad/s, or ε̇ = ±1 1/s")
 
 
-def _draw_mixed(ax: Axes, law: Function, selected: _SelectedLaw) -> None:
+def _draw_contact_fraction(ax: Axes, law: Function, selected_law: _SelectedLaw) -> None:
     """Draw the fraction of the dry contact over the penetration of the asperities, up to seven times the roughness."""
-    max_penetration = 7.0 * sum(x for name, x in selected.numbers.items() if name.startswith("roughness"))
+    max_penetration = 7.0 * sum(x for name, x in selected_law.numbers.items() if name.startswith("roughness"))
     delta = np.linspace(0.0, max_penetration, POINTS)
     shares = iter([(law(delta)["share"], "of the dry contact; the film has the rest")])
     _draw_curves(ax, delta, shares, ("δ, how deep the tips lie in each other", "m"), ("share b", ""))
     ax.set_title("share of the dry contact in force and moments")
 
 
-_DRAWN = {"normal": _draw_normal, "friction": _draw_friction, "film": _draw_film, "mixed": _draw_mixed}
+_DRAWN = {
+    "normal": _draw_normal_force,
+    "friction": _draw_friction_force,
+    "film": _draw_film_force,
+    "mixed": _draw_contact_fraction,
+}

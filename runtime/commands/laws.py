@@ -40,9 +40,9 @@ def show_laws(request: LawsRequest) -> int:
         raise BadValueError("--plot draws one law, --set its numbers: gudgeon laws flores --plot flores.svg")
     if name is None:
         if request.as_json:
-            print_json(_build_list_document())
+            print_json(_build_laws_document())
         else:
-            _print_table()
+            _print_law_table()
         return 0
     law = _find_law(name)
     if request.plot is not None:
@@ -82,7 +82,7 @@ def _yield_laws_by_role() -> Iterator[tuple[str, list[Law]]]:
         yield role, [law for law in find_all_laws().values() if law.role == role]
 
 
-def _print_table() -> None:
+def _print_law_table() -> None:
     """Print the table of all laws, grouped by role."""
     from rich.box import SIMPLE_HEAD
     from rich.table import Table
@@ -91,20 +91,20 @@ def _print_table() -> None:
     table = Table(box=SIMPLE_HEAD)
     for head in ("role", "law", "title"):
         table.add_column(head, no_wrap=head != "title")
-    for role, some in _yield_laws_by_role():
-        for k, law in enumerate(some):
+    for role, laws in _yield_laws_by_role():
+        for k, law in enumerate(laws):
             also = f"also as {', '.join(law.also)}" if law.also else ""
-            message = "\n".join(filter(None, (format_one_line(law.title), also)))
-            table.add_row(role if k == 0 else "", law.name, Text(message), end_section=k == len(some) - 1)
+            title = "\n".join(filter(None, (format_one_line(law.title), also)))
+            table.add_row(role if k == 0 else "", law.name, Text(title), end_section=k == len(laws) - 1)
     make_plain_console(WIDTH).print(table)
     print("gudgeon laws NAME has the equations of one, its keys, validity and reference.")
 
 
-def _build_list_document() -> dict[str, Any]:
+def _build_laws_document() -> dict[str, Any]:
     """Return all laws by role for `--json`."""
     return {
-        role: [{"law": law.name, "also": [*law.also], "title": law.title} for law in some]
-        for role, some in _yield_laws_by_role()
+        role: [{"law": law.name, "also": [*law.also], "title": law.title} for law in laws]
+        for role, laws in _yield_laws_by_role()
     }
 
 
@@ -138,7 +138,7 @@ def _build_key_document(field: Field) -> dict[str, Any]:
     """Return a key of a law as a dictionary for `--json`: a quantity with SI unit and bounds, or an option with its
     values.
     """
-    message: dict[str, Any] = {
+    document: dict[str, Any] = {
         "key": field.name,
         "kind": field.kind,
         "meaning": field.meaning,
@@ -146,7 +146,7 @@ def _build_key_document(field: Field) -> dict[str, Any]:
         "default": field.default,
     }
     if field.values:
-        return {**message, "values": [*field.values], "sources": dict(field.sources or {})}
+        return {**document, "values": [*field.values], "sources": dict(field.sources or {})}
     unit = None if field.dimension is None else find_si_unit(field.dimension)
     bounds = [[bound.relation, bound.limit] for bound in field.bounds]
-    return {**message, "symbol": field.symbol, "unit": unit, "bounds": bounds, "otherwise": field.otherwise}
+    return {**document, "symbol": field.symbol, "unit": unit, "bounds": bounds, "otherwise": field.otherwise}

@@ -47,21 +47,21 @@ def map_file(request: Request, map_options: MapOptions) -> int:
     """
     step, t_end = request.parse_time("--mark-step", request.mark), request.parse_time("--t-end", request.t_end)
     _check_options(map_options, step)
-    setting, loaded = _parse_fixed_setting(map_options), load_scenes(request)
-    _check_names(map_options, loaded)
-    moving = [simulation for simulation in loaded if simulation.source.degrees_of_freedom != 0]
+    setting, simulations = _parse_fixed_setting(map_options), load_scenes(request)
+    _check_axis_names(map_options, simulations)
+    moving = [simulation for simulation in simulations if simulation.source.degrees_of_freedom != 0]
     if not request.json:
-        for simulation in loaded:
+        for simulation in simulations:
             if simulation not in moving:
                 print(f"{simulation.source.scene}: no degree of freedom, nothing is integrated, no step to choose")
     if not moving:
         return 0
-    table = request.find_table_path(moving[0].source.mechanism, "map")
+    table_path = request.find_table_path(moving[0].source.mechanism, "map")
     if map_options.box is not None:
-        return _map_box(request, map_options, moving, t_end, setting, table)
+        return _map_box(request, map_options, moving, t_end, setting, table_path)
     steps = sorted({*list_default_steps(moving, request.quick), *([] if step is None else [step])})
 
-    def one(simulation: Simulation, report: Report | None) -> VerdictMap:
+    def classify_scene(simulation: Simulation, report: Report | None) -> VerdictMap:
         """Return the map of one scene."""
         parameters = request.select_parameters(simulation)
         axes = [parse_axis(simulation, text, parameters) for text in map_options.axes]
@@ -78,9 +78,9 @@ def map_file(request: Request, map_options: MapOptions) -> int:
             progress=report,
         )
 
-    measured_scenes, interrupted = measure_scenes(moving, one, request.json)
+    measured_scenes, interrupted = measure_scenes(moving, classify_scene, request.json)
     if measured_scenes:
-        report_map(moving[0].source, request.file, measured_scenes, table, step, request.json)
+        report_map(moving[0].source, request.file, measured_scenes, table_path, step, request.json)
     return find_exit_code(moving, measured_scenes, interrupted)
 
 
@@ -90,14 +90,14 @@ def _map_box(
     moving: Sequence[Simulation],
     t_end: float | None,
     setting: float | None,
-    table: Path,
+    table_path: Path,
 ) -> int:
     """Classify runs at random points of a box for each scene, show and write them, and return the exit code.
 
-    setting: step or tolerance of all runs, or None for the usual one; table: path of the CSV file.
+    setting: step or tolerance of all runs, or None for the usual one; table_path: of the CSV file.
     """
 
-    def one(simulation: Simulation, report: Report | None) -> VerdictBox:
+    def classify_box(simulation: Simulation, report: Report | None) -> VerdictBox:
         """Return the box of one scene."""
         parameters = request.select_parameters(simulation)
         axes = {a.name: a for a in (parse_axis(simulation, text, parameters) for text in map_options.ranges)}
@@ -115,9 +115,9 @@ def _map_box(
             progress=report,
         )
 
-    measured_scenes, interrupted = measure_scenes(moving, one, request.json)
+    measured_scenes, interrupted = measure_scenes(moving, classify_box, request.json)
     if measured_scenes:
-        report_box(moving[0].source, request.file, measured_scenes, table, request.json)
+        report_box(moving[0].source, request.file, measured_scenes, table_path, request.json)
     return find_exit_code(moving, measured_scenes, interrupted)
 
 
@@ -164,9 +164,9 @@ def _check_varied_once(option: str, texts: Sequence[str]) -> None:
         varied[name] = text
 
 
-def _check_names(map_options: MapOptions, loaded: Sequence[Simulation]) -> None:
+def _check_axis_names(map_options: MapOptions, simulations: Sequence[Simulation]) -> None:
     """Raise UnknownNameError, with the nearest names, for the name of an axis or range that no scene has."""
-    every = [name for simulation in loaded for name in list_addresses(simulation.source)]
+    every = [name for simulation in simulations for name in list_addresses(simulation.source)]
     known_names = tuple(dict.fromkeys([*SETTINGS, "clearance", *GROUPS, *every]))
     for option, texts in (("--axis", map_options.axes), ("--range", map_options.ranges)):
         for text in texts:

@@ -21,7 +21,7 @@ def new_mechanism(name: str, like: str | None) -> int:
     Raises BadNameError, UnknownNameError for `like`, InputError if the file exists.
     """
     name = name.removesuffix(".yaml")
-    _check_name(name, "mechanism")
+    _check_new_name(name, "mechanism")
     source = TEMPLATE if like is None else find_shipped_file(like)
     target = _find_new_path(name)
     text = NAME.sub(f"name: {name}", source.read_text(encoding="utf-8"), count=1)
@@ -38,7 +38,7 @@ def new_study(name: str, like: str | None) -> int:
     if like is not None:
         raise BadValueError("--like is of mechanisms", hint="gudgeon new NAME --study begins a study; then edit it")
     name = name.removesuffix(".yaml")
-    _check_name(name, "study")
+    _check_new_name(name, "study")
     target = _find_new_path(name)
     write_text(target, OF_STUDY.read_text(encoding="utf-8"))
     report_written("study", target)
@@ -54,10 +54,10 @@ def _find_new_path(name: str) -> Path:
     return target
 
 
-def _check_name(name: str, what: str) -> None:
+def _check_new_name(name: str, kind: str) -> None:
     """Raise BadNameError if a mechanism or study cannot have the name, or YAML reads it as another type."""
     if name.endswith(".yml"):
         raise BadNameError(f"{name!r}: expected a name without .yaml", None, "the file is called after it")
-    check_name(name, what, None)
+    check_name(name, kind, None)
     if name.lower() in ("true", "false", "null"):
-        raise BadNameError(f"{name!r} cannot name this {what}: YAML takes it for a value", None, f"such as {name}1")
+        raise BadNameError(f"{name!r} cannot name this {kind}: YAML takes it for a value", None, f"such as {name}1")

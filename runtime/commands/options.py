@@ -13,20 +13,24 @@ from gudgeon.commands import completion
 from gudgeon.language.text_output import escape_invisible
 
 
-def make_integer_parser(least: int) -> Callable[[str], int]:
-    """Return a parser of option texts for whole numbers of at least `least`.
+def make_integer_parser(min_value: int) -> Callable[[str], int]:
+    """Return a parser of option texts for whole numbers of at least `min_value`.
 
     Underscores and digits of other scripts are refused with typer.BadParameter.
     """
 
-    def read(text: str) -> int:
-        """Return the number. Raises typer.BadParameter."""
-        message = str(text).strip()
-        if not (message.isascii() and message.removeprefix("-").isdigit()) or len(message) > 18 or int(message) < least:
-            raise typer.BadParameter(f"{escape_invisible(text)!r}: expected a whole number, {least} or more")
-        return int(message)
+    def parse_integer(text: str) -> int:
+        """Return the number, `min_value` or more. Raises typer.BadParameter."""
+        stripped = str(text).strip()
+        if (
+            not (stripped.isascii() and stripped.removeprefix("-").isdigit())
+            or len(stripped) > 18
+            or int(stripped) < min_value
+        ):
+            raise typer.BadParameter(f"{escape_invisible(text)!r}: expected a whole number, {min_value} or more")
+        return int(stripped)
 
-    return read
+    return parse_integer
 
 
 def parse_path(text: str) -> Path:

@@ -40,9 +40,9 @@ def report_errors(command: Command) -> Command:
     def wrapper(*args: Any, **kwargs: Any) -> None:
         """Run the command and exit with its code."""
         listed = report_as_json(kwargs.pop("files_as_json", False))
-        silence = suppress_output(but_json=bool(kwargs.get("json"))) if kwargs.pop("quiet", False) else nullcontext()
+        silence = suppress_output(keep_stdout=bool(kwargs.get("json"))) if kwargs.pop("quiet", False) else nullcontext()
         try:
-            _register_laws(kwargs.pop("laws", None) or ())
+            _register_law_files(kwargs.pop("laws", None) or ())
             with listed, silence:
                 code = command(*args, **kwargs)
         except (GudgeonError, MemoryError) as error:
@@ -58,22 +58,22 @@ def report_errors(command: Command) -> Command:
 
 
 @contextmanager
-def suppress_output(but_json: bool) -> Iterator[None]:
-    """Suppress results on stdout and progress on stderr within the with block; but_json: stdout is not suppressed."""
+def suppress_output(keep_stdout: bool) -> Iterator[None]:
+    """Suppress progress on stderr and, unless `keep_stdout`, results on stdout within the with block."""
     from gudgeon.commands import progress
 
     is_terminal, progress.is_terminal = progress.is_terminal, lambda: False
     try:
         with (
             open(os.devnull, "w", encoding="utf-8") as nothing,
-            nullcontext() if but_json else redirect_stdout(nothing),
+            nullcontext() if keep_stdout else redirect_stdout(nothing),
         ):
             yield
     finally:
         progress.is_terminal = is_terminal
 
 
-def _register_laws(laws: Iterable[str]) -> None:
+def _register_law_files(laws: Iterable[str]) -> None:
     """Register the user-defined laws in these files; their reader is imported only if there are some."""
     for file in laws:
         from gudgeon.generator.kinds.laws.registered import register
@@ -106,15 +106,15 @@ class Document:
 _document: Document | None = None  # of the running command, if JSON is requested
 
 
-def report_written(kind: str, path: Path, more: str = "") -> None:
-    """Print that a file or folder was written, or add it to the JSON document; kind: its key; more: text after its
-    name.
+def report_written(kind: str, path: Path, suffix: str = "") -> None:
+    """Print that a file or folder was written, or add it to the JSON document; kind: its key; suffix: text
+    after its name.
     """
     if _document is None:
-        print(f"wrote {format_path(path)}{more}")
+        print(f"wrote {format_path(path)}{suffix}")
     else:
         _document.files[kind] = str(path)
-        _document.notes += [more.removeprefix(": ")] if more else []
+        _document.notes += [suffix.removeprefix(": ")] if suffix else []
 
 
 def report_note(text: str) -> None:

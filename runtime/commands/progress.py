@@ -22,7 +22,7 @@ def is_terminal() -> bool:
 
 @contextmanager
 def show_progress_bars(quiet: bool = False) -> Iterator[Callable[[str], Report | None]]:
-    """Yield a function `bar(name)` that returns a callback for `simulate(progress=…)`, within a with block.
+    """Yield a function of a name that returns a callback for `simulate(progress=…)`, within a with block.
 
     The callback is None without a terminal or if `quiet`. A bar appears with its first report.
     """
@@ -31,14 +31,14 @@ def show_progress_bars(quiet: bool = False) -> Iterator[Callable[[str], Report |
         return
     shown: list[Any] = []  # rich's Progress, once the first piece of work is done
 
-    def bar(name: str) -> Report:
+    def make_bar(name: str) -> Report:
         """Return the callback of one task; its bar appears with the first report."""
         task: list[Any] = []
 
         def report(fraction: float, text: str) -> None:
             """Show the fraction done and a short text."""
             if not shown:
-                shown.append(_start_bars())
+                shown.append(_start_progress_display())
             if not task:
                 task.append(shown[0].add_task(name, total=1.0, completed=fraction, text=""))  # speed counts from here
             shown[0].update(task[0], completed=fraction, text=text)
@@ -46,7 +46,7 @@ def show_progress_bars(quiet: bool = False) -> Iterator[Callable[[str], Report |
         return report
 
     try:
-        yield bar
+        yield make_bar
     finally:
         for progress in shown:
             progress.stop()
@@ -60,12 +60,12 @@ def show_status_line(quiet: bool = False) -> Iterator[None]:
     if quiet or not is_terminal():
         yield
         return
-    with set_reporter(_show_status):
+    with set_reporter(_show_status_text):
         yield
 
 
 @contextmanager
-def _show_status(text: str) -> Iterator[None]:
+def _show_status_text(text: str) -> Iterator[None]:
     """Show a line with this text on stderr until the with block ends, then remove it."""
     from rich.live import Live
     from rich.text import Text
@@ -77,7 +77,7 @@ def _show_status(text: str) -> Iterator[None]:
         yield
 
 
-def _start_bars() -> Any:
+def _start_progress_display() -> Any:
     """Start rich's display of progress bars on stderr, and return it."""
     from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
 

@@ -86,15 +86,17 @@ class Request:
 
 
 @dataclass
-class Session:
+class RunOutcome:
     """Hold results, failures and written files of one command so far; complete enough to be shown at any time."""
 
     runs: dict[str, Result] = field(default_factory=dict)
     references: dict[str, Result] = field(default_factory=dict)
     failures: dict[str, GudgeonError] = field(default_factory=dict)
     files: Files = field(default_factory=dict)  # what was written
-    unwritten: list[GudgeonError] = field(default_factory=list)
-    haste: dict[str, str] = field(default_factory=dict)  # notes on the optimization of each scene's library
+    write_errors: list[GudgeonError] = field(default_factory=list)
+    optimization_notes: dict[str, str] = field(
+        default_factory=dict
+    )  # notes on the optimization of each scene's library
     shown: bool = False
     interrupted: bool = False
 
@@ -119,44 +121,44 @@ def run_scenes(request: Request) -> int:
         if request.report:
             check_output_name("--out", path.with_suffix(".html"))
     check_output_name("--out", request.out / f"{simulations[IDEAL].source.mechanism}.png")
-    session = Session()
+    outcome = RunOutcome()
     try:
-        _simulate(request, values, simulations, session)
+        _simulate_scenes(request, values, simulations, outcome)
     except KeyboardInterrupt:
-        session.interrupted = True
+        outcome.interrupted = True
     try:
-        if session.runs:
-            _write_results(request, simulations, session)
+        if outcome.runs:
+            _write_results(request, simulations, outcome)
     except KeyboardInterrupt:
-        session.interrupted = True
-    for scene, error in session.failures.items():
+        outcome.interrupted = True
+    for scene, error in outcome.failures.items():
         print(f"error: scene {scene}: {escape_invisible(error)}", file=sys.stderr)
-    for error in session.unwritten:
+    for error in outcome.write_errors:
         print(f"error: {escape_invisible(error)}", file=sys.stderr)
-    if session.interrupted:
-        print(_format_interruption(names, session), file=sys.stderr)
+    if outcome.interrupted:
+        print(_format_interruption(names, outcome), file=sys.stderr)
         return 130
-    return max((error.exit_code for error in (*session.failures.values(), *session.unwritten)), default=0)
+    return max((error.exit_code for error in (*outcome.failures.values(), *outcome.write_errors)), default=0)
 
 
-def _format_interruption(names: Iterable[str], session: Session) -> str:
+def _format_interruption(names: Iterable[str], outcome: RunOutcome) -> str:
     """Return the message after Ctrl-C: which results are shown and saved, where runs ended, and which scenes are
     missing.
     """
     from gudgeon.simulation.predictability_horizon import UNFINISHED
 
-    if not session.runs:
+    if not outcome.runs:
         return "interrupted before anything was computed: nothing is shown or saved"
-    unsaved = [name for name in session.runs if name not in session.files]
-    kept = " and ".join(["shown"] * session.shown + ["saved"] * (not unsaved)) or "neither shown nor saved"
+    unsaved = [name for name in outcome.runs if name not in outcome.files]
+    kept = " and ".join(["shown"] * outcome.shown + ["saved"] * (not unsaved)) or "neither shown nor saved"
     text = f"interrupted: what was computed is {kept}"
-    if unsaved and session.shown or 0 < len(unsaved) < len(session.runs):
+    if unsaved and outcome.shown or 0 < len(unsaved) < len(outcome.runs):
         text += f"; not saved: {', '.join(unsaved)}"
-    if any(UNFINISHED in run.diagnostics.notes for run in session.runs.values()):
+    if any(UNFINISHED in run.diagnostics.notes for run in outcome.runs.values()):
         text += "; the search for the horizon was not finished"
-    ended = [f"{name} ends at {run.t[-1]:.6g} s" for name, run in session.runs.items() if run.diagnostics.interrupted]
-    left = [name for name in names if name not in session.runs and name not in session.failures]
-    beside = {IDEAL: "was run as the reference alone"} if session.references else {}
+    ended = [f"{name} ends at {run.t[-1]:.6g} s" for name, run in outcome.runs.items() if run.diagnostics.interrupted]
+    left = [name for name in names if name not in outcome.runs and name not in outcome.failures]
+    beside = {IDEAL: "was run as the reference alone"} if outcome.references else {}
     missing = [f"{name} {beside.get(name, 'was not begun')}" for name in left]
     return "; ".join([text, *ended, *missing])
 
@@ -176,7 +178,7 @@ def _check_request(request: Request, settings: Settings, simulations: Mapping[st
                     raise make_unknown_error(f"{option}: no scene has a series {name!r}", name, series)
 
 
-def _select_peaks(request: Request, source: KernelSource) -> tuple[str, ...] | None:
+def _select_peak_series(request: Request, source: KernelSource) -> tuple[str, ...] | None:
     """Return the names of series for the argument `peaks` of simulate: those of the scene's file and of `--peaks`.
 
     Names that the scene lacks are left out. None without `--peaks`: simulate then uses those of the file.
@@ -189,8 +191,10 @@ def _select_peaks(request: Request, source: KernelSource) -> tuple[str, ...] | N
     return tuple(dict.fromkeys([*source.peaks, *(name for name in request.peaks if name in catalogue)]))
 
 
-def _simulate(request: Request, settings: Settings, simulations: Mapping[str, Simulation], session: Session) -> None:
-    """Run all scenes and store results and failures in the session; after Ctrl-C, return with the partial result.
+def _simulate_scenes(
+    request: Request, settings: Settings, simulations: Mapping[str, Simulation], outcome: RunOutcome
+) -> None:
+    """Run all scenes and store results and failures in `outcome`; after Ctrl-C, return with the partial result.
 
     The ideal scene is the last: it runs as long as the longest scene with play, and is cheap. A failed run is stored up
     to its failure.
@@ -202,7 +206,7 @@ def _simulate(request: Request, settings: Settings, simulations: Mapping[str, Si
     }
     longest = max((evaluate_scene_end(s.source, own[n]) for n, s in simulations.items() if n != IDEAL), default=T_END)
     check_memory_and_disk(request, {name: (simulation, own[name]) for name, simulation in simulations.items()})
-    with show_progress_bars(quiet=request.json) as bar:
+    with show_progress_bars(quiet=request.json) as make_bar:
         for name in sorted(simulations, key=lambda name: name == IDEAL):
             simulation, until = simulations[name], t_end
             method = "auto" if name == IDEAL and len(simulations) > 1 else request.method
@@ -210,7 +214,7 @@ def _simulate(request: Request, settings: Settings, simulations: Mapping[str, Si
                 until = evaluate_scene_number(
                     simulation.source, "t_end", own[name], longest if name == IDEAL else T_END
                 )
-            session.haste[name] = simulation.compiled.lib.optimization_note
+            outcome.optimization_notes[name] = simulation.compiled.lib.optimization_note
             try:
                 run = simulation.simulate(
                     until,
@@ -220,26 +224,26 @@ def _simulate(request: Request, settings: Settings, simulations: Mapping[str, Si
                     rtol=request.rtol,
                     horizon=request.horizon or request.report,
                     parameters=select_known_settings(simulation.source, settings),
-                    progress=bar(name),
+                    progress=make_bar(name),
                     against=simulations[IDEAL] if simulation.source.clearances else None,
-                    peaks=_select_peaks(request, simulation.source),
+                    peaks=_select_peak_series(request, simulation.source),
                 )
             except (AssemblyError, SolverError) as error:  # the other scenes are still run
-                session.failures[name] = error
+                outcome.failures[name] = error
                 partial = getattr(error, "partial", None)
                 if partial is not None and len(partial.t) > 1:
-                    session.runs[name] = partial  # the results up to the failure
+                    outcome.runs[name] = partial  # the results up to the failure
                 continue
             except MemoryError as error:
-                session.failures[name] = MemoryShortage(error)
+                outcome.failures[name] = MemoryShortage(error)
                 continue
-            session.runs[name] = run
+            outcome.runs[name] = run
             if run.diagnostics.interrupted:
-                session.interrupted = True
+                outcome.interrupted = True
                 return
 
 
-def _write_results(request: Request, simulations: Mapping[str, Simulation], session: Session) -> None:
+def _write_results(request: Request, simulations: Mapping[str, Simulation], outcome: RunOutcome) -> None:
     """Save, verify, compare, report, draw and show the results.
 
     They are saved first, so that a later failure loses none.
@@ -248,60 +252,60 @@ def _write_results(request: Request, simulations: Mapping[str, Simulation], sess
     from gudgeon.results.series import choose_watched_series
 
     if request.verify:
-        verify_contacts(session.runs, session.failures, request.json)
-    runs = {scene: session.runs[scene] for scene in sorted(session.runs, key=lambda scene: scene != IDEAL)}
-    _save(request, runs, session)
-    _find_references(simulations[IDEAL], session)
+        verify_contacts(outcome.runs, outcome.failures, request.json)
+    runs = {scene: outcome.runs[scene] for scene in sorted(outcome.runs, key=lambda scene: scene != IDEAL)}
+    _save_results(request, runs, outcome)
+    _find_reference_runs(simulations[IDEAL], outcome)
     if request.report:
 
         def save(some: Mapping[str, Result]) -> None:
-            """Save results whose diagnostics have changed."""
-            _save(request, some, session)
+            """Save these results again, after their diagnostics have changed."""
+            _save_results(request, some, outcome)
 
-        message = session.files, session.unwritten, request.json
-        write_reports(runs, simulations, session.references, request.out, save, *message)
-    first = session.runs.get(IDEAL) or next(iter([*session.references.values(), *session.runs.values()]))
+        message = outcome.files, outcome.write_errors, request.json
+        write_reports(runs, simulations, outcome.references, request.out, save, *message)
+    first = outcome.runs.get(IDEAL) or next(iter([*outcome.references.values(), *outcome.runs.values()]))
     watch = request.watch or choose_watched_series(first)
-    reports = [compute_scene_report(run, session.references.get(scene), watch) for scene, run in runs.items()]
+    reports = [compute_scene_report(run, outcome.references.get(scene), watch) for scene, run in runs.items()]
     try:
-        _draw(request.out, runs, session, watch)
+        _draw_picture(request.out, runs, outcome, watch)
     finally:
-        _show(request, first.source, reports, session)
+        _show_results(request, first.source, reports, outcome)
 
 
-def _find_references(ideal: Simulation, session: Session) -> None:
+def _find_reference_runs(ideal: Simulation, outcome: RunOutcome) -> None:
     """Store an ideal run to compare with for each scene with play; one that Ctrl-C ended is not used.
 
     An error of an ideal run is stored as a failure of the ideal scene.
     """
-    for scene, run in session.runs.items():
+    for scene, run in outcome.runs.items():
         if run.source.clearances:  # other scenes are ideal ones with other parameters
             try:
-                reference = _find_ideal_run(ideal, run, session)
+                reference = _find_ideal_run(ideal, run, outcome)
             except (GudgeonError, MemoryError) as error:
                 message = MemoryShortage(error) if isinstance(error, MemoryError) else error
-                session.failures.setdefault(IDEAL, message)
+                outcome.failures.setdefault(IDEAL, message)
                 continue
             if len(reference.t) < len(run.t):
-                session.interrupted = True
+                outcome.interrupted = True
                 return
-            session.references[scene] = reference
+            outcome.references[scene] = reference
 
 
-def _find_ideal_run(ideal: Simulation, run: Result, session: Session) -> Result:
+def _find_ideal_run(ideal: Simulation, run: Result, outcome: RunOutcome) -> Result:
     """Return the ideal run at the sample times and parameter values of `run`; a known run that fits is used again."""
     shared = {slot.address for slot in ideal.source.slots}
     values = {address: number for address, number in run.parameters.items() if address in shared}
-    for other in (session.runs.get(IDEAL), *session.references.values()):
+    for other in (outcome.runs.get(IDEAL), *outcome.references.values()):
         if other and np.array_equal(other.t, run.t) and all(other.parameters[a] == v for a, v in values.items()):
             return other
     return ideal.simulate(output=run.t, parameters=values, stop=False, peaks=())
 
 
-def _save(request: Request, runs: Mapping[str, Result], session: Session) -> None:
+def _save_results(request: Request, runs: Mapping[str, Result], outcome: RunOutcome) -> None:
     """Write a NetCDF file for each scene and record its path; nothing without h5py.
 
-    Errors, such as a full disk, are stored in `session.unwritten`.
+    Errors, such as a full disk, are stored in `outcome.write_errors`.
     """
     if not has_packages("NetCDF files", "h5py"):
         return
@@ -309,15 +313,15 @@ def _save(request: Request, runs: Mapping[str, Result], session: Session) -> Non
         path = _build_result_path(request.out, run.source.mechanism, scene)
         try:
             run.save(path, {ORIGIN: format_origin(request.file, run.source.sha256)})
-            session.files[scene] = str(path)
+            outcome.files[scene] = str(path)
         except GudgeonError as error:
-            session.unwritten.append(error)
+            outcome.write_errors.append(error)
         except MemoryError as error:
-            session.unwritten.append(MemoryShortage(error))
+            outcome.write_errors.append(MemoryShortage(error))
 
 
-def _draw(out: Path, runs: Mapping[str, Result], session: Session, watch: Sequence[str]) -> None:
-    """Write the picture of all runs and record its path; errors are stored in `session.unwritten`.
+def _draw_picture(out: Path, runs: Mapping[str, Result], outcome: RunOutcome, watch: Sequence[str]) -> None:
+    """Write the picture of all runs and record its path; errors are stored in `outcome.write_errors`.
 
     Nothing is drawn without matplotlib. watch: names of the series shown.
     """
@@ -327,12 +331,12 @@ def _draw(out: Path, runs: Mapping[str, Result], session: Session, watch: Sequen
 
     path = out / f"{next(iter(runs.values())).source.mechanism}.png"
     try:
-        save_figure(draw_run_figure(runs, session.references, watch), path)
-        session.files["picture"] = str(path)
+        save_figure(draw_run_figure(runs, outcome.references, watch), path)
+        outcome.files["picture"] = str(path)
     except GudgeonError as error:
-        session.unwritten.append(error)
+        outcome.write_errors.append(error)
     except MemoryError as error:
-        session.unwritten.append(MemoryShortage(error))
+        outcome.write_errors.append(MemoryShortage(error))
 
 
 def _build_result_path(out: Path, mechanism: str, scene: str) -> Path:
@@ -340,32 +344,34 @@ def _build_result_path(out: Path, mechanism: str, scene: str) -> Path:
     return out / f"{mechanism}_{scene}.nc"
 
 
-def _show(request: Request, source: KernelSource, reports: list[SceneReport], session: Session) -> None:
-    """Print tables, notes and written files, or the JSON document, and mark the session as shown."""
+def _show_results(request: Request, source: KernelSource, reports: list[SceneReport], outcome: RunOutcome) -> None:
+    """Print tables, notes and written files, or the JSON document, and mark the outcome as shown."""
     from gudgeon.language.text_output import make_plain_console
     from gudgeon.results.reports.comparison import build_tables, convert_to_json_values
     from gudgeon.results.reports.run_report import find_exceeded_limits
 
     if request.json:
         scenes = {
-            name: message | {"beyond": find_exceeded_limits(session.runs[name])}
+            name: message | {"beyond": find_exceeded_limits(outcome.runs[name])}
             for name, message in convert_to_json_values(reports).items()
         }
-        document = {"mechanism": source.mechanism, "scenes": scenes, "files": session.files}
+        document = {"mechanism": source.mechanism, "scenes": scenes, "files": outcome.files}
         print_json(document)
     else:
         console = make_plain_console(None if sys.stdout.isatty() else 200)
         for table in build_tables(source.title or source.mechanism, reports, console.width, request.verbose):
             console.print(table)
-        runs = [(r.scene, session.runs[r.scene]) for r in reports]
+        runs = [(r.scene, outcome.runs[r.scene]) for r in reports]
         message = [
             f"{name}: {note}" for name, run in runs for note in (*run.diagnostics.notes, *find_exceeded_limits(run))
         ]
-        message += [f"{name}: {note}" for name, note in session.haste.items() if note and name in session.runs]
+        message += [
+            f"{name}: {note}" for name, note in outcome.optimization_notes.items() if note and name in outcome.runs
+        ]
         for note in dict.fromkeys(message):
             console.print(f"note: {escape_invisible(note)}")
-        print("".join(f"wrote {format_path(path)}\n" for path in session.files.values()), end="")
-    session.shown = True
+        print("".join(f"wrote {format_path(path)}\n" for path in outcome.files.values()), end="")
+    outcome.shown = True
 
 
 def check_memory_and_disk(request: Request, scenes: Mapping[str, tuple[Simulation, Array]]) -> None:
@@ -438,10 +444,10 @@ def write_reports(
     out: Path,
     save: Callable[[Mapping[str, Result]], None],
     files: dict[str, str],
-    unwritten: list[GudgeonError],
+    write_errors: list[GudgeonError],
     quiet: bool,
 ) -> None:
-    """Write a report of each run; its path goes into `files`, its error into `unwritten`.
+    """Write a report of each run; its path goes into `files`, its error into `write_errors`.
 
     `runs` then contains the examined runs. A run that Ctrl-C ended is reported without examination.
     """
@@ -457,9 +463,9 @@ def write_reports(
             write_bytes(path, run.report().to_html().encode())
             files[f"report {scene}"] = str(path)
         except GudgeonError as error:
-            unwritten.append(error)
+            write_errors.append(error)
         except MemoryError as error:
-            unwritten.append(MemoryShortage(error))
+            write_errors.append(MemoryShortage(error))
 
 
 def format_origin(mechanism: str, digest: str) -> str:

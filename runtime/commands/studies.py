@@ -68,7 +68,7 @@ class Request:
         example.
         """
         known_addresses = set(list_addresses(simulation.source))
-        return {name: message for name, message in self.parameters.items() if name in known_addresses}
+        return {name: value for name, value in self.parameters.items() if name in known_addresses}
 
     def parse_time(self, option: str, text: str | None) -> float | None:
         """Parse the text of an option as a positive time and return it in s; None if it is None.
@@ -82,13 +82,13 @@ class Request:
             raise BadValueError(f"{option} is {value:g} s: expected a positive time")
         return value
 
-    def find_table_path(self, mechanism: str, what: str) -> Path:
-        """Return the path of the CSV file: that of --csv, else MECHANISM_WHAT.csv in --out; pictures have the same
+    def find_table_path(self, mechanism: str, table_kind: str) -> Path:
+        """Return the path of the CSV file: that of --csv, else MECHANISM_KIND.csv in --out; pictures have the same
         name.
 
         Raises InputError if one of them cannot be written.
         """
-        table = self.csv or self.out / f"{mechanism}_{what}.csv"
+        table = self.csv or self.out / f"{mechanism}_{table_kind}.csv"
         if self.csv is not None:
             require_suffix(self.csv, (".csv",))
         option = "--out" if self.csv is None else "--csv"
@@ -98,17 +98,17 @@ class Request:
 
 
 def measure_scenes(
-    loaded: Sequence[Simulation], measure_scene: Callable[[Simulation, Report | None], Found], quiet: bool
+    simulations: Sequence[Simulation], measure_scene: Callable[[Simulation, Report | None], Found], quiet: bool
 ) -> tuple[list[Found], bool]:
     """Call `measure_scene` for every scene with a progress callback; return the results, and whether Ctrl-C came.
 
     After Ctrl-C the last result may be incomplete. quiet: without a progress bar.
     """
     results: list[Found] = []
-    with show_progress_bars(quiet) as bar:
+    with show_progress_bars(quiet) as make_bar:
         try:
-            for simulation in loaded:
-                results.append(measure_scene(simulation, bar(simulation.source.scene)))
+            for simulation in simulations:
+                results.append(measure_scene(simulation, make_bar(simulation.source.scene)))
                 if results[-1].interrupted:
                     return results, True
         except KeyboardInterrupt:
@@ -116,7 +116,7 @@ def measure_scenes(
     return results, False
 
 
-def find_exit_code(loaded: Sequence[Simulation], measured_scenes: Sequence[Measured], interrupted: bool) -> int:
+def find_exit_code(simulations: Sequence[Simulation], measured_scenes: Sequence[Measured], interrupted: bool) -> int:
     """Return the exit code: 0, or 130 after Ctrl-C, which is reported on stderr with the finished runs of each
     scene.
     """
@@ -127,7 +127,7 @@ def find_exit_code(loaded: Sequence[Simulation], measured_scenes: Sequence[Measu
         return INTERRUPTED
     parts = ["{}: {} of {} runs".format(scene.scene, *scene.done) for scene in measured_scenes]
     names = {scene.scene for scene in measured_scenes}
-    parts += [f"{s.source.scene}: not begun" for s in loaded if s.source.scene not in names]
+    parts += [f"{s.source.scene}: not begun" for s in simulations if s.source.scene not in names]
     print(f"interrupted: what is shown and written is partial ({'; '.join(parts)})", file=sys.stderr)
     return INTERRUPTED
 
@@ -138,8 +138,8 @@ def load_scenes(request: Request) -> list[Simulation]:
     Raises UnknownNameError for an address that no scene has, BadValueError for values.
     """
     with show_status_line(quiet=request.json):
-        loaded = [load(request.file, scene, quick=False) for scene in select_scenes(request.file, request.scenes)]
-    check_addresses(request.parameters, request.file, [simulation.source for simulation in loaded])
-    for simulation in loaded:
+        simulations = [load(request.file, scene, quick=False) for scene in select_scenes(request.file, request.scenes)]
+    check_addresses(request.parameters, request.file, [simulation.source for simulation in simulations])
+    for simulation in simulations:
         prepare_values(simulation.compiled, request.select_parameters(simulation))
-    return loaded
+    return simulations

@@ -87,8 +87,8 @@ def study_file(request: Request) -> int:
         report_estimates(plans, estimates, request.json)
         return 0
     try:
-        with open_workers(request.workers, request.cluster) as pool, show_progress_bars(request.json) as bar:
-            report = bar(request.folder.stem)
+        with open_workers(request.workers, request.cluster) as pool, show_progress_bars(request.json) as make_bar:
+            report = make_bar(request.folder.stem)
             finished_study = run_plans(plans, request.folder, request.threads, pool, report, request.restart)
     except KeyboardInterrupt:
         _report_interruption(plans, request.folder)
@@ -99,7 +99,9 @@ def study_file(request: Request) -> int:
 
 def _report_interruption(plans: Plans, folder: Path) -> None:
     """Print to stderr, after Ctrl-C, how many blocks of runs are stored in the folder."""
-    every = sum(len(plan.blocks) for plan in plans.each.values())
-    there = min(every, sum(StudyFolder(folder / name, plan).count_block_files() for name, plan in plans.each.items()))
-    text = f"{there} of {every} blocks of runs are in {format_path(folder)}"
+    n_blocks = sum(len(plan.blocks) for plan in plans.each.values())
+    n_stored = min(
+        n_blocks, sum(StudyFolder(folder / name, plan).count_block_files() for name, plan in plans.each.items())
+    )
+    text = f"{n_stored} of {n_blocks} blocks of runs are in {format_path(folder)}"
     print(f"interrupted: {text}; the same command goes on from there", file=sys.stderr)

@@ -3,7 +3,7 @@
 A call of C integrates runs from start to end without Python's global lock. Python distributes the runs and fetches the
 lists of contacts and events. Many runs use threads (threads.py); a single one stays in the calling thread
 (`integrate_problem`). A method without a loop in C is a Python function from a Problem to a Trajectory
-(`Runs.drive`), whose runs fill the same arrays.
+(`Runs.python_loop`), whose runs fill the same arrays.
 """
 
 from __future__ import annotations
@@ -36,9 +36,9 @@ from gudgeon.errors import GudgeonError, SolverError
 from gudgeon.integrators import adaptive, lanes
 from gudgeon.integrators.failure import INTERRUPTED, build_audit_error, build_run_error
 from gudgeon.integrators.lanes import LaneProvider
-from gudgeon.integrators.steps import Look, StepLog
+from gudgeon.integrators.steps import StepCallback, StepLog
 from gudgeon.integrators.stored import StoredRuns
-from gudgeon.integrators.threads import run_in_threads
+from gudgeon.integrators.threads import integrate_runs_in_threads
 from gudgeon.integrators.times import Times
 from gudgeon.integrators.trajectory import Problem, Progress, Trajectory
 from gudgeon.model.compiled import Array, CompiledModel
@@ -51,14 +51,14 @@ if TYPE_CHECKING:
 
 PythonLoop: TypeAlias = Callable[[Problem], Trajectory]  # a method without a loop over runs in C
 CHUNK = 4_000  # steps of one call of C, which polls Python for cancellation meanwhile (cancellation.py)
-TOGETHER = 4096  # largest number of samples of finished runs that wait to be stored together
+MAX_UNSTORED_SAMPLES = 4096  # largest number of samples of finished runs that wait to be stored together
 
 
 class Runs(StoredRuns):
     """Integrate runs from start to end.
 
     Each run has its own rows of samples or, if they are `has_shared_rows`, those of its thread. Shared samples are
-    lost unless `over` stores them when runs end.
+    lost unless `store_results` stores them when runs end.
     """
 
     def __init__(
@@ -84,11 +84,13 @@ class Runs(StoredRuns):
         has_lanes = side_by_side and not python_loop and lanes.may_use_lanes(compiled, method, n)
         if has_lanes:
             compiled.lib.wait_for_optimized()  # whose functions are called from within lanes, for all runs
-        self.flow = LaneProvider(compiled) if has_lanes else None
-        self.n_lanes = self.flow.count if self.flow else 1
-        if self.flow and has_shared_rows:
-            self.n_lanes = min(self.n_lanes, max(lanes.ALWAYS, TOGETHER // N))
-        n_spare = min(self.n_lanes, TOGETHER // N) if self.flow else 0  # of runs that are over, and not taken yet
+        self.lane_provider = LaneProvider(compiled) if has_lanes else None
+        self.n_lanes = self.lane_provider.count if self.lane_provider else 1
+        if self.lane_provider and has_shared_rows:
+            self.n_lanes = min(self.n_lanes, max(lanes.ALWAYS, MAX_UNSTORED_SAMPLES // N))
+        n_spare = (
+            min(self.n_lanes, MAX_UNSTORED_SAMPLES // N) if self.lane_provider else 0
+        )  # of runs that are over, and not taken yet
         self.n_rows_per_thread = self.n_lanes + n_spare  # rows of samples per thread
         super().__init__(
             compiled,
@@ -100,13 +102,13 @@ class Runs(StoredRuns):
             threads * self.n_rows_per_thread if has_shared_rows else n,
             bool(python_loop),
         )
-        self.struct: Any = None if python_loop else self._make_struct()
+        self.struct: Any = None if python_loop else self._make_batch_struct()
         # guesses of the start that the assembly could not follow, by run
         self.unfollowed: dict[int, dict[str, float]] = {}
-        self.observers: Sequence[Look | None] = ()  # observers of all steps, one per run; empty without any
+        self.observers: Sequence[StepCallback | None] = ()  # observers of all steps, one per run; empty without any
         self.resumed = set[int]()  # runs that resume from a state
 
-    def _make_struct(self) -> Any:
+    def _make_batch_struct(self) -> Any:
         """Add the arrays that only C fills to `arrays`, and return the struct Batch of C with pointers to all arrays.
 
         All arrays are made contiguous. Not called for time loops in Python.
@@ -141,11 +143,11 @@ class Runs(StoredRuns):
 
     def __getstate__(self) -> dict[str, Any]:
         """Return the state for pickling: arrays and lists of finished runs, without C's structures."""
-        none = dict.fromkeys(("struct", "flow", "store_results", "python_loop", "fetched"))
+        none = dict.fromkeys(("struct", "lane_provider", "store_results", "python_loop", "fetched"))
         return self.__dict__ | none | {"observers": ()}
 
     def release_samples(self) -> None:
-        """Release the samples of all runs and C's struct, after `over` has stored what is needed of them."""
+        """Release the samples of all runs and C's struct, after `store_results` has stored what is needed of them."""
         self.arrays |= {name: np.zeros_like(self.arrays[name][:0]) for name in ("y", "latched", "state")}
         self.arrays.pop("a", None)
         self.struct, self.store_results = None, None
@@ -174,7 +176,7 @@ class Runs(StoredRuns):
         self.failures.update(failures)
         self.arrays["phase"][list(failures)] = OVER
 
-    def integrate_all(self, progress: Progress | None) -> None:
+    def integrate_all_runs(self, progress: Progress | None) -> None:
         """Integrate all runs in threads, assemble missing starts, and record failures; Ctrl-C ends them where they are.
 
         Starts are assembled in C where possible, in Python for the rest. `progress` is called with the fraction of runs
@@ -183,10 +185,10 @@ class Runs(StoredRuns):
         with DelayedCtrlC() as ctrl_c:
             try:
                 if self.python_loop or list_redundant_equations(self.compiled):
-                    self._assemble_all(np.flatnonzero(self.arrays["phase"] == NEW).tolist(), ctrl_c)
-                run_in_threads(self, progress, range(self.n), ctrl_c)
+                    self._assemble_starts(np.flatnonzero(self.arrays["phase"] == NEW).tolist(), ctrl_c)
+                integrate_runs_in_threads(self, progress, range(self.n), ctrl_c)
                 if unassembled := self._find_unassembled_runs():
-                    run_in_threads(self, progress, self._assemble_all(unassembled, ctrl_c), ctrl_c)
+                    integrate_runs_in_threads(self, progress, self._assemble_starts(unassembled, ctrl_c), ctrl_c)
                 ctrl_c.raise_delayed()
             except KeyboardInterrupt:
                 self.interrupted = True
@@ -218,7 +220,7 @@ class Runs(StoredRuns):
         self.arrays["phase"][unassembled], self.arrays["status"][unassembled] = NEW, 0
         return unassembled
 
-    def _assemble_all(self, runs: Sequence[int], ctrl_c: DelayedCtrlC) -> list[int]:
+    def _assemble_starts(self, runs: Sequence[int], ctrl_c: DelayedCtrlC) -> list[int]:
         """Assemble the starts of these runs in Python and store them; return the indices of runs that may begin.
 
         Given starts are only checked. A run whose start does not close is recorded as failed. Guesses that were not
@@ -266,18 +268,18 @@ class Runs(StoredRuns):
         if self.is_stopping:
             raise KeyboardInterrupt
 
-    def integrate_in_python(self, i: int) -> None:
+    def integrate_run_in_python(self, i: int) -> None:
         """Integrate run i from start to end by a time loop in Python, and store its results.
 
         An error is recorded as its failure. Nothing is stored if Ctrl-C comes before the first sample.
         """
         assert self.python_loop
         try:
-            look = self.observers[i] if self.observers else None
+            observer = self.observers[i] if self.observers else None
             self.store_trajectory(
                 i,
                 self.python_loop(
-                    replace(self.build_problem(i), poll_cancellation=self.poll_cancellation, observer=look)
+                    replace(self.build_problem(i), poll_cancellation=self.poll_cancellation, observer=observer)
                 ),
             )
         except KeyboardInterrupt:  # before it had anything
@@ -287,17 +289,16 @@ class Runs(StoredRuns):
             return
         self.store_finished_runs([i])
 
-    def integrate_to_end(self, i: int, memory: NDArray[np.uint8], step_log: StepLog | None = None) -> None:
+    def integrate_run_to_end(self, i: int, storage: NDArray[np.uint8], step_log: StepLog | None = None) -> None:
         """Integrate run i in C, alone in this thread, from its present state to its end, and store its results.
 
-        `memory`: storage of C's integrator; `step_log`: step record for an observer.
+        `storage`: storage of C's integrator; `step_log`: step record for an observer.
         """
-        self.integrate_sequentially(i, i + 1, memory, step_log)
+        self.integrate_runs_sequentially(i, i + 1, storage, step_log)
         self.store_finished_runs([i])
 
     def store_finished_runs(self, runs: Sequence[int]) -> None:
-        """Pass those of the given runs that have ended to `finished`, which stores their results; do nothing without
-        it.
+        """Pass those of the given runs that have ended to `store_results`; do nothing if it is None.
 
         Runs whose start C could not assemble are skipped. Their rows of samples may be reused after that.
         """
@@ -306,26 +307,26 @@ class Runs(StoredRuns):
         if self.store_results and finished:
             self.store_results(finished)
 
-    def integrate_sequentially(
+    def integrate_runs_sequentially(
         self,
         first: int,
         end: int,
-        memory: NDArray[np.uint8],
+        storage: NDArray[np.uint8],
         step_log: StepLog | None,
         poll: Callable[[], object] = lambda: None,
     ) -> None:
         """Integrate runs first to end − 1 in C, one after the other, in the calling thread.
 
-        Contacts, events and recorded steps are fetched whenever a list is full or a run is over. `memory`: storage of
+        Contacts, events and recorded steps are fetched whenever a list is full or a run is over. `storage`: storage of
         C's integrator. `step_log`: step record for observers. `poll` is called after each call of C.
         """
         compiled, current = self.compiled, self.compiled.ffi.new("long *", first)
-        compiled.lib.switch_if_ready()
-        run = compiled.pointer(memory, "void *")
+        compiled.lib.switch_library_if_ready()
+        run = compiled.pointer(storage, "void *")
         while current[0] < end:  # what has begun is handed over even where the batch is ending
             status = compiled.lib.gudgeon_ensemble(self.struct, run, current, end)
             if status in (LISTS, RUN_OVER):
-                self.fetch_lists(int(current[0]), run, status == RUN_OVER)
+                self.fetch_contacts_and_events(int(current[0]), run, status == RUN_OVER)
                 if step_log:
                     step_log.observer = self.observers[int(current[0])]
                     step_log.pass_steps(run)
@@ -345,31 +346,31 @@ class Runs(StoredRuns):
         return self.build_trajectory(0)
 
     def _integrate_in_c(self, problem: Problem) -> None:
-        """Integrate the only run by the time loop in C. After Ctrl-C, the samples up to there are kept.
+        """Integrate the only run by the time loop in C. After Ctrl-C, the samples up to there remain.
 
         A failed run is recorded; without any sample, its start becomes the first. Raises KeyboardInterrupt if Ctrl-C
         came before the first sample.
         """
         compiled, x = self.compiled, self.arrays
-        memory = np.zeros(compiled.lib.gudgeon_run_size(), dtype=np.uint8)
-        run, step_log = compiled.pointer(memory, "void *", True), StepLog(compiled) if self.observers else None
+        storage = np.zeros(compiled.lib.gudgeon_run_size(), dtype=np.uint8)
+        run, step_log = compiled.pointer(storage, "void *", True), StepLog(compiled) if self.observers else None
         if step_log:
-            step_log.register(run)
-        cancellation = CancellationPoll(compiled, lambda: self._poll_and_report(problem, run))
+            step_log.register_rows(run)
+        cancellation = CancellationPoll(compiled, lambda: self._poll_and_report_progress(problem, run))
         self.struct.ask, self.struct.caller, self.struct.every = cancellation.c_arguments
 
         def poll() -> None:
             """Raise what a poll from C raised, and poll once more."""
             cancellation.raise_stored(False)
-            self._poll_and_report(problem, run)
+            self._poll_and_report_progress(problem, run)
 
         try:
-            self.integrate_sequentially(0, 1, memory, step_log, poll)
+            self.integrate_runs_sequentially(0, 1, storage, step_log, poll)
         except KeyboardInterrupt:
             if not x["done"][0]:
                 raise
             self.interrupted, x["ending"][0] = True, 1
-            self.integrate_sequentially(0, 1, memory, step_log)
+            self.integrate_runs_sequentially(0, 1, storage, step_log)
         if not self.interrupted and x["status"][0] not in (0, ENDED):
             self.failures[0] = self._build_error(0)
         if not x["done"][0]:  # at least the start
@@ -378,13 +379,13 @@ class Runs(StoredRuns):
             compiled.lib.gudgeon_run_sample(run, self.struct.p_motion, *to)
             x["done"][0] = 1
 
-    def _poll_and_report(self, problem: Problem, run: Any) -> None:
+    def _poll_and_report_progress(self, problem: Problem, run: Any) -> None:
         """Poll for Ctrl-C and for an optimized library, and report progress; called between calls of C and within them.
 
         `run`: pointer to C's integrator. Raises KeyboardInterrupt.
         """
         x, b, t = self.arrays, self.struct, problem.t
-        self.compiled.lib.switch_if_ready()
+        self.compiled.lib.switch_library_if_ready()
         problem.poll_cancellation()
         if problem.progress:
             if x["phase"][0] == BEGUN:
@@ -393,7 +394,7 @@ class Runs(StoredRuns):
             problem.progress(float(min(max(fraction, 0.0), 1.0)), "integrating")
 
     def _build_error(self, i: int) -> GudgeonError:
-        """Build the error that ended run i in C, from its status and what C stored of it."""
+        """Build the error that ended run i in C, from its status and the values that C stored."""
         if self.arrays["status"][i] == AUDITED:
             return build_audit_error(self.build_findings(i))
         names = "status", "t_last", "last", "peaks", "p_motion", "step", "gained", "paced", "ended"
@@ -401,8 +402,8 @@ class Runs(StoredRuns):
         return build_run_error(self.compiled, self.method, stored, float(self.times.get_times(i)[-1]))
 
 
-def integrate_problem(problem: Problem, drive: PythonLoop | None = None) -> Trajectory:
-    """Integrate one run, in C or by the time loop `drive` in Python, and return its Trajectory.
+def integrate_problem(problem: Problem, python_loop: PythonLoop | None = None) -> Trajectory:
+    """Integrate one run, in C or by the time loop `python_loop` in Python, and return its Trajectory.
 
     Raises KeyboardInterrupt if no sample was reached.
     """
@@ -420,10 +421,10 @@ def integrate_problem(problem: Problem, drive: PythonLoop | None = None) -> Traj
         problem.audit,
         side_by_side=False,
         threads=1,
-        python_loop=drive,
+        python_loop=python_loop,
     )
     runs.set_starts([problem])
     runs.observers = [problem.observer] if problem.observer else ()
-    if problem.compiled.source.clearances and not drive:
+    if problem.compiled.source.clearances and not python_loop:
         runs.allocate_envelope()
     return runs.integrate_single_run(problem)

@@ -74,15 +74,15 @@ REMEDY = (
 )
 
 
-def build_run_error(compiled: CompiledModel, method: str, run: Mapping[str, Any], t_end: float) -> SolverError:
+def build_run_error(compiled: CompiledModel, method: str, values: Mapping[str, Any], t_end: float) -> SolverError:
     """Build the error of a run to t_end (s) that C ended, from the values that C stored of it.
 
-    `run`: status, t_last, step and others by the names of Batch (engine/scene/calls.h).
+    `values`: status, t_last, step and others by the names of Batch (engine/scene/calls.h).
     """
-    status, t, step, p = int(run["status"]), float(run["t_last"]), float(run["step"]), run["p_motion"]
-    e_max, last = run["peaks"][: len(compiled.source.clearances), PEAK_e_max], run["last"]
+    status, t, step, p = int(values["status"]), float(values["t_last"]), float(values["step"]), values["p_motion"]
+    e_max, last = values["peaks"][: len(compiled.source.clearances), PEAK_e_max], values["last"]
     if status == STALLED:
-        return _build_stalled_error(compiled, run, t_end, e_max)
+        return _build_stalled_error(compiled, values, t_end, e_max)
     if math.isfinite(step):  # it evaluates so far after the last state
         return _build_status_error(compiled, method, status, t, SHORTER.format(step), last, e_max, p, step)
     return _build_status_error(compiled, method, status, t, ADVICE, last, e_max, p, 0.0)
@@ -99,10 +99,10 @@ def _build_status_error(
     p: Array,
     step_ahead: float,
 ) -> SolverError:
-    """Return the error for a status at time t (s): `last_state` state, largest eccentricities (n_clearances,),
-    parameters.
+    """Return the error for a nonzero status of C at time t (s).
 
-    `step_ahead` (s): how far a step of fixed length evaluated after that state.
+    `advice`: text for errors without a more specific one. `last_state`: last state (2n + 3,). `e_max` (n_clearances,):
+    largest eccentricities. `step_ahead` (s): time after that state up to which a step of fixed length evaluated.
     """
     if status != STOPPED and (too_large := build_overflow_error(compiled, p, t)):
         return too_large
@@ -218,7 +218,7 @@ def _build_singular_error(
 
 
 @dataclass(frozen=True)
-class Progress:
+class RunProgress:
     """Describe the progress of a run that no longer advances: time, remaining time, and gain of its last steps (s)."""
 
     t: float
@@ -229,7 +229,7 @@ class Progress:
 
     @property
     def steps_to_end(self) -> float:
-        """Return the number of steps to the end at this pace."""
+        """Return the number of steps to the end at the speed of the last ones."""
         return self.remaining / max(self.gain, 1e-300) * self.steps
 
 
@@ -264,24 +264,24 @@ def build_overflow_error(compiled: CompiledModel, p: Array, t: float) -> NonFini
     return None
 
 
-def build_runaway_error(pace: Progress, drive_states: str) -> SolverError:
-    """Build the error for a run whose motion becomes ever faster; `drive_states`: text of drives_text."""
+def build_runaway_error(progress: RunProgress, drive_states: str) -> SolverError:
+    """Build the error for a run whose motion becomes ever faster; `drive_states`: text of `format_drive_states`."""
     return SolverError(
-        f"the motion no longer advances at t = {pace.t:.12g} s: its last {pace.steps} steps gained {pace.gain:.3g} s"
-        f" and less and less, {pace.remaining:.3g} s are left{drive_states}\n"
+        f"the motion no longer advances at t = {progress.t:.12g} s: its last {progress.steps} steps gained"
+        f" {progress.gain:.3g} s and less and less, {progress.remaining:.3g} s are left{drive_states}\n"
         f"  {GROWN}",
-        pace.t,
+        progress.t,
     )
 
 
-def build_too_slow_error(pace: Progress) -> SolverError:
-    """Build the error for a run whose end is too far away at its present pace."""
+def build_too_slow_error(progress: RunProgress) -> SolverError:
+    """Build the error for a run whose end is too far away at the speed of its last steps."""
     return SolverError(
-        f"the run has come to t = {pace.t:.9g} s, and at the pace of its last {pace.steps} steps the "
-        f"{pace.remaining:.3g} s"
-        f" that are left take {pace.steps_to_end:.1e} more\n"
+        f"the run has come to t = {progress.t:.9g} s, and at the pace of its last {progress.steps} steps the "
+        f"{progress.remaining:.3g} s"
+        f" that are left take {progress.steps_to_end:.1e} more\n"
         "  take a nearer t_end, or go on from the final state of what was computed, which is kept",
-        pace.t,
+        progress.t,
     )
 
 
@@ -295,21 +295,26 @@ def _format_forces_with_switching_points(source: KernelSource) -> str:
     return ", ".join(f"{info.address} (line {info.line}, column {info.column})" for info in force_names)
 
 
-def _build_stalled_error(compiled: CompiledModel, run: Mapping[str, Any], t_end: float, e_max: Array) -> SolverError:
-    """Return the error of a run to t_end (s) that no longer advances, from what C has stored of it.
+def _build_stalled_error(compiled: CompiledModel, values: Mapping[str, Any], t_end: float, e_max: Array) -> SolverError:
+    """Return the error of a run to t_end (s) that no longer advances, from the values that C has stored.
 
-    `run` has t_last, p_motion, and gained (s), paced of the last steps. `ended` counts how many of them ended at
+    `values` has t_last, p_motion, and gained (s), paced of the last steps. `ended` counts how many of them ended at
     contacts, switching points of forces, frictions and events. `e_max` (n_clearances,): largest eccentricities.
     """
-    t, (steps, crawls), ended, p = float(run["t_last"]), run["paced"].tolist(), run["ended"], run["p_motion"]
-    pace = Progress(t, t_end - t, float(run["gained"]), steps, bool(crawls))
-    if not pace.is_crawling:
-        return build_too_slow_error(pace)
+    t, (steps, crawls), ended, p = (
+        float(values["t_last"]),
+        values["paced"].tolist(),
+        values["ended"],
+        values["p_motion"],
+    )
+    progress = RunProgress(t, t_end - t, float(values["gained"]), steps, bool(crawls))
+    if not progress.is_crawling:
+        return build_too_slow_error(progress)
     # a drive that still turns on in steps so short is what they are short for
-    fast = format_drive_states(compiled, p, t, FELT * pace.steps / max(pace.gain, 1e-300))
+    fast = format_drive_states(compiled, p, t, FELT * progress.steps / max(progress.gain, 1e-300))
     film, whose = _format_squeezed_film(compiled, e_max, p), int(ended.argmax())
-    if fast and not film and ended[whose] <= 0.01 * pace.steps:
-        return build_runaway_error(pace, fast)
+    if fast and not film and ended[whose] <= 0.01 * progress.steps:
+        return build_runaway_error(progress, fast)
     cornered = _format_forces_with_switching_points(compiled.source)
     form = f" in {cornered}" if cornered else " of a law"
     kinds = (
@@ -318,19 +323,20 @@ def _build_stalled_error(compiled: CompiledModel, run: Mapping[str, Any], t_end:
         "friction changes between stick and slip",
         "an event's expression is zero",
     )
-    count = "all" if ended[whose] == pace.steps else str(ended[whose])
+    count = "all" if ended[whose] == progress.steps else str(ended[whose])
     if film:
         why = film
-    elif ended[whose] > 0.01 * pace.steps:
+    elif ended[whose] > 0.01 * progress.steps:
         why = f"{count} of them ended where {kinds[whose]}: the motion does not get away from there"
     else:
         why = "their errors allow no longer ones: what acts there changes fast, or speeds grow"
     return SolverError(
-        f"the run no longer advances at t = {pace.t:.9g} s: its last {pace.steps} steps gained {pace.gain:.3g} s;"
-        f" {pace.remaining:.3g} s are left, {pace.steps_to_end:.1e} steps at this pace\n  {why}\n"
+        f"the run no longer advances at t = {progress.t:.9g} s: its last {progress.steps} steps gained"
+        f" {progress.gain:.3g} s; {progress.remaining:.3g} s are left, {progress.steps_to_end:.1e} steps at this pace\n"
+        f"  {why}\n"
         f"  what was computed is kept: look at its last samples, or end the run before; {JUMPS};"
         " rk4 with a step of its own goes over a jump of a force, with an error",
-        pace.t,
+        progress.t,
     )
 
 
@@ -350,7 +356,7 @@ def _build_penetration_error(compiled: CompiledModel, e_max: Array, p: Array, t:
     """Build the error for the journal or corner that lies deepest relative to its limit, at t (s).
 
     The limit is a tenth of the bearing's radius, or the validity range of the contact law. `e_max` (n_clearances,):
-    largest eccentricities (m). The error is marked as outside the model.
+    largest eccentricities (m). The error has `outside_model` set.
     """
     _, penetration, law_limit, name, at_wall = max(
         (depth / min(law_limit, 0.1 * float(p[joint.constants["R_i"]])), depth, law_limit, joint.name, joint.is_corner)
@@ -372,7 +378,7 @@ def _build_penetration_error(compiled: CompiledModel, e_max: Array, p: Array, t:
 
 
 def _is_within_bounds(compiled: CompiledModel, last_state: Array, p: Array) -> bool:
-    """Return whether all coordinates x, y of the `last_state` state are below 10⁴ times the mechanism's size."""
+    """Return whether all coordinates x, y of `last_state` are below 10⁴ times the mechanism's size."""
     indices = [k for k, name in enumerate(compiled.source.coordinates) if not name.endswith(".theta")]
     return bool(
         np.abs(np.ravel(last_state)[indices]).max(initial=0.0) < 1e4 * max(compute_mechanism_size(compiled, p), 1e-3)
@@ -380,9 +386,7 @@ def _is_within_bounds(compiled: CompiledModel, last_state: Array, p: Array) -> b
 
 
 def _build_dead_centre_error(compiled: CompiledModel, last_state: Array, p: Array, t: float) -> SolverError | None:
-    """Build the error for a linkage in a dead centre, where constraint equations depend on each other; else return
-    None.
-    """
+    """Build the error for a linkage in a dead centre, where constraint equations depend on each other; else None."""
     rows = find_nearly_dependent_equations(compiled, p, t, np.ravel(last_state)[: compiled.n])
     if not rows:
         return None
@@ -399,10 +403,9 @@ def _build_dead_centre_error(compiled: CompiledModel, last_state: Array, p: Arra
 
 
 def _build_squeezed_film_error(compiled: CompiledModel, e_max: Array, p: Array, t: float) -> SolverError | None:
-    """Build the error for the first film that is squeezed out, near the singularity of its law at e = c; else return
-    None.
+    """Build the error for the first film that is squeezed out (e/c near 1), where its law is singular; else None.
 
-    The error is marked as outside the model.
+    The error has `outside_model` set.
     """
     for joint, e in zip(compiled.source.clearances, e_max, strict=True):
         ratio = float(e) / float(p[joint.film_clearance])
@@ -417,24 +420,23 @@ def _build_squeezed_film_error(compiled: CompiledModel, e_max: Array, p: Array, 
     return None
 
 
-def build_findings(source: KernelSource, values: Array, t: Array, places: NDArray[np.intc]) -> tuple[Finding, ...]:
-    """Build the audit findings from the largest value, time (s) and place of each check, (n_checks,), as C reports
-    them.
+def build_findings(source: KernelSource, values: Array, t: Array, indices: NDArray[np.intc]) -> tuple[Finding, ...]:
+    """Build the audit findings from what C reports of each check: largest value, time (s), and index of a joint or row.
 
-    Negative values mark checks that were not made; they are left out.
+    The arrays are (n_checks,). Negative values mark checks that were not made; they are left out.
     """
-    rows = zip(CHECKS, values.tolist(), t.tolist(), places.tolist(), strict=True)
+    rows = zip(CHECKS, values.tolist(), t.tolist(), indices.tolist(), strict=True)
     return tuple(
-        Finding(check.name, value, time, _get_place_name(source, check, k))
+        Finding(check.name, value, time, _get_location_name(source, check, k))
         for check, value, time, k in rows
         if value >= 0.0
     )
 
 
-def _get_place_name(source: KernelSource, check: Check, index: int) -> str:
-    """Return the name of the joint, row, event or coordinate k to which a check refers; "" if k is negative.
+def _get_location_name(source: KernelSource, check: Check, index: int) -> str:
+    """Return the name of the joint, row, event or coordinate with this index; "" if it is negative.
 
-    Other kinds of places are named by kind and number.
+    `check` defines what the index means. Other locations are named by kind and index.
     """
     if index < 0 or not check.place:
         return ""

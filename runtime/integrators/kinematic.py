@@ -23,13 +23,13 @@ from gudgeon.contract.boundary import EVENT_STOPS, EVENTS_FULL, MAX_LISTED, N_PE
 from gudgeon.errors import NonFiniteError, SingularError, SolverError
 from gudgeon.integrators.failure import (
     NO_NUMBER,
-    Progress,
+    RunProgress,
     build_overflow_error,
     build_runaway_error,
     build_too_slow_error,
     format_drive_states,
 )
-from gudgeon.integrators.steps import KinematicStepLog, Look, Steps
+from gudgeon.integrators.steps import KinematicStepLog, StepCallback, Steps
 from gudgeon.integrators.trajectory import (
     EVENT_DTYPE,
     Counts,
@@ -37,7 +37,7 @@ from gudgeon.integrators.trajectory import (
     Trajectory,
     compute_time_resolution,
     make_empty_events,
-    split_undefined,
+    split_undefined_events,
 )
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.written import explain_undefined_ahead, explain_undefined_between, explain_undefined_rate
@@ -52,56 +52,60 @@ CHUNK, TURN = 10_000, 0.02  # largest number of samples that are computed togeth
 class _KinematicRun:
     """Hold a kinematic run as far as it is complete: positions, velocities, accelerations, works and events.
 
-    Rows up to `reached` are complete.
+    Rows up to `last_complete` are complete.
     """
 
     def __init__(self, problem: Problem) -> None:
         self.problem, self.compiled, self.t = problem, problem.compiled, problem.t
-        self.compiled.lib.switch_if_ready()
+        self.compiled.lib.switch_library_if_ready()
         self.q, self.v, self.a = (np.zeros((len(self.t), self.compiled.n)) for _ in range(3))
         self.work = np.zeros((len(self.t), N_WORK))
         self.q[0], self.v[0], self.a[0] = problem.q, problem.v, np.nan
-        self.maxima, self.longs = np.zeros(2), np.zeros(2, dtype=np.int_)  # |Φ|, |Φ̇|; and steps, rows of a call
-        self.reached, self.seconds = 0, 0.0
+        self.maxima, self.call_counts = np.zeros(2), np.zeros(2, dtype=np.int_)  # |Φ|, |Φ̇|; and steps, rows of a call
+        self.last_complete, self.seconds = 0, 0.0
         self.events = Events(problem) if self.compiled.source.events else None
-        self.asker = CancellationPoll(self.compiled, self.poll_and_report)
-        self.course = self._allocate_course()
+        self.cancellation_poll = CancellationPoll(self.compiled, self.poll_and_report_progress)
+        self.motion_struct = self._allocate_motion_struct()
         self.steps = self._make_step_log(problem.observer) if problem.observer else None
         if self.steps:
-            self.steps.register(self.pointer(self.course, "void *"))
+            self.steps.register_rows(self.pointer(self.motion_struct, "void *"))
 
-    def _allocate_course(self) -> NDArray[Any]:
-        """Allocate and initialise a struct of C that follows the motion, or its works; return its bytes."""
-        course = np.zeros(self.compiled.lib.gudgeon_kinematic_size(), dtype=np.uint8)
+    def _allocate_motion_struct(self) -> NDArray[Any]:
+        """Allocate and initialise C's struct that follows a motion, or its works, and return its bytes (an array)."""
+        motion_struct = np.zeros(self.compiled.lib.gudgeon_kinematic_size(), dtype=np.uint8)
         size = compute_mechanism_size(self.compiled, self.problem.p)
         self.compiled.lib.gudgeon_kinematic_begin(
-            self.pointer(course, "void *"), REACH, size, float(self.t[-1]), *self.asker.c_arguments
+            self.pointer(motion_struct, "void *"), REACH, size, float(self.t[-1]), *self.cancellation_poll.c_arguments
         )
-        return course
+        return motion_struct
 
-    def _make_step_log(self, look: Look) -> KinematicStepLog:
-        """Return a record that collects all steps for the observer `poll_and_report`, beginning with the start."""
+    def _make_step_log(self, observer: StepCallback) -> KinematicStepLog:
+        """Return a step log that collects all steps for `observer`, beginning with the start."""
         none = np.zeros((1, 0))
         begin = Steps(
             self.t[:1], self.q[:1], self.v[:1], self.work[:1], none, none.astype(np.int8), np.ones(1, dtype=bool)
         )
-        return KinematicStepLog(self.compiled, look, self._allocate_course, begin)
+        return KinematicStepLog(self.compiled, observer, self._allocate_motion_struct, begin)
 
     def pointer(self, array: NDArray[Any], kind: str = "double *") -> Any:
         """Return a C pointer to an array."""
         return self.compiled.pointer(array, kind)
 
-    def poll_and_report(self) -> None:
+    def poll_and_report_progress(self) -> None:
         """Poll for Ctrl-C and for an optimized library, and report progress; called by C and between chunks.
 
         Raises KeyboardInterrupt.
         """
-        self.compiled.lib.switch_if_ready()
+        self.compiled.lib.switch_library_if_ready()
         self.problem.poll_cancellation()
         if self.problem.progress:
             t = self.problem.t
-            come = float(np.nanmean(self._read_progress()[0])) if self.has_first_sample else t[0]  # of motion and works
-            self.problem.progress(float(come - t[0]) / max(float(t[-1] - t[0]), 1e-300), "following the constraints")
+            mean_time = (
+                float(np.nanmean(self._read_progress()[0])) if self.has_first_sample else t[0]
+            )  # of motion and works
+            self.problem.progress(
+                float(mean_time - t[0]) / max(float(t[-1] - t[0]), 1e-300), "following the constraints"
+            )
 
     def integrate(self) -> None:
         """Compute all samples in chunks: the motion, its events, then its works, and pass steps to the observer.
@@ -116,14 +120,14 @@ class _KinematicRun:
             stops = self.events is not None and end > first and self.events.find_events(self, first, end)
             if stops:
                 end = last = self._truncate_at_event(first, end)
-            self.reached = self._compute_works(first, end)
+            self.last_complete = self._compute_works(first, end)
             if self.steps:
                 self.steps.pass_steps(self.problem.p, (self.t[end], self.q[end], self.v[end]) if stops else None)
             if failed and not stops:
                 raise self._build_error(failed)
             first = end
             chunk = max(1, min(2 * chunk, CHUNK) if perf_counter() - before < TURN else chunk // 2)
-            self.poll_and_report()
+            self.poll_and_report_progress()
 
     @property
     def has_first_sample(self) -> bool:
@@ -136,46 +140,50 @@ class _KinematicRun:
         Return the index of the last computed sample, and the status of C (0: no failure). Recorded steps are fetched
         when C's list is full. Raises KeyboardInterrupt.
         """
-        longs, course, status = self.pointer(self.longs, "long *"), self.pointer(self.course, "void *"), EVENTS_FULL
+        call_counts, motion_struct, status = (
+            self.pointer(self.call_counts, "long *"),
+            self.pointer(self.motion_struct, "void *"),
+            EVENTS_FULL,
+        )
         while status == EVENTS_FULL:
             rows, before = slice(first, None), perf_counter()
             status = self.compiled.lib.gudgeon_kinematic(
-                course,
+                motion_struct,
                 last - first,
                 self.pointer(self.t[rows]),
                 self.pointer(self.problem.p),
                 *(self.pointer(x[rows]) for x in (self.q, self.v, self.a)),
                 self.pointer(self.maxima),
                 self.pointer(self.maxima[1:]),
-                longs,
-                longs + 1,
+                call_counts,
+                call_counts + 1,
             )
             self.seconds += perf_counter() - before
-            first += int(self.longs[1])
+            first += int(self.call_counts[1])
             if self.steps:
-                self.steps.collect_steps(course)
-            self.asker.raise_stored(status == STOPPED)
+                self.steps.collect_steps(motion_struct)
+            self.cancellation_poll.raise_stored(status == STOPPED)
         return first, int(status)
 
     def _compute_works(self, first: int, last: int) -> int:
         """Compute the works of the samples after `first` up to `last`, and return `last`.
 
-        Raises SolverError where they cannot be computed to the end; `reached` is then the last complete sample.
+        Raises SolverError where they cannot be computed to the end; `last_complete` is then the last complete sample.
         """
         if last == first:
             return last
         rows, done = slice(first, None), np.zeros(1, dtype=np.int_)
         status = self.compiled.lib.gudgeon_kinematic_works(
-            self.pointer(self.course, "void *"),
+            self.pointer(self.motion_struct, "void *"),
             last - first,
             self.pointer(self.t[rows]),
             self.pointer(self.problem.p),
             *(self.pointer(x[rows]) for x in (self.q, self.v, self.work)),
             self.pointer(done, "long *"),
         )
-        self.asker.raise_stored(status == STOPPED)
+        self.cancellation_poll.raise_stored(status == STOPPED)
         if status:
-            self.reached = first + int(done[0])
+            self.last_complete = first + int(done[0])
             raise self._build_error(status)
         return last
 
@@ -189,26 +197,24 @@ class _KinematicRun:
         last = first + int(np.searchsorted(self.t[first : end + 1], t_end - compute_time_resolution(self.problem.t)))
         self.t = np.append(self.t[:last], t_end)
         if self.steps:
-            self.steps.register(self.pointer(self.course, "void *"), 0)
+            self.steps.register_rows(self.pointer(self.motion_struct, "void *"), 0)
         if last > first:
-            self.compiled.lib.gudgeon_kinematic_restart(self.pointer(self.course, "void *"))
+            self.compiled.lib.gudgeon_kinematic_restart(self.pointer(self.motion_struct, "void *"))
             _, failed = self._compute_motion(last - 1, last)
             if failed:
                 raise self._build_error(failed)
         return last
 
     def _build_error(self, status: int) -> SolverError:
-        """Build the error for a nonzero status of C: no progress, a value that is not a number, or a motion not to
-        be followed.
-        """
+        """Build the error for a nonzero status of C: no progress, an undefined value, or no solution."""
         failure_time, gained, steps, crawls = self._read_progress()
         t, t_end = float(failure_time[0]), float(self.problem.t[-1])
         if status == STALLED:
-            pace = Progress(t, t_end - t, gained, steps, bool(crawls))
+            progress = RunProgress(t, t_end - t, gained, steps, bool(crawls))
             return (
-                build_runaway_error(pace, format_drive_states(self.compiled, self.problem.p, t))
+                build_runaway_error(progress, format_drive_states(self.compiled, self.problem.p, t))
                 if crawls
-                else build_too_slow_error(pace)
+                else build_too_slow_error(progress)
             )
         if status == NOT_FINITE:
             return self._build_undefined_error(float(failure_time[1]))
@@ -218,7 +224,7 @@ class _KinematicRun:
         """Return the coordinates (n,) at t (s), followed from the last complete sample; that sample if t is not
         later.
         """
-        k = self.reached
+        k = self.last_complete
         if not self.has_first_sample or not t > self.t[k]:
             return self.q[k]
         return compute_motion_at(self.compiled, self.problem.p, np.array([self.t[k], t]), self.q[k], self.v[k])[0][1]
@@ -228,7 +234,7 @@ class _KinematicRun:
         expression.
         """
         compiled, p = self.compiled, self.problem.p
-        why = explain_undefined_ahead(compiled.source, p, t, self.q[self.reached], self.v[self.reached])
+        why = explain_undefined_ahead(compiled.source, p, t, self.q[self.last_complete], self.v[self.last_complete])
         why = why or explain_undefined_rate(compiled, p, np.array([t]), np.zeros(compiled.n))[0]
         why = why or f"what the drives and forces do is no number at t = {t:.9g} s{format_drive_states(compiled, p, t)}"
         return NonFiniteError(f"{why}\n  {NO_NUMBER}", t)
@@ -240,7 +246,10 @@ class _KinematicRun:
         """
         t, gained, steps = np.zeros(2), np.zeros(1), np.zeros(2, dtype=np.int_)
         self.compiled.lib.gudgeon_kinematic_progress(
-            self.pointer(self.course, "void *"), self.pointer(t), self.pointer(gained), self.pointer(steps, "long *")
+            self.pointer(self.motion_struct, "void *"),
+            self.pointer(t),
+            self.pointer(gained),
+            self.pointer(steps, "long *"),
         )
         return t, float(gained[0]), int(steps[0]), int(steps[1])
 
@@ -248,13 +257,13 @@ class _KinematicRun:
         """Return the complete samples as a Trajectory, with events up to the last one."""
         from gudgeon.integrators.trajectory import IMPACT_DTYPE
 
-        rows, first = slice(self.reached + 1), np.zeros(1)
+        rows, first = slice(self.last_complete + 1), np.zeros(1)
         passed = self.compiled.lib.gudgeon_kinematic_interpolated(
-            self.pointer(self.course, "void *"), self.pointer(first)
+            self.pointer(self.motion_struct, "void *"), self.pointer(first)
         )
-        empty, t = np.zeros((self.reached + 1, 0)), self.t[rows].copy()
+        empty, t = np.zeros((self.last_complete + 1, 0)), self.t[rows].copy()
         events, lost = (make_empty_events(), make_empty_events()) if self.events is None else self.events.sort_events()
-        counts = Counts(int(self.longs[0]), 0, phi_max=float(self.maxima[0]), phi_dot_max=float(self.maxima[1]))
+        counts = Counts(int(self.call_counts[0]), 0, phi_max=float(self.maxima[0]), phi_dot_max=float(self.maxima[1]))
         return Trajectory(
             t,
             self.q[rows],
@@ -300,14 +309,14 @@ def compute_motion_at(compiled: CompiledModel, p: Array, t: Array, q: Array, v: 
     Rows after a failure are NaN. Nothing polls for Ctrl-C.
     """
     T, pointer, done = len(t), compiled.pointer, np.zeros(2, dtype=np.int_)
-    course, maxima, a = (
+    motion_struct, maxima, a = (
         np.zeros(compiled.lib.gudgeon_kinematic_size(), dtype=np.uint8),
         np.zeros(2),
         np.zeros((T, len(q))),
     )
     every_q, every_v = np.full((T, len(q)), np.nan), np.full((T, len(q)), np.nan)
     every_q[0], every_v[0] = q, v
-    where, null = pointer(course, "void *", True), compiled.ffi.NULL
+    where, null = pointer(motion_struct, "void *", True), compiled.ffi.NULL
     size = compute_mechanism_size(compiled, p)
     compiled.lib.gudgeon_kinematic_begin(where, REACH, size, float(t[-1]), null, null, 1.0)
     compiled.lib.gudgeon_kinematic(
@@ -369,18 +378,18 @@ def _build_motion_error(problem: Problem, status: int, t: float, q: Array) -> So
 
 
 class Events:
-    """Collect the user events of a kinematic run in `found` (EVENT_DTYPE), in the order of the search."""
+    """Collect the user events of a kinematic run in `found_events` (EVENT_DTYPE), in the order of the search."""
 
     def __init__(self, problem: Problem) -> None:
         self.problem, self.end = problem, float(problem.t[-1])
         self.signs = np.zeros(len(problem.compiled.source.events), dtype=np.int8)  # of zero, seen last
-        self.found, self.capacity = make_empty_events(), MAX_LISTED
+        self.found_events, self.capacity = make_empty_events(), MAX_LISTED
 
     def find_events(self, run_state: _KinematicRun, first: int, last: int) -> bool:
         """Search the intervals between samples `first` to `last`; return whether an event ends the run there.
 
-        Events are appended to `found`. The last interval is searched slightly beyond the end. Raises SolverError where
-        the motion cannot be followed between its samples.
+        Events are appended to `found_events`. The last interval is searched slightly beyond the end. Raises SolverError
+        where the motion cannot be followed between its samples.
         """
         times, n_done = run_state.t[first : last + 1], 0
         if last == len(self.problem.t) - 1:  # a little more, for what is zero at the end
@@ -402,14 +411,14 @@ class Events:
         return False
 
     def _search_intervals(self, run_state: _KinematicRun, first: int, times: Array) -> tuple[int, int]:
-        """Search the intervals between these times from sample `first` on, and append the events to `found`.
+        """Search the intervals between these times from sample `first` on, and append the events to `found_events`.
 
         Return the status of C and the number of complete intervals. Raises KeyboardInterrupt.
         """
         pointer, counts = self.problem.compiled.pointer, np.zeros(2, dtype=np.int_)
         event_times, which = np.zeros(self.capacity), np.zeros(self.capacity, dtype=np.intc)
         status = self.problem.compiled.lib.gudgeon_kinematic_events(
-            pointer(run_state.course, "void *"),
+            pointer(run_state.motion_struct, "void *"),
             len(times) - 1,
             pointer(times),
             pointer(self.problem.p),
@@ -424,10 +433,10 @@ class Events:
             pointer(counts, "long *"),
             pointer(counts[1:], "long *"),
         )
-        run_state.asker.raise_stored(status == STOPPED)
+        run_state.cancellation_poll.raise_stored(status == STOPPED)
         new_events = np.zeros(int(counts[0]), dtype=EVENT_DTYPE)
         new_events["event"], new_events["t"] = which[: len(new_events)], event_times[: len(new_events)]
-        self.found = np.concatenate([self.found, new_events])
+        self.found_events = np.concatenate([self.found_events, new_events])
         return int(status), int(counts[1])
 
     def sort_events(self) -> tuple[NDArray[Any], NDArray[Any]]:
@@ -435,6 +444,6 @@ class Events:
 
         Both are arrays (EVENT_DTYPE).
         """
-        events, lost = split_undefined(self.problem.compiled, self.found)
+        events, lost = split_undefined_events(self.problem.compiled, self.found_events)
         events["t"] = np.minimum(events["t"], self.end)
         return events, lost[np.unique(lost["event"], return_index=True)[1]]

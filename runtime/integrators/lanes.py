@@ -59,17 +59,17 @@ class Lanes:
         self,
         runs: Runs,
         waiting_runs: Iterator[int],
-        memories: NDArray[np.uint8],
+        storages: NDArray[np.uint8],
         step_logs: Sequence[StepLog],
         first_row: int,
     ) -> None:
         """Integrate all runs of `waiting_runs` in this thread, several in the lanes of one vector, until none is left.
 
-        Lanes that become free are filled with the next run. Each lane has a row of `memories` as its storage. If rows
+        Lanes that become free are filled with the next run. Each lane has a row of `storages` as its storage. If rows
         of samples are shared, those from `first_row` on are used. `step_logs`: step records for observers, one per
-        lane. If the batch is stopped, begun runs are handed over one by one.
+        lane. If the batch is stopped, begun runs are ended and stored one by one.
         """
-        arguments, rows, run_of_lane = self._build_arguments(runs, memories)
+        arguments, rows, run_of_lane = self._build_arguments(runs, storages)
         free_rows, unstored, status = [*range(first_row, first_row + runs.n_rows_per_thread)], list[int](), LISTS
         empty_lanes = [*range(len(rows))]
         while status != ALL_OVER and not runs.is_stopping:
@@ -83,7 +83,7 @@ class Lanes:
             empty_lanes = [k for k, i in enumerate(run_of_lane) if i == NONE and k < len(rows)]
             for k in empty_lanes if status != LISTS else range(len(rows)):
                 if before[k] != NONE:
-                    _fetch_lists(runs, before[k], rows[k], step_logs[k] if step_logs else None)
+                    _fetch_results(runs, before[k], rows[k], step_logs[k] if step_logs else None)
             unstored += [before[k] for k in empty_lanes if before[k] != NONE]
             if runs.has_shared_rows and len(free_rows) < len(empty_lanes):
                 runs.store_finished_runs(unstored)
@@ -92,18 +92,18 @@ class Lanes:
         runs.store_finished_runs(unstored)
         for k, i in enumerate(run_of_lane):
             if i != NONE:
-                runs.integrate_to_end(i, memories[k], step_logs[k] if step_logs else None)
+                runs.integrate_run_to_end(i, storages[k], step_logs[k] if step_logs else None)
 
-    def _build_arguments(self, runs: Runs, memories: NDArray[np.uint8]) -> tuple[tuple[Any, ...], list[Any], Any]:
-        """Return three things for calls of C: its arguments, pointers to the rows of `memories`, and an array of run
+    def _build_arguments(self, runs: Runs, storages: NDArray[np.uint8]) -> tuple[tuple[Any, ...], list[Any], Any]:
+        """Return three things for calls of C: its arguments, pointers to the rows of `storages`, and an array of run
         numbers.
 
         The array has one number per lane and is filled with NONE.
         """
-        rows = [runs.compiled.pointer(memory, "void *") for memory in memories[: self.count]]
+        rows = [runs.compiled.pointer(storage, "void *") for storage in storages[: self.count]]
         pointers = self.ffi.new("void *[]", self.count)
-        for k, memory in enumerate(memories[: self.count]):
-            pointers[k] = self.ffi.cast("void *", find_address(runs.compiled.ffi, memory))
+        for k, storage in enumerate(storages[: self.count]):
+            pointers[k] = self.ffi.cast("void *", find_address(runs.compiled.ffi, storage))
         batch = self.ffi.cast("void *", int(runs.compiled.ffi.cast("uintptr_t", runs.struct)))
         return (batch, self.single, pointers), rows, self.ffi.new("long[]", [NONE] * self.count)
 
@@ -119,13 +119,13 @@ class LaneProvider:
         self.began = time.perf_counter()
 
     def get_lanes(self, runs: Runs) -> Lanes | None:
-        """Return the lanes if the remaining runs are worth them, else None; called before each portion of runs.
+        """Return the lanes if compiling them pays off for the remaining runs, else None; called before each portion.
 
-        The first thread for which they pay off compiles their library while the others continue. None is returned if
-        the batch is stopped meanwhile.
+        The first thread that finds this compiles their library while the others continue. None is returned if the batch
+        is stopped meanwhile.
         """
         self.lanes = self.lanes or _made.get(self.compiled)  # another batch may have made them
-        if self.lanes is None and self._is_worth(runs) and _making.acquire(blocking=False):
+        if self.lanes is None and self._is_worth_compiling(runs) and _making.acquire(blocking=False):
             try:
                 with set_wait_condition(lambda: runs.is_stopping):
                     self.lanes = self.lanes or _load_lanes(self.compiled)
@@ -135,9 +135,10 @@ class LaneProvider:
                 _making.release()
         return self.lanes
 
-    def _is_worth(self, runs: Runs) -> bool:
-        """Return whether the remaining runs, estimated from those that are over, will take longer than WORTH
-        seconds.
+    def _is_worth_compiling(self, runs: Runs) -> bool:
+        """Return whether the remaining runs are expected to take longer than MIN_REMAINING_S.
+
+        The estimate is based on the time of the runs that are over.
         """
         over = int(np.count_nonzero(runs.arrays["phase"] == OVER))
         return over > 0 and (time.perf_counter() - self.began) * (runs.n + self.later - over) / over > MIN_REMAINING_S
@@ -145,7 +146,7 @@ class LaneProvider:
 
 @contextmanager
 def announce_later_runs(n_runs: int) -> Iterator[None]:
-    """Announce within a with block how many runs follow in later batches, so that lanes are compiled earlier."""
+    """Announce, for a with block, how many runs follow in later batches, so that lanes are compiled earlier."""
     token = _later.set(n_runs)
     try:
         yield
@@ -185,7 +186,7 @@ def _is_compiled(compiled: CompiledModel) -> bool:
     return is_compiled(_build_lane_source(compiled), portable=compiled.portable)
 
 
-def _fetch_lists(runs: Runs, i: int, run: Any, step_log: StepLog | None = None) -> None:
+def _fetch_results(runs: Runs, i: int, run: Any, step_log: StepLog | None = None) -> None:
     """Fetch the contacts and events of run i from C's integrator `run`, and its step record if full or the run is over.
 
     Recorded steps are passed to the run's observer. Runs whose start C could not assemble are skipped.
@@ -196,7 +197,7 @@ def _fetch_lists(runs: Runs, i: int, run: Any, step_log: StepLog | None = None) 
     if step_log and (over or runs.compiled.lib.gudgeon_run_full(run)):
         step_log.observer = runs.observers[i]
         step_log.pass_steps(run)
-    runs.fetch_lists(i, run, over)
+    runs.fetch_contacts_and_events(i, run, over)
 
 
 def may_use_lanes(compiled: CompiledModel, method: str, n_runs: int) -> bool:

@@ -44,31 +44,29 @@ class Steps:
         return Steps(*(np.concatenate([getattr(self, x.name), getattr(later, x.name)]) for x in fields(self)))
 
 
-Look: TypeAlias = Callable[[Steps], None]  # observer of the states of all steps of a run
+StepCallback: TypeAlias = Callable[[Steps], None]  # observer of the states of all steps of a run
 
 
 class StepLog:
-    """Hold the rows that a run in C fills, and pass them to the observer `look`."""
+    """Hold the rows that a run in C fills, and pass them to the observer."""
 
-    def __init__(self, compiled: CompiledModel, look: Look | None = None) -> None:
-        self.compiled, self.observer = compiled, look
+    def __init__(self, compiled: CompiledModel, observer: StepCallback | None = None) -> None:
+        self.compiled, self.observer = compiled, observer
         joints = len(compiled.source.clearances)
         self.widths = (N_RECORD_HEAD, 2 * compiled.n + N_WORK, max(compiled.n_memory, 1), max(joints, 1))
         self.rows = np.zeros((ROWS, sum(self.widths)))
 
-    def register(self, run: Any) -> None:
+    def register_rows(self, run: Any) -> None:
         """Register the rows with C's integrator `run`, which is about to begin and will write its states into them."""
         self.compiled.lib.gudgeon_run_record(run, self.compiled.pointer(self.rows, written=True), len(self.rows))
 
     def pass_steps(self, run: Any) -> None:
-        """Pass a copy of the states that C's integrator has written since the last call to the observer, if there
-        are any.
-        """
+        """Pass a copy of the states that C's integrator has written since the last call, if any, to the observer."""
         count = int(self.compiled.lib.gudgeon_run_recorded(run))
         if count and self.observer:
-            self.observer(self._convert_rows(self.rows[:count].copy()))
+            self.observer(self._convert_rows_to_steps(self.rows[:count].copy()))
 
-    def _convert_rows(self, rows: Array) -> Steps:
+    def _convert_rows_to_steps(self, rows: Array) -> Steps:
         """Convert rows that C wrote (head, state, discrete states, contact codes) to Steps."""
         (head, y, memory, state), n = np.split(rows, np.cumsum(self.widths)[:-1], axis=1), self.compiled.n
         joints = len(self.compiled.source.clearances)
@@ -84,15 +82,13 @@ class StepLog:
 
 
 class StepCollector:
-    """Collect the states of a run with a time loop in Python, and pass them in blocks to the observer `look`, if
-    any.
-    """
+    """Collect the states of a run with a time loop in Python, and pass them in blocks to the observer, if any."""
 
-    def __init__(self, compiled: CompiledModel, look: Look | None) -> None:
-        self.n, self.observer = compiled.n, look
+    def __init__(self, compiled: CompiledModel, observer: StepCallback | None) -> None:
+        self.n, self.observer = compiled.n, observer
         self.waiting: list[Steps] = []
 
-    def add(self, t: Array, y: Array, memory: Array, state: NDArray[Any], is_after_jump: bool) -> None:
+    def add_states(self, t: Array, y: Array, memory: Array, state: NDArray[Any], is_after_jump: bool) -> None:
         """Add states (k, 2n + 3) at times t (k,), all with the same discrete states and contact codes.
 
         `is_after_jump`: whether something jumped before the first. A full block is passed to the observer.
@@ -115,25 +111,23 @@ class StepCollector:
 class KinematicStepLog:
     """Collect the states of a kinematic motion (engine/kinematic), add their works, and pass them to an observer."""
 
-    def __init__(self, compiled: CompiledModel, look: Look, begin: Callable[[], NDArray[Any]], first: Steps) -> None:
-        self.compiled, self.observer, self.last = compiled, look, first
+    def __init__(
+        self, compiled: CompiledModel, observer: StepCallback, allocate_struct: Callable[[], NDArray[Any]], first: Steps
+    ) -> None:
+        self.compiled, self.observer, self.last = compiled, observer, first
         self.rows = np.zeros((ROWS, 1 + 2 * compiled.n))
         self.waiting: list[Array] = []  # rows of a chunk that an event may yet cut off
-        self.works = begin()  # a separate struct of C for the works
-        look(first)
+        self.works = allocate_struct()  # a separate struct of C for the works
+        observer(first)
 
-    def register(self, course: Any, rows: int = ROWS) -> None:
-        """Register the rows with C's struct `course`, which writes its states into them from now on; with 0 rows,
-        end that.
-        """
+    def register_rows(self, motion_struct: Any, rows: int = ROWS) -> None:
+        """Make C write the states of the motion into the first `rows` rows from now on; with 0, end that."""
         lib, where = self.compiled.lib, self.compiled.pointer(self.rows, written=True)
-        lib.gudgeon_kinematic_record(course, where if rows else self.compiled.ffi.NULL, rows)
+        lib.gudgeon_kinematic_record(motion_struct, where if rows else self.compiled.ffi.NULL, rows)
 
-    def collect_steps(self, course: Any) -> None:
-        """Copy the states that C has written since the last call; they wait for `pass_steps`, since an event may cut
-        them off.
-        """
-        count = int(self.compiled.lib.gudgeon_kinematic_recorded(course))
+    def collect_steps(self, motion_struct: Any) -> None:
+        """Copy and store the states that C has written since the last call, for the next call of `pass_steps`."""
+        count = int(self.compiled.lib.gudgeon_kinematic_recorded(motion_struct))
         if count:
             self.waiting.append(self.rows[:count].copy())
 
@@ -149,12 +143,10 @@ class KinematicStepLog:
             rows = np.concatenate([rows[rows[:, 0] < end[0]], np.hstack(end)[None]])
         rows = rows[rows[:, 0] > self.last.t[0]]
         for first in range(0, len(rows), ROWS):
-            self._pass_rows(rows[first : first + ROWS], p)
+            self._pass_states(rows[first : first + ROWS], p)
 
-    def _pass_rows(self, rows: Array, p: Array) -> None:
-        """Compute the works of the states `rows` (k, 1 + 2n) and pass the states to the observer; works are NaN
-        after a failure.
-        """
+    def _pass_states(self, rows: Array, p: Array) -> None:
+        """Compute the works of states (k, 1 + 2n), NaN after a failure, and pass them to the observer as Steps."""
         n, count, pointer = self.compiled.n, len(rows), self.compiled.pointer
         t, q, v = rows[:, 0].copy(), rows[:, 1 : 1 + n].copy(), rows[:, 1 + n :].copy()
         work, done = np.full((count + 1, N_WORK), np.nan), np.zeros(1, dtype=np.int_)

@@ -45,7 +45,7 @@ from gudgeon.integrators.trajectory import (
     make_empty_event_states,
     make_empty_events,
     remove_event_states,
-    split_undefined,
+    split_undefined_events,
 )
 from gudgeon.model.compiled import Array, CompiledModel
 
@@ -65,7 +65,7 @@ class Contacts:
     """Collect the contacts of the runs of a batch; each thread has its own lists."""
 
     def __init__(self, compiled: CompiledModel) -> None:
-        self.compiled, self.own, self.all = compiled, local(), list[_ThreadContacts]()
+        self.compiled, self.of_thread, self.all = compiled, local(), list[_ThreadContacts]()
 
     def fetch_contacts(self, i: int, run: Any, is_over: bool) -> None:
         """Fetch and clear the contacts that C's integrator `run` lists for run i; with `is_over` also those still
@@ -74,11 +74,11 @@ class Contacts:
         They are stored in lists of the calling thread.
         """
         try:
-            fetched: _ThreadContacts = self.own.fetched
+            fetched: _ThreadContacts = self.of_thread.fetched
         except AttributeError:
-            fetched = self.own.fetched = _ThreadContacts(self.compiled)
+            fetched = self.of_thread.fetched = _ThreadContacts(self.compiled)
             self.all.append(fetched)
-        fetched.fetch(i, run, is_over)
+        fetched.fetch_contacts(i, run, is_over)
 
     def join_contacts(self, n_runs: int) -> tuple[NDArray[Any], NDArray[np.int_]]:
         """Return the contacts (IMPACT_DTYPE) of all n runs sorted by run and onset, and the first index of each run.
@@ -93,7 +93,7 @@ class Contacts:
         begins, counts = begins[by_run], counts[by_run]
         whose = np.repeat(runs[by_run], counts)
         row = np.repeat(begins - (np.cumsum(counts) - counts), counts) + np.arange(len(whose))
-        blocks = [block for each in self.all for block in each.blocks()]
+        blocks = [block for each in self.all for block in each.list_blocks()]
         numbers = np.concatenate([np.zeros((0, N_IMPACT_COLUMNS)), *(numbers for numbers, _ in blocks)])
         joints = np.concatenate([np.zeros(0, np.intc), *(joints for _, joints in blocks)])
         self.all.clear()
@@ -108,32 +108,30 @@ class _ThreadContacts:
     def __init__(self, compiled: CompiledModel) -> None:
         self.compiled, self.runs, self.counts = compiled, list[int](), list[int]()
         self.full: list[tuple[NDArray[Any], NDArray[Any]]] = []
-        self._begin()
+        self._allocate_block()
 
-    def _begin(self) -> None:
+    def _allocate_block(self) -> None:
         """Allocate an empty block for BLOCK contacts, with C pointers to it."""
         self.numbers, self.joints, self.n = np.empty((BLOCK, N_IMPACT_COLUMNS)), np.empty(BLOCK, np.intc), 0
         pointer = self.compiled.pointer
-        self.to = pointer(self.numbers, written=True), pointer(self.joints, "int *", written=True)
+        self.pointers = pointer(self.numbers, written=True), pointer(self.joints, "int *", written=True)
 
-    def fetch(self, i: int, run: Any, is_over: bool) -> None:
-        """Fetch the contacts of run i into blocks, allocating as many as needed; with `is_over` also those still
-        closed.
-        """
+    def fetch_contacts(self, i: int, run: Any, is_over: bool) -> None:
+        """Fetch the contacts of run i from C into blocks, allocated as needed; with `is_over` also closed ones."""
         self.runs.append(i)
         self.counts.append(0)
         while True:
-            (numbers, joints), room = self.to, BLOCK - self.n
+            (numbers, joints), n_free = self.pointers, BLOCK - self.n
             to = numbers + N_IMPACT_COLUMNS * self.n, joints + self.n
-            count = self.compiled.lib.gudgeon_run_impacts(run, is_over, room, *to)
+            count = self.compiled.lib.gudgeon_run_impacts(run, is_over, n_free, *to)
             self.counts[-1] += count
             self.n += count
-            if count < room:
+            if count < n_free:
                 return
-            self.full = self.blocks()
-            self._begin()
+            self.full = self.list_blocks()
+            self._allocate_block()
 
-    def blocks(self) -> list[tuple[NDArray[Any], NDArray[Any]]]:
+    def list_blocks(self) -> list[tuple[NDArray[Any], NDArray[Any]]]:
         """Return all blocks, the last cut to its length: values (n, N_IMPACT_COLUMNS) and joint indices (n,)."""
         return [*self.full, (self.numbers[: self.n], self.joints[: self.n])]
 
@@ -242,10 +240,8 @@ class StoredRuns:
         if trajectory.stopped is not None:
             self.failures[i] = trajectory.stopped
 
-    def fetch_lists(self, i: int, run: Any, is_over: bool) -> None:
-        """Fetch and clear the lists of contacts and events of run i in C's integrator; with `is_over` also closed
-        contacts.
-        """
+    def fetch_contacts_and_events(self, i: int, run: Any, is_over: bool) -> None:
+        """Fetch, store and clear C's lists of contacts and events of run i; with `is_over` also closed contacts."""
         if self.compiled.source.clearances:
             self.fetched.fetch_contacts(i, run, is_over)
         if self.compiled.source.events and self.compiled.lib.gudgeon_run_listed(run):
@@ -284,7 +280,7 @@ class StoredRuns:
         if i not in self.events:
             return make_empty_event_states(self.compiled), make_empty_event_states(self.compiled)
         x, times = self.arrays, self.times.get_times(i)
-        events, lost = split_undefined(self.compiled, np.concatenate(self.events[i]))
+        events, lost = split_undefined_events(self.compiled, np.concatenate(self.events[i]))
         if x["status"][i] not in (0, ENDED, STOPPED) or not x["done"][i]:
             return events, lost
         t_last = self._get_reached_times(i)[-1] + compute_time_resolution(times)

@@ -27,12 +27,15 @@ def available_threads() -> int:
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
-def wait_for(
-    futures: set[Future[None]], ctrl_c: DelayedCtrlC, progress: Progress | None, fraction: Callable[[int], float]
+def wait_for_futures(
+    futures: set[Future[None]],
+    ctrl_c: DelayedCtrlC,
+    progress: Progress | None,
+    compute_fraction: Callable[[int], float],
 ) -> None:
     """Wait until all futures are done, and report progress; raise their errors, and KeyboardInterrupt after Ctrl-C.
 
-    `fraction` returns the fraction of the work done, given the number of unfinished futures.
+    `compute_fraction` returns the fraction of the work done, given the number of unfinished futures.
     """
     while futures:
         ended, futures = wait(futures, POLL_INTERVAL_S)
@@ -40,11 +43,13 @@ def wait_for(
         for future in ended:
             future.result()
         if progress:
-            progress(fraction(len(futures)), "integrating")
+            progress(compute_fraction(len(futures)), "integrating")
 
 
-def run_in_threads(runs: Runs, progress: Progress | None, indices: range | list[int], ctrl_c: DelayedCtrlC) -> None:
-    """Integrate the runs with indices `indices` to their ends in threads, which take them in portions from a queue.
+def integrate_runs_in_threads(
+    runs: Runs, progress: Progress | None, indices: range | list[int], ctrl_c: DelayedCtrlC
+) -> None:
+    """Integrate the runs with these indices to their ends in threads, which take them in portions from a queue.
 
     `progress` is called with the fraction of finished runs. Ctrl-C or an error ends all runs where they are, and is
     passed on.
@@ -55,46 +60,46 @@ def run_in_threads(runs: Runs, progress: Progress | None, indices: range | list[
         try:
             work = _integrate_portions_in_python if runs.python_loop else _integrate_portions_in_c
             waiting: set[Future[None]] = {pool.submit(work, runs, portions, k) for k in range(runs.threads)}
-            wait_for(waiting, ctrl_c, progress, lambda _: float(np.mean(runs.arrays["phase"] == OVER)))
+            wait_for_futures(waiting, ctrl_c, progress, lambda _: float(np.mean(runs.arrays["phase"] == OVER)))
         except BaseException:
             runs.arrays["ending"][0] = 1
             raise
 
 
 def _integrate_portions_in_python(runs: Runs, portions: deque[range | list[int]], thread_index: int) -> None:
-    """Integrate runs with a time loop in Python, in the thread `thread_index`, until the queue of portions is empty."""
+    """Integrate runs by a time loop in Python, in the thread with this index, until the queue of portions is empty."""
     for i in yield_waiting_runs(runs, portions):
         if runs.has_shared_rows:
             runs.arrays["place"][i] = thread_index * runs.n_rows_per_thread
-        runs.integrate_in_python(i)
+        runs.integrate_run_in_python(i)
 
 
 def _integrate_portions_in_c(runs: Runs, portions: deque[range | list[int]], thread_index: int) -> None:
-    """Integrate portions of runs in C, in the thread `thread_index`, until the queue is empty or the batch is stopped.
+    """Integrate portions of runs in C, in the thread with this index, until the queue is empty or the batch is stopped.
 
-    Runs are integrated in vector lanes as soon as these are worth it, else one by one. Observers get step records.
+    Runs are integrated in vector lanes as soon as their library pays off, else one by one. Observers get step records.
     """
-    memories = np.zeros((runs.n_lanes, runs.compiled.lib.gudgeon_run_size()), dtype=np.uint8)
+    storages = np.zeros((runs.n_lanes, runs.compiled.lib.gudgeon_run_size()), dtype=np.uint8)
     step_logs, first_row = (
-        [StepLog(runs.compiled) for _ in memories] if runs.observers else [],
+        [StepLog(runs.compiled) for _ in storages] if runs.observers else [],
         thread_index * runs.n_rows_per_thread,
     )
-    for memory, step_log in zip(memories, step_logs, strict=False):
-        step_log.register(runs.compiled.pointer(memory, "void *"))
+    for storage, step_log in zip(storages, step_logs, strict=False):
+        step_log.register_rows(runs.compiled.pointer(storage, "void *"))
     first_log = step_logs[0] if step_logs else None
     while portions and not runs.is_stopping:
-        if runs.flow and (lanes := runs.flow.get_lanes(runs)):
-            lanes.integrate_runs(runs, yield_waiting_runs(runs, portions), memories, step_logs, first_row)
+        if runs.lane_provider and (lanes := runs.lane_provider.get_lanes(runs)):
+            lanes.integrate_runs(runs, yield_waiting_runs(runs, portions), storages, step_logs, first_row)
             return
         try:
             portion = portions.popleft()
         except IndexError:  # another thread was quicker
             return
         if runs.store_results is None and isinstance(portion, range):
-            runs.integrate_sequentially(portion.start, portion.stop, memories[0], first_log)
+            runs.integrate_runs_sequentially(portion.start, portion.stop, storages[0], first_log)
             continue
         for i in portion:
             if runs.arrays["phase"][i] == NEW:
                 if runs.has_shared_rows:
                     runs.arrays["place"][i] = first_row
-                runs.integrate_to_end(i, memories[0], first_log)
+                runs.integrate_run_to_end(i, storages[0], first_log)

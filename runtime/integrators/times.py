@@ -58,29 +58,30 @@ class Times:
         """Return the times (s) of run i, (count[i],), its start included; a view."""
         return (self.t[i] if self.t.ndim == 2 else self.t)[: self.count[i]]
 
-    def cut_before(self, ends: Mapping[int, float]) -> Times:
-        """Return Times in which the runs with indices in `ends` have only times before their end (s); the first time
-        stays.
+    def cut_times_before(self, ends: Mapping[int, float]) -> Times:
+        """Return Times in which each run has only times before its end (s) in `ends`, given by index.
+
+        Runs without an end keep all times; the first time always stays.
         """
         count = self.count.copy()
         for i, end in ends.items():
             count[i] = max(int(np.searchsorted(self.get_times(i), end)), 1)
         return replace(self, count=count)
 
-    def get_requested(self) -> Array:
+    def get_requested_times(self) -> Array:
         """Return the requested sample times, without starts that were not requested: (N',), or (n, N') as `t`.
 
         The shape is (n, N') too if only some runs skip their start; NaN follows a run's last time.
         """
         if self.t.ndim == 1 and (self.n_skipped == self.n_skipped[:1]).all():
             return self.t[self.n_skipped[:1].sum() :]
-        return self.select_requested(np.broadcast_to(self.t, (len(self.count), self.max_count)))
+        return self.select_requested_samples(np.broadcast_to(self.t, (len(self.count), self.max_count)))
 
-    def select_requested(self, values: Array) -> Array:
-        """Return rows of all runs, (n, N, …), at the requested times, (n, N', …), without starts that were not
-        requested.
+    def select_requested_samples(self, values: Array) -> Array:
+        """Return the samples of all runs, (n, N, …), at the requested times, (n, N', …).
 
-        Runs with fewer times are filled with NaN, arrays of integers with 0. A view is returned if all runs are alike.
+        Starts that were not requested are left out. Runs with fewer times are filled with NaN, arrays of integers with
+        0. A view is returned if all runs are alike.
         """
         if (self.n_skipped == self.n_skipped[:1]).all():
             return values[:, self.n_skipped[:1].sum() :]

@@ -21,7 +21,7 @@ from gudgeon.contract.boundary import (
     RESIDUAL_NAMES,
 )
 from gudgeon.errors import SolverError
-from gudgeon.integrators.steps import Look
+from gudgeon.integrators.steps import StepCallback
 from gudgeon.model.compiled import Array, CompiledModel
 
 if TYPE_CHECKING:
@@ -95,7 +95,7 @@ class Problem:
     start_is_sample: bool = True  # False: t[0] was not requested
     audit: int = 1  # level of the audit (contract/audit.py)
     resumed_state: State | None = None  # state that the run resumes from
-    observer: Look | None = None  # observer of all steps
+    observer: StepCallback | None = None  # observer of all steps
     poll_cancellation: Callable[[], object] = lambda: None  # raises KeyboardInterrupt after Ctrl-C (cancellation.py)
 
 
@@ -226,12 +226,12 @@ def fetch_events(compiled: CompiledModel, run: Any, times: Array) -> NDArray[Any
     return fetched[no_number | (fetched["t"] > times[0] + compute_time_resolution(times))]
 
 
-def split_undefined(compiled: CompiledModel, listed: NDArray[Any]) -> tuple[NDArray[Any], NDArray[Any]]:
-    """Split listed events into events sorted by time, and those that are not numbers from a time on.
+def split_undefined_events(compiled: CompiledModel, events: NDArray[Any]) -> tuple[NDArray[Any], NDArray[Any]]:
+    """Split events as C lists them into events sorted by time, and those that are undefined from a time on.
 
-    Both have the type of `listed`; the event numbers of the second are reduced to the scene's.
+    Both have the type of `events`; the event numbers of the second are reduced to the scene's.
     """
-    ordered = listed[np.argsort(listed["t"], kind="stable")]
+    ordered = events[np.argsort(events["t"], kind="stable")]
     number = ordered["event"] < len(compiled.source.events)
     undefined = ordered[~number]
     undefined["event"] -= len(compiled.source.events)

@@ -54,7 +54,7 @@ class BackgroundCompilation:
     def __init__(self, portable: bool, cache: Cache | None = None, quick: bool = False) -> None:
         self._portable, self._cache, self._quick, self._programs = portable, cache, quick, Programs()
         self._folder: Path | None = None
-        self._begun: dict[str, tuple[tuple[str, ...], dict[str, str], subprocess.Popen[str]]] = {}
+        self._compilations: dict[str, tuple[tuple[str, ...], dict[str, str], subprocess.Popen[str]]] = {}
 
     def __enter__(self) -> BackgroundCompilation:
         """Return the context."""
@@ -63,13 +63,13 @@ class BackgroundCompilation:
     def start_part(self, part: int, texts: Mapping[str, str]) -> None:
         """Start to compile a part of the scene, or the engine, in the background from the texts written so far.
 
-        Errors are ignored: the part is then compiled when it is needed.
+        `texts`: file names and contents. Errors are ignored: the part is then compiled when it is needed.
         """
         try:
             if part == ENGINE_PART:
-                self.start_shared(self._find_engine_object(texts[HEADER], self._quick))
+                self.start_shared_object(self._find_engine_object(texts[HEADER], self._quick))
             else:
-                self._begin(*_build_part_command(part, self._portable, self._quick), texts)
+                self._start_compilation(*_build_part_command(part, self._portable, self._quick), texts)
         except (GudgeonError, OSError):
             return
 
@@ -94,29 +94,29 @@ class BackgroundCompilation:
             return engine
         return describe_engine_object(header, self._portable, quick=True)
 
-    def start_shared(self, shared: SharedObject) -> None:
+    def start_shared_object(self, shared: SharedObject) -> None:
         """Start to compile a shared object file unless it is being compiled or the cache has it.
 
         A compilation of the same file from other texts is stopped. Raises GudgeonError or OSError if it cannot be
         started.
         """
-        if self.is_compiling(shared.name, shared.line, shared.texts):
+        if self.is_compiling(shared.name, shared.command_line, shared.texts):
             return
-        if shared.name in self._begun:  # it was foreseen wrongly
-            self._programs.stop(self._begun.pop(shared.name)[2])
+        if shared.name in self._compilations:  # it was foreseen wrongly
+            self._programs.stop(self._compilations.pop(shared.name)[2])
             shutil.rmtree(self._get_folder(shared.name))
         if not shared.is_cached(self._portable, self._cache or get_default_cache()):
-            self._begin(shared.name, shared.line, shared.texts)
+            self._start_compilation(shared.name, shared.command_line, shared.texts)
 
-    def _begin(self, name: str, line: tuple[str, ...], texts: Mapping[str, str]) -> None:
-        """Write missing source texts into a temporary folder and start the compiler there for an object file."""
+    def _start_compilation(self, name: str, command_line: tuple[str, ...], texts: Mapping[str, str]) -> None:
+        """Write missing source texts into a temporary folder, and start the compiler there for object file `name`."""
         folder = self._get_folder(name)
         folder.mkdir(exist_ok=True)
         for file, text in texts.items():
             if not (folder / file).exists():
                 (folder / file).write_text(text, encoding="utf-8")
         environment = {**compiler.build_environment(), "TMPDIR": str(folder)}
-        self._begun[name] = line, dict(texts), self._programs.start([*line], folder, environment)
+        self._compilations[name] = command_line, dict(texts), self._programs.start([*command_line], folder, environment)
 
     def _get_folder(self, name: str) -> Path:
         """Return the temporary folder of an object file: the parts of a scene share one, the engine has its own.
@@ -131,37 +131,37 @@ class BackgroundCompilation:
             ctrl_c.raise_delayed()
         return self._folder / name.partition("_")[0]
 
-    def fetch_object(self, made: Path, line: tuple[str, ...], texts: Mapping[str, str]) -> bool:
-        """Wait for an object file compiled with this command line and texts, and move it to the path `made`.
+    def fetch_object(self, object_file: Path, command_line: tuple[str, ...], texts: Mapping[str, str]) -> bool:
+        """Wait for an object file compiled with this command line and texts, and move it to the path `object_file`.
 
         Return False if it was not being compiled or its compilation failed.
         """
-        if self._folder is None or not self.is_compiling(made.name, line, texts):
+        if self._folder is None or not self.is_compiling(object_file.name, command_line, texts):
             return False
-        _, _, process = self._begun.pop(made.name)
+        _, _, process = self._compilations.pop(object_file.name)
         self._programs.wait(process)
-        object_path = self._get_folder(made.name) / made.name
-        if process.returncode or not object_path.exists():
+        compiled_file = self._get_folder(object_file.name) / object_file.name
+        if process.returncode or not compiled_file.exists():
             return False
-        shutil.move(object_path, made)
+        shutil.move(compiled_file, object_file)
         return True
 
     @property
     def is_busy(self) -> bool:
         """Return whether a compiler is running, or an object file has not been fetched yet."""
-        return bool(self._begun)
+        return bool(self._compilations)
 
-    def is_compiling(self, name: str, line: tuple[str, ...], texts: Mapping[str, str]) -> bool:
+    def is_compiling(self, name: str, command_line: tuple[str, ...], texts: Mapping[str, str]) -> bool:
         """Return whether the object file `name` is being compiled with this command line from these texts."""
-        if name not in self._begun:
+        if name not in self._compilations:
             return False
-        process, read, _ = self._begun[name]
-        return process == line and all(texts.get(file) == text for file, text in read.items())
+        compiled_line, compiled_texts, _ = self._compilations[name]
+        return compiled_line == command_line and all(texts.get(file) == text for file, text in compiled_texts.items())
 
-    def __exit__(self, *wrong: object) -> None:
+    def __exit__(self, *exception_info: object) -> None:
         """Stop all compilers and remove the temporary folder, also if Ctrl-C comes."""
         with DelayedCtrlC() as ctrl_c:  # a second one leaves nothing either
-            self._programs.__exit__(*wrong)
+            self._programs.__exit__(*exception_info)
             if self._folder is not None:
                 self._clear()
         ctrl_c.raise_delayed()
@@ -169,44 +169,48 @@ class BackgroundCompilation:
 
 @dataclass(frozen=True)
 class SharedObject:
-    """Describe an object file that scenes share: kind in the cache, name, command line, texts, and what decides its
-    bytes.
+    """Describe an object file that scenes share: kind in the cache, name, command line, texts, and parts of its cache
+    key.
     """
 
     kind: str
     name: str
-    line: tuple[str, ...]
-    decided_by: tuple[str, ...]
+    command_line: tuple[str, ...]
+    key_parts: tuple[str, ...]
     texts: Mapping[str, str]
 
     def compute_key(self, portable: bool, cache: Cache) -> str:
         """Return the cache key: a digest of texts, command line, compiler and, unless `portable`, processor."""
         identity = compiler.describe_compiler(compiler.find_compiler(), cache)
-        return compute_digest([*self.decided_by, *self.line, identity, "" if portable else compiler.describe_cpu()])
+        return compute_digest(
+            [*self.key_parts, *self.command_line, identity, "" if portable else compiler.describe_cpu()]
+        )
 
     def is_cached(self, portable: bool, cache: Cache) -> bool:
         """Return whether the cache has the object file."""
         return cache.has(self.kind, self.compute_key(portable, cache))
 
-    def fetch(self, portable: bool, cache: Cache, ahead: BackgroundCompilation, renew: bool = False) -> Path:
+    def fetch_file(self, portable: bool, cache: Cache, background: BackgroundCompilation, renew: bool = False) -> Path:
         """Return the path of the object file, compiled first if the cache lacks it or `renew` is set. Raise BuildError.
 
-        A compilation of it in `ahead` is awaited and used.
+        A compilation of it in `background` is awaited and used.
         """
 
-        def make(folder: Path) -> None:
+        def compile_object(folder: Path) -> None:
             """Compile the object file in a folder, or take it from the background compilation."""
-            if ahead.fetch_object(folder / self.name, self.line, self.texts):
+            if background.fetch_object(folder / self.name, self.command_line, self.texts):
                 return
             for name, text in self.texts.items():
                 (folder / name).write_text(text, encoding="utf-8")
             with Programs() as programs:
-                if failed := finish_compiler(programs, start_compiler(programs, self.line, folder), folder / self.name):
+                if failed := finish_compiler(
+                    programs, start_compiler(programs, self.command_line, folder), folder / self.name
+                ):
                     raise failed
             for name in self.texts:
                 (folder / name).unlink()
 
-        return cache.fetch(self.kind, self.compute_key(portable, cache), make, renew=renew) / self.name
+        return cache.fetch(self.kind, self.compute_key(portable, cache), compile_object, renew=renew) / self.name
 
 
 def describe_engine_object(header: str, portable: bool, quick: bool = False) -> SharedObject:
@@ -216,5 +220,5 @@ def describe_engine_object(header: str, portable: bool, quick: bool = False) -> 
     """
     _, _, text = header.partition("#define GUDGEON_MODEL_H\n")
     read = text.partition(ENGINE_ENDS)[0]
-    line = build_unit_command(portable, [str(UNIT)], "engine.o", quick, "loops")
-    return SharedObject("engines", "engine.o", line, (read, compute_engine_digest()), {HEADER: read})
+    command_line = build_unit_command(portable, [str(UNIT)], "engine.o", quick, "loops")
+    return SharedObject("engines", "engine.o", command_line, (read, compute_engine_digest()), {HEADER: read})

@@ -40,7 +40,7 @@ def compile_kernels(
     """Return the library of a kernel source, compiled if the cache lacks it; without a compiler, the wheel's.
 
     portable: use no instructions that only this CPU has. rebuild: compile even if the cache has it. background: parts
-    that may be under way already. quick: if the cache has none, a quickly compiled library may serve while the
+    that may be under way already. quick: if the cache has none, an unoptimized library may serve while the
     optimized one is made (optimized_library.py). Raises BuildError without a compiler, or if compiling or loading
     fails.
     """
@@ -64,27 +64,28 @@ def compile_kernels(
         """Build the library in a folder, and report that this takes a while."""
         with (
             report_work(f"compiling {source.mechanism}, scene {source.scene}"),
-            BackgroundCompilation(portable, cache) as none,
+            BackgroundCompilation(portable, cache) as no_background,
         ):
-            _build(source, folder, portable, background or none, cache, rebuild, quick)
+            _build_library(source, folder, portable, background or no_background, cache, rebuild, quick)
 
-    library = _compile_quickly(source, portable, cache, key, build) if quick and not rebuild else None
+    library = _compile_quick_library(source, portable, cache, key, build) if quick and not rebuild else None
     if library is None:
         entry = cache.fetch("libraries", key, build, renew=rebuild)
         try:
             library = _open_entry(entry, source.cdef)
         except ImportError as error:  # whole, and yet it cannot be mapped
-            library = _open_rebuilt_or_copied(key, entry, source.cdef, cache, build, error)
+            library = _rebuild_or_copy_library(key, entry, source.cdef, cache, build, error)
     with _lock:
         return _libraries.setdefault(key, library)
 
 
-def _compile_quickly(
+def _compile_quick_library(
     source: KernelSource, portable: bool, cache: Cache, key: str, build: Callable[..., None]
 ) -> Library | None:
-    """Return a quick library while another process makes the optimized one with `key`; None if that must be awaited.
+    """Build an unoptimized library while another process makes the optimized one with the cache key `key`; return it.
 
-    If the cache has a quick one already, the optimized one is under way or failed; then it is made here, to see why.
+    Return None if the optimized one must be awaited: the cache has an unoptimized one, so the other process is at work
+    or failed.
     """
     if not may_compile_in_background(cache) or cache.has_folder("libraries", key):
         return None
@@ -94,26 +95,26 @@ def _compile_quickly(
     if cache.has_folder(KIND, library_key):
         return None
 
-    def quickly(folder: Path) -> None:
+    def build_quick_library(folder: Path) -> None:
         """Build the quick library in a folder, and store its source for the other process."""
         build(folder, True)
         for name in source.files:
             (folder / name).unlink()
         (folder / SOURCE).write_bytes(source.to_json().encode())
 
-    entry = cache.fetch(KIND, library_key, quickly)
+    entry = cache.fetch(KIND, library_key, build_quick_library)
     if not entry.is_relative_to(cache.root):
         return None
-    behind = OptimizedLibrary(
+    optimized_library = OptimizedLibrary(
         cache, key, lambda folder: build(folder, background=None), lambda entry: _open_entry(entry, source.cdef)
     )
     try:
         library = _open_entry(entry, source.cdef)
     except ImportError:  # reported for the optimized one
         return None
-    if not behind.start(entry, portable):
+    if not optimized_library.start_process(entry, portable):
         return None
-    library.lib.set_pending(behind)
+    library.lib.set_pending_library(optimized_library)
     return library
 
 
@@ -129,7 +130,7 @@ def is_compiled(source: KernelSource, *, portable: bool = False) -> bool:
 
 
 def compute_library_key(
-    source: KernelSource, command: tuple[str, ...], flags: tuple[str, ...], identity: str, portable: bool
+    source: KernelSource, command: tuple[str, ...], flags: tuple[str, ...], compiler_description: str, portable: bool
 ) -> str:
     """Return the cache key: a digest of everything that decides the library's bytes or whether it runs here."""
     cpu, texts = "" if portable else compiler.describe_cpu(), list_scene_texts(source)
@@ -140,13 +141,13 @@ def compute_library_key(
         *flags,
         *(flag for more in compiler.MORE.values() for flag in more),
     ]
-    return compute_digest(["library/6", *key_parts, identity, cpu, compute_engine_digest(), *texts])
+    return compute_digest(["library/6", *key_parts, compiler_description, cpu, compute_engine_digest(), *texts])
 
 
 def _open_entry(entry: Path, cdef: str) -> Library:
     """Open the library in the folder of a cache entry.
 
-    Raise ImportError if it cannot be loaded or lacks its functions.
+    Raise ImportError if it cannot be loaded or lacks its functions. `cdef`: declarations, or "" for a scene's.
     """
     library = open_library(entry / LIBRARY, cdef)
     if not cdef and not hasattr(library.lib, PRESENT):
@@ -154,10 +155,12 @@ def _open_entry(entry: Path, cdef: str) -> Library:
     return library
 
 
-def _open_rebuilt_or_copied(key: str, entry: Path, cdef: str, cache: Cache, build: Make, error: ImportError) -> Library:
-    """Open a library that could not be loaded: built anew, or copied to a temporary folder, with a warning.
+def _rebuild_or_copy_library(
+    key: str, entry: Path, cdef: str, cache: Cache, build: Make, error: ImportError
+) -> Library:
+    """Build a library that could not be loaded anew, or copy it to a temporary folder with a warning; return it opened.
 
-    `error`: the first failure. A file system mounted noexec is recognised. Raises BuildError if nothing helps.
+    `error`: the error of the first attempt. Raises BuildError if the library cannot be loaded after that either.
     """
     private, root = get_private_cache(), entry.parents[1]
     if not _is_noexec(root):  # what the compiler wrote may be broken
@@ -198,45 +201,59 @@ def _copy_library(entry: Path, folder: Path) -> None:
 
 def build_portable_library(folder: Path, source: KernelSource, cache: Cache) -> Path:
     """Compile the portable library of a source for the processor that $CC compiles for; return its path in `folder`."""
-    with BackgroundCompilation(True, cache) as none:
-        _build(source, folder, True, none, cache, False, False)
+    with BackgroundCompilation(True, cache) as no_background:
+        _build_library(source, folder, True, no_background, cache, False, False)
     return folder / LIBRARY
 
 
-def _build(
+def _build_library(
     source: KernelSource,
     folder: Path,
     portable: bool,
-    ahead: BackgroundCompilation,
+    background: BackgroundCompilation,
     cache: Cache,
     renew: bool,
     quick: bool,
 ) -> None:
     """Write the C files into the folder, compile the scene's own parts, and link them with the shared object files.
 
-    All parts are compiled in parallel; those that `ahead` has begun are used. Object files are removed at the end.
+    All parts are compiled in parallel; those that `background` has begun are used. Object files are removed at the end.
     Raises the first error of a compiler (BuildError, or OSError for a full disk).
     """
     for name, text in source.files.items():
         (folder / name).write_text(text, encoding="utf-8")
-    lines = build_command_lines(source, portable, quick)
-    early = {name for name, line in lines.items() if ahead.is_compiling(name, line, source.files)}
+    command_lines = build_command_lines(source, portable, quick)
+    parts_in_background = {
+        name
+        for name, command_line in command_lines.items()
+        if background.is_compiling(name, command_line, source.files)
+    }
     with Programs() as programs:
-        made = [(start_compiler(programs, line, folder), name) for name, line in lines.items() if name not in early]
-        shared = ahead.list_shared_objects(source, quick)
+        compilations = [
+            (start_compiler(programs, command_line, folder), name)
+            for name, command_line in command_lines.items()
+            if name not in parts_in_background
+        ]
+        shared = background.list_shared_objects(source, quick)
         for part in shared:
-            ahead.start_shared(part)
-        objects = [str(part.fetch(portable, cache, ahead, renew)) for part in shared]
-        for name in early:
-            if not ahead.fetch_object(folder / name, lines[name], source.files):
-                made.append((start_compiler(programs, lines[name], folder), name))  # here it says what is wrong
-        failed = [finished for process, name in made if (finished := finish_compiler(programs, process, folder / name))]
-        link = [*compiler.find_compiler(), *compiler.build_link_flags(), *lines, *objects, "-o", LIBRARY, "-lm"]
+            background.start_shared_object(part)
+        objects = [str(part.fetch_file(portable, cache, background, renew)) for part in shared]
+        for name in parts_in_background:
+            if not background.fetch_object(folder / name, command_lines[name], source.files):
+                compilations.append(
+                    (start_compiler(programs, command_lines[name], folder), name)
+                )  # here it says what is wrong
+        failed = [
+            finished
+            for process, name in compilations
+            if (finished := finish_compiler(programs, process, folder / name))
+        ]
+        link = [*compiler.find_compiler(), *compiler.build_link_flags(), *command_lines, *objects, "-o", LIBRARY, "-lm"]
         if not failed and (
             finished := finish_compiler(programs, start_compiler(programs, link, folder), folder / LIBRARY)
         ):
             failed = [finished]
         if failed:
             raise failed[0]
-    for name in lines:
+    for name in command_lines:
         (folder / name).unlink()

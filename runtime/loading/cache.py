@@ -29,7 +29,7 @@ from gudgeon.waiting.ctrl_c import DelayedCtrlC
 LIST = "checksums"
 END = "whole"  # begins the last line of the list; without it the list is incomplete
 # names of temporary folders made by `_make_entry`: the key, and mkdtemp's letters
-ASIDE = re.compile(r"[0-9a-f]{64}\.[a-z0-9_]{8}(\.old)?")
+TEMPORARY_NAME = re.compile(r"[0-9a-f]{64}\.[a-z0-9_]{8}(\.old)?")
 LOCK_SECONDS = 300.0  # longer than any compilation; a lock held longer means a process that hangs
 
 Make = Callable[[Path], None]  # writes the files of an entry into the empty folder that it is given
@@ -52,25 +52,25 @@ class Cache:
         self.root = Path(root)
         self.private = private  # whether it is removed with the process, so that errors in it are final
 
-    def fetch(self, kind: str, key: str, make: Make, *, renew: bool = False) -> Path:
-        """Return the folder of an entry; `make` writes it if it is absent or damaged, or if `renew` is set.
+    def fetch(self, kind: str, key: str, write_files: Make, *, renew: bool = False) -> Path:
+        """Return the folder of an entry; `write_files` writes it if it is absent or damaged, or if `renew` is set.
 
-        Errors of `make` are passed on, except OSError, which counts as a fault of the folder: the entry is then made in
-        a private folder. Raises CacheError if even that fails.
+        Errors of `write_files` are passed on, except OSError, which counts as a fault of the folder: the entry is then
+        made in a private folder. Raises CacheError if even that fails.
         """
         try:
             self._check_trusted(kind)
             entry = self.root / kind / key
             if not renew and _is_usable(entry):
                 return entry
-            return self._make_entry(entry, make, renew)
+            return self._make_entry(entry, write_files, renew)
         except (OSError, Untrusted) as error:
             if self.private:
                 message = f"the temporary folder {self.root} cannot be used: {error}"
                 is_limit = getattr(error, "errno", 0) == errno.EFBIG and "ulimit" not in message
                 raise CacheError(f"{message}\n  {LIMITED}" if is_limit else message) from error
             self._warn_unusable(error)
-        return get_private_cache().fetch(kind, key, make, renew=renew)
+        return get_private_cache().fetch(kind, key, write_files, renew=renew)
 
     def has(self, kind: str, key: str) -> bool:
         """Return whether a complete entry exists."""
@@ -110,7 +110,7 @@ class Cache:
                 do = f"Make it yours alone (chown; chmod -R go-w {self.root}) or set GUDGEON_CACHE to a folder that is."
         warn_once(f"{what}; what this process compiles is not kept. {do}", f"{self.root}")
 
-    def _make_entry(self, entry: Path, make: Make, renew: bool) -> Path:
+    def _make_entry(self, entry: Path, write_files: Make, renew: bool) -> Path:
         """Make an entry under a lock in a temporary folder, and move it into place; return its path.
 
         An entry that another process made meanwhile is used, unless `renew` is set. A damaged one is replaced.
@@ -120,54 +120,54 @@ class Cache:
 
         from filelock import FileLock  # 40 ms: only when something has to be made
 
-        aside = self.root / "aside"
-        for folder in (self.root, aside, self.root / "locks", entry.parent):
+        temporary_root = self.root / "aside"
+        for folder in (self.root, temporary_root, self.root / "locks", entry.parent):
             _make_own_folder(folder)
         self._check_trusted("aside", "locks", entry.parent.name)  # another process may have made them first
         with FileLock(self._get_lock_path(entry.name), timeout=LOCK_SECONDS):
             if not renew and _is_usable(entry):  # another process made it while this one waited
                 return entry
-            left: list[Path] = []
+            temporary_folders: list[Path] = []
             try:
                 with (
                     DelayedCtrlC() as ctrl_c
                 ):  # not between a folder and the note of it, nor where a lock's end swallows it
-                    self._remove_abandoned_folders(aside, entry.name)
-                    work = Path(tempfile.mkdtemp(prefix=f"{entry.name}.", dir=aside))
+                    self._remove_abandoned_folders(temporary_root, entry.name)
+                    work = Path(tempfile.mkdtemp(prefix=f"{entry.name}.", dir=temporary_root))
                     old = work.with_name(work.name + ".old")
-                    left += [work, old]
+                    temporary_folders += [work, old]
                 ctrl_c.raise_delayed()
-                make(work)
+                write_files(work)
                 _write_checksums(work, entry)
                 if os.path.lexists(entry):  # a damaged one: a rename cannot replace a folder that has files
                     os.replace(entry, old)
                 os.replace(work, entry)
             finally:
-                for folder in left:
-                    _remove(folder)
+                for folder in temporary_folders:
+                    _remove_path(folder)
         return entry
 
     def _get_lock_path(self, key: str) -> Path:
         """Return the path of the lock file of a key."""
         return self.root / "locks" / f"{key}.lock"
 
-    def _remove_abandoned_folders(self, aside: Path, held: str) -> None:
-        """Remove the temporary folders of killed processes: those in `aside` whose key no process has locked.
+    def _remove_abandoned_folders(self, temporary_root: Path, locked_key: str) -> None:
+        """Remove the temporary folders of killed processes: those in `temporary_root` whose key no process has locked.
 
-        `held`: key that this process has locked.
+        `locked_key`: key that this process has locked.
         """
         from filelock import FileLock, Timeout
 
-        for folder in aside.iterdir():
-            if not ASIDE.fullmatch(folder.name) or not _is_own_folder(folder):
+        for folder in temporary_root.iterdir():
+            if not TEMPORARY_NAME.fullmatch(folder.name) or not _is_own_folder(folder):
                 continue  # nothing that was made here
             key = folder.name.partition(".")[0]
-            if key == held:
-                _remove(folder)
+            if key == locked_key:
+                _remove_path(folder)
                 continue
             try:
                 with FileLock(self._get_lock_path(key), timeout=0):
-                    _remove(folder)
+                    _remove_path(folder)
             except Timeout:
                 continue  # another process works there
 
@@ -185,14 +185,14 @@ def _is_own_folder(folder: Path) -> bool:
     return stat.S_ISDIR(status.st_mode) and status.st_uid == os.geteuid()
 
 
-def warn_once(text: str, about: str = "") -> None:
-    """Issue a RuntimeWarning unless one with the same `about`, or the same text, was issued in this process."""
-    if (about or text) not in _message:
-        _message.add(about or text)
+def warn_once(text: str, warning_key: str = "") -> None:
+    """Issue a RuntimeWarning unless one with the same `warning_key`, or the same text, was issued in this process."""
+    if (warning_key or text) not in _issued_warnings:
+        _issued_warnings.add(warning_key or text)
         warnings.warn(text, RuntimeWarning, stacklevel=4)
 
 
-_message: set[str] = set()  # warnings that were issued
+_issued_warnings: set[str] = set()  # warnings that were issued
 
 
 def _is_usable(entry: Path) -> bool:
@@ -239,7 +239,7 @@ def _write_checksums(folder: Path, entry: Path) -> None:
         path.chmod(path.stat().st_mode & ~0o022)
 
 
-def _remove(path: Path) -> None:
+def _remove_path(path: Path) -> None:
     """Remove a file, link or folder with its contents; an absent one is ignored."""
     import shutil
 
@@ -293,10 +293,10 @@ def get_private_cache() -> Cache:
         raise CacheError(f"neither the cache folder nor a temporary one can be written: {error}") from error
     owner = os.getpid()
 
-    def remove() -> None:
+    def remove_folder() -> None:
         """Remove the folder at the end of the process that made it."""
         if os.getpid() == owner:  # not in a forked worker that ends before its parent
             folder.remove()
 
-    atexit.register(remove)
+    atexit.register(remove_folder)
     return Cache(folder.path, private=True)

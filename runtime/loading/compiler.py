@@ -222,37 +222,37 @@ def build_environment() -> dict[str, str]:
 
 
 def build_unit_command(
-    portable: bool, files: Sequence[str], made: str, quick: bool = False, unit: str = ""
+    portable: bool, files: Sequence[str], output_file: str, quick: bool = False, unit: str = ""
 ) -> tuple[str, ...]:
-    """Return the command line that compiles `files` to the object file `made`, with hidden symbols.
+    """Return the command line that compiles `files` to the object file `output_file`, with hidden symbols.
 
-    `unit` adds flags as in of_unit; `quick`: without optimization.
+    `unit` adds flags as in `_add_unit_flags`; `quick`: without optimization.
     """
     command = find_compiler()
     options = _add_unit_flags(build_flags(portable, command, quick), unit)
-    return (*command, *options, "-fvisibility=hidden", *build_include_flags(), "-c", *files, "-o", made)
+    return (*command, *options, "-fvisibility=hidden", *build_include_flags(), "-c", *files, "-o", output_file)
 
 
-def start_compiler(programs: Programs, line: Sequence[str], folder: Path) -> subprocess.Popen[str]:
+def start_compiler(programs: Programs, command_line: Sequence[str], folder: Path) -> subprocess.Popen[str]:
     """Start a compiler in a folder, which also gets its temporary files; return the process.
 
     Raise BuildError if it cannot run.
     """
     environment = {**build_environment(), "TMPDIR": str(folder)}  # what it writes in between belongs to the entry too
     try:
-        return programs.start([*line], folder, environment)
+        return programs.start([*command_line], folder, environment)
     except OSError as error:
-        raise BuildError(f"the compiler {line[0]} cannot be run: {error}\n  {INSTALL_COMPILER}") from error
+        raise BuildError(f"the compiler {command_line[0]} cannot be run: {error}\n  {INSTALL_COMPILER}") from error
 
 
-def finish_compiler(programs: Programs, process: subprocess.Popen[str], made: Path) -> Exception | None:
-    """Wait for a compiler; return None if it made the file `made`, else the error.
+def finish_compiler(programs: Programs, process: subprocess.Popen[str], output_file: Path) -> Exception | None:
+    """Wait for a compiler; return None if it wrote `output_file`, else the error.
 
     The error is an OSError for a full disk or file-size limit, so that another folder is tried; else BuildError with
     its first lines.
     """
     out, err = programs.wait(process)
-    if process.returncode == 0 and made.is_file():
+    if process.returncode == 0 and output_file.is_file():
         return None
     specified = (err or out).strip()
     for text, code in FULL.items():
@@ -264,5 +264,5 @@ def finish_compiler(programs: Programs, process: subprocess.Popen[str], made: Pa
     line = " ".join(map(str, process.args))  # type: ignore[arg-type]
     message = f"failed (exit status {process.returncode})"
     if process.returncode == 0:
-        message = f"ended without an error, and made no {made.name}"
+        message = f"ended without an error, and made no {output_file.name}"
     return BuildError(f"the C compiler {message}:\n  {first}\n  called as {line}")

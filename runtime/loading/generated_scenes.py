@@ -17,20 +17,20 @@ from gudgeon.contract.kernel_source import KernelSource
 ARCHIVE = "compiled.json.xz"
 
 
-def write_scenes(folder: Path, sources: Iterable[KernelSource], readable: Collection[str]) -> None:
+def write_scenes(folder: Path, sources: Iterable[KernelSource], readable_names: Collection[str]) -> None:
     """Write the scenes of a mechanism and remove every other file in the folder.
 
-    readable: names of files that are stored as files; all others go to the archive.
-    An archive with the same contents keeps its bytes, which depend on the version of liblzma.
+    readable_names: names of files that are stored as files; all others go to the archive.
+    An archive with the same contents is not rewritten, since its bytes depend on the version of liblzma.
     """
     scenes: dict[str, Any] = {}
     paths: dict[str, str] = {}  # by text
     for source in sources:
         files = {name: paths.setdefault(text, f"{source.scene}/{name}") for name, text in sorted(source.files.items())}
         scenes[source.scene] = {"files": files, "rest": replace(source, files={}).to_json()}
-    plain = {path: text for text, path in paths.items() if path.rpartition("/")[2] in readable}
+    plain = {path: text for text, path in paths.items() if path.rpartition("/")[2] in readable_names}
     packed = {path: text for text, path in paths.items() if path not in plain}
-    _remove_others(folder, {ARCHIVE, *plain})
+    _remove_other_files(folder, {ARCHIVE, *plain})
     for path, text in plain.items():
         (folder / path).parent.mkdir(parents=True, exist_ok=True)
         (folder / path).write_bytes(text.encode())
@@ -42,13 +42,13 @@ def write_scenes(folder: Path, sources: Iterable[KernelSource], readable: Collec
         (folder / ARCHIVE).write_bytes(lzma.compress(json.dumps(archive, ensure_ascii=False).encode()))
 
 
-def _remove_others(folder: Path, kept: Collection[str]) -> None:
-    """Remove all files below the folder whose relative paths are not in `kept`, and folders that are empty then."""
+def _remove_other_files(folder: Path, kept_paths: Collection[str]) -> None:
+    """Remove all files below the folder whose relative paths are not in `kept_paths`, and empty folders."""
     for path in sorted(folder.rglob("*"), reverse=True):  # the contents of a folder precede the folder
         if path.is_dir():
             if not any(path.iterdir()):
                 path.rmdir()
-        elif path.relative_to(folder).as_posix() not in kept:
+        elif path.relative_to(folder).as_posix() not in kept_paths:
             path.unlink()
 
 

@@ -62,7 +62,7 @@ def check_overrides(overrides: Overrides | None) -> dict[str, str | float | bool
 
 
 def _check_override(name: str, value: object) -> str | float | bool:
-    """Return one checked override."""
+    """Check the value of the override `name`, a text, number or flag, and return it."""
     if isinstance(value, (str, bool)):
         return check_text(value, f"overrides: {name}") if isinstance(value, str) else value
     number = check_number(value, f"overrides: {name}")
@@ -110,8 +110,8 @@ def find_kernel_source(
 ) -> tuple[KernelSource, str]:
     """Return the kernel source of a scene, and its origin: the cache, the committed files, or a new derivation.
 
-    formulation: as in `load`, or a method for smooth motion: the reduced one with that method. ahead: compiles parts in
-    the background during a derivation.
+    formulation: as in `load`, or a method for smooth motion: the reduced one with that method. background: compiles
+    parts in the background during a derivation.
     """
     if formulation not in (*FORMULATIONS, *SMOOTH, STAGES):
         raise BadValueError(f"unknown formulation {formulation!r}", hint=f"there are: {', '.join(FORMULATIONS)}")
@@ -119,7 +119,7 @@ def find_kernel_source(
     key = compute_model_key(data, scene, overrides, formulation)
     origin = "cache"
 
-    def make(folder: Path) -> None:  # what tables and laws the file has is found out here
+    def write_source(folder: Path) -> None:  # what tables and laws the file has is found out here
         """Write the kernel source into a folder: the committed one, or a new derivation."""
         nonlocal origin
         source = None
@@ -135,21 +135,21 @@ def find_kernel_source(
         source = replace(source, overrides=tuple(sorted(overrides.items())))
         (folder / SOURCE).write_bytes(source.to_json().encode())
 
-    def fetch(key: str, renew: bool) -> KernelSource:
+    def fetch_source(key: str, renew: bool) -> KernelSource:
         """Return the kernel source from the cache, made if it is absent."""
-        entry = cache.fetch("models", key, make, renew=renew)
+        entry = cache.fetch("models", key, write_source, renew=renew)
         return KernelSource.from_json((entry / SOURCE).read_bytes().decode())
 
-    source = fetch(key, regenerate)
-    now = hash_present_tables(source, file), find_present_laws(source)
-    if now != (source.tables, source.laws):  # of other bytes: an entry of its own
-        key = compute_digest([key, json.dumps(now)])
-        source = fetch(key, False)
+    source = fetch_source(key, regenerate)
+    present_files = hash_present_tables(source, file), find_present_laws(source)
+    if present_files != (source.tables, source.laws):  # of other bytes: an entry of its own
+        key = compute_digest([key, json.dumps(present_files)])
+        source = fetch_source(key, False)
         if (hash_present_tables(source, file), find_present_laws(source)) != (
             source.tables,
             source.laws,
         ):  # edited meanwhile
-            source = fetch(key, True)
+            source = fetch_source(key, True)
     return source, origin
 
 
@@ -163,7 +163,7 @@ def is_source_cached(mechanism: str, scene: str, overrides: Overrides) -> bool:
 
 
 def _has_structural_overrides(data: bytes, file: Path, scene: str, overrides: Overrides) -> bool:
-    """Return whether overrides change what the scene is derived from."""
+    """Return whether overrides change the equations of the scene, not only parameter values."""
     import_completely(*READER)
     from gudgeon.generator.reader.read import overrides_change_scene
 
@@ -171,7 +171,7 @@ def _has_structural_overrides(data: bytes, file: Path, scene: str, overrides: Ov
 
 
 def hash_present_tables(source: KernelSource, file: Path) -> tuple[tuple[str, str], ...]:
-    """Return the names of the tables of a kernel source, each with the SHA-256 of its present file next to `file`.
+    """Return the tables of a kernel source as pairs of name and SHA-256 of its present file next to `file`.
 
     Raises InputError if one is missing.
     """
@@ -179,7 +179,7 @@ def hash_present_tables(source: KernelSource, file: Path) -> tuple[tuple[str, st
 
 
 def find_present_laws(source: KernelSource) -> tuple[tuple[str, str], ...]:
-    """Return the names of the user-defined laws of a kernel source, each with its present key; "" if not registered."""
+    """Return the user-defined laws of a kernel source as pairs of name and present key; "" if not registered."""
     if not source.laws:
         return ()
     from gudgeon.generator.kinds.laws.registered import find_law_key

@@ -32,7 +32,7 @@ from gudgeon.loading.engine import (
 from gudgeon.loading.shipped import PACKAGE
 from gudgeon.waiting.imports import CFFI, import_completely
 
-HASTE = "its optimized library was still being compiled when the run began: it takes less time from now on"
+UNOPTIMIZED_NOTE = "its optimized library was still being compiled when the run began: it takes less time from now on"
 CARRIED = PACKAGE / "carried"  # folder of the bundled libraries
 
 
@@ -58,7 +58,7 @@ class PendingLibrary(Protocol):
 class Functions:
     """Call the functions of a library by name; calls release the GIL. Missing ones raise AttributeError."""
 
-    _behind: PendingLibrary | None = None
+    _pending_library: PendingLibrary | None = None
 
     def __init__(self, library: Any) -> None:
         self._libraries = [library]  # the last one is called; others stay open, for a call may be in one
@@ -83,29 +83,29 @@ class Functions:
     @property
     def optimization_note(self) -> str:
         """Return a note for measured times while an optimized library is being made; else ""."""
-        return HASTE if self._behind else ""
+        return UNOPTIMIZED_NOTE if self._pending_library else ""
 
-    def set_pending(self, behind: PendingLibrary) -> None:
+    def set_pending_library(self, pending_library: PendingLibrary) -> None:
         """Register an optimized library of the same texts that is being made."""
-        self._behind = behind
+        self._pending_library = pending_library
 
-    def switch_if_ready(self) -> None:
+    def switch_library_if_ready(self) -> None:
         """Switch to the optimized library if it exists by now; called often during runs. Do nothing without one."""
-        if (behind := self._behind) and not behind.switch_if_ready(self):
-            self._behind = None
+        if (pending_library := self._pending_library) and not pending_library.switch_if_ready(self):
+            self._pending_library = None
 
     def wait_for_optimized(self) -> None:
         """Wait for the optimized library, if one is being made, and switch to it, before long computations."""
-        if behind := self._behind:
-            behind.wait_and_switch(self)
-            self._behind = None
+        if pending_library := self._pending_library:
+            pending_library.wait_and_switch(self)
+            self._pending_library = None
 
-    def switch_to(self, other: Functions) -> None:
+    def switch_to(self, functions: Functions) -> None:
         """Use the functions of another library of the same texts from the next call on, even during a run.
 
         Structs have the same layout, and tables of the library in which a run began stay in memory.
         """
-        self._libraries.append(other._libraries[-1])
+        self._libraries.append(functions._libraries[-1])
         for name in [name for name in vars(self) if not name.startswith("_")]:
             vars(self).pop(name, None)
 

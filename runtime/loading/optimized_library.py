@@ -37,40 +37,42 @@ OTHER = (
     "make_optimized_library; make_optimized_library(sys.argv[1])"
 )
 NICE = 5  # lower priority of the other process, since the run is more urgent
-MOST = 4  # largest number of such processes at once
+MAX_PROCESSES = 4  # largest number of such processes at once
 _begun: list[subprocess.Popen[bytes]] = []  # processes started by this process
 
 
 def may_compile_in_background(cache: Cache) -> bool:
     """Return whether a background process may be started to make an optimized library, and the cache would keep it.
 
-    It may not with GUDGEON_QUICK=0, with a private or read-only cache, in programs that embed Python, or if MOST are
-    running.
+    It may not with GUDGEON_QUICK=0, with a private or read-only cache, in programs that embed Python, or if
+    MAX_PROCESSES are running.
     """
     if os.environ.get("GUDGEON_QUICK") == "0" or cache.private:
         return False
     if getattr(sys, "frozen", False) or not Path(sys.executable or "").name.startswith(("python", "pypy")):
         return False  # a program that has Python inside, and would begin anew
-    if sum(process.poll() is None for process in _begun) >= MOST:
+    if sum(process.poll() is None for process in _begun) >= MAX_PROCESSES:
         return False
-    there = next(folder for folder in (cache.root, *cache.root.parents) if os.path.exists(folder))
-    return os.access(there, os.W_OK)
+    existing_folder = next(folder for folder in (cache.root, *cache.root.parents) if os.path.exists(folder))
+    return os.access(existing_folder, os.W_OK)
 
 
 class OptimizedLibrary:
     """Provide the optimized library `key` of a scene while another process makes it. `build` makes it here."""
 
-    def __init__(self, cache: Cache, key: str, build: Callable[[Path], None], open_: Callable[[Path], Library]) -> None:
-        self._cache, self._key, self._build, self._open = cache, key, build, open_
+    def __init__(
+        self, cache: Cache, key: str, build: Callable[[Path], None], open_entry: Callable[[Path], Library]
+    ) -> None:
+        self._cache, self._key, self._build, self._open = cache, key, build, open_entry
         self._process: subprocess.Popen[bytes] | None = None
         self._owner, self._lock = os.getpid(), Lock()
 
-    def start(self, quick: Path, portable: bool) -> bool:
-        """Start the other process, which reads the cache entry `quick`; return False if it cannot be started."""
+    def start_process(self, quick_entry: Path, portable: bool) -> bool:
+        """Start the other process, which reads the cache entry `quick_entry`; return False if it cannot be started."""
         import subprocess
 
-        message = json.dumps([str(self._cache.root), str(quick), portable])
-        line = [sys.executable, "-c", OTHER, message, *sys.path]
+        request = json.dumps([str(self._cache.root), str(quick_entry), portable])
+        line = [sys.executable, "-c", OTHER, request, *sys.path]
         nothing = subprocess.DEVNULL
         with DelayedCtrlC() as ctrl_c, suppress(OSError):
             self._process = subprocess.Popen(
@@ -89,9 +91,9 @@ class OptimizedLibrary:
         if not lock.acquire(blocking=False):
             return True  # another thread is checking
         try:
-            over = self._process is not None and self._process.poll() is not None
+            has_ended = self._process is not None and self._process.poll() is not None
             if not self._cache.has_folder("libraries", self._key):
-                return not over
+                return not has_ended
             entry = self._cache.root / "libraries" / self._key
             with suppress(GudgeonError, OSError, Untrusted):  # the next start makes it anew, and tells
                 if is_complete(entry):
@@ -120,19 +122,19 @@ class OptimizedLibrary:
             functions.switch_to(self._open(entry).lib)
 
 
-def make_optimized_library(message: str) -> None:
+def make_optimized_library(request: str) -> None:
     """Compile the optimized library into the cache, with low priority; called in the other process.
 
-    `message`: JSON of cache folder, quick entry and `portable`. One such process compiles at a time. Errors are
-    reported at the next start.
+    `request`: JSON of cache folder, cache entry of the quick library and `portable`. One such process compiles at a
+    time. Errors are reported at the next start.
     """
     from filelock import FileLock
 
     from gudgeon.loading.build import compile_kernels
 
-    root, quick, portable = json.loads(message)
+    root, quick_entry, portable = json.loads(request)
     os.nice(NICE)
-    if is_complete(Path(quick)):
-        source = KernelSource.from_json(Path(quick, SOURCE).read_bytes().decode())
+    if is_complete(Path(quick_entry)):
+        source = KernelSource.from_json(Path(quick_entry, SOURCE).read_bytes().decode())
         with FileLock(Path(root, "locks", "behind.lock"), timeout=LOCK_SECONDS):  # one after the other
             compile_kernels(source, portable=portable, cache=Cache(root))

@@ -56,19 +56,19 @@ def find_shipped_study(name: str) -> Path:
     raise _build_unknown_name_error("study", name, tuple(paths))
 
 
-def _build_unknown_name_error(what: str, name: str, names: tuple[str, ...]) -> InputError:
-    """Build the error for an unknown name of a mechanism or study (`what`), with the nearest of `names`.
+def _build_unknown_name_error(kind: str, name: str, names: tuple[str, ...]) -> InputError:
+    """Build the error for an unknown name of a mechanism or study (`kind`), with the nearest of `names`.
 
     Without any names, it is an InputError for an incomplete installation.
     """
     if not names:
-        message = f"this installation of gudgeon is not whole: it has no {what.replace('y', 'ie')}s"
+        message = f"this installation of gudgeon is not whole: it has no {kind.replace('y', 'ie')}s"
         return InputError(message, hint="install it anew; in a clone `make run` or `sh tools/setup all,web` does it")
     from gudgeon.language.names import find_nearest_name
 
     guess = find_nearest_name(name, names)
     return UnknownNameError(
-        f"no {what} {name!r} comes with gudgeon" + (f"; did you mean {guess!r}?" if guess else ""),
+        f"no {kind} {name!r} comes with gudgeon" + (f"; did you mean {guess!r}?" if guess else ""),
         hint=f"there are: {', '.join(names)}; a file of your own needs a '/' or '.yaml' in its name",
     )
 

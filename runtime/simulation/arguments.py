@@ -138,17 +138,17 @@ def _check_t_end_matches_output(t_end: float | None, last_time: float, relative_
         raise BadValueError(f"t_end is {t_end:.12g} s, and the times of output end at {last_time:.12g} s", hint=hint)
 
 
-def _check_duration(message_begin: str, t0: float, end: float, min_roundings: int) -> None:
+def _check_duration(message_prefix: str, t0: float, end: float, min_roundings: int) -> None:
     """Raise BadValueError if the end of a run (s) is too close to its start t0 for distinct times, or too large.
 
-    `message_begin` begins the message; `min_roundings`: least duration in units of the last digit of the times.
+    `message_prefix` begins the message; `min_roundings`: least duration in units of the last digit of the times.
     """
     if end > MAX_END_TIME_S:
-        raise BadValueError(f"{message_begin} {end:g} s: expected {MAX_END_TIME_S:g} s at most", hint="times are in s")
+        raise BadValueError(f"{message_prefix} {end:g} s: expected {MAX_END_TIME_S:g} s at most", hint="times are in s")
     min_duration = max(max(min_roundings, MIN_ROUNDINGS) * float(np.spacing(max(abs(t0), abs(end)))), MIN_DURATION_S)
     if 0.0 < end - t0 < min_duration:
         raise BadValueError(
-            f"{message_begin} {end:.17g} s, {end - t0:.3g} s after the start at {t0:.9g} s:"
+            f"{message_prefix} {end:.17g} s, {end - t0:.3g} s after the start at {t0:.9g} s:"
             f" expected {min_duration:.3g} s at least, or numbers have no room for the times between",
             hint="times are in s",
         )

@@ -74,8 +74,8 @@ def audit_samples(
     ]
     if not source.massless and not source.indeterminate:
         findings += [
-            *_check_energy(compiled, problem, trajectory, evaluation, balance, size),
-            *_check_finite(compiled, trajectory, evaluation),
+            *_check_energy_balance(compiled, problem, trajectory, evaluation, balance, size),
+            *_check_finite_results(compiled, trajectory, evaluation),
         ]
     left_out = set[str]()
     if source.massless or source.indeterminate:
@@ -132,7 +132,7 @@ def _compute_distance_from_given_start(problem: Problem, size: float) -> float:
     return off
 
 
-def _check_energy(
+def _check_energy_balance(
     compiled: CompiledModel,
     problem: Problem,
     trajectory: Trajectory,
@@ -159,7 +159,7 @@ def _check_energy(
     yield Finding("energy", residual / (tolerance * turned), float(trajectory.t[-1]), "")
 
 
-def _check_finite(compiled: CompiledModel, trajectory: Trajectory, evaluation: Evaluation) -> Iterator[Finding]:
+def _check_finite_results(compiled: CompiledModel, trajectory: Trajectory, evaluation: Evaluation) -> Iterator[Finding]:
     """Yield a finding on whether the evaluated results of all samples are finite, with the time of the first that is
     not.
 

@@ -63,11 +63,11 @@ class BatchArguments:
             n_sets = n_sets if values is None else len(values)
         return n_sets
 
-    def compute_times(self, p: Array, t0: float, excluded: dict[int, Any]) -> Times:
+    def compute_times(self, p: Array, t0: float, excluded_runs: dict[int, Any]) -> Times:
         """Return the sample times of all runs from t0 (s), with parameter values p (n_runs, …).
 
-        Runs in `excluded` get none. Errors of single runs are recorded in `failures`; if every run has one, the first
-        is raised. Runs with equal times share one array. Raises MemoryError before arrays that do not fit.
+        Runs in `excluded_runs` get none. Errors of single runs are recorded in `failures`; if every run has one, the
+        first is raised. Runs with equal times share one array. Raises MemoryError before arrays that do not fit.
         """
         source = self.compiled.source
         has_own_times = (
@@ -81,7 +81,7 @@ class BatchArguments:
         times_of_runs: dict[int, tuple[Array, bool]] = {}
         known_times: dict[Any, tuple[Array, bool]] = {}
         for i in range(len(p)):
-            times = None if i in excluded else self._compute_times_of_run(i, p[i], t0, known_times)
+            times = None if i in excluded_runs else self._compute_times_of_run(i, p[i], t0, known_times)
             if times is None:
                 continue
             if len(times_of_runs) == 1 and times is not next(
@@ -109,8 +109,8 @@ class BatchArguments:
             )
         except InputError as error:
             raise BadValueError(f"run {i}: {error}") from None
-        if message := _explain_if_not_finite(end, "t_end") or (
-            "" if self.rows is None else _explain_if_times_not_finite(row)
+        if message := _explain_nonfinite_value(end, "t_end") or (
+            "" if self.rows is None else _explain_nonfinite_times(row)
         ):
             self.failures[i] = BadValueError(message)
             return None
@@ -127,15 +127,15 @@ class BatchArguments:
             raise BadValueError(f"run {i}: {error}") from None
         return known_times.setdefault(key, t) if key else t
 
-    def compute_steps(self, method: str, p: Array, times: Times, excluded: dict[int, Any]) -> Array:
+    def compute_steps(self, method: str, p: Array, times: Times, excluded_runs: dict[int, Any]) -> Array:
         """Return the fixed step (s) of each run, (n_runs,); infinity where the method controls its step.
 
-        Runs in `excluded` or `failures` get 1.0, which has no meaning. A step that is not finite is recorded in
+        Runs in `excluded_runs` or `failures` get 1.0, which has no meaning. A step that is not finite is recorded in
         `failures`; if every run has an error, the first is raised.
         """
         steps = np.full(len(p), 1.0 if method == "rk4" or self.step is not None else math.inf)
         indices = [
-            i for i in range(len(p) if steps[0] < math.inf else 0) if i not in excluded and i not in self.failures
+            i for i in range(len(p) if steps[0] < math.inf else 0) if i not in excluded_runs and i not in self.failures
         ]
         if self.step is not None and self.steps is None and times.t.ndim == 1 and indices:
             steps[indices] = self._compute_step_of_run(
@@ -144,11 +144,11 @@ class BatchArguments:
             return steps
         for i in indices:
             step, t = self.step if self.steps is None else self.steps[i], times.get_times(i)
-            if message := "" if self.steps is None else _explain_if_not_finite(step, "step"):
+            if message := "" if self.steps is None else _explain_nonfinite_value(step, "step"):
                 self.failures[i] = BadValueError(message)
                 continue
             steps[i] = self._compute_step_of_run(i, step, method, p[i], float(t[-1] - t[0]))
-        if self.failures and len(self.failures | excluded) == len(p) and self.steps is not None:
+        if self.failures and len(self.failures | excluded_runs) == len(p) and self.steps is not None:
             raise next(iter(self.failures.values()))
         return steps
 
@@ -175,22 +175,22 @@ class BatchArguments:
 
 
 def _require_time(value: Any, name: str) -> Any:
-    """Return a time that is given for one run; raise BadValueError if it is None."""
+    """Return the time `value` of one run unchanged; raise BadValueError if it is None. `name` is for the message."""
     if value is None:
         raise BadValueError(f"{name} is None: expected a time (s)")
     return value
 
 
-def _explain_if_not_finite(value: Any, name: str) -> str:
+def _explain_nonfinite_value(value: Any, name: str) -> str:
     """Return a message if `value` is a float and not finite, else ""; other types are not checked here."""
     number = isinstance(value, (float, np.floating))
     return f"{name}: {value} is not a finite number" if number and not math.isfinite(value) else ""
 
 
-def _explain_if_times_not_finite(times: Any) -> str:
+def _explain_nonfinite_times(times: Any) -> str:
     """Return a message on the first sample time that is not finite, else "".
 
-    Rows that are no one-dimensional list of numbers, or too long, are left to the reader of times, which refuses them.
+    Rows that are not a one-dimensional list of numbers, or too long, give "": `compute_output_times` refuses them.
     """
     try:
         t = np.asarray(times if np.size(times) <= MAX_OUTPUT else (), dtype=float)

@@ -20,7 +20,7 @@ from numpy.polynomial.legendre import leggauss
 
 from gudgeon.contract.methods import ADAPTIVE, CHOOSING
 from gudgeon.errors import GudgeonError
-from gudgeon.language.argument_checks import check_integer as whole_number
+from gudgeon.language.argument_checks import check_integer
 from gudgeon.model.contours import find_contour, interpolate_depth
 from gudgeon.results.contact_check import ContactCheck, check_samples
 from gudgeon.results.diagnostics import Difference, Examined, IdealForce, JointExamined
@@ -67,23 +67,24 @@ def examine(
     return replace(run, diagnostics=replace(run.diagnostics, examined=examined))
 
 
-def _repeat_run(
+def _yield_repetitions(
     simulation: Simulation,
     run: Result,
     t: Array,
     settings: dict[str, Any],
     progress: Progress | None,
     peaks: tuple[str | SlidingRequest, ...] = (),
-    t_beyond: float = math.nan,
+    requested_end: float = math.nan,
 ) -> Iterator[Result]:
     """Yield repetitions of the run with samples at times t (s): from the file's start if it began there, then from its
     own.
 
-    Repetitions that fail or end early are skipped. `t_beyond` (s): end of the repetition if an event or an error ended
-    the run at the last of the times; NaN if nothing did. Raises KeyboardInterrupt if Ctrl-C ends one.
+    Repetitions that fail or end early are skipped. `settings`, `peaks`: arguments of simulate. `requested_end` (s):
+    t_end of a run that an event or an error ended at the last of the times; else NaN. Raises KeyboardInterrupt after
+    Ctrl-C.
     """
-    own_start, has_end = build_start_state(run), math.isfinite(t_beyond)
-    times = np.append(t, t_beyond) if has_end else t
+    own_start, has_end = build_start_state(run), math.isfinite(requested_end)
+    times = np.append(t, requested_end) if has_end else t
     for start in (None, own_start) if own_start.t == 0.0 and run.begun is None else (own_start,):
         try:
             repetition = repeat_run(simulation, times, start, settings, progress, peaks, has_end)
@@ -108,7 +109,7 @@ def _examine_joints(
     t, weights = _compute_quadrature(run)
     ends = run.impacts["t_off"]
     times = np.unique(np.concatenate([run.t, t, ends[(ends >= run.t[0]) & (ends <= run.t[-1])]]))
-    repetition = repeat_exactly(simulation, run, times, progress)
+    repetition = repeat_run_exactly(simulation, run, times, progress)
     if repetition is None:
         notes.append(NOTE_NOT_REPEATED)
         return ()
@@ -136,22 +137,25 @@ def _examine_joints(
     )
 
 
-def repeat_exactly(
+def repeat_run_exactly(
     simulation: Simulation,
     run: Result,
     t: Array,
     progress: Progress | None,
     peaks: tuple[str | SlidingRequest, ...] = (),
 ) -> Result | None:
-    """Return the run repeated bit for bit at times t (s), which include its own; None if no repetition is identical."""
-    settings, t_beyond = (
+    """Repeat the run bit for bit with samples at times t (s), which include its own, and return the repetition.
+
+    Return None if no repetition is identical. `peaks`: argument of simulate.
+    """
+    settings, requested_end = (
         build_repeat_settings(run)[0],
         math.nan if run.diagnostics.interrupted else run.diagnostics.t_end,
     )
     for repetition in (
         x
-        for exact_settings in _list_exact_settings(settings)
-        for x in _repeat_run(simulation, run, t, exact_settings, progress, peaks, t_beyond)
+        for exact_settings in _yield_exact_settings(settings)
+        for x in _yield_repetitions(simulation, run, t, exact_settings, progress, peaks, requested_end)
     ):
         if repetition.t[-1] != t[-1]:  # its event is not quite where it was
             continue
@@ -161,7 +165,7 @@ def repeat_exactly(
     return None
 
 
-def _list_exact_settings(settings: dict[str, Any]) -> Iterator[dict[str, Any]]:
+def _yield_exact_settings(settings: dict[str, Any]) -> Iterator[dict[str, Any]]:
     """Yield the arguments of simulate that may repeat the run exactly.
 
     For methods that "auto" chooses between, the adaptive method comes first, then `settings` as it is.
@@ -264,9 +268,11 @@ def clear_oil_viscosities(compiled: CompiledModel, p: Array) -> Array:
 
 
 def _compute_compression_time(run: Result, repetition: Result, k: int, name: str) -> float:
-    """Return the total time (s) from each onset of joint k until its penetration first stops growing.
+    """Return the sum over the contacts of joint k of the time (s) from the onset to the first maximum of the
+    penetration.
 
-    Contacts are cut at the ends of the run; zeros of the rate are interpolated between samples of `repetition`.
+    Contacts are cut at the ends of the run; zeros of the rate are interpolated between samples of `repetition`. `name`:
+    name of the joint.
     """
     rate, total = repetition[f"{name}.deltadot"], 0.0
     for contact in run.impacts[run.impacts["joint"] == k]:
@@ -306,8 +312,7 @@ def _compute_restitution(
 ) -> tuple[int, float, float, float, float, float]:
     """Return the number of ended contacts of joint k, and minimum, quartiles and maximum of their restitution.
 
-    Contacts that began at rest, such as closed ones pressed by another impact, are not counted in it. Without any, the
-    five values are NaN.
+    Contacts that began at rest have no restitution. If all did, the five values are NaN. `name`: name of the joint.
     """
     contacts = run.impacts[run.impacts["joint"] == k]
     contacts = contacts[(contacts["t_off"] >= run.t[0]) & (contacts["t_off"] <= run.t[-1])]
@@ -370,7 +375,7 @@ def _estimate_errors(
     fixed = "step" in settings_of_run
     description = "steps half as long" if fixed else f"tolerance {tighter['rtol']:.3g} a step"
     settings = settings_of_run | {"step": settings_of_run["step"] / 2.0} if fixed else tighter
-    accurate_run = next(_repeat_run(simulation, run, run.t, settings, progress), None)
+    accurate_run = next(_yield_repetitions(simulation, run, run.t, settings, progress), None)
     if accurate_run is None:
         notes.append(f"a run with {description} does not come to the end of this one")
         return (), ""
@@ -387,21 +392,21 @@ def _estimate_errors(
     return tuple(results), description
 
 
-def check_contacts(run: Result, samples: int, progress: Progress | None = None) -> ContactCheck:
-    """Check the contacts of a run at `samples` equal intervals and at its own samples; see Result.check.
+def check_contacts(run: Result, n_intervals: int, progress: Progress | None = None) -> ContactCheck:
+    """Check the contacts of a run at the ends of `n_intervals` equal intervals and at its samples; see Result.check.
 
     The run is repeated bit for bit for more samples. If it cannot be, only stored samples are checked, and a note says
     so.
     """
     from gudgeon.simulation.simulation import Simulation
 
-    samples = whole_number(samples, "samples", MIN_SAMPLES, MAX_SAMPLES)
+    n_intervals = check_integer(n_intervals, "samples", MIN_SAMPLES, MAX_SAMPLES)
     run = join_start(run)
     if not run.source.clearances or len(run.t) < MIN_SAMPLES:
         return check_samples(run)
     dense_run = run
     if run.compiled is not None:
-        times = np.union1d(run.t, np.linspace(run.t[0], run.t[-1], samples + 1))
-        dense_run = repeat_exactly(Simulation(run.compiled, ""), run, times, progress) or run
+        times = np.union1d(run.t, np.linspace(run.t[0], run.t[-1], n_intervals + 1))
+        dense_run = repeat_run_exactly(Simulation(run.compiled, ""), run, times, progress) or run
     check = check_samples(dense_run, run)
     return check if dense_run is not run else replace(check, notes=(NOTE_STORED_SAMPLES,))

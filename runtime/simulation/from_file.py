@@ -41,12 +41,13 @@ def load(
 
     mechanism: text with "/" or ending in ".yaml" is a path, other text the name of a shipped mechanism.
     scene: a scene of the file; None is "ideal", which has no play and exists in every file.
-    overrides: values by address that may change the structure. portable: compile for any CPU of this
-    kind. formulation: what is integrated, "reduced" (coordinates of a tree) or "full" (absolute ones, with the
-    Jacobian of their state equation); results are the same. regenerate: derive and compile even if the
-    cache has both. quick: what was never compiled may begin with a library that takes a third of the time to make, and
-    runs up to three times as long, while a process behind this one makes the optimized one, with which runs go on as
-    soon as it is there; numbers are the same. False: the optimized one is waited for (as GUDGEON_QUICK=0 has it).
+    overrides: values by address that may change the structure.
+    formulation: what is integrated, "reduced" (coordinates of a tree) or "full" (absolute coordinates, with the
+    Jacobian of their state equation); results are the same.
+    portable: compile for any CPU of this kind. regenerate: derive and compile even if the cache has both.
+    quick: a new scene may begin with an unoptimized library, made in a third of the time. Runs then take up to three
+    times as long until another process has made the optimized one; numbers are the same. False, or GUDGEON_QUICK=0:
+    wait for the optimized library.
     Raises InputError if the file is wrong, BuildError if its C cannot be compiled.
     """
     start = perf_counter()

@@ -27,7 +27,7 @@ from gudgeon.model.compiled import Array
 from gudgeon.model.written import evaluate_at_times, find_undefined_at_switch, read_expression_trees
 
 _HIDING = select_function_names(lambda f: f.hides_corners)  # functions that may hide a switching point
-# grid intervals, largest number of candidates of `_find_jumps`, and of `_find_first_break`
+# grid intervals, largest number of candidates of `_find_jumps`, and of `_find_first_discontinuity`
 GRID, MAX_JUMPS, MAX_BREAK_CANDIDATES = 4096, 16, 512
 END_MARGIN = 1e-12  # fraction of a run's time that is searched after its end
 # intervals of a refinement level, and number of levels; each is a quarter as wide as the one before
@@ -55,12 +55,15 @@ _Search: TypeAlias = tuple[str, Expr, Callable[..., list[Jump]]]  # in a drive w
 
 
 def find_hidden_jumps(source: KernelSource, p: Array, t0: float, t1: float) -> list[Jump]:
-    """Return the jumps of value or rate of all drives between t0 and t1 (s), sorted by time; at most MOST per drive."""
+    """Return the jumps of value or rate of all drives between t0 and t1 (s), sorted by time.
+
+    `p` holds the parameter values. A drive has at most MAX_JUMPS hidden jumps.
+    """
     jumps = []
     for drive, tree in _list_drives_with_unknown_switching(source) if t1 > t0 else ():
         jumps += _find_jumps(source, p, tree, drive, t0, t1)
     for drive, tree in _list_drives_with_branches(source) if t1 > t0 else ():
-        jumps += _find_first_break(source, p, tree, drive, t0, t1)
+        jumps += _find_first_discontinuity(source, p, tree, drive, t0, t1)
     return sorted(jumps, key=lambda jump: jump.t)
 
 
@@ -77,7 +80,7 @@ def _list_jump_searches(source: KernelSource) -> list[_Search]:
     searches: list[_Search] = [
         (drive, tree, _find_jumps) for drive, tree in _list_drives_with_unknown_switching(source)
     ]
-    searches += [(drive, tree, _find_first_break) for drive, tree in _list_drives_with_branches(source)]
+    searches += [(drive, tree, _find_first_discontinuity) for drive, tree in _list_drives_with_branches(source)]
     drives = {drive for drive, *_ in searches}
     others = () if _has_impulse_at_jump(source) else _list_drive_expressions(source)
     return searches + [
@@ -88,19 +91,19 @@ def _list_jump_searches(source: KernelSource) -> list[_Search]:
 
 
 def find_first_jumps(
-    source: KernelSource, p: Array, t0: float, ends: Sequence[float], excluded: Container[int] = ()
+    source: KernelSource, p: Array, t0: float, ends: Sequence[float], excluded_runs: Container[int] = ()
 ) -> dict[int, Jump]:
     """Return the first jump of each run after t0 and up to its end (s), by index; runs without one are absent.
 
-    `p` (n_runs, …): parameter values. Drives with equal parameter values are searched once. Runs in `excluded` are
-    skipped.
+    `p` (n_runs, …): parameter values. Drives with equal parameter values are searched once. Runs in
+    `excluded_runs` are skipped.
     """
     first, known_jumps = dict[int, Jump](), dict[tuple[Any, ...], float | Jump]()
     for drive, tree, search in _list_jump_searches(source):
         used = {f"parameters.{name.path}" for name in iterate_names(tree)}
         columns = [k for k, slot in enumerate(source.slots) if slot.address in used]
         for i, t1 in enumerate(ends):
-            if i in excluded or not t1 > t0:
+            if i in excluded_runs or not t1 > t0:
                 continue
             key = drive, t1, p[i, columns].tobytes()
             if key not in known_jumps:
@@ -125,7 +128,7 @@ def _list_drive_expressions(source: KernelSource) -> list[tuple[str, Expr]]:
 
 
 def _list_drives_with_unknown_switching(source: KernelSource) -> list[tuple[str, Expr]]:
-    """Return name and expression of the drives that may have switching points which the generator has not found."""
+    """Return name and expression of the drives that may have switching points unknown to the generator."""
     return [
         (drive, tree)
         for drive, tree in _list_drive_expressions(source)
@@ -148,11 +151,11 @@ def compute_end_before_jump(jump: Jump, t0: float) -> float:
 def build_jump_error(source: KernelSource, jump: Jump) -> SolverError:
     """Build the error that ends a run at a jump of a drive; NonFiniteError if a branch is not a number there."""
     why = "its rate is no number there" if jump.kind == "rate" else "no linkage follows it"
-    message = _format_jump(jump, "the impulse there would be left out" if _has_impulse_at_jump(source) else why)
+    message = _format_jump_error(jump, "the impulse there would be left out" if _has_impulse_at_jump(source) else why)
     return (NonFiniteError if jump.message else SolverError)(message, jump.t)
 
 
-def _format_jump(jump: Jump, reason: str) -> str:
+def _format_jump_error(jump: Jump, reason: str) -> str:
     """Return the error message of a jump, by its kind, with a remedy; `reason` says what makes it an error."""
     if jump.message:
         return f"{jump.message}\n  {NO_NUMBER}"
@@ -194,14 +197,16 @@ def _may_hide_switching_point(tree: Expr) -> bool:
 
 
 def _list_drives_with_branches(source: KernelSource) -> list[tuple[str, Expr]]:
-    """Return the drives with where or mod, whose branches may not meet at their switching points."""
+    """Return name and expression of the drives with where or mod, whose branches may not meet at switching points."""
     return [
         (drive, tree) for drive, tree in _list_drive_expressions(source) if not JUMPING.isdisjoint(list_functions(tree))
     ]
 
 
 @np.errstate(all="ignore")
-def _find_first_break(source: KernelSource, p: Array, tree: Expr, drive: str, t0: float, t1: float) -> list[Jump]:
+def _find_first_discontinuity(
+    source: KernelSource, p: Array, tree: Expr, drive: str, t0: float, t1: float
+) -> list[Jump]:
     """Return the first time between t0 and t1 (s) at which a drive's value jumps, as a list of one Jump; [] without
     one.
 
@@ -247,7 +252,7 @@ def _compute_curvature_ratio(
 
 @np.errstate(all="ignore")
 def _find_jumps(source: KernelSource, p: Array, tree: Expr, drive: str, t0: float, t1: float) -> list[Jump]:
-    """Return the hidden jumps of one drive between t0 and t1 (s), at most MOST, the clearest first.
+    """Return the hidden jumps of one drive between t0 and t1 (s), at most MAX_JUMPS, the clearest first.
 
     `drive` and `tree`: its name and expression. Jumps closer than 2.5 grid intervals count as one.
     """

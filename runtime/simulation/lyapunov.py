@@ -75,7 +75,7 @@ def explain_invalid_tangent(source: KernelSource) -> str:
 
 def compute_lyapunov_exponent(
     simulation: Simulation,
-    until: float | str | Result,
+    end_or_run: float | str | Result,
     section: str | float | None,
     by: str,
     skip: float | str,
@@ -92,46 +92,48 @@ def compute_lyapunov_exponent(
     """
     source = simulation.source
     t_end: float | str
-    if isinstance(until, Result):
-        t_end, start, settings = _read_run_settings(simulation, until, parameters, start, settings)
+    if isinstance(end_or_run, Result):
+        t_end, start, settings = _read_run_settings(simulation, end_or_run, parameters, start, settings)
     else:
-        t_end = until
+        t_end = end_or_run
     if source.degrees_of_freedom <= 0:
         raise BadValueError("without a degree of freedom no difference can grow: drives determine the motion")
     reason = _explain_second_run(source, check_text(by, "by"))
     settings = _build_run_settings(settings, reason is not None)
-    arguments_of_start = _find_settled_start(simulation, skip, settings, parameters, start)
-    run_measured = simulation.simulate(
+    arguments_of_start = _compute_settled_start(simulation, skip, settings, parameters, start)
+    measured_run = simulation.simulate(
         t_end, output=N_SAMPLES, stop=False, peaks=(), progress=progress, **arguments_of_start, **settings
     )
-    if run_measured.diagnostics.interrupted:
+    if measured_run.diagnostics.interrupted:
         raise KeyboardInterrupt
-    returns = Returns.from_run(run_measured, section)
-    measure = DifferenceNorm.from_run(run_measured, simulation.compiled)
-    _check_duration(run_measured, measure)
+    returns = Returns.from_run(measured_run, section)
+    norm = DifferenceNorm.from_run(measured_run, simulation.compiled)
+    _require_sufficient_motion(measured_run, norm)
     transverse = bool(returns.event) and not _has_time_dependence(source)
-    arguments = (simulation, measure, settings, build_start_state(run_measured), transverse)
-    pair = SecondRun(*arguments) if reason is not None else Tangent(*arguments, Flow(simulation.compiled, run_measured))
-    t, growth = [float(run_measured.t[0])], []
-    for run, grown in _yield_intervals(pair, t[0], float(run_measured.t[-1]), returns.period, progress):
+    arguments = (simulation, norm, settings, build_start_state(measured_run), transverse)
+    neighbour = (
+        SecondRun(*arguments) if reason is not None else Tangent(*arguments, Flow(simulation.compiled, measured_run))
+    )
+    t, log_growths = [float(measured_run.t[0])], []
+    for run, log_growth in _yield_intervals(neighbour, t[0], float(measured_run.t[-1]), returns.period, progress):
         t.append(float(run.t[-1]))
-        growth.append(grown)
+        log_growths.append(log_growth)
         returns.append_run(run)
     return Lyapunov(
         "tangent" if reason is None else "twin",
         reason or "",
         np.array(t),
-        np.array(growth),
-        pair.growth_error / (t[-1] - t[0]),
-        pair.n_merged,
+        np.array(log_growths),
+        neighbour.growth_error / (t[-1] - t[0]),
+        neighbour.n_merged,
         transverse,
         returns.build_section(),
-        pair.state,
+        neighbour.state,
     )
 
 
 def explain_slow_tangent(source: KernelSource) -> str:
-    """Return why by="auto" follows a second run although the tangent would be valid; "" where the tangent is fast.
+    """Return why by="auto" uses a second run although the tangent would be valid; "" where the tangent is fast.
 
     The reason is a stiff film, on which the tangent needs as many panels as there are steps.
     """
@@ -139,9 +141,9 @@ def explain_slow_tangent(source: KernelSource) -> str:
     return f"the film of {films[0]} is stiff: the mesh of the tangent is as fine as its steps" if films else ""
 
 
-def _check_duration(run: Result, measure: DifferenceNorm) -> None:
-    """Raise BadValueError if the motion hardly changes in the run, so that a mean over it is no rate of growth."""
-    if measure.is_short(run):
+def _require_sufficient_motion(run: Result, norm: DifferenceNorm) -> None:
+    """Raise BadValueError if the motion hardly changes in the run, so that its mean growth is not an exponent."""
+    if norm.is_run_too_short(run):
         span = float(run.t[-1] - run.t[0])
         message = f"a span of {span:.3g} s is too short for a Lyapunov exponent: nothing turns or strikes in it"
         raise BadValueError(message, hint="expected a span of several swings, turns or contacts: an exponent is a mean")
@@ -169,9 +171,9 @@ def _read_run_settings(
 
 
 def _yield_intervals(
-    pair: SecondRun | Tangent, begin: float, end: float, period: float, progress: Progress | None
+    neighbour: SecondRun | Tangent, begin: float, end: float, period: float, progress: Progress | None
 ) -> Iterator[tuple[Result, float]]:
-    """Yield the run of each interval and ln of the growth of the difference in it, from `begin` to `end` (s).
+    """Yield the run of each interval from `begin` to `end` (s), and ln of the growth of the difference in it.
 
     Intervals are halved where the difference grows too much, then lengthened again. Ends of periods are ends of
     intervals; `period` is 0 without one. `progress` is called after each.
@@ -184,7 +186,7 @@ def _yield_intervals(
         interval_end = min(begin + (math.floor((t - begin) / longest * (1.0 + 1e-12) + 1e-6) + 1) * longest, end)
         interval_end = end if end - interval_end < 1e-6 * longest else interval_end
         t_next = interval_end if t + h > interval_end - 1e-3 * h else t + h
-        advanced = pair.advance(t_next, h <= MIN_INTERVAL * longest)
+        advanced = neighbour.advance_to(t_next, h <= MIN_INTERVAL * longest)
         if advanced is None:
             h = 0.5 * (t_next - t)
             continue
@@ -195,9 +197,10 @@ def _yield_intervals(
 
 
 def _explain_second_run(source: KernelSource, method: str) -> str | None:
-    """Return None if the tangent is used, else the reason for a second run ("" if the user requested it).
+    """Return the reason for a second run ("" if the user requested it); None if the tangent is used.
 
-    Raises BadValueError for an unknown method `method`, and for by="tangent" where the Jacobian does not suffice.
+    `method`: argument `by` of Simulation.lyapunov. Raises BadValueError for an unknown one, and for "tangent" where the
+    Jacobian does not suffice.
     """
     if method not in METHODS:
         raise_bad_value("by", method, f"one of {', '.join(METHODS)}")
@@ -224,9 +227,9 @@ def _build_run_settings(settings: dict[str, Any], is_twin: bool) -> dict[str, An
 
 
 def limit_rtol_of_neighbours(source: KernelSource, rtol: float | None) -> float | None:
-    """Return the tolerance of runs with a neighbour, where that of other runs is `rtol`; None stays None.
+    """Return the relative tolerance of runs that are compared with a neighbour: `rtol`, limited; None stays None.
 
-    It is at most LOOSEST where by="auto" follows a second run.
+    It is at most MAX_RTOL_OF_SECOND_RUN where by="auto" follows a second run.
     """
     return (
         min(rtol, MAX_RTOL_OF_SECOND_RUN)
@@ -235,7 +238,7 @@ def limit_rtol_of_neighbours(source: KernelSource, rtol: float | None) -> float 
     )
 
 
-def _find_settled_start(
+def _compute_settled_start(
     simulation: Simulation,
     skip: float | str,
     settings: dict[str, Any],
@@ -302,8 +305,9 @@ class Returns:
         return returns
 
     def append_run(self, run: Result) -> None:
-        """Append the returns in the next part of the run: its events, or its end if that is a multiple of the
-        period.
+        """Append the returns in `run`, the next part of the motion, to `t` and `points`.
+
+        They are its events, or its end if that is a multiple of the period.
         """
         if self.event:
             events = run.at_events(self.event)
@@ -316,7 +320,7 @@ class Returns:
                 self.points.append(self._compute_points(run)[-1])
 
     def build_section(self) -> Section | None:
-        """Return the collected times and points as a Section; None if no section was requested."""
+        """Return the collected times and points as a Section; None without an event or a period."""
         if not (self.event or self.period):
             return None
         points = np.array(self.points) if self.points else np.zeros((0, 1))

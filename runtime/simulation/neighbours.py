@@ -31,8 +31,8 @@ if TYPE_CHECKING:
 INITIAL_DISTANCE = 1e-6  # initial distance of neighbours: far above integration errors, far below non-linear effects
 MAX_CHANGE_AT_REST = 0.2  # of the rms acceleration: it changes by less in a span in which nothing turns
 SEED = 1  # random seed of the first difference
-MAX_GROWTH = 1e3  # times NEAR: if the distance is larger, the interval is repeated with half its length
-MERGED = 1e-8  # times NEAR: closer runs count as merged, as where friction sticks; a new neighbour is drawn
+MAX_GROWTH = 1e3  # times INITIAL_DISTANCE: if the distance is larger, the interval is repeated with half its length
+MERGED = 1e-8  # times INITIAL_DISTANCE: closer runs count as merged, as where friction sticks; a new neighbour is drawn
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,7 +57,7 @@ class DifferenceNorm:
         of_q = np.where(angle, length / size, length)
         return DifferenceNorm(compiled, run.p, np.concatenate([of_q, of_q / crossing]), size, crossing)
 
-    def is_short(self, run: Result) -> bool:
+    def is_run_too_short(self, run: Result) -> bool:
         """Return whether a run ends before anything turns, so that a Lyapunov exponent would be meaningless.
 
         Such a run has no contact and does not cross the mechanism's size. It ends before its accelerations could stop
@@ -86,8 +86,9 @@ class DifferenceNorm:
         return np.concatenate(project_state(self.compiled, t, y[:n], y[n:], self.p))
 
     def draw_neighbour(self, t: float, y: Array) -> Array:
-        """Return a neighbour (2n,) of the state y at the distance NEAR on the constraints, in a fixed pseudo-random
-        direction.
+        """Return a neighbour (2n,) of the state y = (q, q̇) at t (s), in a fixed pseudo-random direction.
+
+        It lies at INITIAL_DISTANCE and satisfies the constraints.
         """
         difference = self.scales * np.random.default_rng(SEED).standard_normal(len(y))
         for _ in range(2):  # project onto the constraints, then scale to the length
@@ -138,21 +139,22 @@ class SecondRun:
     n_merged: int = 0  # number of times that both runs became one
 
     def __post_init__(self) -> None:
-        """Draw the neighbour of the present state, and store its distance; also called again after both runs have
-        merged.
+        """Draw the neighbour of the present state, and store it in `neighbour_state` and its distance in `distance`.
+
+        It is called again after both runs have merged.
         """
         first = self.measure.draw_neighbour(self.state.t, flatten_state(self.state))
-        self.other = _replace_state_vector(self.state, first, self.state.memory.copy())
+        self.neighbour_state = _replace_state_vector(self.state, first, self.state.memory.copy())
         self.distance = self.measure.compute_norm(first - flatten_state(self.state))
 
-    def advance(self, t: float, is_shortest: bool) -> tuple[Result, float] | None:
+    def advance_to(self, t: float, is_shortest_interval: bool) -> tuple[Result, float] | None:
         """Advance both runs to t (s); return the first run and ln of the growth of their distance.
 
-        Return None, with nothing changed, if the distance grew or shrank too much, unless the interval is the
-        `is_shortest`. After merging, a new neighbour is drawn. The neighbour is scaled back if both have the same
-        modes. Raises the error of a failed run, and KeyboardInterrupt.
+        Return None, with nothing changed, if the distance grew or shrank too much, unless `is_shortest_interval`. After
+        merging, a new neighbour is drawn. The neighbour is scaled back if both have the same modes. Raises the error of
+        a failed run, and KeyboardInterrupt.
         """
-        begin = [self.state, self.other]
+        begin = [self.state, self.neighbour_state]
         batch = self.simulation.simulate_many(
             [{}, {}], output=[t], start=begin, stop=False, peaks=(), side_by_side=False, **self.settings
         )
@@ -174,21 +176,21 @@ class SecondRun:
         is_too_far = (
             not 1.0 / MAX_GROWTH < distance / self.distance < MAX_GROWTH or distance > MAX_GROWTH * INITIAL_DISTANCE
         )
-        if is_too_far and not is_shortest:
+        if is_too_far and not is_shortest_interval:
             return None
         log_growth = math.log(distance / self.distance)
-        self.state, self.other, self.distance = run.final, neighbour, distance
+        self.state, self.neighbour_state, self.distance = run.final, neighbour, distance
         if _have_equal_modes(run.final, neighbour):
-            self._rescale(difference)
+            self._rescale_neighbour(difference)
         return run, log_growth
 
-    def _rescale(self, difference: Array) -> None:
-        """Move the second state back to the distance NEAR from the first, along the present `difference` (2n,).
+    def _rescale_neighbour(self, difference: Array) -> None:
+        """Move the state `neighbour_state` to INITIAL_DISTANCE from the first, along the present `difference` (2n,).
 
         Inner states are scaled alike, and the new state is projected onto the constraints.
         """
         s, y = INITIAL_DISTANCE / self.distance, flatten_state(self.state)
         neighbour = self.measure.project_state(self.state.t, y + s * difference)
-        memory = self.state.memory + s * (self.other.memory - self.state.memory)
-        self.other = _replace_state_vector(self.other, neighbour, memory)
+        memory = self.state.memory + s * (self.neighbour_state.memory - self.state.memory)
+        self.neighbour_state = _replace_state_vector(self.neighbour_state, neighbour, memory)
         self.distance = self.measure.compute_norm(neighbour - y)

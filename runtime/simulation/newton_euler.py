@@ -44,37 +44,37 @@ class Element:
 
 
 @dataclass(frozen=True)
-class Table:
+class ForceTable:
     """Hold which forces act on which bodies of a scene: joints first, then elements, then joints with play."""
 
     signs: Array  # (n_bodies, n_forces) 1 for a force on the second body, −1 for its reaction
     with_known_forces: NDArray[np.intp]  # bodies on which all forces are known
     with_known_moments: NDArray[np.intp]  # bodies on which all moments are known, too
-    signs_of_moments: Array  # (n_turned, n_joints + n_elements) the rows of `signs` of these bodies
+    signs_of_moments: Array  # (n_bodies_with_known_moments, n_joints + n_elements) the rows of `signs` of these bodies
     points: tuple[PointInfo, ...]  # (n_joints + n_elements,) at which the forces act
     elements: tuple[Element, ...]
     gravity: tuple[tuple[int, int], ...]  # given components: axis, index into p
 
 
-def get_force_table(source: KernelSource) -> Table:
+def get_force_table(source: KernelSource) -> ForceTable:
     """Return the table of forces of a scene, built at the first call and cached in `source`."""
-    kept = source.__dict__
-    if "newton_euler" not in kept:
-        kept["newton_euler"] = _build_table(source)
-    table: Table = kept["newton_euler"]
+    cache = source.__dict__
+    if "newton_euler" not in cache:
+        cache["newton_euler"] = _build_force_table(source)
+    table: ForceTable = cache["newton_euler"]
     return table
 
 
-def _build_table(source: KernelSource) -> Table:
+def _build_force_table(source: KernelSource) -> ForceTable:
     """Build the table of forces of a scene: which forces act on which bodies, and on which bodies all of them are
     known.
     """
-    places, n = {point.name: point for point in source.points}, len(source.bodies)
-    points = [places[joint.point] for joint in source.joints]
+    points_by_name, n = {point.name: point for point in source.points}, len(source.bodies)
+    points = [points_by_name[joint.point] for joint in source.joints]
     bodies = {"ground", *(body.name for body in source.bodies)}
     elements_of_parts = [(part, _build_element(source, part)) for part in source.parts if part.section != "joints"]
     elements = tuple(element for _, element in elements_of_parts if element)
-    lost = {
+    excluded_bodies = {
         name.partition(".")[0]
         for part in source.parts
         for name in (*part.ends, *part.options.values())
@@ -91,35 +91,35 @@ def _build_table(source: KernelSource) -> Table:
     for k, (first, second) in enumerate(pairs):
         signs[first, k], signs[second, k] = -1.0, 1.0
     signs = signs[:n]
-    moved = ~np.array([body.name in lost for body in source.bodies], dtype=bool)
-    turned = moved & ~signs[:, n_pairs:].any(axis=1)
-    given = ((0, source.slot_index.get("gravity.x")), (1, source.slot_index.get("gravity.y")))
-    return Table(
+    has_known_forces = ~np.array([body.name in excluded_bodies for body in source.bodies], dtype=bool)
+    has_known_moments = has_known_forces & ~signs[:, n_pairs:].any(axis=1)
+    gravity_components = ((0, source.slot_index.get("gravity.x")), (1, source.slot_index.get("gravity.y")))
+    return ForceTable(
         signs,
-        np.flatnonzero(moved),
-        np.flatnonzero(turned),
-        signs[turned, :n_pairs],
+        np.flatnonzero(has_known_forces),
+        np.flatnonzero(has_known_moments),
+        signs[has_known_moments, :n_pairs],
         (*points, *(element.second for element in elements)),
         elements,
-        tuple((axis, k) for axis, k in given if k is not None),
+        tuple((axis, k) for axis, k in gravity_components if k is not None),
     )
 
 
 def _build_element(source: KernelSource, part: PartInfo) -> Element | None:
-    """Return the Element of a force element or drive of the file; None for other kinds and unknown ends.
+    """Build the Element of a force element or drive of the file; return None for other kinds and unknown ends.
 
     With one end, the ground is the first body.
     """
     bodies = {body.name: PointInfo("", body.index, -1, -1) for body in source.bodies}
-    places = bodies | {point.name: point for point in source.points}
-    if part.kind not in ELEMENTS or not places.keys() >= set(part.ends):
+    points_by_name = bodies | {point.name: point for point in source.points}
+    if part.kind not in ELEMENTS or not points_by_name.keys() >= set(part.ends):
         return None
-    ends = [places[name] for name in part.ends]
+    ends = [points_by_name[name] for name in part.ends]
     first, second = ends if len(ends) == 2 else (GROUND, ends[0])
     if ELEMENTS[part.kind] == "M" and len(ends) == 2:  # what is reported acts on the first body
         first, second = second, first
     if part.kind == "dry_friction":
-        x, y = (_parse_number(source, f"forces.{part.name}.direction.{axis}") for axis in "xy")
+        x, y = (_resolve_number(source, f"forces.{part.name}.direction.{axis}") for axis in "xy")
         return Element(part.kind, first, second, source.frictions.index(part.name), (x, y)) if x and y else None
     if part.section == "drives":
         return Element(part.kind, first, second, [drive.name for drive in source.drives].index(part.name))
@@ -127,8 +127,8 @@ def _build_element(source: KernelSource, part: PartInfo) -> Element | None:
     return Element(part.kind, first, second, [series.name for series in source.series].index(name))
 
 
-def _parse_number(source: KernelSource, address: str) -> Number | None:
-    """Return a number of the file at an address as (index into p, 0) or (−1, value); None for an expression."""
+def _resolve_number(source: KernelSource, address: str) -> Number | None:
+    """Return the number at an address of the file as (index into p, 0) or (−1, value); None if it is an expression."""
     if address in source.slot_index:
         return source.slot_index[address], 0.0
     written = [json.loads(expression.tree) for expression in source.written if expression.address == address]
@@ -138,10 +138,10 @@ def _parse_number(source: KernelSource, address: str) -> Number | None:
 def compute_newton_euler_residuals(
     compiled: CompiledModel, p: Array, q: Array, evaluation: Evaluation, samples: NDArray[np.intp]
 ) -> Array:
-    """Compute the residuals of each body's Newton–Euler equations at the samples `samples`, relative to the largest
-    term.
+    """Return the residuals of each body's Newton–Euler equations at samples, relative to the largest term.
 
-    The shape is (len(at), n_bodies); bodies that are left out have 0.
+    The shape is (len(samples), n_bodies); bodies that are left out have 0. `samples`: their indices. `q`: coordinates
+    of all samples of the run.
     """
     table, n = get_force_table(compiled.source), len(samples)
     residuals = np.zeros((n, len(compiled.source.bodies)))
@@ -174,7 +174,7 @@ def compute_newton_euler_residuals(
 def _compute_element_wrench(
     element: Element, p: Array, q: Array, evaluation: Evaluation, samples: NDArray[np.intp]
 ) -> Array:
-    """Return force and moment (n, 3) in N and N m of an element on its second body at the samples `samples`.
+    """Return force and moment (n, 3) in N and N m of an element on its second body at the samples with these indices.
 
     `q` (n, n_bodies, 3): coordinates of the bodies there.
     """
@@ -207,11 +207,11 @@ def _compute_point_coordinates(point: PointInfo, p: Array, q: Array) -> Array:
     return np.column_stack([body[:, 0] + c * x - s * y, body[:, 1] + s * x + c * y])
 
 
-def _compute_moments(table: Table, p: Array, q: Array, wrenches: Array) -> tuple[Array, float]:
-    """Return moments about centres of mass (n, n_turned, n_joints + n_elements) in N m, and the longest arm in m.
+def _compute_moments(table: ForceTable, p: Array, q: Array, wrenches: Array) -> tuple[Array, float]:
+    """Return the moments (n, n_bodies, n_forces) in N m about centres of mass, and the longest arm in m.
 
-    q is (n, n_bodies, 3). The longest arm of any body scales the rounding errors of moments: forces at a body's own
-    centre of mass have no arm.
+    The bodies are those with known moments, the forces those of joints and elements. q is (n, n_bodies, 3). The longest
+    arm scales the rounding errors: forces at a body's own centre of mass have no arm.
     """
     points = (
         np.array([_compute_point_coordinates(point, p, q) for point in table.points])

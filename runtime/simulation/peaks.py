@@ -33,7 +33,7 @@ ROUNDS, AT_AN_END = 12, 3  # largest number of refinements, and the number if th
 MAX_INTERVALS = 16  # intervals of a block that are searched; the most promising first
 PEAK_TOL = 1e-14  # of a value: a smaller increase is rounding, and the earlier time is reported
 RESOLVED = 2e-4  # of the largest value of a block: allowed error of states predicted from their neighbours
-# matrix from five states to the values at INSIDE of their four intervals
+# matrix from five states to the values at INNER_FRACTION of their four intervals
 PREDICT = np.vander(np.arange(4) + INNER_FRACTION, 5) @ np.linalg.inv(np.vander(np.arange(5.0)))
 ACCELERATION_ROUNDING = 5e-9  # of the largest acceleration of its kind: smaller values are rounding
 INTERVAL_TOL = 1e-6  # relative difference up to which intervals of a step count as equal
@@ -44,7 +44,7 @@ COEFFICIENT_TOL = 1e-11  # of the largest value of a block: largest last coeffic
 class PeakSearch:
     """Search the peaks of series over all steps of one run; it is a step observer.
 
-    `beside`: the scene from which errors of the series are computed, or None.
+    `compared_scene`: the scene from which errors of the series are computed, or None.
     """
 
     def __init__(
@@ -58,7 +58,9 @@ class PeakSearch:
         self.interpolant = RunInterpolant(compiled, parameter_arrays, self.names)
         self.compared_scene = compared_scene  # the scene with which errors are computed
         self.compared_interpolant = (
-            RunInterpolant(compared_scene.compiled, compared_scene.numbers, self.names) if compared_scene else None
+            RunInterpolant(compared_scene.compiled, compared_scene.parameter_arrays, self.names)
+            if compared_scene
+            else None
         )
         self.kinds = [(name, False) for name in self.names]
         if compared_scene:
@@ -120,20 +122,22 @@ class PeakSearch:
         return tuple(message)
 
     def _update_peaks(self, name: str, is_error: bool, interpolants: list[RunInterpolant]) -> None:
-        """Update the peaks of one series, or of its `is_error`, from the present states and the intervals between them.
+        """Update the peaks of one series, or if `is_error` of its error, from the present block of states.
 
-        `interpolants`: that of the run, then for errors that of the other scene. At most MOST intervals are searched,
-        the most promising first.
+        `interpolants`: that of the run, then for errors that of the other scene. At most MAX_INTERVALS intervals
+        between states are searched, the most promising first.
         """
-        values = _subtract_other([path.evaluate_at_states(name) for path in interpolants])
+        values = _subtract_compared_series([path.evaluate_series_at_states(name) for path in interpolants])
         t, inner = self.interpolant.steps.t, self.interpolant.is_within_step
         scale = max(
             float(np.abs(values[np.isfinite(values)]).max(initial=0.0)),
             ACCELERATION_ROUNDING * self._find_largest_acceleration(name),
         )
         if not is_error:
-            for k in np.flatnonzero(_find_unresolved(self.interpolant, name, values, RESOLVED * scale)).tolist():
-                self._refine_unresolved(name, k, scale)
+            for k in np.flatnonzero(
+                _find_unresolved_intervals(self.interpolant, name, values, RESOLVED * scale)
+            ).tolist():
+                self._refine_unresolved_interval(name, k, scale)
         for sign in (1, -1):
             key = (name, is_error, sign)
             if np.isfinite(sign * values).any():
@@ -153,14 +157,17 @@ class PeakSearch:
         scale: float,
         time_range: tuple[float, float] | None = None,
     ) -> None:
-        """Refine the maximum between states k and k + 1, until a polynomial through the samples resolves it.
+        """Refine and store the maximum between states k and k + 1, until a polynomial through the samples resolves it.
 
-        `time_range`: begin and end (s) of the part that is searched; None: the whole interval.
+        `key`: name of the series, whether it is the error, and sign. `scale`: size of its values. `time_range`: begin
+        and end (s) of the part that is searched; None: the whole interval.
         """
         low, high = time_range or self.interpolant.steps.t[k : k + 2].tolist()
         for turn in range(ROUNDS):
             times = low + NODES * (high - low)
-            values = key[2] * _subtract_other([path.evaluate_between(k, times, key[0]) for path in interpolants])
+            values = key[2] * _subtract_compared_series(
+                [path.evaluate_series_between_states(k, times, key[0]) for path in interpolants]
+            )
             finite_values = np.where(np.isfinite(values), values, -np.inf)
             best = int(finite_values.argmax())
             self._store_peak(key, float(finite_values[best]), float(times[best]))
@@ -174,7 +181,7 @@ class PeakSearch:
                 break
             low, high = float(times[max(best - 1, 0)]), float(times[min(best + 1, len(NODES) - 1)])
 
-    def _refine_unresolved(self, name: str, k: int, scale: float) -> None:
+    def _refine_unresolved_interval(self, name: str, k: int, scale: float) -> None:
         """Sample a series between states k and k + 1 on intervals that are halved until polynomials resolve it.
 
         Maxima above the known peak are refined and stored. A series that needs too many intervals is recorded in
@@ -185,7 +192,7 @@ class PeakSearch:
             n_sampled += len(intervals)
             low, high = intervals[:, :1], intervals[:, 1:]
             times = low + NODES * (high - low)
-            values = self.interpolant.evaluate_between(k, times.ravel(), name).reshape(times.shape)
+            values = self.interpolant.evaluate_series_between_states(k, times.ravel(), name).reshape(times.shape)
             is_finite = np.asarray(np.isfinite(values).all(axis=1))
             coefficients = np.where(is_finite[:, np.newaxis], values, 0.0) @ COEFFICIENTS.T
             is_unresolved = np.abs(coefficients[:, -2:]).max(axis=1) > RESOLVED * scale
@@ -204,8 +211,8 @@ class PeakSearch:
             self.unresolved.add(name)
 
     def _find_largest_acceleration(self, name: str) -> float:
-        """Return the largest finite acceleration of the block, linear or angular by the unit of a series; 0 for
-        other units.
+        """Return the largest finite acceleration of the block in the unit of a series (m/s² or rad/s²); 0 for other
+        units.
         """
         kinds = {"m/s^2": [0, 1], "rad/s^2": [2]}.get(self.interpolant.catalogue[name].unit, [])
         a = np.abs(self.interpolant.run.a[1:]).reshape(-1, self.interpolant.compiled.n // 3, 3)[:, :, kinds]
@@ -216,8 +223,9 @@ class PeakSearch:
         return self.best.get((name, False, sign), (-math.inf, 0.0))[0]
 
     def _store_peak(self, key: tuple[str, bool, int], value: float, t: float) -> None:
-        """Store a value and its time t (s) for `key`, if it is finite and exceeds the known peak by more than
-        rounding.
+        """Store a value and its time t (s) as the peak of `key`, if it exceeds the known one by more than rounding.
+
+        `key`: name of the series, whether it is the error, and sign. Values that are not finite are ignored.
         """
         if math.isfinite(value) and (key not in self.best or value - self.best[key][0] > PEAK_TOL * abs(value)):
             self.best[key] = float(value), float(t)
@@ -239,17 +247,19 @@ def _find_polynomial_maximum(coefficients: Array) -> tuple[float, float]:
     return float(max(fine[k], chebval(2.0 * position - 1.0, coefficients))), position
 
 
-def _subtract_other(series: list[Array]) -> Array:
-    """Return a series, or its difference from that of another scene if two are given."""
+def _subtract_compared_series(series: list[Array]) -> Array:
+    """Return the first of these series, minus the second (that of the compared scene) if there are two."""
     return series[0] if len(series) == 1 else series[0] - series[1]
 
 
-def _find_unresolved(interpolant: RunInterpolant, name: str, values: Array, tolerance: float) -> NDArray[np.bool_]:
+def _find_unresolved_intervals(
+    interpolant: RunInterpolant, name: str, values: Array, tolerance: float
+) -> NDArray[np.bool_]:
     """Return a mask (K − 1,) of the intervals in which the states do not resolve a series.
 
-    Five states at equal intervals of one step predict the series at INSIDE of each interval by a polynomial of order 4.
-    The series is not resolved where the value differs by more than `tolerance`. Kinematic motions and films are not
-    tested.
+    Five states at equal intervals of one step predict the series at INNER_FRACTION of each interval by a polynomial of
+    order 4. The series is not resolved where the value differs by more than `tolerance`. Kinematic motions and films
+    are not tested.
     """
     is_unresolved = np.zeros(max(len(values) - 1, 0), bool)
     if len(values) < len(PREDICT) + 1 or interpolant.is_kinematic or interpolant.has_films:
@@ -260,7 +270,7 @@ def _find_unresolved(interpolant: RunInterpolant, name: str, values: Array, tole
         four = windows(h, len(PREDICT))
         equal = np.flatnonzero(np.abs(four - four[:, :1]).max(axis=1) < INTERVAL_TOL * four[:, 0])
         if len(equal):
-            inner_values = windows(interpolant.evaluate_inside(name), len(PREDICT))[equal]
+            inner_values = windows(interpolant.evaluate_series_at_inner_fraction(name), len(PREDICT))[equal]
             predicted = windows(values, len(PREDICT) + 1)[equal] @ PREDICT.T
             for k in equal[(np.abs(inner_values - predicted) > tolerance).any(axis=1)].tolist():
                 is_unresolved[k : k + len(PREDICT)] = True

@@ -11,7 +11,7 @@ the start, for increasing k, until the runs differ. The resolution is thus 2e-4 
 differ in the interval that t_end cuts off, that whole interval is compared again.
 
 The horizon belongs to the run, not to the scene: each digit of tolerance extends it, until rounding dominates. With
-the Lyapunov exponent λ, its mean over all runs is ln(apart/error)/λ: Lyapunov.believable.
+the Lyapunov exponent λ, its mean over all runs is ln(max_difference/error)/λ: Lyapunov.believable.
 """
 
 from __future__ import annotations
@@ -75,7 +75,7 @@ def compute_horizon(
     settings, tighter = build_repeat_settings(run)
     variants = ((begin, settings), (begin, tighter), (_perturb_start(simulation, run, begin), settings))
     agreed_until = t0
-    for times in _yield_intervals(t0, t1):
+    for times in _yield_compared_times(t0, t1):
         is_cut = times[-1] > t1
         compared_times = np.append(times[times < t1], t1) if is_cut else times
         agreement = _find_last_agreement(simulation, compared_times, variants, progress, max_difference)
@@ -88,7 +88,7 @@ def compute_horizon(
     return math.inf
 
 
-def _yield_intervals(t0: float, t1: float) -> Iterator[Array]:
+def _yield_compared_times(t0: float, t1: float) -> Iterator[Array]:
     """Yield arrays of TIMES increasing times (s), each ending four times as far from t0 as the array before.
 
     The last array reaches t1 or goes beyond it.
@@ -108,10 +108,10 @@ def _find_last_agreement(
     progress: Progress | None,
     max_difference: float,
 ) -> float | None:
-    """Run the variants (start, settings) through `times` and return the last time (s) before they differ by
-    `max_difference`.
+    """Run the variants (start, settings) through `times` and return the last time (s) at which they agree.
 
-    Return None if they agree, −infinity if a variant fails at its start. Raises KeyboardInterrupt after Ctrl-C.
+    They agree within `max_difference`. Return None if they do so to the end, −infinity if a variant fails at its start.
+    Raises KeyboardInterrupt after Ctrl-C.
     """
     runs = []
     for start, settings in variants:
@@ -145,10 +145,9 @@ def repeat_run(
 
 
 def _compare_runs(simulation: Simulation, runs: list[Result], max_difference: float) -> tuple[float, bool]:
-    """Return the last time (s) at which all runs are within `max_difference` of the first, and whether they differ
-    later.
+    """Return the last time (s) at which all runs agree with the first, and whether they differ later.
 
-    Runs are compared at the samples that all have. A run that ends early counts as different.
+    Runs agree within `max_difference`, and are compared at the samples that all have. A run that ends early differs.
     """
     count = min(len(run.t) for run in runs)
     paths = [_compute_compared_coordinates(simulation, run)[:count] for run in runs]
@@ -211,9 +210,10 @@ def build_repeat_settings(run: Result) -> tuple[dict[str, Any], dict[str, Any]]:
     return settings | {"rtol": d.rtol}, settings | {"rtol": rtol}
 
 
-def _compute_tolerances(simulation: Simulation, run: Result) -> Array:
-    """Return the error tolerance (2n,) of each coordinate and, per unit of speed, velocity at the relative tolerance
-    MOVED.
+def _compute_perturbation_sizes(simulation: Simulation, run: Result) -> Array:
+    """Return the size (2n,) of the perturbation of each coordinate, and of each velocity per unit of speed.
+
+    It is the error tolerance at the relative tolerance PERTURBATION.
     """
     length, size = compute_error_lengths(simulation.compiled, run.p)
     of_q = PERTURBATION * np.where(_find_angles(run), length / size, length)
@@ -229,13 +229,14 @@ def build_start_state(run: Result) -> State:
 
 
 def _perturb_start(simulation: Simulation, run: Result, start: State) -> State:
-    """Return the start moved by the relative distance MOVED in a fixed pseudo-random direction, projected onto the
-    constraints.
+    """Return a copy of the start moved by the relative distance PERTURBATION in a fixed pseudo-random direction.
+
+    It is projected onto the constraints.
     """
     angle, n = _find_angles(run), len(start.q)
     random = np.random.default_rng(1).uniform(-1.0, 1.0, 2 * n)
     speed = [np.abs(start.v[angle == kind]).max(initial=0.0) for kind in (False, True)]
-    displacement = random * _compute_tolerances(simulation, run)
+    displacement = random * _compute_perturbation_sizes(simulation, run)
     q, v = start.q + displacement[:n], start.v + displacement[n:] * np.where(angle, speed[1], speed[0])
     q, v = project_state(simulation.compiled, start.t, q, v, run.p)
     return replace(start, q=q, v=v)

@@ -41,13 +41,13 @@ def copy_checked_state(source: KernelSource, start: Any) -> State:
     if not isinstance(start, State):
         hint = "the `final` of a run" if not hasattr(start, "final") else "its `final`"
         raise BadValueError(f"start is a {type(start).__name__}: expected a State", hint=f"give {hint}")
-    _check_origin(source, start)
+    _check_state_origin(source, start)
     n, clearances = len(source.coordinates), len(source.clearances)
     state = as_c_array(start.state, "start.state", (clearances,), dtype=CODE, always_copy=True)
     if state.size and (state.min() < 0 or state.max() > 2):
         raise BadValueError("start.state: expected 0 (free), 1 (impact) or 2 (contact) for each joint with play")
     memory = as_c_array(start.memory, "start.memory", (source.n_memory,), always_copy=True)
-    _check_memory(source, state, memory)
+    _check_discrete_states(source, state, memory)
     return replace(
         start,
         t=check_number(start.t, "start.t"),
@@ -81,7 +81,7 @@ def copy_checked_states(source: KernelSource, start: Any, n_runs: int) -> list[S
     return states * n_runs if len(states) == 1 else states
 
 
-def _check_memory(source: KernelSource, state: Array, memory: Array) -> None:
+def _check_discrete_states(source: KernelSource, state: Array, memory: Array) -> None:
     """Raise BadValueError if contact codes and discrete states of a state contradict each other.
 
     Closed contacts need a finite approach speed, open ones NaN. Inner states and friction modes are checked too.
@@ -106,7 +106,7 @@ def _check_memory(source: KernelSource, state: Array, memory: Array) -> None:
         raise BadValueError(message, hint=HINT_FINAL)
 
 
-def _check_origin(source: KernelSource, start: State) -> None:
+def _check_state_origin(source: KernelSource, start: State) -> None:
     """Raise BadValueError if a state belongs to another mechanism, scene, file or overrides, or its fields have wrong
     types.
 
@@ -123,7 +123,7 @@ def _check_origin(source: KernelSource, start: State) -> None:
             f" this is {source.mechanism} / {source.scene}"
         )
     if start.sha256 not in ("", source.whole_sha256):
-        changed = _find_changed_files(source, start)
+        changed = _list_changed_laws_and_tables(source, start)
         if changed:
             message = f"start: this state was computed with another {' and another '.join(changed)}"
             hint = "go on with what it was computed with, or run this one from its start"
@@ -141,10 +141,10 @@ def _check_origin(source: KernelSource, start: State) -> None:
         )
 
 
-def _find_changed_files(source: KernelSource, start: State) -> list[str]:
-    """Return the names of laws and tables that differ from those of the state, as "law x" or "table y".
+def _list_changed_laws_and_tables(source: KernelSource, start: State) -> list[str]:
+    """Return the laws and tables that differ from those of the state, as "law x" or "table y".
 
-    Return [] if the file itself differs.
+    Return [] if the mechanism file itself differs.
     """
     keys_of_state, present_keys = dict(start.beside), dict(source.external_files)
     if replace(source, tables=start.beside, laws=()).whole_sha256 != start.sha256:
@@ -197,10 +197,8 @@ def merge_parameters(
     )
 
 
-def check_resumable(compiled: CompiledModel, start: State, p: Array) -> None:
-    """Raise AssemblyError if the constraint equations are violated at the state to resume from with parameter values
-    p.
-    """
+def check_resumed_state(compiled: CompiledModel, start: State, p: Array) -> None:
+    """Raise AssemblyError if the state to resume from violates the constraint equations with parameter values p."""
     if message := _format_violated_equations(compiled, p, compiled.phi(start.t, start.q, p)):
         raise AssemblyError(
             f"start: the state at t = {start.t:.9g} s does not fit the numbers given: rows {message} are "

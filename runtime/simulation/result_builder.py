@@ -96,9 +96,9 @@ def _build_diagnostics(problem: Problem, trajectory: Trajectory, balance: tuple[
 def _compute_energy_balance(energy: Array, work: Array, poll: Callable[[], object]) -> tuple[float, float]:
     """Return the largest residual of the energy balance and the energy throughput of a run, both in J.
 
-    `energy` (N, 2): kinetic and potential; `work` (N, 3). Both results are NaN without samples. An impact at the very
-    start has done its work before the first sample. `poll` polls for cancellation between blocks; its exceptions are
-    passed on.
+    `energy` (N, 2): kinetic and potential; `work` (N, 3): works since the start. Both results are NaN without samples.
+    An impact at the very start has done its work before the first sample. `poll` polls for cancellation between blocks;
+    its exceptions are passed on.
     """
     if not len(energy):  # not even the start has accelerations
         return math.nan, math.nan
@@ -117,7 +117,7 @@ def _compute_energy_balance(energy: Array, work: Array, poll: Callable[[], objec
 def _build_coarse_step_note(problem: Problem, residual: float, throughput: float) -> tuple[str, ...]:
     """Return a note if the energy balance of a run with fixed steps is too inaccurate, else ().
 
-    `residual`: residual (J); `throughput`: throughput (J). Methods with error control get no note.
+    `residual`, `throughput`: those of the energy balance (J). Methods with error control get no note.
     """
     if math.isinf(problem.step) or not residual > COARSE * throughput:
         return ()
@@ -216,8 +216,7 @@ def _yield_unbounded_sample_note(compiled: CompiledModel, problem: Problem, traj
 
 
 def may_leave_range(source: KernelSource, p: Array, size: Array, phi_max: Array, peaks: Array) -> Any:
-    """Return a mask (n_runs,) of the runs of a batch for which `yield_range_notes` may yield a note; it avoids the
-    full test.
+    """Return a mask (n_runs,) of the runs of a batch that may have left their model, for `yield_range_notes` to test.
 
     Shapes: parameter values p (n_runs, …), mechanism sizes and `phi_max` (n_runs,), peaks (n_runs, n_clearances, 3).
     """
@@ -311,10 +310,9 @@ def build_result(
     """Return the Result of a run with its diagnostics, after evaluating all samples for energy balance, audit and
     notes.
 
-    The evaluation is left out if Ctrl-C or a lack of memory ends it. If Ctrl-C ended the run and `is_time_limited`,
-    it is left out
-    after AFTER_CTRL_C seconds. It is stored with the Result of a short run. A start that is no requested sample is
-    removed from the samples.
+    The evaluation is left out if Ctrl-C or a lack of memory ends it. If Ctrl-C ended the run and `is_time_limited`, it
+    is left out after AFTER_CTRL_C seconds. It is stored with the Result of a short run. A start that is not a requested
+    sample is removed from the samples.
     """
     compiled = problem.compiled
     x, evaluation, is_unsolvable, balance = (
@@ -323,7 +321,7 @@ def build_result(
         False,
         (math.nan, math.nan),
     )
-    poll = _make_poll(problem, x.interrupted, is_time_limited)
+    poll = _make_poll_function(problem, x.interrupted, is_time_limited)
     try:
         times = find_evaluation_times(compiled, x.t, x.q, x.v, problem.p)
         evaluation = compiled.evaluate(times, x.q, x.v, x.memory, problem.p, poll)
@@ -408,14 +406,14 @@ def _add_notes(run: Result, notes_to_add: Sequence[str]) -> Result:
     return replace(run, diagnostics=replace(run.diagnostics, notes=notes)) if notes_to_add else run
 
 
-def _select_accelerations(x: Trajectory, evaluation: Evaluation, times: Array) -> Array:
-    """Return q̈ (N, n) as the method computed it, else from the evaluation.
+def _select_accelerations(trajectory: Trajectory, evaluation: Evaluation, times: Array) -> Array:
+    """Return q̈ (N, n) as the method computed it, or from the evaluation if the method stored none.
 
-    At the last sample it is the evaluation's left limit if its time was moved before the end.
+    `times`: those of the evaluation. If the last one was moved before the end, q̈ there is the evaluation's left limit.
     """
-    if x.a is None:
+    if trajectory.a is None:
         return evaluation.a
-    return np.append(x.a[:-1], evaluation.a[-1:], axis=0) if times[-1] < x.t[-1] else x.a
+    return np.append(trajectory.a[:-1], evaluation.a[-1:], axis=0) if times[-1] < trajectory.t[-1] else trajectory.a
 
 
 def _clear_undefined_works(compiled: CompiledModel, trajectory: Trajectory) -> Trajectory:
@@ -425,11 +423,11 @@ def _clear_undefined_works(compiled: CompiledModel, trajectory: Trajectory) -> T
     return replace(trajectory, work=np.full_like(trajectory.work, np.nan))
 
 
-def _make_poll(problem: Problem, interrupted: bool, soon: bool) -> Callable[[], None]:
-    """Return the function without arguments that the evaluation of samples calls every few milliseconds.
+def _make_poll_function(problem: Problem, is_interrupted: bool, is_time_limited: bool) -> Callable[[], None]:
+    """Return a function without arguments that polls for Ctrl-C, for the evaluation of samples to call often.
 
-    It polls for Ctrl-C and reports progress. It raises _TimeLimitReached if the run is `interrupted`, `soon` is set,
-    and AFTER_CTRL_C seconds have passed.
+    It also reports progress, and raises _TimeLimitReached AFTER_CTRL_C seconds from now if the run `is_interrupted` and
+    the evaluation `is_time_limited`.
     """
     time_at_begin = last_report = monotonic()
 
@@ -438,10 +436,10 @@ def _make_poll(problem: Problem, interrupted: bool, soon: bool) -> Callable[[], 
         nonlocal last_report
         problem.poll_cancellation()
         now = monotonic()
-        if problem.progress and not interrupted and now - last_report > EVERY:
+        if problem.progress and not is_interrupted and now - last_report > EVERY:
             last_report = now
             problem.progress(1.0, "balancing energy")
-        if interrupted and soon and now - time_at_begin > AFTER_CTRL_C:
+        if is_interrupted and is_time_limited and now - time_at_begin > AFTER_CTRL_C:
             raise _TimeLimitReached
 
     return poll
@@ -459,20 +457,23 @@ def check_result(problem: Problem, trajectory: Trajectory, result: Result) -> tu
             build_audit_error(findings) if has_failed_finding(findings) else None
         )
     except KeyboardInterrupt:
-        result, failure = _mark_interrupted(result), find_contradiction(problem, replace(trajectory, interrupted=True))
+        result, failure = (
+            _mark_as_interrupted(result),
+            find_contradiction(problem, replace(trajectory, interrupted=True)),
+        )
     return result, trajectory.stopped or failure
 
 
-def mark_if_interrupted(ctrl_c: DelayedCtrlC, result: Result) -> Result:
+def mark_result_if_interrupted(ctrl_c: DelayedCtrlC, result: Result) -> Result:
     """Poll for Ctrl-C; return the result, marked as interrupted if Ctrl-C came while it was being built."""
     try:
         ctrl_c.raise_delayed()
     except KeyboardInterrupt:
-        return _mark_interrupted(result)
+        return _mark_as_interrupted(result)
     return result
 
 
-def _mark_interrupted(result: Result) -> Result:
+def _mark_as_interrupted(result: Result) -> Result:
     """Return a copy of the result marked as interrupted, with a note unless it was marked before."""
     marked = _add_notes(result, () if result.diagnostics.interrupted else (INTERRUPTED_NOTE,))
     return replace(marked, diagnostics=replace(marked.diagnostics, interrupted=True))

@@ -59,15 +59,15 @@ UNKNOWN_DIAGNOSTICS = Diagnostics(
 class RunInterpolant:
     """Hold the current block of a run's states, and evaluate series at and between them.
 
-    Two states of the previous block precede it. `names`: the only series that will be evaluated; None: any. `numbers`:
-    parameter values, given values and their mask, as in a Result.
+    Two states of the previous block precede it. `names`: the only series that will be evaluated; None: any.
+    `parameter_arrays`: parameter values, given values and their mask, as in a Result.
     """
 
     def __init__(
-        self, compiled: CompiledModel, numbers: tuple[Array, Array, Array], names: Iterable[str] | None = None
+        self, compiled: CompiledModel, parameter_arrays: tuple[Array, Array, Array], names: Iterable[str] | None = None
     ) -> None:
         self.compiled, self.source = compiled, compiled.source
-        self.p, self.given, self.is_given = numbers  # as in a Result
+        self.p, self.given, self.is_given = parameter_arrays  # as in a Result
         self.catalogue = get_catalogue(self.source)
         requested = self.catalogue.keys() if names is None else [name for name in names if name in self.catalogue]
         self.parts = PARTS if names is None else find_evaluation_parts(self.source, requested) | {"a"}
@@ -81,7 +81,7 @@ class RunInterpolant:
         # k, polynomial of the rates between states k and k + 1, and its integral
         self.rates_cache: tuple[int, Any] = (-1, None)
         self.works_cache: tuple[int, Any] = (-1, None)  # k, integral of the powers between states k and k + 1
-        self.inside_cache: Result | None = None  # run evaluated at INSIDE of every interval
+        self.inner_cache: Result | None = None  # run evaluated at INNER_FRACTION of every interval
         self.steps: Steps
         self.run: Result
         self.is_within_step: NDArray[np.bool_]  # (K − 1,) whether k and k + 1 are the ends of a part of a step
@@ -90,25 +90,25 @@ class RunInterpolant:
         """Replace the block by the next states of the run, and evaluate the equations at them.
 
         The last two states of the old block stay in front. Cached evaluations are dropped. States without accelerations
-        are counted in `lost`.
+        are counted in `n_without_accelerations`.
         """
         self.first = steps[:1] if self.first is None else self.first
         self.steps = self.steps[-2:].concatenate(steps) if hasattr(self, "steps") else steps
-        self.run, good = self._build_result(self.steps)
-        self.rates_cache, self.works_cache, self.cached, self.inside_cache = (-1, None), (-1, None), {}, None
-        self.n_without_accelerations += int((~good[len(good) - len(steps) :]).sum())
+        self.run, has_accelerations = self._build_result(self.steps)
+        self.rates_cache, self.works_cache, self.cached, self.inner_cache = (-1, None), (-1, None), {}, None
+        self.n_without_accelerations += int((~has_accelerations[len(has_accelerations) - len(steps) :]).sum())
         self.is_within_step = ~self.steps.is_after_jump[1:] & (
             np.diff(self.steps.t) > (0.0 if self.is_kinematic else _compute_shortest_interval(self.steps))
         )
 
-    def evaluate_at_states(self, name: str) -> Array:
+    def evaluate_series_at_states(self, name: str) -> Array:
         """Return a series at the states of the block, (K,); NaN where the equations cannot be solved."""
         return self.run[name][1:]
 
-    def evaluate_between(self, k: int, t: Array, name: str) -> Array:
+    def evaluate_series_between_states(self, k: int, t: Array, name: str) -> Array:
         """Return a series at times t (T,) between states k and k + 1; NaN where the interpolation is too inaccurate.
 
-        The evaluated states are cached for the next series, KEPT of them at most.
+        The evaluated states are cached for the next series, MAX_CACHED of them at most.
         """
         key = (k, len(t), float(t[0]), float(t[-1]))
         if key not in self.cached:
@@ -122,13 +122,13 @@ class RunInterpolant:
         result, errors = self.cached[key]
         return np.where(errors <= MAX_ACCELERATION_ERROR, result[name][1:], np.nan)
 
-    def evaluate_inside(self, name: str) -> Array:
-        """Return a series at the fraction INSIDE of each interval between successive states, (K − 1,).
+    def evaluate_series_at_inner_fraction(self, name: str) -> Array:
+        """Return a series at the fraction INNER_FRACTION of each interval between successive states, (K − 1,).
 
         The value is NaN across jumps and where it is unknown. The motion there is Hermite's polynomial of order 5
         through positions, velocities and accelerations. Its evaluation is cached for the block.
         """
-        if self.inside_cache is None:
+        if self.inner_cache is None:
             x, a, s = self.steps, self.run.a[1:], INNER_FRACTION
             h, q = np.diff(x.t)[:, None], np.diff(x.q, axis=0)
             r0, r1, c0, c1 = h * x.v[:-1], h * x.v[1:], h**2 * a[:-1], h**2 * a[1:]
@@ -141,10 +141,10 @@ class RunInterpolant:
                 v_inside = (r0 + s * (c0 + s * (3.0 * third + s * (4.0 * fourth + s * 5.0 * fifth)))) / h
             q_inside[~self.is_within_step] = v_inside[~self.is_within_step] = np.nan
             t, works = x.t[:-1] + s * h[:, 0], np.full((len(h), N_WORK), np.nan)
-            self.inside_cache = self._build_result(
+            self.inner_cache = self._build_result(
                 Steps(t, q_inside, v_inside, works, x.memory[:-1], x.state[:-1], x.is_after_jump[:-1])
             )[0]
-        return self.inside_cache[name][1:]
+        return self.inner_cache[name][1:]
 
     def _compute_interpolation_error(self, k: int, t: Array, a: Array) -> Array:
         """Return the relative error (T,) of the accelerations a (T, n) against those of the interpolant at times t.
@@ -169,7 +169,7 @@ class RunInterpolant:
         """
         assert self.first is not None
         x = self.first.concatenate(steps)
-        evaluation, good = self._evaluate_states(x)
+        evaluation, has_accelerations = self._evaluate_states(x)
         run = Result(
             compiled=self.compiled,
             source=self.source,
@@ -187,34 +187,37 @@ class RunInterpolant:
             diagnostics=UNKNOWN_DIAGNOSTICS,
         )
         run.__dict__.update(evaluation=evaluation, _catalogue=self.catalogue)
-        return run, good
+        return run, has_accelerations
 
-    def _evaluate_states(self, x: Steps) -> tuple[Evaluation, NDArray[np.bool_]]:
-        """Evaluate the equations at the states x (K,); return NaN where they cannot be solved, and a mask of the
-        others.
+    def _evaluate_states(self, steps: Steps) -> tuple[Evaluation, NDArray[np.bool_]]:
+        """Return the Evaluation of the equations at K states, and a mask (K,) of the states where they can be solved.
 
-        Times just after a jump are moved before it for expressions that depend on the side. A state that fails is
-        removed, and the rest is evaluated again.
+        The Evaluation is NaN at the other states. Times just after a jump are moved before it for expressions that
+        depend on the side. A state that fails is removed, and the rest is evaluated again.
         """
-        good = np.asarray(np.isfinite(x.q).all(axis=1) & np.isfinite(x.v).all(axis=1))
-        t = x.t
+        is_solvable = np.asarray(np.isfinite(steps.q).all(axis=1) & np.isfinite(steps.v).all(axis=1))
+        t = steps.t
         if self.compiled.has_mod_in_drives and not self.is_kinematic:  # step ends have the rates before a jump
-            since = t - np.maximum.accumulate(np.where(x.is_after_jump, t, -np.inf))
+            since = t - np.maximum.accumulate(np.where(steps.is_after_jump, t, -np.inf))
             t = np.where(since > 4.0 * find_rounding_distance(t), t - 2.0 * find_rounding_distance(t), t)
         while True:
             try:
-                states = (t, x.q, x.v, x.memory) if good.all() else (t[good], x.q[good], x.v[good], x.memory[good])
+                states = (
+                    (t, steps.q, steps.v, steps.memory)
+                    if is_solvable.all()
+                    else (t[is_solvable], steps.q[is_solvable], steps.v[is_solvable], steps.memory[is_solvable])
+                )
                 evaluation = self.compiled.evaluate(*states, self.p, parts=self.parts)
                 break
             except SolverError as error:
-                remaining = good & (np.abs(t - error.time) > 4.0 * find_rounding_distance(t))
-                good = remaining if (remaining != good).any() else np.zeros_like(good)
-        if good.all():
-            return evaluation, good
-        columns = {name: np.full((len(x), *array.shape[1:]), np.nan) for name, array in vars(evaluation).items()}
+                remaining = is_solvable & (np.abs(t - error.time) > 4.0 * find_rounding_distance(t))
+                is_solvable = remaining if (remaining != is_solvable).any() else np.zeros_like(is_solvable)
+        if is_solvable.all():
+            return evaluation, is_solvable
+        columns = {name: np.full((len(steps), *array.shape[1:]), np.nan) for name, array in vars(evaluation).items()}
         for name in self.parts:
-            columns[name][good] = getattr(evaluation, name)
-        return Evaluation(**columns), good
+            columns[name][is_solvable] = getattr(evaluation, name)
+        return Evaluation(**columns), is_solvable
 
     def _interpolate_states(self, k: int, t: Array) -> Steps:
         """Interpolate the states at times t (T,) between states k and k + 1, with the contacts of state k.
@@ -247,8 +250,8 @@ class RunInterpolant:
         return x.q[k] + (displacement[2:] - displacement[0]) + s * correction, legval(places[2:], rates).T
 
     def _interpolate_rates(self, k: int) -> tuple[float, float, Any, Any]:
-        """Return the interpolant of q̇ between states k and k + 1: middle and half width (s), Legendre coefficients,
-        its integral.
+        """Return the polynomial of q̇ between states k and k + 1: middle and half width (s), its and its integral's
+        Legendre coefficients.
 
         The polynomial also passes through neighbouring states where these reduce its estimated error; across a kink of
         a force they do not. The result of the last k is cached.
@@ -263,11 +266,10 @@ class RunInterpolant:
         return interpolant
 
     def _count_neighbours(self, h: Array, k: int, direction: int, max_count: int) -> int:
-        """Return how many states before k (way −1) or after k + 1 (way 1) the polynomial may pass through, 0 to
-        `max_count`.
+        """Return how many states before k or after k + 1 the polynomial may pass through, 0 to `max_count`.
 
-        Counting ends at a jump, at an interval more than eight times longer or shorter, and at a state without
-        accelerations. `h`: lengths (s) of all intervals.
+        `direction`: −1 before, 1 after. Counting ends at a jump, at an interval more than eight times longer or
+        shorter, and at a state without accelerations. `h`: lengths (s) of all intervals.
         """
         a = self.run.a[1:]
         for count in range(max_count):
@@ -278,20 +280,20 @@ class RunInterpolant:
                 return count
         return max_count
 
-    def _fit_rates(self, rows: slice) -> tuple[float, float, float, Any]:
-        """Fit the polynomial of q̇ to the states `rows` and their accelerations.
+    def _fit_rates(self, state_range: slice) -> tuple[float, float, float, Any]:
+        """Fit the polynomial of q̇ to the states in the slice `state_range` and their accelerations.
 
         Return its estimated error, the middle and half width of its interval (s), and its Legendre coefficients. With
         films, accelerations are not used: they amplify the errors of velocities.
         """
         x, a = self.steps, self.run.a[1:]
-        t, n = x.t[rows], len(x.t[rows]) * (1 if self.has_films else 2)
+        t, n = x.t[state_range], len(x.t[state_range]) * (1 if self.has_films else 2)
         mid, half = float(0.5 * (t[0] + t[-1])), float(0.5 * (t[-1] - t[0]))
         s = (t - mid) / half
-        matrix, values = legvander(s, n - 1), x.v[rows]
+        matrix, values = legvander(s, n - 1), x.v[state_range]
         if not self.has_films:
             matrix = np.concatenate([matrix, legval(s, _differentiate_legendre(n)).T])
-            values = np.concatenate([values, half * a[rows]])
+            values = np.concatenate([values, half * a[state_range]])
         coefficients = np.linalg.solve(matrix, values)
         last, second_last = np.abs(coefficients[-1]).max(), np.abs(coefficients[-2]).max()
         return float(last * min(1.0, last / max(second_last, 1e-300))), mid, half, coefficients
@@ -321,14 +323,14 @@ def _differentiate_legendre(n: int) -> Any:
     return legder(np.eye(n))
 
 
-def _compute_shortest_interval(x: Steps) -> float:
+def _compute_shortest_interval(steps: Steps) -> float:
     """Return the length (s) of the shortest interval in which differences of positions still determine speeds.
 
     Lengths and angles are tested separately. Blocks at rest are not limited, though forces may vary there.
     """
     shortest = 0.0
     for kind in (slice(0, None, 3), slice(1, None, 3), slice(2, None, 3)):  # x, y, angles of all bodies
-        q, v = (np.abs(part[:, kind][np.isfinite(part[:, kind])]).max(initial=0.0) for part in (x.q, x.v))
-        if v * float(x.t[-1] - x.t[0]) > MAX_MOTION_AT_REST * q:
+        q, v = (np.abs(part[:, kind][np.isfinite(part[:, kind])]).max(initial=0.0) for part in (steps.q, steps.v))
+        if v * float(steps.t[-1] - steps.t[0]) > MAX_MOTION_AT_REST * q:
             shortest = max(shortest, 40.0 * np.finfo(float).eps * float(q) / (MAX_SPEED_ERROR * float(v)))
     return shortest

@@ -15,7 +15,7 @@ from gudgeon.assembly.journals import check_journal_positions, describe_contacts
 from gudgeon.assembly.rank import find_contradiction, list_redundant_equations
 from gudgeon.errors import AssemblyError, BadValueError, SolverError
 from gudgeon.integrators import adaptive
-from gudgeon.integrators import batch as many
+from gudgeon.integrators.batch import Runs
 from gudgeon.integrators.failure import INTERRUPTED
 from gudgeon.integrators.threads import available_threads
 from gudgeon.integrators.times import Times
@@ -48,7 +48,7 @@ from gudgeon.simulation.arguments import PYTHON_TIME_LOOPS, select_method
 from gudgeon.simulation.audit import parse_audit_level
 from gudgeon.simulation.batch_arguments import BatchArguments
 from gudgeon.simulation.hidden_jumps import build_jump_error, compute_end_before_jump, find_first_jumps
-from gudgeon.simulation.restart import build_violation_notes, check_resumable, copy_checked_states, merge_parameters
+from gudgeon.simulation.restart import build_violation_notes, check_resumed_state, copy_checked_states, merge_parameters
 from gudgeon.simulation.result_builder import (
     build_result,
     check_result,
@@ -116,7 +116,7 @@ def simulate_many(
     tolerance = adaptive.parse_tolerance(rtol, selected, step is not None)
     options = _BatchOptions(selected, tolerance, workers, progress, stop, side_by_side, series, names, against, level)
     p, p_motion, failures = prepare_values_of_runs(compiled, starts.given, starts.is_given, selected != "rk4")
-    failures |= starts.failures | starts.find_unfit_runs(p, failures)
+    failures |= starts.failures | starts.find_runs_with_invalid_start(p, failures)
     times = run_arguments.compute_times(p, starts.t, failures)
     check_sample_memory(compiled, times.max_count, len(p), series, find_evaluation_parts(source, series or ()), workers)
     steps = run_arguments.compute_steps(selected, p, times, failures)
@@ -140,9 +140,9 @@ def _run_batch(
     """
     p, p_motion, steps = arrays
     jumps = find_first_jumps(simulation.source, p, starts.t, times.get_ends().tolist(), failures)
-    run_times = times.cut_before({i: compute_end_before_jump(jump, starts.t) for i, jump in jumps.items()})
+    run_times = times.cut_times_before({i: compute_end_before_jump(jump, starts.t) for i, jump in jumps.items()})
     stored_series = None if options.keep is None else StoredSeries(simulation.source, options.keep, len(p), times)
-    runs = many.Runs(
+    runs = Runs(
         simulation.compiled,
         p,
         p_motion,
@@ -162,11 +162,11 @@ def _run_batch(
     runs.observers = observers = starts.make_observers(p, failures, options)
     results = _Results(simulation, runs, starts, options, stored_series)
     time_at_begin = time.perf_counter()
-    results.run(options.progress)
+    results.integrate_runs(options.progress)
     for i in (i for i in jumps if i not in runs.failures and runs.is_complete(i)):
         runs.failures[i] = build_jump_error(simulation.source, jumps[i])
     warn_unfollowed_in_runs(simulation.source, [*runs.unfollowed.values(), *[{}] * (runs.n - len(runs.unfollowed))])
-    results.message = [search.build_observation() if search else Observation() for search in observers]
+    results.observations = [search.build_observation() if search else Observation() for search in observers]
     batch = _build_batch(results, times)
     return replace(batch, seconds=time.perf_counter() - time_at_begin, threads=options.threads)
 
@@ -226,7 +226,7 @@ class _Starts:
         self.given, self.is_given = uniform_values or read_each_run(rows, self._merge_parameters)
 
     def _merge_parameters(self, i: int, parameters: Mapping[str, Any]) -> tuple[Array, Array]:
-        """Return values and mask of the parameters given for run i, and append its notes to `remarks`.
+        """Return values and mask (n_slots,) of the parameters given for run i, and append its notes to `remarks`.
 
         Values of its start state and of its contour are included.
         """
@@ -236,8 +236,8 @@ class _Starts:
         self.remarks.append(remarks)
         return given, is_given
 
-    def find_unfit_runs(self, p: Array, failures: Mapping[int, Any]) -> dict[int, Any]:
-        """Return the errors by index of runs whose parameter values do not fit their state or start position.
+    def find_runs_with_invalid_start(self, p: Array, failures: Mapping[int, Any]) -> dict[int, Any]:
+        """Return the errors of runs whose start contradicts their parameter values p (n_runs, …), by index.
 
         Runs in `failures` are skipped. Without states, journals that the file places are checked; otherwise only runs
         whose parameters differ from those of their state are checked.
@@ -254,7 +254,7 @@ class _Starts:
                 if has_journal_positions:
                     check_journal_positions(self.compiled, p[i])
                 elif self.remarks[i]:
-                    check_resumable(self.compiled, self.states[i], p[i])
+                    check_resumed_state(self.compiled, self.states[i], p[i])
             except AssemblyError as error:
                 errors[i] = error
         return errors
@@ -277,46 +277,45 @@ class _Results:
     """Build the Result of run i from the stored arrays of the batch."""
 
     simulation: Simulation
-    runs: many.Runs
+    runs: Runs
     starts: _Starts
-    requested: _BatchOptions
-    kept: StoredSeries | None
-    message: Sequence[Observation] = ()  # findings of the step observers by run; empty without observers
+    options: _BatchOptions
+    stored_series: StoredSeries | None
+    observations: Sequence[Observation] = ()  # findings of the step observers by run; empty without observers
     python_notes: dict[int, tuple[str, ...]] = field(default_factory=dict)  # notes of runs that Python has checked
 
-    def run(self, progress: Progress | None) -> None:
+    def integrate_runs(self, progress: Progress | None) -> None:
         """Integrate all runs. Finished runs are processed at once where series are stored or Python must check them."""
         self.runs.store_results = (
-            self._take if self.kept or self.runs.python_loop or list_redundant_equations(self.runs.compiled) else None
+            self._process_finished_runs
+            if self.stored_series or self.runs.python_loop or list_redundant_equations(self.runs.compiled)
+            else None
         )
-        self.runs.integrate_all(progress)
+        self.runs.integrate_all_runs(progress)
 
-    def _take(self, finished: Sequence[int]) -> None:
-        """Process finished runs, by index `finished`: record errors that C does not find, and store their requested
-        series.
+    def _process_finished_runs(self, finished_runs: Sequence[int]) -> None:
+        """Store the requested series of finished runs, given by index, and record errors that C does not find.
 
         Results of Python time loops are checked in full. Other runs are checked for contradictory constraints where the
         scene may have them.
         """
         runs = self.runs
         if runs.python_loop:
-            for i in finished:
+            for i in finished_runs:
                 result = self._build_checked_result(i)
-                if self.kept:
-                    self.kept.store_run(runs, i, result)
+                if self.stored_series:
+                    self.stored_series.store_run(runs, i, result)
             return
-        for i in finished if list_redundant_equations(runs.compiled) else ():
+        for i in finished_runs if list_redundant_equations(runs.compiled) else ():
             if runs.arrays["done"][i] and (
                 error := find_contradiction(self._build_problem(i), runs.build_trajectory(i))
             ):
                 runs.failures.setdefault(i, error)
-        if self.kept:
-            self.kept.take(runs, finished)
+        if self.stored_series:
+            self.stored_series.store_finished_runs(runs, finished_runs)
 
     def _build_checked_result(self, i: int) -> Result:
-        """Build and return the Result of run i of a Python time loop; record its notes, and an error or interrupt as
-        failure.
-        """
+        """Build the Result of run i of a Python time loop; record its notes, and an error or interrupt as failure."""
         problem, trajectory = (
             replace(self._build_problem(i), poll_cancellation=self.runs.poll_cancellation),
             self.runs.build_trajectory(i),
@@ -349,8 +348,8 @@ class _Results:
             raise error
         given = self.starts.given[i], self.starts.is_given[i]
         result = build_result(self._build_problem(i), runs.build_trajectory(i), *given, is_time_limited=False)
-        if self.message:
-            self.message[i].store_in(result)
+        if self.observations:
+            self.observations[i].store_in(result)
         if isinstance(error, SolverError):
             error.partial = result
         if error is not None:
@@ -374,7 +373,7 @@ class _Results:
         for i in np.flatnonzero(x["done"] > 0).tolist() if source.indeterminate else ():
             notes_by_run[i] = (*notes_by_run.get(i, ()), *yield_redundancy_note(source))
         notes_by_run |= self.python_notes
-        for i, observation in enumerate(self.message):
+        for i, observation in enumerate(self.observations):
             notes_by_run[i] = (*notes_by_run.get(i, ()), *observation.notes)
         return notes_by_run
 
@@ -393,7 +392,7 @@ def _build_batch(results: _Results, times: Times) -> Batch:
 
     With stored series, the states of all runs are released. Wall time and threads are set by the caller.
     """
-    runs, source, stored_series = results.runs, results.simulation.source, results.kept
+    runs, source, stored_series = results.runs, results.simulation.source, results.stored_series
     x, n, joints = runs.arrays, results.simulation.compiled.n, len(source.clearances)
     without_samples = np.flatnonzero((x["done"] == 1) & (times.n_skipped == 1))  # the start is all that they have
     for rows in stored_series.arrays.values() if stored_series else (x["y"], x["state"]):
@@ -402,13 +401,13 @@ def _build_batch(results: _Results, times: Times) -> Batch:
     if stored_series:
         runs.release_samples()
     else:
-        y, state = times.select_requested(x["y"]), times.select_requested(x["state"])
+        y, state = times.select_requested_samples(x["y"]), times.select_requested_samples(x["state"])
         work = np.full_like(y[:, :, 2 * n :], np.nan) if source.massless else y[:, :, 2 * n :]
         states = States(y[:, :, :n], y[:, :, n : 2 * n], work, state[:, :, :joints])
     numbers = {**convert_counts_of_runs(x["counts"], x["residuals"]), "seconds": x["seconds"]}
     return Batch(
         source=source,
-        t=times.get_requested(),
+        t=times.get_requested_times(),
         states=states,
         samples=x["done"] - times.n_skipped * (x["done"] > 1),
         t_last=x["t_last"],
@@ -422,9 +421,9 @@ def _build_batch(results: _Results, times: Times) -> Batch:
         threads=0,
         interrupted=runs.interrupted,
         result=results,
-        kept={name: times.select_requested(rows) for name, rows in stored_series.arrays.items()}
+        kept={name: times.select_requested_samples(rows) for name, rows in stored_series.arrays.items()}
         if stored_series
         else {},
-        extremes=tuple(message.extremes for message in results.message),
-        rubbed=tuple(message.sliding_loads for message in results.message),
+        extremes=tuple(observation.extremes for observation in results.observations),
+        rubbed=tuple(observation.sliding_loads for observation in results.observations),
     )

@@ -38,8 +38,8 @@ from gudgeon.simulation.arguments import (
 )
 from gudgeon.simulation.audit import parse_audit_level
 from gudgeon.simulation.hidden_jumps import build_jump_error, compute_end_before_jump, find_first_jumps
-from gudgeon.simulation.restart import build_violation_notes, check_resumable, copy_checked_state, merge_parameters
-from gudgeon.simulation.result_builder import build_result, check_result, mark_if_interrupted
+from gudgeon.simulation.restart import build_violation_notes, check_resumed_state, copy_checked_state, merge_parameters
+from gudgeon.simulation.result_builder import build_result, check_result, mark_result_if_interrupted
 from gudgeon.simulation.step_observers import StepObserver, check_compared_scene, check_requested_peaks, make_observer
 from gudgeon.waiting.ctrl_c import DelayedCtrlC
 from gudgeon.waiting.imports import GENERATOR, import_completely
@@ -139,9 +139,7 @@ class Simulation(NotebookDisplay):
         return self._variants[formulation]
 
     def to_html(self) -> str:
-        """Return the text of the scene's HTML page: the running mechanism, and below it the equations; see
-        gudgeon.web.page.write.
-        """
+        """Return the text of the scene's HTML page: the running mechanism, and below it the equations."""
         from gudgeon.web.page import build_page
 
         return build_page(self)
@@ -312,7 +310,7 @@ class Simulation(NotebookDisplay):
         if (times[-1] - t0) / h > MAX_STEPS:
             raise BadValueError(f"step {h:.3g} s means more than {MAX_STEPS:.0e} steps")
         if initial_state is not None and remarks:
-            check_resumable(self.compiled, initial_state, p)
+            check_resumed_state(self.compiled, initial_state, p)
         q, v, memory = (
             self._assemble_start(p)
             if initial_state is None
@@ -428,12 +426,12 @@ class Simulation(NotebookDisplay):
         """Return the largest Lyapunov exponent (1/s) of the motion up to t_end (s), with its uncertainty; see Lyapunov.
 
         `by`: "tangent", the variational equation with the exact Jacobian and a jump at each contact; "twin", a second
-        run that is led back time after time; "auto" the tangent where it says all of how neighbours move.
+        run that is scaled back towards the first at intervals; "auto": the tangent where it describes all neighbours.
         `section`: an event of the file, or a period (s, '2*pi/omega'): the exponent per return too, and the kind of
-        motion, `found.motion`. Where neither drives nor forces read t, differences along the motion are then taken
-        away. `skip`: so long (s) the motion settles first. Of the rest a tenth is left out, in which the difference
-        turns. `method`, `rtol` (1e-12), `step`, `parameters`, `start`: as in `simulate`, of every run. A run of this
-        simulation in place of t_end: the exponent of that run, from first sample to last, with its numbers.
+        motion, `found.motion`. Where neither drives nor forces contain t, differences along the motion are then
+        removed. `skip`: time (s) in which the motion settles first. A tenth of the rest is left out, in which the
+        difference turns. `method`, `rtol` (1e-12), `step`, `parameters`, `start`: as in `simulate`, of every run. A run
+        of this simulation in place of t_end: the exponent of that run, from first sample to last, with its numbers.
         Raises BadValueError without a degree of freedom, and for arguments; SolverError, AssemblyError as `simulate`.
         """
         from gudgeon.simulation.lyapunov import compute_lyapunov_exponent
@@ -463,7 +461,7 @@ class Simulation(NotebookDisplay):
             result, stopped = check_result(problem, trajectory, result)
             if jump and not trajectory.interrupted and not trajectory.t[-1] < problem.t[-1]:  # it came to the jump
                 stopped = stopped or build_jump_error(self.source, jump)
-        result = mark_if_interrupted(ctrl_c, result)
+        result = mark_result_if_interrupted(ctrl_c, result)
         if stopped is not None:
             stopped.partial = result
             raise stopped

@@ -145,26 +145,26 @@ class ComparedScene:
             for k, slot in enumerate(source.slots)
             if slot.address in addresses
         }
-        self.numbers = prepare_values(self.compiled, values)
+        self.parameter_arrays = prepare_values(self.compiled, values)
         self.failure_reason = ""  # reason why it cannot be followed further; "" if it can
         self.problem: Problem | None = None  # from where it resumes
-        self.last: Steps | None = None  # the state there
+        self.last_state: Steps | None = None  # the state there
         self.rtol = rtol
 
     def integrate_to(self, t: Array) -> Steps | None:
         """Return the scene's states at times t (k,), which do not decrease from call to call; None after a failure.
 
-        The first failure is stored as a text in `lost`.
+        The first failure is stored as a text in `failure_reason`.
         """
         if self.failure_reason:
             return None
         try:
-            return self._integrate_to(t)
+            return self._integrate_from_last_state(t)
         except GudgeonError as error:
             self.failure_reason = str(error)
             return None
 
-    def _integrate_to(self, t: Array) -> Steps:
+    def _integrate_from_last_state(self, t: Array) -> Steps:
         """Integrate the scene from its last state to the times t (k,) in s; return its states there and store the last
         one.
 
@@ -172,21 +172,21 @@ class ComparedScene:
         """
         problem = self.problem or self._build_start_problem()
         times = np.union1d(problem.t[:1], t)
-        if self.last is not None and len(times) == 1:
-            return self.last[np.zeros(len(t), dtype=int)]
+        if self.last_state is not None and len(times) == 1:
+            return self.last_state[np.zeros(len(t), dtype=int)]
         x = integrate_run(replace(problem, t=times))
         if x.stopped is not None:
             raise x.stopped
-        work = x.work if self.last is None else x.work + self.last.work  # each part begins with none
+        work = x.work if self.last_state is None else x.work + self.last_state.work  # each part begins with none
         steps = Steps(x.t, x.q, x.v, work, x.memory, x.state, np.zeros(len(x.t), dtype=bool))
-        self.last = steps[-1:]
+        self.last_state = steps[-1:]
         state = x.state[-1] if x.state.shape[1] else None
         self.problem = replace(problem, t=times[-1:], q=x.q[-1], v=x.v[-1], memory=x.memory[-1], state=state)
         return steps[np.searchsorted(x.t, t)]
 
     def _build_start_problem(self) -> Problem:
         """Return the Problem of the assembled scene at t = 0, by method "auto" and without discrete states."""
-        p, given, is_given = self.numbers
+        p, given, is_given = self.parameter_arrays
         assembled, method = assemble_start(self.compiled, p), select_method(self.compiled.source, "auto", False)
         memory = np.full(self.compiled.n_memory, np.nan)
         return Problem(

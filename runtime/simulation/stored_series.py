@@ -39,15 +39,15 @@ class StoredSeries:
         known = [get_catalogue(source)[name] for name in names if name != "t"]
         self.columns = all(one.stored or one.evaluated for one in known)  # none of them reads a run's own numbers
 
-    def take(self, runs: Runs, finished: Sequence[int]) -> None:
-        """Store the series of the finished runs with indices `finished`, all at once where their equations allow it.
+    def store_finished_runs(self, runs: Runs, finished_runs: Sequence[int]) -> None:
+        """Store the series of finished runs, given by index, all at once where their equations allow it.
 
         Runs without samples are skipped. A run whose series cannot be computed is recorded as failed.
         """
-        with_samples = [i for i in finished if runs.arrays["done"][i]]
+        with_samples = [i for i in finished_runs if runs.arrays["done"][i]]
         if len(with_samples) > 1 and self.columns:
             try:
-                self._take(with_samples, *_concatenate_samples(runs, with_samples, self.parts))
+                self._copy_samples(with_samples, *_concatenate_samples(runs, with_samples, self.parts))
                 return
             except SolverError:  # of one of them: alone it says which
                 pass
@@ -58,14 +58,16 @@ class StoredSeries:
     def store_run(self, runs: Runs, i: int, run: Result) -> None:
         """Store the series of run i from its Result. An error of their evaluation is recorded as the run's failure."""
         try:
-            self._take([i], [len(run.t)], run, int(run.start_row is not None))
+            self._copy_samples([i], [len(run.t)], run, int(run.start_row is not None))
         except SolverError as error:
             runs.failures.setdefault(i, error)
 
-    def _take(self, indices: Sequence[int], counts: Sequence[int], result: Result, first_column: int = 0) -> None:
-        """Copy samples of several runs, concatenated in the result `result`, into the rows of the stored arrays.
+    def _copy_samples(
+        self, indices: Sequence[int], counts: Sequence[int], result: Result, first_column: int = 0
+    ) -> None:
+        """Copy samples of several runs, concatenated in `result`, into the rows of the stored arrays.
 
-        counts[k] samples belong to run begun[k]. `first_column`: first column that is filled.
+        counts[k] samples belong to run indices[k]. `first_column`: first column that is filled.
         """
         columns, first = [(self.arrays[name], result[name]) for name in self.names], 0
         for i, count in zip(indices, counts, strict=True):

@@ -46,7 +46,7 @@ BUTCHER = np.array(
 WEIGHTS = np.array([5 / 18, 4 / 9, 5 / 18])
 N_PANELS, MAX_DEPTH = 2, 16  # initial panels between two contacts, and largest number of halvings
 PROPAGATOR_TOL = 1e-8  # largest change of a panel's propagator by halving it
-MAX_CARRY_ERROR = 1e-4  # of the rates: allowed error of the carried direction of motion
+MAX_TRANSPORT_ERROR = 1e-4  # of the rates ẏ: allowed error of those that P maps from the begin to the end of a panel
 INSIDE = 1e-6  # of the time between two contacts: distance from its ends at which rates are evaluated
 CLEARANCE_OFFSET = 1e-9  # of the clearance: distance from the surface at which f⁻ and f⁺ are evaluated
 DIFFERENCE_STEP = 1e-4  # of the clearance: difference for derivatives of gaps
@@ -61,12 +61,12 @@ class Flow:
     def __init__(self, compiled: CompiledModel, run: Result) -> None:
         source = compiled.source
         self.compiled, self.p = compiled, prepare_without_baumgarte(compiled, run.given, run.is_given)
-        self.tree = source.formulation == "reduced"
-        self.m, self.chained = (len(source.tree), len(source.chain)) if self.tree else (compiled.n, 0)
+        self.is_reduced = source.formulation == "reduced"
+        self.m, self.n_dep = (len(source.tree), len(source.chain)) if self.is_reduced else (compiled.n, 0)
         self.is_angle, self.joints = find_integrated_angles(source), len(source.clearances)
         rows = [row.owner for row in source.start_rows]
         self.rows = [[k for k, owner in enumerate(rows) if owner == joint.name] for joint in source.clearances]
-        self.play = [float(self.p[joint.clearance]) for joint in source.clearances]
+        self.radial_clearances = [float(self.p[joint.clearance]) for joint in source.clearances]
         self.depths = [find_contour(source, self.p, joint.name) for joint in source.clearances]
         first = (joint.first for joint in source.clearances)
         # index into q of the x coordinate of each bearing; −1: ground
@@ -75,70 +75,71 @@ class Flow:
 
     def _allocate_buffers(self) -> None:
         """Allocate the arrays that C reads and fills in tens of thousands of calls, and store C pointers to them."""
-        compiled, m, size, p = self.compiled, self.m, self.m + self.chained, self.make_pointers(self.p)
+        compiled, m, size, p = self.compiled, self.m, self.m + self.n_dep, self.make_pointers(self.p)
         self._full = np.zeros(compiled.n), np.zeros(compiled.n)
         self._reduced = np.zeros(max(size, 1)), np.zeros(max(size, 1))
-        self._reduce = [*self.make_pointers(*self._full), *p, *self.make_pointers(*self._reduced, written=True)]
+        self._reduce = [*self.make_pointers(*self._full), *p, *self.make_pointers(*self._reduced, is_written=True)]
         self._state = np.zeros(max(size, 1)), np.zeros(max(size, 1)), np.zeros(max(compiled.n_memory, 1))
         self._a = np.zeros(max(m, 1))
         others = np.zeros(len(compiled.source.closures) + 1), np.zeros(N_WORK)
-        self._rhs = [*self.make_pointers(*self._state), *p, *self.make_pointers(self._a, *others, written=True)]
-        of_node = np.zeros(2 * m + N_WORK + self.chained), self._state[2]
+        self._rhs = [*self.make_pointers(*self._state), *p, *self.make_pointers(self._a, *others, is_written=True)]
+        of_node = np.zeros(2 * m + N_WORK + self.n_dep), self._state[2]
         self._J, self._f_t = np.empty((2 * m + N_WORK,) * 2), np.empty(2 * m + N_WORK)
-        self._jacobian = [*self.make_pointers(*of_node), *p, *self.make_pointers(self._J, self._f_t, written=True)]
+        self._jacobian = [*self.make_pointers(*of_node), *p, *self.make_pointers(self._J, self._f_t, is_written=True)]
         self._node, self._others = of_node[0], others  # C's views alone would not keep them
 
     def reduce_state(self, t: float, qv: Array) -> tuple[Array, Array]:
         """Convert (q, q̇) of all bodies, (2n,), to the integrated state y (2m,) and the dependent coordinates.
 
-        The second result (2, n_chain) contains the dependent coordinates and their rates. In the full formulation y is
-        a copy, and there are none.
+        The second result (2, n_dep) contains the dependent coordinates and their rates. In the full formulation
+        y is a copy, and n_dep is 0.
         """
-        if not self.tree:
+        if not self.is_reduced:
             return qv.copy(), np.zeros((2, 0))
-        n, m, size = self.compiled.n, self.m, self.m + self.chained
+        n, m, size = self.compiled.n, self.m, self.m + self.n_dep
         (own_q, own_v), (q, v) = self._full, self._reduced
         own_q[:], own_v[:], q[:], v[:] = qv[:n], qv[n:], 0.0, 0.0
         self.compiled.lib.gudgeon_reduce(t, *self._reduce)
         return np.concatenate([q[:m], v[:m]]), np.stack([q[m:size], v[m:size]])
 
-    def expand_state(self, t: float, y: Array, chain: Array) -> Array:
-        """Convert state y (2m,) and dependent coordinates (2, n_chain) to (q, q̇) of all bodies, (2n,)."""
-        if not self.tree:
+    def expand_state(self, t: float, y: Array, q_dep: Array) -> Array:
+        """Convert state y (2m,) and dependent coordinates and rates (2, n_dep) to (q, q̇) of all bodies, (2n,)."""
+        if not self.is_reduced:
             return y.copy()
         q, v = np.zeros(self.compiled.n), np.zeros(self.compiled.n)
-        given = self.make_pointers(np.append(y[: self.m], chain[0]), np.append(y[self.m :], chain[1]), self.p)
-        self.compiled.lib.gudgeon_expand(t, *given, *self.make_pointers(q, v, written=True))
+        given = self.make_pointers(np.append(y[: self.m], q_dep[0]), np.append(y[self.m :], q_dep[1]), self.p)
+        self.compiled.lib.gudgeon_expand(t, *given, *self.make_pointers(q, v, is_written=True))
         return np.concatenate([q, v])
 
-    def lift_difference(self, t: float, y: Array, chain: Array, d: Array, h: float) -> Array:
-        """Return the difference (2n,) of all bodies for a difference d (2m,) of y, by central differences with the
-        factor h.
-        """
-        return (self.expand_state(t, y + h * d, chain) - self.expand_state(t, y - h * d, chain)) / (2.0 * h)
+    def expand_difference(self, t: float, y: Array, q_dep: Array, d: Array, h: float) -> Array:
+        """Return the difference (2n,) of (q, q̇) of all bodies for a difference d (2m,) of y.
 
-    def compute_rates(self, t: float, y: Array, chain: Array, memory: Array) -> Array:
-        """Return ẏ (2m,) of the integrated state with dependent coordinates `chain` and discrete states `memory`.
+        It is the central difference between y + h d and y − h d, divided by 2h.
+        """
+        return (self.expand_state(t, y + h * d, q_dep) - self.expand_state(t, y - h * d, q_dep)) / (2.0 * h)
+
+    def compute_rates(self, t: float, y: Array, q_dep: Array, memory: Array) -> Array:
+        """Return ẏ (2m,) of the integrated state with dependent coordinates and discrete states `memory`.
 
         Raises SingularError where the equations cannot be solved. The C buffers are overwritten.
         """
-        if not self.tree:
+        if not self.is_reduced:
             return self.compiled.rhs(t, y, self.p, memory)[: 2 * self.m]
-        m, size, (q, v, held) = self.m, self.m + self.chained, self._state
-        q[:m], q[m:size], v[:m], v[m:size], held[: len(memory)] = y[:m], chain[0], y[m:], chain[1], memory
+        m, size, (q, v, held) = self.m, self.m + self.n_dep, self._state
+        q[:m], q[m:size], v[:m], v[m:size], held[: len(memory)] = (y[:m], q_dep[0], y[m:], q_dep[1], memory)
         status = self.compiled.lib.gudgeon_reduced_rhs(t, *self._rhs)
         if status:
             self.compiled.check_pivot(status, t, self.compiled.source.motion_pivots or None)
         return np.concatenate([y[m:], self._a[:m]])
 
-    def compute_jacobian(self, t: float, y: Array, chain: Array, memory: Array) -> Array:
+    def compute_jacobian(self, t: float, y: Array, q_dep: Array, memory: Array) -> Array:
         """Return the Jacobian of the rates of (y, δ̇⁻, t), (2m + n_clearances + 1) square; the rows of δ̇⁻ and t are 0.
 
         Columns of y and t come from C. Columns of the approach speeds δ̇⁻ of closed contacts are central differences.
         """
         m, node, J = self.m, self._node, self._J
         A = np.zeros((2 * m + self.joints + 1,) * 2)
-        node[: 2 * m], node[2 * m + N_WORK :], self._state[2][: len(memory)] = y, chain[0], memory
+        node[: 2 * m], node[2 * m + N_WORK :], self._state[2][: len(memory)] = y, q_dep[0], memory
         status = self.compiled.lib.gudgeon_jacobian(t, *self._jacobian)
         self.compiled.check_linearization(status, t)
         A[: 2 * m, : 2 * m], A[: 2 * m, -1] = J[: 2 * m, : 2 * m], self._f_t[: 2 * m]
@@ -147,40 +148,39 @@ class Flow:
             for factor in (1.0 - RELATIVE_STEP, 1.0 + RELATIVE_STEP):
                 changed = memory.copy()
                 changed[k] *= factor
-                ends.append(self.compute_rates(t, y, chain, changed))
+                ends.append(self.compute_rates(t, y, q_dep, changed))
             A[: 2 * m, 2 * m + k] = (ends[1] - ends[0]) / (2.0 * RELATIVE_STEP * memory[k])
         return A
 
-    def compute_dependent_coordinates(self, t: float, chain: Array) -> Array:
-        """Return the dependent coordinates and rates (2, n_chain) at t (s), which drives determine, from those at a
-        nearby time.
+    def compute_dependent_coordinates(self, t: float, q_dep: Array) -> Array:
+        """Return the dependent coordinates and rates (2, n_dep) at t (s), which drives determine.
 
-        Without dependent coordinates, `chain` itself is returned.
+        `q_dep`: those at a nearby time, where the iteration begins; returned itself if n_dep is 0.
         """
-        if not self.chained:
-            return chain
-        q, rates = chain[0].copy(), np.zeros(3 * self.chained)
+        if not self.n_dep:
+            return q_dep
+        q, rates = q_dep[0].copy(), np.zeros(3 * self.n_dep)
         self.compiled.lib.gudgeon_chains(
             t,
-            *self.make_pointers(q, written=True),
+            *self.make_pointers(q, is_written=True),
             *self.make_pointers(self.p),
-            *self.make_pointers(rates, written=True),
+            *self.make_pointers(rates, is_written=True),
         )
-        return np.stack([q, rates[: self.chained]])
+        return np.stack([q, rates[: self.n_dep]])
 
-    def compute_gap(self, joint: int, t: float, y: Array, chain: Array) -> tuple[float, float]:
+    def compute_gap(self, joint: int, t: float, y: Array, q_dep: Array) -> tuple[float, float]:
         """Return the penetration δ (m) and its rate δ̇ (m/s) of a joint with play at the integrated state.
 
-        `joint`: index of the joint. Corners at walls and bearings with a contour are included.
+        `joint`: index of the joint, which may be a corner at a wall or have a bearing with a contour.
         """
-        full, n, rows = self.expand_state(t, y, chain), self.compiled.n, self.rows[joint]
+        full, n, rows = self.expand_state(t, y, q_dep), self.compiled.n, self.rows[joint]
         if self.compiled.source.clearances[joint].is_corner:
             return compute_corner_gap(self.compiled, self.p, t, full[:n], full[n:], joint)
         e = self.compiled.closed_phi(t, full[:n], self.p)[rows]
         rate = self.compiled.closed_phi_q(t, full[:n], self.p)[rows] @ full[n:]
         rate -= self.compiled.closed_nu(t, full[:n], self.p)[rows]
         length = float(np.hypot(*e))
-        gap, approach = length - self.play[joint], float(e @ rate) / length
+        gap, approach = length - self.radial_clearances[joint], float(e @ rate) / length
         depths = self.depths[joint]
         if depths is None:
             return gap, approach
@@ -191,11 +191,9 @@ class Flow:
         depth, slope = (float(interpolate_depth(depths, angle, order)) for order in (0, 1))
         return gap - depth, approach - slope * turning
 
-    def make_pointers(self, *arrays: Array, written: bool = False) -> list[Any]:
-        """Return C pointers to arrays, for C to write into them if `written`; an empty array is replaced by one of
-        length 1.
-        """
-        return [self.compiled.pointer(array if array.size else np.zeros(1), written=written) for array in arrays]
+    def make_pointers(self, *arrays: Array, is_written: bool = False) -> list[Any]:
+        """Return C pointers to arrays, for C to write into if `is_written`; those to empty arrays have length 1."""
+        return [self.compiled.pointer(array if array.size else np.zeros(1), written=is_written) for array in arrays]
 
 
 @dataclass(eq=False)
@@ -208,7 +206,7 @@ class Panel:
     width: float
     depth: int = 0
     P: Array | None = None
-    carry_error: float = 0.0  # relative error of the carried direction of motion
+    transport_error: float = 0.0  # relative error of the rates ẏ that P maps from the begin to the end
     halving_change: float = 0.0  # of the propagator by the last halving
     halves: tuple[Panel, ...] = ()
 
@@ -261,20 +259,20 @@ class Tangent:
     z: Array = field(init=False)
 
     def __post_init__(self) -> None:
-        """Set the first tangent vector z from a randomly drawn neighbour of the start, and its norm."""
+        """Set the first tangent vector `z` from a randomly drawn neighbour of the start, and its norm `distance`."""
         t, y = self.state.t, flatten_state(self.state)
         reduced_state, _ = self.flow.reduce_state(t, y)
         other, _ = self.flow.reduce_state(t, self.measure.draw_neighbour(t, y))
         self.z = np.append((other - reduced_state) / INITIAL_DISTANCE, np.zeros(self.flow.joints + 1))
         self.distance = self._compute_tangent_norm(self.state, self.z)
 
-    def advance(self, t: float, is_shortest: bool) -> tuple[Result, float] | None:
+    def advance_to(self, t: float, is_shortest_interval: bool) -> tuple[Result, float] | None:
         """Advance the run to t (s); return it and ln of the growth of the tangent vector.
 
-        Return None, with nothing changed, if the growth is too large, unless the interval is the `is_shortest`.
-        Otherwise the vector is scaled back to the norm 1. KeyboardInterrupt is passed on.
+        Return None, with nothing changed, if the growth is too large, unless `is_shortest_interval`. Otherwise
+        the vector is scaled back to the norm 1. KeyboardInterrupt is passed on.
         """
-        run = self._simulate_to([t])
+        run = self._simulate_to_times([t])
         changes = self._list_contact_changes(run)
         times = {t_on for t_on, *_ in changes}
         states = self._compute_states(sorted(times)) if times else {}
@@ -284,16 +282,16 @@ class Tangent:
             z, error = P @ z, error + change
             for when, joint, onset, deltadot in changes:
                 if when == panel.b and panel.s + panel.width == 1.0:
-                    z = self._pass_contact(z, when, joint, onset, deltadot, states[when])
+                    z = self._apply_saltation_matrix(z, when, joint, onset, deltadot, states[when])
         z = self._project_tangent(run, z)
         distance = self._compute_tangent_norm(run.final, z)
         grown = math.log(distance / self.distance)
-        if abs(grown) > MAX_LOG_GROWTH and not is_shortest:
+        if abs(grown) > MAX_LOG_GROWTH and not is_shortest_interval:
             return None
         self.state, self.z, self.distance, self.growth_error = run.final, z / distance, 1.0, self.growth_error + error
         return run, grown
 
-    def _simulate_to(self, times: list[float] | Array) -> Result:
+    def _simulate_to_times(self, times: list[float] | Array) -> Result:
         """Return the run from the present state with samples at these times (s).
 
         Raise KeyboardInterrupt after Ctrl-C.
@@ -304,7 +302,7 @@ class Tangent:
         return run
 
     def _list_contact_changes(self, run: Result) -> list[tuple[float, int, bool, float]]:
-        """Return the onsets and ends of contacts strictly within the run, sorted by time.
+        """Return the onsets and ends of contacts after the present state and before the end of the run, by time.
 
         Items are (time in s, index of the joint, whether it is an onset, approach speed δ̇⁻ in m/s).
         """
@@ -321,7 +319,7 @@ class Tangent:
 
     def _compute_states(self, times: list[float]) -> dict[float, tuple[Array, Array]]:
         """Return (q, q̇), (2n,), and discrete states by time, from a run through these increasing times (s)."""
-        run = join_start(self._simulate_to([t for t in times if t > self.state.t]))
+        run = join_start(self._simulate_to_times([t for t in times if t > self.state.t]))
         rows = np.searchsorted(run.t, times)
         return {
             t: (np.concatenate([run.q[k], run.v[k]]), run.memory[k].copy()) for t, k in zip(times, rows, strict=True)
@@ -350,16 +348,18 @@ class Tangent:
                 first, second = panel.halves
                 assert first.P is not None and second.P is not None and panel.P is not None
                 change = self._compare_propagators(second.P @ first.P, panel.P)
-                carry_error = max(first.carry_error, second.carry_error)
-                if (change > PROPAGATOR_TOL or carry_error > MAX_CARRY_ERROR) and first.depth < MAX_DEPTH:
+                transport_error = max(first.transport_error, second.transport_error)
+                if (change > PROPAGATOR_TOL or transport_error > MAX_TRANSPORT_ERROR) and first.depth < MAX_DEPTH:
                     further += panel.halves
                 else:
-                    first.halving_change = max(change, carry_error if carry_error > MAX_CARRY_ERROR else 0.0)
+                    first.halving_change = max(
+                        change, transport_error if transport_error > MAX_TRANSPORT_ERROR else 0.0
+                    )
             unconverged = further
         return panels
 
     def _compute_propagators(self, panels: list[Panel]) -> None:
-        """Compute propagator P and carry error of each panel by the three-stage Radau IIA method, and store them."""
+        """Compute propagator P and transport error of each panel by Gauss collocation of order 6; store them in it."""
         nodes = [panel.nodes for panel in panels]
         states = self._compute_states(
             sorted({t for panel in nodes for t, _ in panel} | {t for x in panels for t in x.ends})
@@ -371,29 +371,29 @@ class Tangent:
         )
         K = np.linalg.solve(matrix, A.reshape(count, 3 * size, size)).reshape(count, 3, size, size)
         for panel, P in zip(panels, np.eye(size) + np.einsum("i,pijk->pjk", WEIGHTS, K), strict=True):
-            panel.P, panel.carry_error = (
+            panel.P, panel.transport_error = (
                 P,
-                self._compute_carry_error(P, *(self._compute_rates(t, *states[t]) for t in panel.ends)),
+                self._compute_transport_error(P, *(self._compute_rates(t, *states[t]) for t in panel.ends)),
             )
 
     def _compute_rates(self, t: float, qv: Array, memory: Array) -> Array:
         """Return ẏ (2m,) at the state (q, q̇), (2n,), of all bodies with discrete states `memory`."""
-        y, chain = self.flow.reduce_state(t, qv)
-        return self.flow.compute_rates(t, y, chain, memory)
+        y, q_dep = self.flow.reduce_state(t, qv)
+        return self.flow.compute_rates(t, y, q_dep, memory)
 
-    def _compute_carry_error(self, P: Array, first: Array, last: Array) -> float:
-        """Return the relative error with which P carries the rates `first` at a panel to those at its end, `last`."""
-        w, size = self._compute_scales(), len(first)
-        carried = P @ np.concatenate([first, np.zeros(self.flow.joints), [1.0]])
-        largest = max(float(np.linalg.norm(rates / w[:size])) for rates in (first, last))
-        return float(np.linalg.norm((carried[:size] - last) / w[:size])) / max(
+    def _compute_transport_error(self, P: Array, rates_at_begin: Array, rates_at_end: Array) -> float:
+        """Return the relative error with which P maps the rates ẏ at the begin of a panel to those at its end."""
+        w, size = self._compute_scales(), len(rates_at_begin)
+        mapped_rates = P @ np.concatenate([rates_at_begin, np.zeros(self.flow.joints), [1.0]])
+        largest = max(float(np.linalg.norm(rates / w[:size])) for rates in (rates_at_begin, rates_at_end))
+        return float(np.linalg.norm((mapped_rates[:size] - rates_at_end) / w[:size])) / max(
             largest, 1e-9 / self.measure.crossing_time
         )
 
     def _compute_jacobian(self, t: float, qv: Array, memory: Array) -> Array:
-        """Return the Jacobian at the state (q, q̇) of all bodies; see Flow.slopes."""
-        y, chain = self.flow.reduce_state(t, qv)
-        return self.flow.compute_jacobian(t, y, chain, memory)
+        """Return the Jacobian at the state (q, q̇), (2n,), of all bodies; see Flow.compute_jacobian."""
+        y, q_dep = self.flow.reduce_state(t, qv)
+        return self.flow.compute_jacobian(t, y, q_dep, memory)
 
     def _compute_scales(self) -> Array:
         """Return the scales of y and of δ̇⁻, (2m + n_clearances,): differences that count as 1."""
@@ -407,31 +407,31 @@ class Tangent:
         P, Q = P[:-1, :-1] * w / w[:, None], Q[:-1, :-1] * w / w[:, None]
         return float(np.linalg.norm(P - Q) / np.linalg.norm(P))
 
-    def _pass_contact(
+    def _apply_saltation_matrix(
         self, z: Array, t: float, joint: int, is_onset: bool, approach_speed: float, state_at_t: tuple[Array, Array]
     ) -> Array:
-        """Return the tangent vector z after the onset or the end of a contact at t (s), by its saltation matrix.
+        """Return the tangent vector z multiplied by the saltation matrix of a contact that begins or ends at t (s).
 
-        `joint`: index; `is_onset`: whether the contact begins; `approach_speed`: approach speed (m/s); `state_at_t`:
-        (q, q̇) and discrete states at t. At an onset, the component of the approach speed is set.
+        `joint`: its index; `is_onset`: whether the contact begins; `approach_speed`: δ̇⁻ (m/s); `state_at_t`: (q, q̇)
+        and discrete states at t. At an onset, the component of δ̇⁻ is set; at an end, it becomes 0.
         """
         flow, size = self.flow, 2 * self.flow.m
-        (y, chain), d = flow.reduce_state(t, state_at_t[0]), z[:size]
+        (y, q_dep), d = flow.reduce_state(t, state_at_t[0]), z[:size]
         closed, free = state_at_t[1].copy(), state_at_t[1].copy()
         closed[joint], free[joint] = approach_speed, np.nan
-        gap, rate = flow.compute_gap(joint, t, y, chain)
-        h = DIFFERENCE_STEP / self.measure.compute_norm(self._lift_difference(t, y, chain, d))
-        ends = [np.array(flow.compute_gap(joint, t, y + s * h * d, chain)) for s in (1.0, -1.0)]
+        gap, rate = flow.compute_gap(joint, t, y, q_dep)
+        h = DIFFERENCE_STEP / self.measure.compute_norm(self._expand_difference(t, y, q_dep, d))
+        ends = [np.array(flow.compute_gap(joint, t, y + s * h * d, q_dep)) for s in (1.0, -1.0)]
         gap_slope, rate_slope = (ends[0] - ends[1]) / (2.0 * h)
         time_shift = -gap_slope / rate
-        offset = (CLEARANCE_OFFSET * flow.play[joint] + 2.0 * abs(gap)) / abs(rate)  # s
-        drift = flow.compute_rates(t, y, chain, free)
+        offset = (CLEARANCE_OFFSET * flow.radial_clearances[joint] + 2.0 * abs(gap)) / abs(rate)  # s
+        drift = flow.compute_rates(t, y, q_dep, free)
         drift[flow.m :] = 0.0
         f = [
             flow.compute_rates(
                 t + s * offset,
                 y + s * offset * drift,
-                flow.compute_dependent_coordinates(t + s * offset, chain),
+                flow.compute_dependent_coordinates(t + s * offset, q_dep),
                 memory,
             )
             for s, memory in ((-1.0, free if is_onset else closed), (1.0, closed if is_onset else free))
@@ -440,23 +440,23 @@ class Tangent:
         z_after[:size] -= (f[1] - f[0]) * time_shift
         z_after[size + joint] = 0.0
         if is_onset and approach_speed < rate * (1.0 + 1e-6):  # else the floor of δ̇⁻, which does not move
-            z_after[size + joint] = rate_slope + self._compute_gap_acceleration(joint, t, y, chain, f[0]) * time_shift
+            z_after[size + joint] = rate_slope + self._compute_gap_acceleration(joint, t, y, q_dep, f[0]) * time_shift
         return z_after
 
-    def _compute_gap_acceleration(self, joint: int, t: float, y: Array, chain: Array, f: Array) -> float:
+    def _compute_gap_acceleration(self, joint: int, t: float, y: Array, q_dep: Array, f: Array) -> float:
         """Return the second derivative g̈ (m/s²) of the gap of a joint along the rates f (2m,), by central
         differences in time.
         """
         flow, n = self.flow, len(y) // 2
-        lifted = self._lift_difference(t, y, chain, f)
-        lifted[self.measure.n :] = 0.0
-        h = DIFFERENCE_STEP / max(self.measure.compute_norm(lifted), 1.0 / self.measure.crossing_time)
+        difference = self._expand_difference(t, y, q_dep, f)
+        difference[self.measure.n :] = 0.0
+        h = DIFFERENCE_STEP / max(self.measure.compute_norm(difference), 1.0 / self.measure.crossing_time)
         rates = [
             flow.compute_gap(
                 joint,
                 t + s,
                 y + s * f + 0.5 * s * s * np.append(f[n:], np.zeros(n)),
-                flow.compute_dependent_coordinates(t + s, chain),
+                flow.compute_dependent_coordinates(t + s, q_dep),
             )[1]
             for s in (h, -h)
         ]
@@ -468,30 +468,30 @@ class Tangent:
         If `transverse`, its component along the motion is removed first.
         """
         t, full, size = float(run.t[-1]), flatten_state(run.final), 2 * self.flow.m
-        y, chain = self.flow.reduce_state(t, full)
+        y, q_dep = self.flow.reduce_state(t, full)
         d = z[:size]
         if self.transverse:
-            f = self.flow.compute_rates(t, y, chain, run.memory[-1])
+            f = self.flow.compute_rates(t, y, q_dep, run.memory[-1])
             d = d - f * self.measure.project_on_flow(
-                self._lift_difference(t, y, chain, d), self._lift_difference(t, y, chain, f)
+                self._expand_difference(t, y, q_dep, d), self._expand_difference(t, y, q_dep, f)
             )
-        h = INITIAL_DISTANCE / self.measure.compute_norm(self._lift_difference(t, y, chain, d))
+        h = INITIAL_DISTANCE / self.measure.compute_norm(self._expand_difference(t, y, q_dep, d))
         ends = [
-            self.flow.reduce_state(t, self.measure.project_state(t, self.flow.expand_state(t, y + s * h * d, chain)))[0]
+            self.flow.reduce_state(t, self.measure.project_state(t, self.flow.expand_state(t, y + s * h * d, q_dep)))[0]
             for s in (1.0, -1.0)
         ]
         return np.append((ends[0] - ends[1]) / (2.0 * h), z[size:])
 
-    def _lift_difference(self, t: float, y: Array, chain: Array, d: Array) -> Array:
-        """Return the difference (2n,) of all bodies for the difference d (2m,) of the integrated state; zeros for d
-        = 0.
+    def _expand_difference(self, t: float, y: Array, q_dep: Array, d: Array) -> Array:
+        """Return the difference (2n,) of all bodies for the difference d (2m,) of the integrated state; zeros for
+        d = 0.
         """
         largest = float(np.abs(d).max(initial=0.0))
         if largest == 0.0:
             return np.zeros(2 * self.measure.n)
-        return self.flow.lift_difference(t, y, chain, d, 1e-6 / largest)
+        return self.flow.expand_difference(t, y, q_dep, d, 1e-6 / largest)
 
     def _compute_tangent_norm(self, state: State, z: Array) -> float:
         """Return the scaled norm of the coordinates' part of the tangent vector z at a state."""
-        y, chain = self.flow.reduce_state(state.t, flatten_state(state))
-        return self.measure.compute_norm(self._lift_difference(state.t, y, chain, z[: 2 * self.flow.m]))
+        y, q_dep = self.flow.reduce_state(state.t, flatten_state(state))
+        return self.measure.compute_norm(self._expand_difference(state.t, y, q_dep, z[: 2 * self.flow.m]))

@@ -37,7 +37,7 @@ from gudgeon.results.wear import (
     distribute_loads,
     find_bearing_parameters,
 )
-from gudgeon.simulation.examine import clear_oil_viscosities, has_known_contact_force, repeat_exactly
+from gudgeon.simulation.examine import clear_oil_viscosities, has_known_contact_force, repeat_run_exactly
 from gudgeon.simulation.predictability_horizon import build_start_state, check_simulation_of_run
 from gudgeon.simulation.run_interpolant import RunInterpolant
 from gudgeon.simulation.step_observers import Observation
@@ -91,7 +91,7 @@ def wear(
     the run of another scene, GudgeonError where the run cannot be repeated. Ctrl-C is passed on.
     """
     check_simulation_of_run(simulation, run, "wear")
-    requested = _check_request(run, joint, points, since, until, contact)
+    requested = _build_sliding_request(run, joint, points, since, until, contact)
     rates = (
         parse_wear_rate(k, hardness, "k", "hardness"),
         parse_wear_rate(
@@ -103,14 +103,16 @@ def wear(
     )
     if check_text(law, "law") not in LAWS:
         raise_bad_value("law", law, " or ".join(LAWS))
-    again = repeat_exactly(simulation, run, run.t, progress, (requested,))
-    if again is None:
+    repetition = repeat_run_exactly(simulation, run, run.t, progress, (requested,))
+    if repetition is None:
         raise GudgeonError(NOT_AGAIN)
-    return _build_wear(run, again.diagnostics.rubbed[0], rates, law)
+    return _build_wear(run, repetition.diagnostics.rubbed[0], rates, law)
 
 
-def _check_request(run: Result, joint: Any, points: Any, since: Any, until: Any, contact_model: Any) -> SlidingRequest:
-    """Check the arguments of `wear` and return the request to observe the joint between `since` and `until` (s).
+def _build_sliding_request(
+    run: Result, joint: Any, points: Any, since: Any, until: Any, contact_model: Any
+) -> SlidingRequest:
+    """Check the arguments of `wear` and build the request to observe the joint between `since` and `until` (s).
 
     None stands for the start or the end of the run. Raises BadValueError, UnknownNameError.
     """
@@ -208,27 +210,27 @@ class WearObserver:
         self.last = float(x.t[-1])
         is_finite = np.asarray(np.isfinite(path.run.a[1:]).all(axis=1))
         begin, end = (np.clip(x.t[rows], self.requested.begin, self.requested.end) for rows in (k, k + 1))
-        kept = (
+        is_loaded = (
             path.is_within_step[k]
             & (x.state[k, self.joint_index] > 0)
             & is_finite[k]
             & is_finite[k + 1]
             & (end > begin)
         )
-        if kept.any():
-            self._add_loads(k[kept], begin[kept], end[kept])
+        if is_loaded.any():
+            self._add_loads(k[is_loaded], begin[is_loaded], end[is_loaded])
 
     def build_observation(self) -> Observation:
         """Return the loads over the circumference, and a note on states without accelerations, as an Observation."""
         begin, end = max(self.first, self.requested.begin), min(self.last, self.requested.end)
-        lost = (
+        notes = (
             f"wear: {self.interpolant.n_without_accelerations} states of steps have no accelerations and are left out",
         )
         R_i, R_j, L = (
             float(self.interpolant.p[k]) for k in find_bearing_parameters(self.compiled.source, self.requested.joint)
         )
         sliding = SlidingLoads(self.requested, self.load, self.friction, self.slip, begin, end, (R_i, R_j), L)
-        return Observation(notes=lost if self.interpolant.n_without_accelerations else (), sliding_loads=(sliding,))
+        return Observation(notes=notes if self.interpolant.n_without_accelerations else (), sliding_loads=(sliding,))
 
     def _add_loads(self, k: Array, begin: Array, end: Array) -> None:
         """Add the loads of the intervals between states k and k + 1 (K,), from times `begin` to `end` (K,) in s.
@@ -259,14 +261,13 @@ class WearObserver:
         for side, body in enumerate((self.joint.first, self.joint.second)):
             index = self.compiled.source.bodies[body].index if body >= 0 else -1
             angle = np.unwrap(np.arctan2(e_y, e_x), axis=1) - (q[:, :, index + 2] if body >= 0 else 0.0)
-            self._distribute(side, angle, half_widths, loads)
+            self._distribute_loads(side, angle, half_widths, loads)
 
-    def _distribute(self, side: int, angle: Array, half_widths: Array | None, loads: Array) -> None:
-        """Add each quadrature point's loads to the cells of the arc that the contact sweeps, or overlaps with
-        `half_widths` width.
+    def _distribute_loads(self, side: int, angle: Array, half_widths: Array | None, loads: Array) -> None:
+        """Add the loads of each quadrature point to the cells of the arc that the contact sweeps on one surface.
 
-        `side`: 0 bearing, 1 journal; `angle` (K, points) in rad; `half_widths`: half widths in rad, or None for
-        contact at a point; `loads` (2, K·points).
+        `side`: 0 bearing, 1 journal; `angle` (K, points) in rad; `half_widths`: those of the contact in rad,
+        or None for contact at a point; `loads` (2, K·points).
         """
         ends = angle @ TO_ENDS.T
         low, high = np.minimum(ends[:, 1:], ends[:, :-1]), np.maximum(ends[:, 1:], ends[:, :-1])

@@ -22,13 +22,13 @@ from gudgeon.language.argument_checks import (
     check_callable,
     check_instance,
     check_integer,
+    check_names,
     check_number,
     check_positive,
     check_text,
     raise_bad_value,
     shorten_value,
 )
-from gudgeon.language.argument_checks import check_names as joint_names
 from gudgeon.language.text_output import format_one_line
 from gudgeon.model.contours import find_contour, read_contours
 from gudgeon.model.parameter_sets import ParameterSets, read_given_parameters_of_runs, read_parameter_rows
@@ -63,13 +63,13 @@ class WearModel:
         return tuple(SlidingRequest(joint, self.points, self.begin, np.inf, self.overlap) for joint in self.joints)
 
     def compute_depths(self, loads: SlidingLoads, n_angles: int) -> tuple[Array, Array]:
-        """Return the wear depths (m) of a round from the loads of one run: (points,) over the cells, (slots,) over the
-        contour.
+        """Return the wear depths (m) of a round from the loads of one run: (points,) over the cells, (n_angles,) over
+        the contour.
 
         Depths over the contour are averaged and smoothed.
         """
         depth = self.scale * loads.depth(0, self.law, self.rate)
-        return depth, smooth_depths(average_over_slots(depth, n_angles), self.passes)
+        return depth, smooth_depths(average_depths_over_arcs(depth, n_angles), self.passes)
 
 
 def wear_loop(
@@ -124,8 +124,8 @@ def wear_loop(
     check_callable(progress, "progress")
     count = check_integer(rounds, "rounds", 1, MOST_ROUNDS)
     for k_round in range(count):
-        tick = scale_progress(progress, k_round, count)
-        loop.run_round({} if parameters is None else parameters, t_end, progress=tick, **options)
+        round_progress = scale_progress(progress, k_round, count)
+        loop.run_round({} if parameters is None else parameters, t_end, progress=round_progress, **options)
     return loop.build_result()
 
 
@@ -150,7 +150,7 @@ class WearLoop:
         KeyboardInterrupt after Ctrl-C.
         """
         if not any(self.contours.values()):
-            self._set_first_contours(parameters)
+            self._set_initial_contours(parameters)
         batch = self.simulation.simulate_many(
             parameters,
             t_end,
@@ -164,10 +164,10 @@ class WearLoop:
             failure.run: str(failure.error) for failure in batch.failures if failure.run not in self.failures
         }
         for index, joint in enumerate(self.wearing.joints):
-            self._add_round(batch, index, joint)
+            self._append_round_results(batch, index, joint)
         return batch
 
-    def _add_round(self, batch: Batch, index: int, joint: str) -> None:
+    def _append_round_results(self, batch: Batch, index: int, joint: str) -> None:
         """Append the results of a round for one joint: depths, works, peaks and the new contour; NaN for failed runs.
 
         `index`: index of the joint among those that wear.
@@ -192,7 +192,7 @@ class WearLoop:
         self.contours[joint].append(self.contours[joint][-1] + contour_depth)
         self.given[joint] = np.where(np.isnan(contour_depth), 0.0, self.contours[joint][-1])
 
-    def _set_first_contours(self, parameters: ParameterSets) -> None:
+    def _set_initial_contours(self, parameters: ParameterSets) -> None:
         """Set the contours of the first round where none are given: those of the file for each run's parameter
         values.
         """
@@ -223,10 +223,10 @@ class WearLoop:
         return Worn(joints, wearing.law, wearing.rate, wearing.scale, self.failures, title)
 
 
-def average_over_slots(depth: Array, n_angles: int) -> Array:
-    """Return the means (slots,) of depths (points,) over the arcs around the contour's equally spaced angles.
+def average_depths_over_arcs(depth: Array, n_angles: int) -> Array:
+    """Return the means (n_angles,) of depths (points,) over the arcs around the contour's equally spaced angles.
 
-    The total mean is kept.
+    The total mean does not change.
     """
     points = len(depth)
     cumulative = np.concatenate([[0.0], np.cumsum(depth)])
@@ -236,12 +236,12 @@ def average_over_slots(depth: Array, n_angles: int) -> Array:
     return np.asarray(np.diff(upto) * (n_angles / points))
 
 
-def smooth_depths(depth: Array, passes: int) -> Array:
-    """Return the depths of a contour after `passes` averages of half itself and a quarter of both neighbours.
+def smooth_depths(depth: Array, n_passes: int) -> Array:
+    """Return the depths of a contour after `n_passes` averages of half itself and a quarter of both neighbours.
 
-    The contour is periodic, and the sum is kept.
+    The contour is periodic, and the sum does not change.
     """
-    for _ in range(passes):
+    for _ in range(n_passes):
         depth = 0.5 * depth + 0.25 * (np.roll(depth, 1) + np.roll(depth, -1))
     return depth
 
@@ -253,7 +253,7 @@ def _check_joints(simulation: Simulation, joints: str | Iterable[str]) -> tuple[
     Raises UnknownNameError for a joint without one, BadValueError for none or repeated names.
     """
     joints_with_contour = [contour.joint for contour in simulation.source.contours]
-    names = tuple(joint_names(joints, "joints", "a name or names"))
+    names = tuple(check_names(joints, "joints", "a name or names"))
     if not names:
         raise BadValueError(
             f"joints is {shorten_value(joints)}: expected a name or names", hint=", ".join(joints_with_contour)
@@ -272,10 +272,13 @@ def _check_joints(simulation: Simulation, joints: str | Iterable[str]) -> tuple[
     return names
 
 
-def scale_progress(progress: Progress | None, k: int, rounds: int) -> Progress | None:
-    """Return a progress function for round k of `rounds`, which scales its fraction to all rounds; None without
-    `progress`.
+def scale_progress(progress: Progress | None, round_index: int, n_rounds: int) -> Progress | None:
+    """Return a progress function for one of n_rounds rounds, which passes the fraction of all rounds to `progress`.
+
+    Return None without `progress`.
     """
     if progress is None:
         return None
-    return lambda fraction, words: progress((k + fraction) / rounds, f"round {k + 1} of {rounds}: {words}")
+    return lambda fraction, text: progress(
+        (round_index + fraction) / n_rounds, f"round {round_index + 1} of {n_rounds}: {text}"
+    )

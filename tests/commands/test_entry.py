@@ -28,7 +28,7 @@ signal.signal(signal.SIGINT, signal.default_int_handler)
 signal.signal(signal.SIGTERM, signal.SIG_DFL)  # whoever runs the tests may have it ignored
 from gudgeon.integrators import batch
 from gudgeon.waiting import cancellation
-cancellation.EVERY, real, looks = 0.0, batch.Runs._poll_and_report, []
+cancellation.EVERY, real, looks = 0.0, batch.Runs._poll_and_report_progress, []
 
 def look(*arguments):
     looks.append(0)
@@ -36,7 +36,7 @@ def look(*arguments):
         os.kill(os.getpid(), signal.SIGTERM)
     real(*arguments)
 
-batch.Runs._poll_and_report = look
+batch.Runs._poll_and_report_progress = look
 """
 
 LATE = """

@@ -116,22 +116,22 @@ def test_what_is_compiled_already_is_not_begun(own_folders: Path) -> None:
     source = pendulum()
     with BackgroundCompilation(False) as early:
         early.start_part(ENGINE_PART, source.files)
-        assert not early._begun and len(early.list_shared_objects(source)) == 1
+        assert not early._compilations and len(early.list_shared_objects(source)) == 1
         early.start_part(ENGINE_PART, {"model.h": source.files["model.h"].replace("#define N_Q 3 ", "#define N_Q 4 ")})
-        assert list(early._begun) == [ENGINE]
+        assert list(early._compilations) == [ENGINE]
     assert list((own_folders / "tmp").iterdir()) == []
 
 
 def test_the_engine_of_a_copy_is_begun_before_it_is_derived(own_folders: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """That of the shipped scene of the same name, once; another linkage of that name gets its own in its place."""
     begun: list[str] = []
-    begin = BackgroundCompilation._begin
+    begin = BackgroundCompilation._start_compilation
 
     def noted(early: BackgroundCompilation, name: str, line: Line, texts: Mapping[str, str]) -> None:
         begun.append("derive" if name.startswith("scene") else name)
         begin(early, name, line, texts)
 
-    monkeypatch.setattr(BackgroundCompilation, "_begin", noted)
+    monkeypatch.setattr(BackgroundCompilation, "_start_compilation", noted)
     monkeypatch.setattr("os.cpu_count", lambda: 2)
     shipped, file = gudgeon.load("pendulum"), own_folders / "own.yaml"
     engines = own_folders / "cache" / "engines"
@@ -182,7 +182,7 @@ def test_nothing_is_left_where_a_derivation_fails(own_folders: Path, monkeypatch
     (own_folders / "rod.yaml").write_text(ROD)
     with pytest.raises(InputError, match="behind it"):
         gudgeon.load(own_folders / "rod.yaml")
-    assert begun[0]._begun[ENGINE][2].returncode is not None
+    assert begun[0]._compilations[ENGINE][2].returncode is not None
     assert list((own_folders / "tmp").iterdir()) == []
 
 
@@ -197,5 +197,5 @@ def test_a_second_ctrl_c_leaves_nothing_either(own_folders: Path, monkeypatch: p
     monkeypatch.setattr(Programs, "stop", interrupted)
     with pytest.raises(KeyboardInterrupt), BackgroundCompilation(False) as early:
         early.start_part(1, {**source.files, "model.h": source.files["model.h"] + "\n"})
-    assert early._begun["scene_1.o"][2].returncode is not None
+    assert early._compilations["scene_1.o"][2].returncode is not None
     assert list((own_folders / "tmp").iterdir()) == []

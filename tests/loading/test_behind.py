@@ -46,7 +46,7 @@ def cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Cache:
 @pytest.fixture
 def nobody(monkeypatch: pytest.MonkeyPatch) -> None:
     """No other process: what it makes is still to come."""
-    monkeypatch.setattr(OptimizedLibrary, "start", lambda *given: True)
+    monkeypatch.setattr(OptimizedLibrary, "start_process", lambda *given: True)
 
 
 def loaded(file: Path | str = "pendulum", quick: bool = True) -> Simulation:
@@ -103,16 +103,16 @@ def test_the_other_process_makes_it(cache: Cache) -> None:
     simulation.compiled.lib.wait_for_optimized()
     assert (made(cache, "quick"), made(cache, "libraries"), libraries(simulation)) == (1, 1, 2)
     again = loaded(file)
-    assert libraries(again) == 1 and again.compiled.lib._behind is None
+    assert libraries(again) == 1 and again.compiled.lib._pending_library is None
     assert same(before, simulation.simulate(0.5, output=5)) and same(before, again.simulate(0.5, output=5))
 
 
 @pytest.mark.slow
 def test_where_the_other_process_is_killed_it_is_made_here(cache: Cache, monkeypatch: pytest.MonkeyPatch) -> None:
     simulation = loaded()
-    other = simulation.compiled.lib._behind
+    other = simulation.compiled.lib._pending_library
     assert isinstance(other, OptimizedLibrary) and other._process is not None
-    monkeypatch.setattr(optimized_library, "MOST", 1)
+    monkeypatch.setattr(optimized_library, "MAX_PROCESSES", 1)
     assert not may_compile_in_background(cache)  # a second one at the same time
     os.killpg(other._process.pid, signal.SIGKILL)
     simulation.compiled.lib.wait_for_optimized()
@@ -122,10 +122,13 @@ def test_where_the_other_process_is_killed_it_is_made_here(cache: Cache, monkeyp
 def test_where_the_other_process_fails_the_next_start_makes_it(cache: Cache, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(optimized_library, "OTHER", FAILS)
     simulation = loaded()
-    other = simulation.compiled.lib._behind
+    other = simulation.compiled.lib._pending_library
     assert isinstance(other, OptimizedLibrary) and other._process is not None and other._process.wait() == 1
     before = simulation.simulate(0.5, output=5)
-    assert simulation.compiled.lib._behind is None and (libraries(simulation), made(cache, "libraries")) == (1, 0)
+    assert simulation.compiled.lib._pending_library is None and (libraries(simulation), made(cache, "libraries")) == (
+        1,
+        0,
+    )
     again = loaded()
     assert (libraries(again), made(cache, "libraries")) == (1, 1) and same(before, again.simulate(0.5, output=5))
 

@@ -118,7 +118,7 @@ def key(portable: bool = False, **changes: object) -> str:
         "source": tiny(),
         "command": ("cc",),
         "flags": compiler.build_flags(portable),
-        "identity": "gcc 12",
+        "compiler_description": "gcc 12",
         **changes,
     }
     return compute_library_key(**requested, portable=portable)  # type: ignore[arg-type]
@@ -133,7 +133,7 @@ def key(portable: bool = False, **changes: object) -> str:
         {"source": tiny(files={**tiny().files, "more.h": ""})},
         {"command": ("cc", "-m64")},
         {"flags": ("-O3",)},
-        {"identity": "gcc 13"},
+        {"compiler_description": "gcc 13"},
         {"portable": True},
     ],
 )

@@ -154,7 +154,7 @@ def carried(simulation: Simulation, t: float, difference: Any) -> tuple[np.ndarr
     y, chain = flow.reduce_state(0.0, np.concatenate([start.q, start.v]))
     pair.z = np.append(difference(flow.compute_rates(0.0, y, chain, start.memory)), [0.0, 0.0])
     pair.distance = scale = pair._compute_tangent_norm(start, pair.z)
-    ended = pair.advance(t, True)
+    ended = pair.advance_to(t, True)
     assert ended is not None
     run, grown = ended
     y, chain = flow.reduce_state(t, np.concatenate([run.q[-1], run.v[-1]]))

@@ -10,7 +10,7 @@ import pytest
 
 import gudgeon
 from gudgeon.results.results import Result
-from gudgeon.simulation.examine import NOTE_STORED_SAMPLES, repeat_exactly
+from gudgeon.simulation.examine import NOTE_STORED_SAMPLES, repeat_run_exactly
 from gudgeon.simulation.simulation import Simulation
 from tests.programs import needs_compiler
 
@@ -85,7 +85,7 @@ def test_a_run_that_goes_on_along_an_inclined_slide(tmp_path: Path) -> None:
     simulation = load(tmp_path, CRANK)
     first = simulation.simulate(0.013, output=5)
     run = simulation.simulate(0.03, output=10, start=first.final)
-    other = repeat_exactly(simulation, run, np.union1d(run.t, np.linspace(0.013, 0.03, 301)), None)
+    other = repeat_run_exactly(simulation, run, np.union1d(run.t, np.linspace(0.013, 0.03, 301)), None)
     assert other is not None and len(other.t) > 300
     whole = simulation.simulate(0.03, output=10, start=first.final, method=run.diagnostics.method)
     assert np.array_equal(whole.q, run.q)

@@ -11,7 +11,7 @@ import pytest
 
 import gudgeon
 from gudgeon.errors import BadValueError, UnknownNameError
-from gudgeon.simulation.wear_loop import average_over_slots, smooth_depths
+from gudgeon.simulation.wear_loop import average_depths_over_arcs, smooth_depths
 from gudgeon.studies.ensemble.block import run_block
 from gudgeon.studies.ensemble.study import resolve_plans
 from tests.programs import needs_compiler
@@ -87,12 +87,12 @@ def test_cells_are_laid_on_slots_with_their_sum() -> None:
     rng = np.random.default_rng(8)
     for points, slots in ((3600, 64), (3600, 120), (50, 64), (8, 512)):
         depth = rng.uniform(0.0, 1.0, points)
-        found = average_over_slots(depth, slots)
+        found = average_depths_over_arcs(depth, slots)
         assert found.mean() == pytest.approx(depth.mean(), rel=1e-12)
         assert smooth_depths(found, 3).mean() == pytest.approx(depth.mean(), rel=1e-12)
     even = np.zeros(3600)
     even[:15], even[-15:] = 1.0, 1.0
-    assert average_over_slots(even, 120).tolist() == pytest.approx([1.0, *[0.0] * 119], abs=1e-9)
+    assert average_depths_over_arcs(even, 120).tolist() == pytest.approx([1.0, *[0.0] * 119], abs=1e-9)
 
 
 @needs_compiler

@@ -30,16 +30,19 @@ from gudgeon.contract.boundary import (
 from gudgeon.model.compiled import Array, CompiledModel
 
 NODES = np.linspace(0.0, 1.0, 9)  # fractions of a step at which it is sampled
-CLOSE = 0.5e-12  # tolerance of event times relative to the searched interval; 2 ulp of the time where these are more
-KEPT = 0.9  # fraction of the known peak from which on a step's own peak is refined
-LOST = 1e-3  # of c: a free journal further outside its bearing was lost
-ROUNDED = 1e-7  # of the bearing's radius, in addition
+EVENT_TIME_TOL = (
+    0.5e-12  # tolerance of event times relative to the searched interval; 2 ulp of the time where these are more
+)
+MIN_PEAK_FRACTION = 0.9  # fraction of the known peak from which on a step's own peak is refined
+LOST_TOL = 1e-3  # of c: a free journal further outside its bearing was lost
+ROUNDING_TOL = 1e-7  # of the bearing's radius, in addition
 
 
 @dataclass(frozen=True)
 class AcceptedStep:
-    """Hold one accepted step: the solver's interpolant `at`, and `evaluate_projected`, the same projected onto the
-    constraints.
+    """Hold one accepted step from t0 to t1 (s): the solver's interpolant `evaluate` as a function of time.
+
+    `evaluate_projected` is the same, projected onto the constraints.
     """
 
     t0: float
@@ -94,7 +97,7 @@ class Contacts:
         touching = np.where(self.compressing, CODE_IMPACT, CODE_CONTACT)
         return np.where(self.closed, touching, CODE_FREE).astype(np.int8)
 
-    def evaluate(self, t: Array, y: Array) -> ContactQuantities:
+    def evaluate_quantities(self, t: Array, y: Array) -> ContactQuantities:
         """Evaluate the quantities of joints with play at times t (N,) and states y (N, 2n or more), for the present
         contacts.
         """
@@ -112,7 +115,7 @@ class Contacts:
         `compute_onset_speeds` returns the approach speeds δ̇⁻ (n_memory,) of the former; it is called only if there are
         any.
         """
-        now = self.evaluate(np.array([t]), y[None])
+        now = self.evaluate_quantities(np.array([t]), y[None])
         self.open = [(t, 0.0, t)] * self.count
         began = np.flatnonzero(~self.closed & (now.delta[0] >= 0.0)).tolist()
         onset_speeds = compute_onset_speeds() if began else self.memory
@@ -120,10 +123,10 @@ class Contacts:
             self._close_contact(k, t, float(onset_speeds[k]))
 
     def switch_contacts(self, t: float, y: Array, joint: int) -> None:
-        """Switch joint `joint` between free and contact at t (s), and every other joint that is past its switching
+        """Switch a joint, given by index, between free and contact at t (s); also all joints past their switching
         point.
         """
-        now = self.evaluate(np.array([t]), y[None])
+        now = self.evaluate_quantities(np.array([t]), y[None])
         sign = np.where(self.closed, 1.0, -1.0)
         over = (sign * now.delta[0] < 0.0) & (sign * now.deltadot[0] < 0.0)
         over[joint] = True
@@ -148,14 +151,12 @@ class Contacts:
         self.impacts.append((k, onset, t, float(self.memory[k]), F, t_peak))
         self.memory[k] = np.nan
 
-    def update_peaks(self, t: Array, view: ContactQuantities) -> None:
-        """Update the largest forces and eccentricities of all joints by the quantities `view` at accepted states at
-        times t.
-        """
+    def update_peaks(self, t: Array, quantities: ContactQuantities) -> None:
+        """Update the largest forces and eccentricities of all joints by `quantities` at accepted states at times t."""
         for k in range(self.count):
-            i = int(np.argmax(view.F[:, k]))
-            self._update_peak(k, float(t[i]), float(view.F[i, k]))
-            self.peaks[k, PEAK_e_max] = max(self.peaks[k, PEAK_e_max], view.e[:, k].max())
+            i = int(np.argmax(quantities.F[:, k]))
+            self._update_peak(k, float(t[i]), float(quantities.F[i, k]))
+            self.peaks[k, PEAK_e_max] = max(self.peaks[k, PEAK_e_max], quantities.e[:, k].max())
 
     def _update_peak(self, k: int, t: float, F: float) -> None:
         """Update the largest force of joint k, and of its present contact, by F (N) at t (s)."""
@@ -164,20 +165,19 @@ class Contacts:
         if self.closed[k] and self.open[k][1] < F:
             self.open[k] = (self.open[k][0], F, t)
 
-    def update_after_step(self, t: float, y: Array) -> int | None:
-        """Update velocity ratios and peaks at an accepted state y at t (s); return the index of a lost contact, or
-        None.
+    def update_contacts(self, t: float, y: Array) -> int | None:
+        """Update velocity ratios, phases and peaks at an accepted state y at t (s); return the index of a lost contact.
 
-        A contact is lost if a joint that counts as free lies clearly beyond its wall.
+        A contact is lost if a joint that counts as free lies clearly beyond its wall. Return None without one.
         """
-        now = self.evaluate(np.array([t]), y[None])
+        now = self.evaluate_quantities(np.array([t]), y[None])
         self.update_peaks(np.array([t]), now)
         closed = self.closed
         for ratio in (now.deltadot[0] / self.memory)[closed]:
             self.ratio = min(self.ratio[0], float(ratio)), max(self.ratio[1], float(ratio))
             self.ratio_outside += abs(ratio) > 1.0
         self.compressing &= closed & (now.deltadot[0] > 0.0)
-        lost = np.flatnonzero(~closed & (now.delta[0] > LOST * self.c + ROUNDED * self.R))
+        lost = np.flatnonzero(~closed & (now.delta[0] > LOST_TOL * self.c + ROUNDING_TOL * self.R))
         return int(lost[0]) if len(lost) else None
 
     def refine_peaks(self, step: AcceptedStep, t: Array, quantities: ContactQuantities) -> None:
@@ -192,7 +192,7 @@ class Contacts:
             i = int(np.argmax(quantities.F[:, k]))
             peak = self.open[k][1] if self.closed[k] else self.peaks[k, PEAK_F]
             bounds = (t[max(i - 1, 0)], t[min(i + 1, len(t) - 1)])
-            if bounds[0] < bounds[1] and quantities.F[i, k] > KEPT * peak:
+            if bounds[0] < bounds[1] and quantities.F[i, k] > MIN_PEAK_FRACTION * peak:
                 top = minimize_scalar(
                     lambda x, k=k: -self._evaluate_at(step.evaluate, x).F[0, k],
                     bounds=bounds,
@@ -201,9 +201,9 @@ class Contacts:
                 )
                 self._update_peak(k, float(top.x), -float(top.fun))
 
-    def _evaluate_at(self, state_function: Callable[[float], Array], t: float) -> ContactQuantities:
+    def _evaluate_at(self, compute_state: Callable[[float], Array], t: float) -> ContactQuantities:
         """Return the quantities of joints with play at time t, for the state given by a function of time."""
-        return self.evaluate(np.array([t]), state_function(t)[None])
+        return self.evaluate_quantities(np.array([t]), compute_state(t)[None])
 
     def find_first_event(self, step: AcceptedStep, t: Array, quantities: ContactQuantities) -> tuple[float, int] | None:
         """Return time (s) and joint index of the first contact that begins or ends inside a step; None without one.
@@ -240,33 +240,34 @@ class Contacts:
             if event_function[i] >= 0.0:
                 if not rate[i - 1] < 0.0 < rate[i]:
                     continue
-                high = self._locate_zero(step, k, low, high, of_rate=True) or high  # where the margin is least
+                high = self._locate_zero(step, k, low, high, is_rate=True) or high  # where the margin is least
             zero_time = self._locate_zero(step, k, low, high)
             if zero_time is not None:
                 return zero_time
         return None
 
-    def _locate_zero(self, step: AcceptedStep, k: int, low: float, high: float, of_rate: bool = False) -> float | None:
-        """Return the time (s) between low and high at which the event function of joint k, projected, becomes negative,
-        or None.
+    def _locate_zero(self, step: AcceptedStep, k: int, low: float, high: float, is_rate: bool = False) -> float | None:
+        """Return the time (s) from low to high at which the event function of joint k becomes negative, by Brent's
+        method.
 
-        With `of_rate`, it is the time at which its rate becomes positive. Brent's method is used.
+        With `is_rate`, it is the time at which its rate becomes positive. States are projected. Return None without
+        one.
         """
         from scipy.optimize import brentq
 
-        def value(t: float) -> float:
+        def evaluate_event_function(t: float) -> float:
             """Return the projected event function, or its rate, at t."""
-            view = self._evaluate_at(step.evaluate_projected, t)
-            number = view.deltadot[0, k] if of_rate else view.delta[0, k]
+            quantities = self._evaluate_at(step.evaluate_projected, t)
+            number = quantities.deltadot[0, k] if is_rate else quantities.delta[0, k]
             return float(number if self.closed[k] else -number)
 
-        at_low, at_high = value(low), value(high)
-        if of_rate and not at_low < 0.0 < at_high or not of_rate and at_high >= 0.0:
+        at_low, at_high = evaluate_event_function(low), evaluate_event_function(high)
+        if is_rate and not at_low < 0.0 < at_high or not is_rate and at_high >= 0.0:
             return None
-        if not of_rate and at_low < 0.0:  # by less than what projection moves
+        if not is_rate and at_low < 0.0:  # by less than what projection moves
             return low
-        time_tolerance = max(CLOSE * (high - low), 2.0 * np.spacing(abs(high)))
-        return float(brentq(value, low, high, xtol=time_tolerance, rtol=1e-15))
+        time_tolerance = max(EVENT_TIME_TOL * (high - low), 2.0 * np.spacing(abs(high)))
+        return float(brentq(evaluate_event_function, low, high, xtol=time_tolerance, rtol=1e-15))
 
 
 def _find_velocity_floor(compiled: CompiledModel, p: Array) -> float:

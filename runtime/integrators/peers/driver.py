@@ -70,7 +70,7 @@ def integrate_by_reference_solver(problem: Problem) -> Trajectory:
         )
     if math.isfinite(problem.step):
         raise BadValueError(f"method {problem.method!r} chooses its step", hint="give rtol, or leave out step")
-    return _Driver(problem).run()
+    return _Driver(problem).integrate()
 
 
 def _make_stepper(equations: Equations, problem: Problem) -> Stepper:
@@ -103,36 +103,36 @@ class _Driver:
         self.speed_floor = least / max(duration, 1e-300)
         self.angle = np.array([name.endswith(".theta") for name in problem.compiled.source.coordinates])
         self.t, self.y = float(problem.t[0]), np.concatenate([problem.q, problem.v, np.zeros(N_WORK)])
-        self.speed, self.controlled = np.zeros(2), np.zeros(2)
+        self.speed, self.speed_of_tolerances = np.zeros(2), np.zeros(2)
         self.steps = self.n_events_at_one_time = 0
-        self.shown = StepCollector(problem.compiled, problem.observer)
+        self.step_collector = StepCollector(problem.compiled, problem.observer)
         self.is_after_change = True  # whether this is the first step, or something changed at the end of the last one
-        self.worst = np.zeros(2)  # largest |Φ|, |Φ̇|
+        self.max_residuals = np.zeros(2)  # largest |Φ|, |Φ̇|
         self.times: list[float] = []
         self.samples: list[tuple[NDArray[Any], ...]] = []  # y, a, memory, codes
 
-    def run(self) -> Trajectory:
+    def integrate(self) -> Trajectory:
         """Integrate to the end and return the Trajectory; after Ctrl-C or a SolverError, that of the samples reached.
 
         The start is stored before packages are imported, so that Ctrl-C may interrupt the import.
         """
         interrupted, stopped = False, None
-        self._store_start()
+        self._store_start_sample()
         try:
             self.stepper = _make_stepper(self.equations, self.problem)
             self.began = perf_counter()
-            self._restart()
+            self._restart_solver()
             while len(self.samples) < len(self.problem.t):
-                self._step()
+                self._advance_step()
                 self.problem.poll_cancellation()
         except KeyboardInterrupt:
             interrupted = True
-            self._store_last()
+            self._store_last_sample()
         except SolverError as error:
             stopped = error
         return self._build_trajectory(interrupted, stopped)
 
-    def _store_last(self) -> None:
+    def _store_last_sample(self) -> None:
         """Store the present state as the last sample, after Ctrl-C; samples at its time or later are removed."""
         while self.times and self.times[-1] >= self.t:
             self.times.pop()
@@ -144,7 +144,7 @@ class _Driver:
         start = replace(self.problem, method="rk4", t=self.problem.t[:1], step=1.0, progress=None)
         return np.asarray(integrate_problem(start).memory[0])
 
-    def _store_start(self) -> None:
+    def _store_start_sample(self) -> None:
         """Set the contacts of the start, and store it if it is a sample."""
         self.contacts.close_initial_contacts(self.t, self.y, self._compute_approach_speeds)
         self._update_state()
@@ -152,29 +152,29 @@ class _Driver:
 
     def _compute_absolute_tolerances(self) -> Array:
         """Return the absolute tolerances (2n + 3,) for the largest speeds so far."""
-        self.controlled = self.speed.copy()
+        self.speed_of_tolerances = self.speed.copy()
         speed = (self.speed + self.speed_floor)[self.angle.astype(int)]
         return np.concatenate([self.scale[: self.n], self.scale[self.n :] * speed, np.full(N_WORK, UNCONTROLLED)])
 
-    def _restart(self) -> None:
+    def _restart_solver(self) -> None:
         """Restart the solver at the present state with new tolerances."""
         self.atol = self._compute_absolute_tolerances()
         self.stepper.restart(self.t, self.y, self.atol)
 
-    def _step(self) -> None:
+    def _advance_step(self) -> None:
         """Advance by one step of the solver, or by its part up to an event."""
         t1 = self.stepper.step()
-        piece = AcceptedStep(
-            self.t, t1, self.stepper.interpolate, lambda t: self.equations.project(t, self.stepper.interpolate(t))
+        step = AcceptedStep(
+            self.t, t1, self.stepper.interpolate, lambda t: self.equations.project_state(t, self.stepper.interpolate(t))
         )
         end = self.stepper.interpolate(t1)
         if not np.isfinite(end).all():
             raise self.equations.failure or NonFiniteError(f"the motion is no longer finite at t = {t1:.9g} s", t1)
-        event = self._find_event(piece)
+        event = self._find_event(step)
         t_new = t1 if event is None else event[0]
-        self._store_samples_before(piece, t_new)
-        self._pass_step(piece, t_new)
-        y = piece.evaluate_projected(t_new)
+        self._store_samples_before(step, t_new)
+        self._pass_step_to_observer(step, t_new)
+        y = step.evaluate_projected(t_new)
         self.n_events_at_one_time = self.n_events_at_one_time + 1 if t_new - self.t < 1e-9 * (t1 - self.t) else 0
         self.t, self.y = t_new, y
         self.steps += 1
@@ -190,7 +190,7 @@ class _Driver:
             t = self.problem.t
             self.problem.progress((t_new - t[0]) / max(t[-1] - t[0], 1e-300), "integrating")
 
-    def _pass_step(self, step: AcceptedStep, t_new: float) -> None:
+    def _pass_step_to_observer(self, step: AcceptedStep, t_new: float) -> None:
         """Pass the sampled states of this step, up to t_new (s), to the observer, with the contacts that it began with.
 
         Do nothing without an observer. The first state is included only after a change.
@@ -200,21 +200,21 @@ class _Driver:
             nodes = nodes if self.is_after_change else nodes[1:]
             times = np.append(nodes[nodes < t_new], t_new)
             states = [step.evaluate_projected(t) for t in times.tolist()]
-            self.shown.add(times, np.array(states), self.contacts.memory, self.contacts.codes, self.is_after_change)
+            self.step_collector.add_states(
+                times, np.array(states), self.contacts.memory, self.contacts.codes, self.is_after_change
+            )
         self.is_after_change = False
 
     def _find_event(self, step: AcceptedStep) -> tuple[float, int] | None:
-        """Return time and joint of the contact event that ends the step, or None; update the peaks of forces before
-        it.
-        """
+        """Return time (s) and joint of the contact event that ends the step, or None; refine force peaks before it."""
         if not self.contacts.count:
             return None
         t = step.compute_sample_times()
-        view = self.contacts.evaluate(t, np.array([step.evaluate(x) for x in t.tolist()]))
-        event = self.contacts.find_first_event(step, t, view)
+        quantities = self.contacts.evaluate_quantities(t, np.array([step.evaluate(x) for x in t.tolist()]))
+        event = self.contacts.find_first_event(step, t, quantities)
         before = t < (math.inf if event is None else event[0])
         if before.any():
-            part = type(view)(*(array[before] for array in vars(view).values()))
+            part = type(quantities)(*(array[before] for array in vars(quantities).values()))
             self.contacts.refine_peaks(step, t[before], part)
         return event
 
@@ -224,23 +224,24 @@ class _Driver:
         kinds = [v[~self.angle].max(initial=0.0), v[self.angle].max(initial=0.0)]
         self.speed = np.maximum(self.speed, kinds)
         q, v = self.y[: self.n], self.y[self.n : 2 * self.n]
-        self.worst = np.maximum(self.worst, compute_residuals(self.problem.compiled, self.t, q, v, self.equations.p))
-        lost = self.contacts.update_after_step(self.t, self.y) if self.contacts.count else None
+        self.max_residuals = np.maximum(
+            self.max_residuals, compute_residuals(self.problem.compiled, self.t, q, v, self.equations.p)
+        )
+        lost = self.contacts.update_contacts(self.t, self.y) if self.contacts.count else None
         if lost is not None:
             name = self.problem.compiled.source.clearances[lost].name
             raise SolverError(f"a contact was lost at t = {self.t:.9g} s: {name}, free, is beyond its wall", self.t)
 
     def _continue_solver(self, is_event: bool, solver_state: Array) -> None:
-        """Restart the solver after an event or a growth of speed, move it onto the constraints if it is far off, or
-        leave it.
+        """Restart the solver after an event or a growth of speed; else move it onto the constraints if it is far off.
 
         `solver_state`: the solver's state at the end of the step. At the end of the run nothing is done.
         """
         if self.t >= self.problem.t[-1]:
             return
         distance = float((np.abs(self.y - solver_state) / self.atol).max())
-        if is_event or (self.speed > GROWN * (self.controlled + self.speed_floor)).any():
-            self._restart()
+        if is_event or (self.speed > GROWN * (self.speed_of_tolerances + self.speed_floor)).any():
+            self._restart_solver()
         elif distance > self.stepper.max_distance:
             self.stepper.set_state(self.t, self.y, self.atol)
 
@@ -274,7 +275,7 @@ class _Driver:
         from gudgeon.integrators.trajectory import IMPACT_DTYPE
 
         contacts, equations, n = self.contacts, self.equations, self.n
-        self.shown.pass_steps()
+        self.step_collector.pass_steps()
         if not self.samples:  # the start at least
             self.times.append(self.t)
             self.samples.append((self.y, np.full(n, np.nan), contacts.memory.copy(), contacts.codes))
@@ -290,8 +291,8 @@ class _Driver:
             self.steps,
             equations.calls,
             contacts.onsets,
-            phi_max=self.worst[0],
-            phi_dot_max=self.worst[1],
+            phi_max=self.max_residuals[0],
+            phi_dot_max=self.max_residuals[1],
             ratio_min=ratio[0],
             ratio_max=ratio[1],
             ratio_outside=contacts.ratio_outside,

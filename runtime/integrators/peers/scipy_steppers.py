@@ -29,21 +29,21 @@ class ScipyStepper(Stepper):
         super().__init__(equations, t_end)
         from scipy import integrate
 
-        self.name, self.kind = name, getattr(integrate, name)
+        self.name, self.solver_class = name, getattr(integrate, name)
         self.max_distance = 1e-3 if name in ONE_STEP else 10.0  # to move a method of several steps is to begin anew
         self.solver: Any = None
         self.dense: Any = None
 
     def restart(self, t: float, y: Array, atol: Array) -> None:
-        """Begin at (t, y) with absolute tolerances.
+        """Restart the solver at (t, y) with absolute tolerances `atol`.
 
         SciPy controls the root mean square over all components (LSODA the largest). The tolerances are divided
         accordingly, so that no component exceeds its own.
         """
         mean = 1.0 if self.name == "LSODA" else math.sqrt(len(y))
         options = {} if self.name in EXPLICIT else {"jac": self.equations.jacobian}
-        controlled = {"rtol": RELATIVE, "atol": atol / mean}
-        self.solver = self.kind(self.equations.compute_rates, t, y.copy(), self.t_end, **controlled, **options)
+        tolerances = {"rtol": RELATIVE, "atol": atol / mean}
+        self.solver = self.solver_class(self.equations.compute_rates, t, y.copy(), self.t_end, **tolerances, **options)
 
     def step(self) -> float:
         """Make one step and return its end (s). Raise SolverError, with SciPy's message, if no step is small enough.

@@ -26,7 +26,7 @@ class Equations:
         self.size = 2 * self.compiled.n + N_WORK
         self.calls = self.jacobians = 0
         self.failure: SolverError | None = None  # error of a call inside the solver, which may swallow it
-        self.take = (
+        self.poll_cancellation = (
             problem.poll_cancellation if problem.method in SCIPY else None
         )  # Ctrl-C: through C of others no exception goes
         exact = hasattr(self.compiled.lib, "gudgeon_jacobian")
@@ -39,8 +39,8 @@ class Equations:
         The error is stored in `failure`. KeyboardInterrupt is raised where the solver passes exceptions on.
         """
         self.calls += 1
-        if self.take:
-            self.take()
+        if self.poll_cancellation:
+            self.poll_cancellation()
         try:
             return self.compiled.rhs(t, y, self.p, self.contacts.memory)
         except SolverError as error:
@@ -52,7 +52,7 @@ class Equations:
         self.jacobians += 1
         return self.compiled.jacobian(t, y, self.p, self.contacts.memory)[0]
 
-    def project(self, t: float, y: Array) -> Array:
+    def project_state(self, t: float, y: Array) -> Array:
         """Return the state projected onto the constraints; the works stay."""
         n = self.compiled.n
         q, v = project_state(self.compiled, t, y[:n], y[n : 2 * n], self.p)
@@ -69,7 +69,7 @@ class Stepper(ABC):
 
     @abstractmethod
     def restart(self, t: float, y: Array, atol: Array) -> None:
-        """Begin at (t, y) with absolute tolerances (2n + 3,), each of which the step's error must stay below."""
+        """Begin at (t, y) with absolute tolerances (2n + 3,), which the errors of a step must not exceed."""
 
     @abstractmethod
     def step(self) -> float:

@@ -32,7 +32,7 @@ class CvodeStepper(Stepper):
         self.t, self.y = math.nan, np.zeros(0)
 
     def restart(self, t: float, y: Array, atol: Array) -> None:
-        """Begin at (t, y) with absolute tolerances.
+        """Restart the solver at (t, y) with absolute tolerances `atol`.
 
         CVODE controls the root mean square over all components. The tolerances are divided accordingly, so that no
         component exceeds its own.
