@@ -72,8 +72,8 @@ def make_axis(
     """
     if (choice := _find_choice_parameter(simulation.source, check_text(name, "axis"))) is not None:
         names = check_list(values, f"axis {name}", str, f"a list of names, of {', '.join(choice.words)}")
-        indices = sorted({find_word_index(word, choice) for word in names})
-        return Axis(name, tuple(indices), "", ((name, 1.0),), choice.words)
+        word_indices = sorted({find_word_index(word, choice) for word in names})
+        return Axis(name, tuple(word_indices), "", ((name, 1.0),), choice.words)
     values = check_numbers(values, f"axis {name}")
     if name in SETTINGS:
         return Axis(name, tuple(sorted(values)), SETTINGS[name])

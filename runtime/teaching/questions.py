@@ -239,7 +239,7 @@ def list_abbreviations(subject: Subject, expressions: Iterable[sp.Expr]) -> list
         for symbol in sorted(
             notation.expand(expression).free_symbols, key=lambda s: notation.format_expression(s).text
         ):
-            if symbol in notation.kept and symbol in definitions and symbol not in abbreviations:
+            if symbol in notation.shown_symbols and symbol in definitions and symbol not in abbreviations:
                 add_abbreviations(definitions[symbol])
                 abbreviations.append(symbol)
 
