@@ -11,6 +11,7 @@ import numpy as np
 
 from gudgeon.assembly.linkage import Linkage, compute_mechanism_size, compute_point_position
 from gudgeon.contract.kernel_source import KernelSource
+from gudgeon.model.cached_values import cache_by_values
 from gudgeon.model.compiled import Array
 
 APART = 0.2  # rad, or relative to the size: difference from which on assemblies are distinguished by a guess
@@ -20,6 +21,7 @@ NOTED: ContextVar[list[Mapping[str, float]] | None] = ContextVar("guesses that r
 FOLLOWED = np.pi / 6  # rad; smaller differences from a guess are not reported
 
 
+@cache_by_values
 def find_unfollowed_guesses(linkage: Linkage, p: Array, q: Array) -> dict[str, float]:
     """Return {name: difference from the guess} of guessed coordinates that differ at q by more than a limit.
 

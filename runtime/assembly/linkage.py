@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from gudgeon.assembly.large import solve_minimum_norm
 from gudgeon.contract.kernel_source import KernelSource, PointInfo
 from gudgeon.model.compiled import Array, CompiledModel
-from gudgeon.model.sizes import compute_mechanism_sizes, compute_norm_weights
+from gudgeon.model.sizes import compute_norm_weights, compute_size
 
 PASSES = 3  # Newton's passes of a projection: the second one reaches rounding already
 CLOSED = 1e-15  # m or rad: Φ that no further pass reduces
@@ -43,7 +43,7 @@ class Linkage(Protocol):
 
 def compute_mechanism_size(linkage: Linkage, p: Array) -> float:
     """Return the size (m) of the mechanism with parameter values p, by which lengths are scaled."""
-    return float(compute_mechanism_sizes(linkage.source, p))
+    return compute_size(linkage.source, p)
 
 
 def find_angles(source: KernelSource) -> NDArray[np.bool_]:

@@ -21,6 +21,7 @@ import numpy as np
 from gudgeon.assembly.large import LARGE, compute_rank_by_rows, estimate_dependence_shares, is_independent
 from gudgeon.assembly.linkage import Linkage, compute_mechanism_size, find_angles, scale_rows
 from gudgeon.errors import AssemblyError, SolverError
+from gudgeon.model.cached_values import cache_by_values
 from gudgeon.model.compiled import Array, CompiledModel
 
 if TYPE_CHECKING:
@@ -74,6 +75,7 @@ def _compute_shares_by_svd(matrix: Array, relative_limit: float) -> Array:
     return np.asarray(np.abs(vanishing).max(axis=1, initial=0.0), dtype=np.float64)
 
 
+@cache_by_values
 def find_dependent_equations(compiled: CompiledModel, p: Array, t: float, q: Array) -> tuple[str, ...]:
     """Return the names of the equations of Φ and start.rates that depend on each other at q; () at a regular position.
 
@@ -165,6 +167,7 @@ def list_redundant_equations(compiled: CompiledModel) -> list[int]:
     return [k for k, row in enumerate(source.start_rows) if row.name not in kept and row.owner not in with_play]
 
 
+@cache_by_values
 def check_redundant_equations(compiled: CompiledModel, p: Array, t: float, q: Array) -> None:
     """Raise AssemblyError if an equation that was redundant with the file's values removes a degree of freedom at q."""
     extra = list_redundant_equations(compiled)

@@ -24,6 +24,7 @@ HEADER = "model.h"
 ENGINE_ENDS = "/* The engine reads no further: scenes that have all this in common share its code. */"
 MAIN = "scene.c"  # file that is compiled next to the engine
 ENGINE_PART = 0  # part number of the engine, which is compiled in parallel with the parts of MAIN
+CACHED_VALUES = "cached_values"  # attribute for what is computed again with equal values (model/cached_values.py)
 GIVEN = 1.001  # factor of a parameter's default, and the value in place of zero, for the reference comparison
 GIVEN_ZERO = 0.001  # where that is zero
 
@@ -207,6 +208,10 @@ class KernelSource:
     simulate_written: tuple[WrittenInfo, ...] = ()
     tables: tuple[tuple[str, str], ...] = ()  # table files of curves in the mechanism's folder, and their SHA-256
     laws: tuple[tuple[str, str], ...] = ()  # user-defined laws and their keys (kinds/laws/registered.py)
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Return the state for pickling, without cached values (model/cached_values.py)."""
+        return {name: value for name, value in vars(self).items() if name != CACHED_VALUES}
 
     @property
     def external_files(self) -> tuple[tuple[str, str], ...]:

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gudgeon.contract.boundary import N_WORK
-from gudgeon.contract.kernel_source import KernelSource
+from gudgeon.contract.kernel_source import CACHED_VALUES, KernelSource
 from gudgeon.errors import SingularError
 from gudgeon.language.argument_checks import check_number, check_time
 from gudgeon.model.arrays import FLAG, as_c_array, make_pointer
@@ -98,7 +98,7 @@ class CompiledModel:
 
     def __getstate__(self) -> dict[str, Any]:
         """Return the state for pickling, without the library."""
-        return {name: value for name, value in self.__dict__.items() if name not in ("lib", "ffi")}
+        return {name: value for name, value in self.__dict__.items() if name not in ("lib", "ffi", CACHED_VALUES)}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         """Restore the pickled state."""

@@ -17,6 +17,7 @@ from gudgeon.errors import BadValueError, UnitError, UnknownNameError
 from gudgeon.language.argument_checks import check_mapping, check_not_subnormal, check_number
 from gudgeon.language.names import find_near_names
 from gudgeon.language.tree import from_json, iterate_names
+from gudgeon.model.cached_values import cache_by_values
 from gudgeon.model.choices import explain_law_choice, explain_named_expression, find_word_index
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.sizes import describe_unresolved_clearance, describe_zero_inertia
@@ -281,6 +282,7 @@ def prepare_without_baumgarte(compiled: CompiledModel, given_values: Array, is_g
     return compiled.prepare(values, mask)
 
 
+@cache_by_values
 def check_parameter_values(source: KernelSource, p: Array, is_given: NDArray[np.generic]) -> None:
     """Raise BadValueError if the values p of a run violate a condition or are not finite.
 
@@ -348,6 +350,7 @@ def _format_overflow_message(
     return f"{sentence} is {derived_value}"
 
 
+@cache_by_values
 def list_conditions(source: KernelSource) -> tuple[Condition, ...]:
     """Return the conditions of the file, those of Baumgarte's gains, and those of velocity floors.
 

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gudgeon.contract.kernel_source import KernelSource
+from gudgeon.model.cached_values import cache_by_values
 from gudgeon.model.compiled import Array
 from gudgeon.model.contours import compute_min_clearances, find_contour
 
@@ -31,6 +32,12 @@ def compute_mechanism_sizes(source: KernelSource, p: Array) -> Array:
     return np.where(size > 0.0, size, 1.0)
 
 
+@cache_by_values
+def compute_size(source: KernelSource, p: Array) -> float:
+    """Return the size (m) of the mechanism with the parameter values p (n_slots + n_derived,) of one run."""
+    return float(compute_mechanism_sizes(source, p))
+
+
 def compute_norm_weights(source: KernelSource, p: Array, mass: Array) -> Array:
     """Return the norm's weights of coordinates, (n,): the diagonal `mass` of M, with a lower limit for inertias.
 
@@ -38,7 +45,7 @@ def compute_norm_weights(source: KernelSource, p: Array, mass: Array) -> Array:
     not changed.
     """
     weights = np.array(mass)
-    lower_limit = SMALL_INERTIA * weights[1::3] * compute_mechanism_sizes(source, p) ** 2
+    lower_limit = SMALL_INERTIA * weights[1::3] * compute_size(source, p) ** 2
     weights[2::3] = np.maximum(weights[2::3], lower_limit)
     return weights
 
@@ -81,7 +88,7 @@ def describe_unresolved_clearance(source: KernelSource, p: Array) -> str:
     """Return a message on the first clearance too small for doubles in one run; "" if there is none. p: (n_p,)."""
     for joint, is_unresolved in zip(source.clearances, find_unresolved_clearances(source, p).tolist(), strict=True):
         if is_unresolved:
-            size, depths = float(compute_mechanism_sizes(source, p)), find_contour(source, p, joint.name)
+            size, depths = compute_size(source, p), find_contour(source, p, joint.name)
             c = float(p[joint.clearance]) + (0.0 if depths is None else float(depths.min()))
             phrase = " at its contour" * (depths is not None)
             return (

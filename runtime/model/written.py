@@ -32,6 +32,7 @@ from gudgeon.language.tree import (
     replace_names,
 )
 from gudgeon.language.undefined_parts import find_undefined_part, is_total_expression, may_be_undefined
+from gudgeon.model.cached_values import cache_by_values
 from gudgeon.model.compiled import Array, CompiledModel, Evaluation
 
 if TYPE_CHECKING:
@@ -87,6 +88,7 @@ def evaluate_at_times(source: KernelSource, p: Array, tree: Expr, t: Array) -> A
     return np.broadcast_to(evaluate(tree, lambda path: t if path == "t" else slots[f"parameters.{path}"]), t.shape)
 
 
+@cache_by_values
 def read_expression_trees(source: KernelSource, kinds: Iterable[str]) -> list[tuple[WrittenInfo, Expr]]:
     """Return the file's expressions of t and motion in some sections (drives, forces, events), with their trees."""
     return [(info, from_json(json.loads(info.tree))) for info in source.written if info.address.split(".")[0] in kinds]

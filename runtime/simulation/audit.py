@@ -19,7 +19,7 @@ from gudgeon.integrators.trajectory import Problem, Trajectory
 from gudgeon.language.argument_checks import shorten_value
 from gudgeon.model.compiled import CompiledModel
 from gudgeon.model.evaluation import Evaluation
-from gudgeon.model.sizes import compute_mechanism_sizes
+from gudgeon.model.sizes import compute_size
 from gudgeon.simulation.newton_euler import compute_newton_euler_residuals
 
 SAMPLE_POSITIONS = np.sort(
@@ -67,7 +67,7 @@ def audit_samples(
     """
     if not problem.audit or not len(trajectory.t):
         return ()
-    source, size = compiled.source, max(float(compute_mechanism_sizes(compiled.source, problem.p)), 1e-300)
+    source, size = compiled.source, max(compute_size(compiled.source, problem.p), 1e-300)
     findings = [
         *_check_first_sample(problem, trajectory, size),
         *_check_contact_forces(compiled, trajectory, evaluation),

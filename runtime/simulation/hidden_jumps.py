@@ -23,6 +23,7 @@ from gudgeon.errors import NonFiniteError, SolverError
 from gudgeon.integrators.failure import NO_NUMBER
 from gudgeon.language.functions import CORNERED, JUMPING, select_function_names
 from gudgeon.language.tree import Binary, Call, Expr, Number, Unary, iterate_names, list_functions
+from gudgeon.model.cached_values import cache_by_values
 from gudgeon.model.compiled import Array
 from gudgeon.model.written import evaluate_at_times, find_undefined_at_switch, read_expression_trees
 
@@ -72,6 +73,7 @@ def may_jump(source: KernelSource) -> bool:
     return bool(_list_drives_with_unknown_switching(source) or _list_drives_with_branches(source))
 
 
+@cache_by_values
 def _list_jump_searches(source: KernelSource) -> list[_Search]:
     """Return the drives to search for jumps that no run can pass: name, expression and search function of each.
 

@@ -22,6 +22,7 @@ from gudgeon.integrators.peers import driver as python_driver
 from gudgeon.integrators.trajectory import Problem, Progress
 from gudgeon.language.argument_checks import check_callable, check_flag, check_text
 from gudgeon.loading.kernel_sources import Loading
+from gudgeon.model.cached_values import cache_by_values
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.contours import read_contours
 from gudgeon.model.evaluation import check_sample_memory
@@ -472,6 +473,12 @@ class Simulation(NotebookDisplay):
 
         Warns about guesses that the assembly does not follow. Raises AssemblyError if the linkage does not close.
         """
-        assembled = assemble_start(self.compiled, p)
+        assembled = _assemble_start_once(self.compiled, p)
         warn_unfollowed_guesses(self.compiled, p, assembled.q)
-        return assembled.q, assembled.v, np.full(self.compiled.n_memory, np.nan)
+        return assembled.q.copy(), assembled.v.copy(), np.full(self.compiled.n_memory, np.nan)
+
+
+@cache_by_values
+def _assemble_start_once(compiled: CompiledModel, p: Array) -> Start:
+    """Return the start that the file describes, assembled at the first call with these values; not to be changed."""
+    return assemble_start(compiled, p)

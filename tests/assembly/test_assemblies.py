@@ -104,8 +104,12 @@ def test_a_guessed_point_picks_the_assembly(side: float, tmp_path: Path) -> None
 )
 def test_degrees_of_freedom(joints: str, drives: str, freedoms: int, along: tuple[str, ...]) -> None:
     scene = found(four_bar(joints, drives)).scenes["ideal"]
-    assert (scene.closed.freedoms, scene.closed.along, scene.closed.loose) == (freedoms, along, ())
-    assert scene.closed.redundant == 0
+    assert (scene.closed_mobility.freedoms, scene.closed_mobility.along, scene.closed_mobility.loose) == (
+        freedoms,
+        along,
+        (),
+    )
+    assert scene.closed_mobility.redundant == 0
 
 
 def test_a_driven_crank_without_its_shaft_is_named() -> None:
@@ -118,9 +122,9 @@ def test_a_driven_crank_without_its_shaft_is_named() -> None:
 
 
 def test_bodies_that_nothing_holds_and_rows_that_say_nothing_new() -> None:
-    loose = found(four_bar(C + D, "")).scenes["ideal"].closed
+    loose = found(four_bar(C + D, "")).scenes["ideal"].closed_mobility
     assert loose.loose == ("crank",) and loose.freedoms == 5
-    twice = found(four_bar(A + A.replace("A:", "A2:") + B + C + D)).scenes["ideal"].closed
+    twice = found(four_bar(A + A.replace("A:", "A2:") + B + C + D)).scenes["ideal"].closed_mobility
     assert (twice.gruebler, twice.freedoms, twice.redundant) == (-2, 0, 2)
 
 
@@ -137,7 +141,7 @@ start: {{guess: {{a.theta: {guess} deg, b.theta: {-guess / 2} deg}}}}
 """
     mechanism = read_mechanism(flat.encode(), "flat.yaml")
     scenes = assemble_scenes(mechanism, False)
-    closed = scenes.scenes["ideal"].closed
+    closed = scenes.scenes["ideal"].closed_mobility
     assert (closed.aligned, closed.freedoms, closed.redundant) == (aligned, 0, 0)
     assert [whose for whose, _ in yield_remarks(mechanism, scenes)].count("singular") == aligned
 
@@ -215,7 +219,7 @@ def test_a_link_that_is_too_long_is_told_by_how_much(tmp_path: Path) -> None:
 def test_a_guess_that_is_not_followed_is_told(tmp_path: Path) -> None:
     angle = math.degrees(elbow(1.0)[0]) + 50.0
     text = four_bar(start=f"start: {{guess: {{coupler.theta: {angle} deg}}}}")
-    off = found(text).scenes["ideal"].off
+    off = found(text).scenes["ideal"].guess_deviations
     file = tmp_path / "four.yaml"
     file.write_bytes(text)
     if "coupler.theta" in off:
@@ -234,7 +238,7 @@ def test_a_guess_that_is_not_followed_is_told(tmp_path: Path) -> None:
         assert message.startswith("runs begin away from their guess: coupler.theta in 2 of 3 runs by up to 55°:")
         assert one.filename == __file__
     close = four_bar(start=f"start: {{guess: {{coupler.theta: {angle - 45} deg}}}}")
-    assert found(close).scenes["ideal"].off == {}
+    assert found(close).scenes["ideal"].guess_deviations == {}
 
 
 def engine_of(guess: str) -> bytes:

@@ -135,7 +135,11 @@ def test_it_moves_as_its_closed_form_says(name: str) -> None:
 @pytest.mark.parametrize("name", slow_but(["landing_gear", "scotch_yoke", "cylinder_boom"], GALLERY))
 def test_nothing_is_free_and_guesses_are_followed(name: str) -> None:
     scenes = assemble_scenes(read_mechanism(find_shipped_file(name).read_bytes(), name), branches=False).scenes
-    assert (scenes["ideal"].closed.freedoms, scenes["ideal"].closed.loose, scenes["ideal"].off) == (0, (), {})
+    assert (
+        scenes["ideal"].closed_mobility.freedoms,
+        scenes["ideal"].closed_mobility.loose,
+        scenes["ideal"].guess_deviations,
+    ) == (0, (), {})
 
 
 @pytest.mark.parametrize("name", GALLERY)

@@ -1,0 +1,52 @@
+"""Cache what functions of a scene and its parameter values return, for repeated calls with the same values."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import wraps
+from threading import Lock
+from typing import Any, TypeVar
+
+import numpy as np
+
+from gudgeon.contract.kernel_source import CACHED_VALUES
+
+Value = TypeVar("Value")
+MAX_ENTRIES = 256  # of one scene, of all functions together; the oldest is dropped first
+MAX_BYTES = 1 << 16  # of an array in a key: calls with larger arrays are not cached
+_LOCK = Lock()
+
+
+def cache_by_values(function: Callable[..., Value]) -> Callable[..., Value]:
+    """Cache the results of a function by the values of its arguments; a decorator.
+
+    The first argument owns the cache: a CompiledModel, a KernelSource or another object with attributes. The others,
+    positional only, are arrays, which are compared byte by byte, or hashable. Exceptions are not cached. Results are
+    shared between calls: callers must not change them.
+    """
+    name = f"{function.__module__}.{function.__name__}"
+
+    @wraps(function)
+    def call_or_look_up(owner: Any, *arguments: Any) -> Value:
+        """Return the cached result, or that of a call."""
+        key: list[Any] = [name]
+        for argument in arguments:
+            if type(argument) is np.ndarray:
+                if argument.nbytes > MAX_BYTES:
+                    return function(owner, *arguments)
+                key += argument.shape, argument.dtype.char, argument.tobytes()
+            else:
+                key.append(argument)
+        entry = tuple(key)
+        with _LOCK:
+            cache: dict[Any, Value] = vars(owner).setdefault(CACHED_VALUES, {})
+            if entry in cache:
+                return cache[entry]
+        value = function(owner, *arguments)
+        with _LOCK:
+            while len(cache) >= MAX_ENTRIES:
+                del cache[next(iter(cache))]
+            cache[entry] = value
+        return value
+
+    return call_or_look_up
