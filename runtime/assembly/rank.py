@@ -157,6 +157,7 @@ def find_nearby_configurations(
     return near_q
 
 
+@cache_by_values
 def list_redundant_equations(compiled: CompiledModel) -> list[int]:
     """Return the indices of the closed linkage's equations that were found redundant and are not integrated.
 

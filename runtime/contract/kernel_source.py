@@ -267,7 +267,7 @@ class KernelSource:
             return "without a degree of freedom nothing is integrated"
         return f"the contact in {self.rigid[0]} comes and goes, a constraint (newton_restitution)" if self.rigid else ""
 
-    @property
+    @cached_property
     def methods(self) -> tuple[str, ...]:
         """Return the names of the methods that fit this scene: integrators, or the kinematic method alone.
 

@@ -33,6 +33,7 @@ from gudgeon.assembly.linkage import find_angles
 from gudgeon.contract.kernel_source import KernelSource, RuntimeParameter
 from gudgeon.contract.methods import ADAPTIVE, CHOOSING, EXPLICIT, FINE, KINEMATIC, STAGED, STIFF
 from gudgeon.errors import BadValueError, InputError
+from gudgeon.model.cached_values import cache_by_values
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.parameters import read_parameter_value
 from gudgeon.model.sizes import compute_mechanism_sizes
@@ -91,6 +92,7 @@ def _has_film(source: KernelSource) -> bool:
     return any(joint.film for joint in source.clearances)
 
 
+@cache_by_values
 def find_method_numbers(compiled: CompiledModel, method: str, rtol: float) -> tuple[int, int]:
     """Return C's numbers of the first method and of the stiff one to which a run may switch; 0: it may not switch.
 

@@ -8,6 +8,7 @@ import os
 import platform
 from dataclasses import asdict, dataclass, replace
 from datetime import UTC, datetime
+from functools import cache
 from typing import TYPE_CHECKING, Any
 
 from gudgeon.contract.audit import Finding
@@ -265,11 +266,17 @@ def provenance_of(compiled: CompiledModel) -> dict[str, str]:
     """
     from gudgeon import __version__
 
-    system = platform.uname()
-    platform_text = f"{system.system} {system.release} {system.machine}, Python {platform.python_version()}"
+    platform_text = _format_platform()
     return dict(
         zip(PROVENANCE, (__version__, platform_text, compiled.compiler, _format_date(), compiled.text), strict=True)
     )
+
+
+@cache
+def _format_platform() -> str:
+    """Return name, release and processor of the operating system, and Python's version; the same for all runs."""
+    system = platform.uname()
+    return f"{system.system} {system.release} {system.machine}, Python {platform.python_version()}"
 
 
 def _format_date() -> str:

@@ -1,0 +1,76 @@
+"""Values computed once for equal parameters: repeated runs are equal, changed parameters count, nothing leaks."""
+
+import pickle
+
+import numpy as np
+import pytest
+
+import gudgeon
+from gudgeon.contract.kernel_source import CACHED_VALUES
+from gudgeon.errors import BadValueError
+from gudgeon.model.cached_values import MAX_BYTES, MAX_ENTRIES, cache_by_values
+
+
+class Owner:
+    """An object with attributes, as a scene is one."""
+
+
+def test_functions_are_called_once_for_equal_values_and_the_oldest_results_are_dropped() -> None:
+    """Arrays are compared by their bytes and shapes; large arrays and exceptions are not cached."""
+    calls: list[float] = []
+
+    @cache_by_values
+    def compute_sum(owner: Owner, values: np.ndarray, factor: float = 1.0) -> float:
+        calls.append(factor)
+        if factor < 0.0:
+            raise ValueError(factor)
+        return float(values.sum() * factor)
+
+    owner, other = Owner(), Owner()
+    for _ in range(2):
+        assert compute_sum(owner, np.array([1.0, 2.0]), 2.0) == 6.0
+        assert compute_sum(owner, np.array([[1.0, 2.0]]), 2.0) == 6.0  # another shape: another call
+        assert compute_sum(other, np.array([1.0, 2.0]), 2.0) == 6.0  # another owner, too
+    assert len(calls) == 3
+    for _ in range(2):
+        with pytest.raises(ValueError):
+            compute_sum(owner, np.zeros(1), -1.0)
+        compute_sum(owner, np.zeros(MAX_BYTES), 3.0)
+    assert calls[3:] == [-1.0, 3.0, -1.0, 3.0]
+    for k in range(2 * MAX_ENTRIES):
+        compute_sum(owner, np.array([float(k)]))
+    assert len(vars(owner)[CACHED_VALUES]) == MAX_ENTRIES
+
+
+def test_repeated_runs_are_equal_and_a_changed_result_does_not_change_the_next_run() -> None:
+    """The start is computed once; arrays of a result belong to the caller."""
+    simulation = gudgeon.load("four_bar")
+    first = simulation.simulate(t_end=0.01, output=4)
+    start = first.q[0].copy()
+    for array in (first.q, first.v, first.p):
+        if array.flags.writeable:
+            array[:] = 0.0
+    second = simulation.simulate(t_end=0.01, output=4)
+    assert (second.q[0] == start).all()
+    fresh = gudgeon.load("four_bar").simulate(t_end=0.01, output=4)
+    assert all((getattr(second, name) == getattr(fresh, name)).all() for name in ("t", "q", "v", "p"))
+
+
+def test_other_parameters_are_checked_and_closed_anew() -> None:
+    """Parameters in turns: each run has the start and the errors of its own values."""
+    simulation = gudgeon.load("slider_crank", scene="ideal")
+    lengths = (0.05, 0.045, 0.05, 0.045)
+    starts = [simulation.simulate(t_end=1e-3, output=1, parameters={"bodies.crank.length": length}).q[0] for length in lengths]
+    assert (starts[0] == starts[2]).all() and (starts[1] == starts[3]).all() and (starts[0] != starts[1]).any()
+    for _ in range(2):
+        with pytest.raises(BadValueError):
+            simulation.simulate(t_end=1e-3, parameters={"bodies.rod.mass": -1.0})
+
+
+def test_cached_values_are_not_pickled() -> None:
+    """A pickled result is no larger after many runs than after one."""
+    simulation = gudgeon.load("four_bar")
+    size = len(pickle.dumps(simulation.simulate(t_end=1e-3, output=1)))
+    for k in range(20):
+        simulation.simulate(t_end=1e-3 * (1 + k), output=1)
+    assert abs(len(pickle.dumps(simulation.simulate(t_end=1e-3, output=1))) - size) < 200
