@@ -84,7 +84,10 @@ def raise_light_masses(system: System) -> System:
     model, derive = system.model, system.model.parameter_table.derive
     if any(rate_jumps(drive) for drive in model.scene.mechanism.drives.values()):
         return system
-    least_body_mass = MIN_MASS_FRACTION * sp.Add(*(body.mass for body in model.bodies))
+    # one symbol for the sum: SymPy compares the arguments of each Max by factoring them
+    least_body_mass = MIN_MASS_FRACTION * derive(
+        "mass_of_all", sp.Add(*(body.mass for body in model.bodies)), "of projections"
+    )
     mass = dict(system.mass)
     for k, q in enumerate(system.q):
         own_mass, least_mass = mass[k, k], least_body_mass * system.inertia_of_unit_mass(k)

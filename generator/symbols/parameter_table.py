@@ -65,6 +65,7 @@ class ParameterTable(Freezable):
         self.signs: dict[str, str] = {}  # address -> ">" or "<": the sign to zero that the equations rely on
         self.tables: dict[str, list[sp.Symbol]] = {}  # parameters in arrays of Parameters, by the array's name
         self._derived_by: dict[sp.Expr, sp.Symbol] = {}
+        self._default_by_symbol: dict[sp.Symbol, sp.Float] = {}  # of `compute_default`
         self._parameters, self._instead = scene.parameters, scene.chosen_properties
         for name in scene.parameters:
             self._get_or_add_named_parameter(name)
@@ -228,10 +229,12 @@ class ParameterTable(Freezable):
 
         Derived parameters are replaced by their definitions; other symbols must not occur.
         """
-        defaults = {entry.symbol: sp.Float(entry.default, 17) for entry in self.entries.values()}
+        default_by_symbol = self._default_by_symbol
+        if len(default_by_symbol) != len(self.entries):
+            default_by_symbol |= {entry.symbol: sp.Float(entry.default, 17) for entry in self.entries.values()}
         value = sp.sympify(expression)
-        while value.free_symbols:
-            value = value.xreplace(self.derived).xreplace(defaults)
+        while symbols := value.free_symbols:
+            value = value.xreplace({s: default_by_symbol.get(s, self.derived.get(s)) for s in symbols})
         return float(value)
 
     def list_symbols(self) -> list[sp.Symbol]:

@@ -60,7 +60,8 @@ def test_other_parameters_are_checked_and_closed_anew() -> None:
     """Parameters in turns: each run has the start and the errors of its own values."""
     simulation = gudgeon.load("slider_crank", scene="ideal")
     lengths = (0.05, 0.045, 0.05, 0.045)
-    starts = [simulation.simulate(t_end=1e-3, output=1, parameters={"bodies.crank.length": length}).q[0] for length in lengths]
+    parameter_sets = [{"bodies.crank.length": length} for length in lengths]
+    starts = [simulation.simulate(t_end=1e-3, output=1, parameters=values).q[0] for values in parameter_sets]
     assert (starts[0] == starts[2]).all() and (starts[1] == starts[3]).all() and (starts[0] != starts[1]).any()
     for _ in range(2):
         with pytest.raises(BadValueError):
