@@ -192,7 +192,7 @@ def body_or_ground(name: str, meaning: str) -> Field:
     return Field(name, BODY, meaning, default="ground")
 
 
-def name_of_entry(
+def declare_entry_name(
     names: str, name: str, meaning: str, required: bool = True, either: str = "", otherwise: str = ""
 ) -> Field:
     """Declare a name of an entry of the section `names`; `either` is a key that may stand in its place.

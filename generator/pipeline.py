@@ -98,7 +98,7 @@ def generate_c(
         return replace(source, reference=compute_reference_values(program, source))
 
 
-def generate(
+def generate_kernel_source(
     data: bytes, file: str, scene: str, overrides: Overrides | None = None, formulation: str = "reduced"
 ) -> KernelSource:
     """Return the C code of one scene of a mechanism file; as `derive_scene`, then `generate_c`."""

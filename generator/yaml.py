@@ -123,7 +123,7 @@ class Text(str):
     one_line: bool
 
     @staticmethod
-    def make(text: str, location: Location, plain: bool = True, one_line: bool = True) -> Text:
+    def make_text(text: str, location: Location, plain: bool = True, one_line: bool = True) -> Text:
         """Return a text with its location and style."""
         node = Text(text)
         node.where, node.plain, node.one_line = location, plain, one_line
@@ -141,7 +141,7 @@ class Map(dict[str, Any]):
     where: Location
 
     @staticmethod
-    def make(items: Any, location: Location) -> Map:
+    def make_map(items: Any, location: Location) -> Map:
         """Return a mapping of `items`, as `dict` accepts them, with its location."""
         node = Map(items)
         node.where = location
@@ -160,7 +160,7 @@ class Map(dict[str, Any]):
 
     def get_mapping(self, name: str) -> Map:
         """Return the mapping at a key; an empty one if there is no such key."""
-        return self[name] if name in self else Map.make((), self.where)
+        return self[name] if name in self else Map.make_map((), self.where)
 
     def list_keys(self) -> list[Text]:
         """Return the keys as Text, in the order of the file; keys that are plain strings are left out."""
@@ -173,7 +173,7 @@ class Items(list[Any]):
     where: Location
 
     @staticmethod
-    def make(items: Any, location: Location) -> Items:
+    def make_items(items: Any, location: Location) -> Items:
         """Return a sequence of `items` with its location."""
         node = Items(items)
         node.where = location
@@ -336,7 +336,7 @@ class _Composer:
         if isinstance(event, ScalarEvent):
             location = self.find_location(event, int(event.style in ("'", '"')))
             one_line = event.start_mark.line == event.end_mark.line
-            node: Node = Text.make(event.value, location, event.style is None, one_line)
+            node: Node = Text.make_text(event.value, location, event.style is None, one_line)
         elif isinstance(event, SequenceStartEvent):
             node = self.compose_sequence(event, depth)
         else:
@@ -360,7 +360,7 @@ class _Composer:
 
     def compose_sequence(self, event: Any, depth: int) -> Items:
         """Return the sequence that begins with `event`, with its items composed."""
-        items = Items.make((), self.find_location(event))
+        items = Items.make_items((), self.find_location(event))
         while not isinstance(item_event := next(self.events), SequenceEndEvent):
             items.append(
                 self.compose_node(
@@ -375,7 +375,7 @@ class _Composer:
         Of a repeated key the first value counts. Entries of a merge key are merged as intended. Raises NotYamlError for
         a key that is not a scalar.
         """
-        node, merged_entries = Map.make((), self.find_location(event)), dict[str, Any]()
+        node, merged_entries = Map.make_map((), self.find_location(event)), dict[str, Any]()
         while not isinstance(key_event := next(self.events), MappingEndEvent):
             key = self.compose_node(key_event, depth + 1)
             if not isinstance(key, Text):

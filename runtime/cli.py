@@ -217,9 +217,9 @@ def create_file(
 
     Example: gudgeon new engine --like slider_crank
     """
-    from gudgeon.commands.new import new_mechanism, new_study
+    from gudgeon.commands.new import create_mechanism_file, create_study_file
 
-    return new_study(name, like) if study else new_mechanism(name, like)
+    return create_study_file(name, like) if study else create_mechanism_file(name, like)
 
 
 @app.command("import")
@@ -397,9 +397,9 @@ def run_study(
 
     Example: gudgeon study clearance.yaml --out clearance.study, then gudgeon study report clearance.study
     """
-    from gudgeon.commands.study import Request, study_file
+    from gudgeon.commands.study import Request, run_study_file
 
-    return study_file(Request(file, out, threads, restart, set_, runs, json, finished, workers, dask, starts, seed))
+    return run_study_file(Request(file, out, threads, restart, set_, runs, json, finished, workers, dask, starts, seed))
 
 
 def get_command_name(command: CommandInfo) -> str:

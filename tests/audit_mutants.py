@@ -37,7 +37,7 @@ from gudgeon.loading import compiler
 from gudgeon.loading.engine import ENGINE
 from gudgeon.loading.library import open_library
 from gudgeon.model.compiled import CompiledModel
-from gudgeon.model.reference import check_reference
+from gudgeon.model.reference import check_reference_values
 from gudgeon.results.results import Result
 from gudgeon.simulation.simulation import Simulation
 
@@ -104,7 +104,7 @@ def mutant(simulation: Simulation, folder: Path, *edits: tuple[str, str, str], l
 def is_reported(simulation: Simulation, t_end: float, **settings: Any) -> tuple[str, np.ndarray | None]:
     """What the library's check, or the audit of a run, says ("": nothing), and positions at the samples reached."""
     try:
-        check_reference(simulation.compiled)
+        check_reference_values(simulation.compiled)
         run = simulation.simulate(t_end, output=SAMPLES, **settings)
     except gudgeon.GudgeonError as error:
         return str(error).splitlines()[0], None

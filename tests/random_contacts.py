@@ -21,7 +21,7 @@ from typing import Any
 import numpy as np
 
 import gudgeon
-from gudgeon.results.contact_check import ContactCheck, check_samples
+from gudgeon.results.contact_check import ContactCheck, check_contact_samples
 
 SAMPLES = 20_000
 HEAD = """
@@ -227,7 +227,7 @@ def checked(run: gudgeon.Result) -> tuple[ContactCheck, int]:
     """The check of a run's samples, and how many of its contacts have no force though they last (phantoms)."""
     own = run.impacts[run.impacts["t_off"] > run.impacts["t_on"]]
     resolved = own["deltadot"] <= 1.0001e-6
-    return check_samples(run), int((resolved & (own["F_peak"] == 0.0)).sum())
+    return check_contact_samples(run), int((resolved & (own["F_peak"] == 0.0)).sum())
 
 
 def runs_of(

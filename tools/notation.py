@@ -16,7 +16,7 @@ from gudgeon.generator.equations import contact_steps as steps
 from gudgeon.generator.field import NUMBER, Field
 from gudgeon.generator.format.sections import BEARING, BODY, CONTACT, GUIDE, MATERIAL
 from gudgeon.generator.kinds.laws.law import RESULTS, find_bundled_laws
-from gudgeon.generator.targets.latex.letters import make_letter
+from gudgeon.generator.targets.latex.letters import make_symbol_name
 from gudgeon.generator.targets.latex.notation import get_field_letter
 from gudgeon.generator.targets.latex.play import PAIR
 from gudgeon.generator.targets.latex.play_letters import NAMES, get_latex_symbol
@@ -126,7 +126,7 @@ def _of_record(path: str, record: Field) -> Iterator[tuple[str, ...]]:
     for field in record.fields:
         if field.kind == NUMBER:
             key = f"{path}.{field.name}"
-            own = make_letter(get_field_letter(field.name)).latex
+            own = make_symbol_name(get_field_letter(field.name)).latex
             shown = IN_LAWS.get(field.name, own) if record is BEARING else own
             paper = IN_PAPER.get(key, "")
             yield f"${shown}$", field.meaning, f"${paper}$" * bool(paper), f"`{key}`", _unit(field)

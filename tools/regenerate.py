@@ -7,7 +7,7 @@ import shutil
 from pathlib import Path
 
 from gudgeon.contract.kernel_source import KernelSource
-from gudgeon.generator.pipeline import generate
+from gudgeon.generator.pipeline import generate_kernel_source
 from gudgeon.generator.reader.read import read_mechanism
 from gudgeon.generator.targets.c.readme import READABLE
 from gudgeon.loading.generated_scenes import ARCHIVE, read_archive, read_scenes, write_scenes
@@ -34,7 +34,7 @@ def regenerate(mechanisms: Path, generated: Path) -> None:
         data, folder = file.read_bytes(), generated / file.stem
         scenes = read_mechanism(data, file.name, None).scenes
         before = {source.scene: source for source in read_scenes(folder)}
-        sources = [generate(data, file.name, scene, None) for scene in scenes]
+        sources = [generate_kernel_source(data, file.name, scene, None) for scene in scenes]
         write_scenes(folder, sources, READABLE)
         for source in sources:
             print(f"generated/{file.stem}/{source.scene}{_list_changes(before.get(source.scene), source)}")

@@ -22,7 +22,7 @@ from gudgeon.loading import compiler
 from gudgeon.loading.build import build_portable_library
 from gudgeon.loading.cache import Cache
 from gudgeon.loading.generated_scenes import read_scenes
-from gudgeon.loading.library import CARRIED, compute_file_name, format_platform
+from gudgeon.loading.library import CARRIED, compute_library_file_name, format_platform
 
 ROOT = Path(__file__).resolve().parent.parent
 GLIBC = (2, 17)
@@ -45,7 +45,7 @@ def compile_for(machine: str, scenes: list[KernelSource], folder: Path) -> None:
         for scene in scenes:
             place = Path(scratch) / scene.mechanism / scene.scene
             place.mkdir(parents=True)
-            shutil.copyfile(build_portable_library(place, scene, cache), folder / compute_file_name(scene))
+            shutil.copyfile(build_portable_library(place, scene, cache), folder / compute_library_file_name(scene))
 
 
 def make_wheel(out: Path, machine: str = "", scenes: list[KernelSource] | None = None) -> None:

@@ -14,14 +14,14 @@ enum {
 #define POLL_INTERVAL_S 0.02 /* s between two polls whether the batch is ending */
 
 /* Return the first of the sample times of run i, s. */
-static inline const double *get_sample_times(const Batch *batch, long i) { return batch->t + i * batch->apart; }
+static inline const double *get_sample_times(const Batch *batch, long i) { return batch->t + i * batch->time_stride; }
 /* Return the last of the sample times of run i, s. */
 static inline double get_end_time(const Batch *batch, long i)
 {
-    return get_sample_times(batch, i)[batch->wanted[i] - 1];
+    return get_sample_times(batch, i)[batch->n_requested[i] - 1];
 }
 /* Return the row of the batch's arrays of samples at which those of run i begin. */
-static inline long get_first_row(const Batch *batch, long i) { return batch->place[i] * batch->samples; }
+static inline long get_first_row(const Batch *batch, long i) { return batch->sample_block[i] * batch->samples; }
 
 /* Functions of a single run, for the time loop of several runs in lanes. */
 typedef struct {

@@ -111,7 +111,7 @@ static long find_nonfinite_sample(const Batch *batch, long i)
 static int make_steps(const Batch *batch, long i, long max_steps, Integrator *run)
 {
     const double *p = batch->p_motion + i * batch->numbers, *t = get_sample_times(batch, i);
-    const long row = get_first_row(batch, i), n = batch->wanted[i];
+    const long row = get_first_row(batch, i), n = batch->n_requested[i];
     double *y = batch->y + row * N_S, *latched = batch->latched + row * AT_LEAST_ONE(N_DISCRETE);
     signed char *state = batch->state + row * AT_LEAST_ONE(N_CLEARANCES);
     const int status = gudgeon_adaptive_run(run, p, n, t, max_steps, y, latched, state, batch->done + i);
@@ -197,10 +197,10 @@ int gudgeon_ensemble(const void *batch_data, void *integrator, long *current, lo
         if (batch->phase[i] != BEGUN)
             continue;
         const double before = read_clock();
-        const int status = *batch->ending && batch->done[i] < batch->wanted[i] ? STOPPED
+        const int status = *batch->ending && batch->done[i] < batch->n_requested[i] ? STOPPED
             : make_steps(batch, i, batch->limit, run);
         batch->seconds[i] += read_clock() - before;
-        const int is_over = status != EVENTS_FULL && (status || batch->done[i] == batch->wanted[i]);
+        const int is_over = status != EVENTS_FULL && (status || batch->done[i] == batch->n_requested[i]);
         if (!is_over && !find_nonfinite_sample(batch, i))
             return status ? LISTS : GOES_ON;
         end_run(batch, i, status, run);
@@ -222,7 +222,7 @@ static Samples get_samples(const Batch *batch, long i)
 {
     const long row = get_first_row(batch, i);
     return (Samples){
-        .n = batch->wanted[i], .done = batch->done + i, .t = get_sample_times(batch, i), .y = batch->y + row * N_S,
+        .n = batch->n_requested[i], .done = batch->done + i, .t = get_sample_times(batch, i), .y = batch->y + row * N_S,
         .latched = batch->latched + row * AT_LEAST_ONE(N_DISCRETE),
         .state = batch->state + row * AT_LEAST_ONE(N_CLEARANCES)
     };
@@ -275,7 +275,7 @@ static long get_max_local_steps(const void *integrator)
 }
 
 /* Return the functions of a single run that a library of lanes calls. */
-const void *gudgeon_single(void)
+const void *gudgeon_single_run_functions(void)
 {
     static const SingleRunFunctions single = {begin_single_run, advance_single_run, get_max_local_steps};
     return &single;

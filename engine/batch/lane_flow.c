@@ -180,8 +180,8 @@ int gudgeon_lane_count(void) { return MAX_GROUP_RUNS; }
 /*
  * Integrate the runs run_number[i] (MAX_GROUP_RUNS of them, -1: none) of a batch together in lanes, each in its own
  * Integrator run[i]. Return GOES_ON, to be called again, if runs are over (run_number[i] = -1) or after `limit` steps.
- * Return LISTS if the lists of a run are full, ALL_OVER if fewer than two runs are left or the batch is
- * ending. Unfinished runs then continue alone (gudgeon_ensemble). single: the functions that gudgeon_single()
+ * Return LISTS if the lists of a run are full, ALL_OVER if fewer than two runs are left or the batch is ending.
+ * Unfinished runs then continue alone (gudgeon_ensemble). single: the functions that gudgeon_single_run_functions()
  * returns. The wall time is shared equally by the runs.
  */
 int gudgeon_lanes(const void *batch, const void *single, void *const *run, long *run_number)

@@ -11,7 +11,7 @@
 #elif defined(__GNUC__) && !defined(__clang__) && defined(__SSE2__)
 #define EXTREME_OF(name, beyond) (Lanes)__builtin_ia32_##name##pd(y, x)
 #else
-#define EXTREME_OF(name, beyond) pick(x beyond y, y, x)
+#define EXTREME_OF(name, beyond) select_value(x beyond y, y, x)
 #endif
 /* Return max_of() of each lane. */
 static inline Lanes lanes_max_of(Lanes x, Lanes y) { return EXTREME_OF(max, <); }
@@ -21,7 +21,7 @@ static inline Lanes lanes_min_of(Lanes x, Lanes y) { return EXTREME_OF(min, >); 
 /* Return sign_of() of each lane. */
 static inline Lanes lanes_sign_of(Lanes x)
 {
-    return pick(x > 0.0, all_of(1.0), pick(x < 0.0, all_of(-1.0), x));
+    return select_value(x > 0.0, broadcast(1.0), select_value(x < 0.0, broadcast(-1.0), x));
 }
 /* Return the absolute value of each lane. */
 static inline Lanes lanes_fabs(Lanes x) { return (Lanes)((LaneBits)x & 0x7fffffffffffffffLL); }
@@ -58,7 +58,7 @@ static inline Lanes lanes_just_behind(Lanes x) { return x - 1e-9 * (1.0 + lanes_
  */
 static inline Lanes lanes_finite_slope(Lanes derivative, Lanes ahead, Lanes behind, Lanes distance)
 {
-    return pick(lanes_fabs(derivative) < INFINITY, derivative, (ahead - behind) / distance);
+    return select_value(lanes_fabs(derivative) < INFINITY, derivative, (ahead - behind) / distance);
 }
 
 /* Return the square root of each lane. */
@@ -98,9 +98,9 @@ LANE_AFTER_LANE_FUNCTIONS(LANE_AFTER_LANE, LANE_AFTER_LANE_OF_TWO)
 
 typedef unsigned long long LaneWords __attribute__((vector_size(8 * LANES)));
 /* Return the bits of the number in each lane. */
-static inline LaneWords lanes_bits_of(Lanes x) { return (LaneWords)x; }
+static inline LaneWords lanes_to_bits(Lanes x) { return (LaneWords)x; }
 /* Return the numbers whose bits are given in each lane. */
-static inline Lanes lanes_of_bits(LaneWords bits) { return (Lanes)bits; }
+static inline Lanes lanes_from_bits(LaneWords bits) { return (Lanes)bits; }
 /*
  * Return for each lane entry k of the row of a table, of `width` columns, that the last seven bits of the lane select.
  */
@@ -111,15 +111,15 @@ static inline Lanes lanes_table_entries(const double *table, int width, LaneWord
         found[lane] = table[(bits[lane] & 127) * (size_t)width + (size_t)k];
     return found;
 }
-#define PARTS_OF Lanes
+#define PARTS_REAL Lanes
 #define PARTS_BITS LaneWords
-#define PARTS_NAMED(name) lanes_##name
+#define PARTS_FUNCTION(name) lanes_##name
 #define PARTS_POWER(bits) __builtin_convertvector((LaneBits)(bits) >> 52, Lanes)
 #define PARTS_ENTRY(table, bits, k) lanes_table_entries(table[0], sizeof table[0] / sizeof(double), bits, k)
 #include "../scene/parts.h"
-#undef PARTS_OF
+#undef PARTS_REAL
 #undef PARTS_BITS
-#undef PARTS_NAMED
+#undef PARTS_FUNCTION
 #undef PARTS_POWER
 #undef PARTS_ENTRY
 
@@ -127,9 +127,9 @@ static inline Lanes lanes_table_entries(const double *table, int width, LaneWord
 static inline Lanes lanes_sin(Lanes x)
 {
     Lanes r, rest;
-    const LaneBits fits = lanes_fabs(x) < TURN_LIMIT, k = (LaneBits)lanes_quarters(x, &r, &rest);
-    Lanes found = pick((k & 1) != 0, lanes_cosine_near(r, rest), lanes_sine_near(r, rest));
-    found = pick((k & 2) != 0, -found, found);
+    const LaneBits fits = lanes_fabs(x) < TURN_LIMIT, k = (LaneBits)lanes_reduce_angle(x, &r, &rest);
+    Lanes found = select_value((k & 1) != 0, lanes_cosine_near_zero(r, rest), lanes_sine_near_zero(r, rest));
+    found = select_value((k & 2) != 0, -found, found);
     for (int i = 0; any_of(~fits) && i < LANES; i++)
         found[i] = fits[i] ? found[i] : sin(x[i]);
     return found;
@@ -139,9 +139,9 @@ static inline Lanes lanes_sin(Lanes x)
 static inline Lanes lanes_cos(Lanes x)
 {
     Lanes r, rest;
-    const LaneBits fits = lanes_fabs(x) < TURN_LIMIT, k = (LaneBits)lanes_quarters(x, &r, &rest);
-    Lanes found = pick((k & 1) != 0, lanes_sine_near(r, rest), lanes_cosine_near(r, rest));
-    found = pick(((k + 1) & 2) != 0, -found, found);
+    const LaneBits fits = lanes_fabs(x) < TURN_LIMIT, k = (LaneBits)lanes_reduce_angle(x, &r, &rest);
+    Lanes found = select_value((k & 1) != 0, lanes_sine_near_zero(r, rest), lanes_cosine_near_zero(r, rest));
+    found = select_value(((k + 1) & 2) != 0, -found, found);
     for (int i = 0; any_of(~fits) && i < LANES; i++)
         found[i] = fits[i] ? found[i] : cos(x[i]);
     return found;
@@ -154,7 +154,7 @@ static inline LaneBits lanes_is_normal(Lanes x) { return (x >= DBL_MIN) & (x <= 
 static inline Lanes lanes_exp(Lanes x)
 {
     const LaneBits fits = lanes_fabs(x) < 700.0;
-    Lanes found = lanes_exp_of_parts(pick(fits, x, all_of(0.0)), all_of(0.0));
+    Lanes found = lanes_exp_with_error(select_value(fits, x, broadcast(0.0)), broadcast(0.0));
     for (int k = 0; any_of(~fits) && k < LANES; k++)
         found[k] = fits[k] ? found[k] : exp(x[k]);
     return found;
@@ -164,7 +164,7 @@ static inline Lanes lanes_exp(Lanes x)
 static inline Lanes lanes_log(Lanes x)
 {
     const LaneBits fits = lanes_is_normal(x);
-    Lanes rest, found = lanes_log_in_parts(pick(fits, x, all_of(1.0)), &rest);
+    Lanes rest, found = lanes_log_with_error(select_value(fits, x, broadcast(1.0)), &rest);
     for (int k = 0; any_of(~fits) && k < LANES; k++)
         found[k] = fits[k] ? found[k] : log(x[k]);
     return found;
@@ -179,17 +179,18 @@ static inline Lanes lanes_pow(Lanes x, Lanes y)
     const LaneBits none = ((LaneBits)x == 0) & (y > 0.0); /* as in a law of an open contact */
     const LaneBits normal = lanes_is_normal(x) & (lanes_fabs(y) < 0x1p60);
     const LaneBits of_root = (x > 1e-150) & (x < 1e150) & ((y == 1.5) | (y == 0.5));
-    const Lanes root = lanes_sqrt(pick(of_root, x, all_of(1.0)));
-    const Lanes by_root = pick(none, all_of(0.0), pick(y == 0.5, root, lanes_three_halves(x, root)));
+    const Lanes root = lanes_sqrt(select_value(of_root, x, broadcast(1.0)));
+    const Lanes half_power = select_value(y == 0.5, root, lanes_power_three_halves(x, root));
+    const Lanes by_root = select_value(none, broadcast(0.0), half_power);
     if (!any_of(~(of_root | none)))
         return by_root;
     Lanes rest;
-    const Lanes log_x = lanes_log_in_parts(pick(normal, x, all_of(1.0)), &rest);
-    const Lanes x_high = lanes_upper_half(log_x), y_high = lanes_upper_half(y), high = y_high * x_high;
+    const Lanes log_x = lanes_log_with_error(select_value(normal, x, broadcast(1.0)), &rest);
+    const Lanes x_high = lanes_keep_26_bits(log_x), y_high = lanes_keep_26_bits(y), high = y_high * x_high;
     const LaneBits fits = normal & (lanes_fabs(high) < 690.0);
     const Lanes less = (y - y_high) * x_high + y * (log_x - x_high + rest);
-    const Lanes by_exponential = lanes_exp_of_parts(pick(fits, high, all_of(0.0)), less);
-    Lanes found = pick(of_root | none, by_root, by_exponential);
+    const Lanes by_exponential = lanes_exp_with_error(select_value(fits, high, broadcast(0.0)), less);
+    Lanes found = select_value(of_root | none, by_root, by_exponential);
     for (int k = 0; any_of(~(fits | none)) && k < LANES; k++)
         found[k] = (fits | none)[k] ? found[k] : pow(x[k], y[k]);
     return found;

@@ -46,7 +46,7 @@ static void load_local_steps(
 /* Return the magnitude of the times in each lane, s, for rounding, as open_attempt() does for a single run. */
 static Lanes compute_time_scale(const LocalSteps *local_steps, const LaneIntegrator *lanes)
 {
-    return lanes_max_of(lanes_min_of(lanes_fabs(local_steps->t_end), all_of(MAX_RUN_SCALE_S)), lanes_fabs(lanes->t));
+    return lanes_max_of(lanes_min_of(lanes_fabs(local_steps->t_end), broadcast(MAX_RUN_SCALE_S)), lanes_fabs(lanes->t));
 }
 
 /*
@@ -63,17 +63,17 @@ static LaneBits accept_local_steps(LocalSteps *local_steps, LaneIntegrator *lane
         & ~find_nonfinite_lanes(step->y, step->dy, N_Y);
     update_energy_scale(lanes, accepted, step->y);
     for (int j = 0; j < N_Y; j++) {
-        lanes->y[j] = pick(accepted, step->y[j], lanes->y[j]);
-        lanes->dy[j] = pick(accepted, step->dy[j], lanes->dy[j]);
+        lanes->y[j] = select_value(accepted, step->y[j], lanes->y[j]);
+        lanes->dy[j] = select_value(accepted, step->dy[j], lanes->dy[j]);
     }
     for (int j = 0; j < N_WORK; j++)
-        lanes->rhs.power[j] = pick(accepted, step->rhs.power[j], lanes->rhs.power[j]);
-    lanes->t = pick(accepted, t, lanes->t);
+        lanes->rhs.power[j] = select_value(accepted, step->rhs.power[j], lanes->rhs.power[j]);
+    lanes->t = select_value(accepted, t, lanes->t);
     update_speeds(lanes);
     update_error_weights(lanes);
-    local_steps->max_step = pick(accepted, lanes->series.max_step, local_steps->max_step);
+    local_steps->max_step = select_value(accepted, lanes->series.max_step, local_steps->max_step);
     const Lanes left = local_steps->t_end - lanes->t, next = TAYLOR_AHEAD * lanes->series.max_step;
-    *h = pick(accepted, pick(next > left * EQUAL_LENGTH_RATIO, left, next), *h);
+    *h = select_value(accepted, select_value(next > left * EQUAL_LENGTH_RATIO, left, next), *h);
     for (int k = 0; k < LANES; k++) {
         local_steps->steps[k] -= accepted[k];
         local_steps->may_accept[k] = -(local_steps->steps[k] < local_steps->max_local_steps[k]);

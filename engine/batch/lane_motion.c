@@ -6,8 +6,8 @@
  */
 static inline void set_pivot_limits(LaneDiscreteState *discrete)
 {
-    discrete->least = all_of(HAS_CONTINUATION ? NEARBY : NEARLY_SINGULAR);
-    discrete->least_size = all_of(HAS_CONTINUATION ? NEARBY : VANISHING);
+    discrete->least = broadcast(HAS_CONTINUATION ? NEARBY : NEARLY_SINGULAR);
+    discrete->least_size = broadcast(HAS_CONTINUATION ? NEARBY : VANISHING);
 }
 
 /*
@@ -32,7 +32,7 @@ static inline int compute_lane_accelerations(Lanes t, const Lanes *q, const Lane
 /* Return the mask of the lanes in which the sum of n components of a (plus those of b, unless NULL) is not finite. */
 static LaneBits find_nonfinite_lanes(const Lanes *a, const Lanes *b, int n)
 {
-    Lanes sum = all_of(0.0);
+    Lanes sum = broadcast(0.0);
     for (int k = 0; k < n; k++)
         sum += b ? a[k] + b[k] : a[k];
     return ~(lanes_fabs(sum) <= DBL_MAX);

@@ -10,14 +10,14 @@ static void discard_stages(LaneStep *step)
 {
     step->n_stored_stages = 0;
     for (int k = 0; k < N_EVENT_FUNCTIONS; k++)
-        step->lowest[k] = all_of(INFINITY);
+        step->lowest[k] = broadcast(INFINITY);
     for (int k = 0; k < 2 * N_X && N_WATCHED > 0; k++) {
-        step->least[k] = all_of(INFINITY);
-        step->most[k] = all_of(-INFINITY);
+        step->least[k] = broadcast(INFINITY);
+        step->most[k] = broadcast(-INFINITY);
     }
     for (int i = 0; i < N_CLEARANCES; i++) {
-        step->rate[i][0] = all_of(INFINITY);
-        step->rate[i][1] = all_of(-INFINITY);
+        step->rate[i][0] = broadcast(INFINITY);
+        step->rate[i][1] = broadcast(-INFINITY);
     }
 }
 
@@ -65,7 +65,7 @@ static void evaluate_lane_event_functions(const LaneIntegrator *run, const LaneR
 {
     for (int i = 0; i < N_CLEARANCES; i++) {
         const Lanes delta = rhs->clearance[i].delta;
-        out[i] = pick(is_closed(&run->discrete.contact[i]), delta, -delta);
+        out[i] = select_value(is_closed(&run->discrete.contact[i]), delta, -delta);
     }
     for (int k = 0; k < N_SWITCHES; k++)
         out[N_CLEARANCES + k] = run->discrete.branch[k] * rhs->g[k];
@@ -154,7 +154,7 @@ static void load_iteration_history(LaneIntegrator *run) { (void)run; } /* gather
 /* Add n evaluations of the right-hand side to the counts of the active lanes. */
 static void count_stage_evaluations(LaneIntegrator *run, LaneBits is_active, int n)
 {
-    run->newton.evaluations += pick(is_active, all_of(n), all_of(0.0));
+    run->newton.evaluations += select_value(is_active, broadcast(n), broadcast(0.0));
 }
 
 /* Begin an iteration of n stages: count n evaluations and discard the data of the stages in the active lanes. */
@@ -163,14 +163,14 @@ static void begin_stage_iteration(LaneIntegrator *run, LaneStep *step, LaneBits 
     count_stage_evaluations(run, is_active, n);
     step->n_stored_stages = 0;
     for (int k = 0; k < N_EVENT_FUNCTIONS; k++)
-        step->lowest[k] = pick(is_active, all_of(INFINITY), step->lowest[k]);
+        step->lowest[k] = select_value(is_active, broadcast(INFINITY), step->lowest[k]);
     for (int k = 0; k < 2 * N_X && N_WATCHED > 0; k++) {
-        step->least[k] = pick(is_active, all_of(INFINITY), step->least[k]);
-        step->most[k] = pick(is_active, all_of(-INFINITY), step->most[k]);
+        step->least[k] = select_value(is_active, broadcast(INFINITY), step->least[k]);
+        step->most[k] = select_value(is_active, broadcast(-INFINITY), step->most[k]);
     }
     for (int i = 0; i < N_CLEARANCES; i++) {
-        step->rate[i][0] = pick(is_active, all_of(INFINITY), step->rate[i][0]);
-        step->rate[i][1] = pick(is_active, all_of(-INFINITY), step->rate[i][1]);
+        step->rate[i][0] = select_value(is_active, broadcast(INFINITY), step->rate[i][0]);
+        step->rate[i][1] = select_value(is_active, broadcast(-INFINITY), step->rate[i][1]);
     }
 }
 
@@ -184,21 +184,21 @@ static void record_iterated_stage(LaneIntegrator *run, LaneStep *step, LaneBits 
     Lanes event_functions[AT_LEAST_ONE(N_EVENT_FUNCTIONS)], *const values = step->stage_values[step->n_stored_stages];
     evaluate_lane_event_functions(run, rhs, event_functions);
     for (int j = 0; j < N_EVENT_FUNCTIONS; j++) {
-        values[j] = pick(is_active, event_functions[j], values[j]);
-        step->lowest[j] = pick(is_active, lanes_min_of(step->lowest[j], event_functions[j]), step->lowest[j]);
+        values[j] = select_value(is_active, event_functions[j], values[j]);
+        step->lowest[j] = select_value(is_active, lanes_min_of(step->lowest[j], event_functions[j]), step->lowest[j]);
     }
     step->node[step->n_stored_stages++] = node;
     for (int i = 0; i < N_CLEARANCES; i++) {
         const Lanes rate = rhs->clearance[i].deltadot, *const old = step->rate[i];
         const Lanes low = lanes_min_of(old[0], rate), high = lanes_max_of(old[1], rate);
-        step->rate[i][0] = pick(is_active, low, old[0]);
-        step->rate[i][1] = pick(is_active, high, old[1]);
-        values[STAGE_FORCES + i] = pick(is_active, compute_squared_force(rhs, i), values[STAGE_FORCES + i]);
-        values[STAGE_GAP_RATES + i] = pick(is_active, rate, values[STAGE_GAP_RATES + i]);
+        step->rate[i][0] = select_value(is_active, low, old[0]);
+        step->rate[i][1] = select_value(is_active, high, old[1]);
+        values[STAGE_FORCES + i] = select_value(is_active, compute_squared_force(rhs, i), values[STAGE_FORCES + i]);
+        values[STAGE_GAP_RATES + i] = select_value(is_active, rate, values[STAGE_GAP_RATES + i]);
     }
     for (int k = 0; k < 2 * N_X && N_WATCHED > 0; k++) {
-        step->least[k] = pick(is_active, lanes_min_of(step->least[k], y[k]), step->least[k]);
-        step->most[k] = pick(is_active, lanes_max_of(step->most[k], y[k]), step->most[k]);
+        step->least[k] = select_value(is_active, lanes_min_of(step->least[k], y[k]), step->least[k]);
+        step->most[k] = select_value(is_active, lanes_max_of(step->most[k], y[k]), step->most[k]);
     }
 }
 
@@ -216,7 +216,7 @@ static int mark_failed_stages(LaneIntegrator *run, LaneBits has_failed)
 static int try_method(LaneIntegrator *run, int method, Lanes h, const LaneParameters *p, LaneStep *step)
 {
 #if IMPLICIT_STAGES
-    run->newton.evaluations = all_of(0.0);
+    run->newton.evaluations = broadcast(0.0);
     run->newton.has_no_stages = (LaneBits){0};
     if (method == BY_RADAU5)
         return radau5_try_step(run, h, p, step);

@@ -19,10 +19,10 @@ typedef double Lanes __attribute__((vector_size(8 * LANES)));
 typedef long long LaneBits __attribute__((vector_size(8 * LANES)));
 
 /* Return a vector with x in all lanes. */
-static inline Lanes all_of(double x) { return x - (Lanes){0.0}; }
+static inline Lanes broadcast(double x) { return x - (Lanes){0.0}; }
 
 /* Return a in the lanes of the mask, b in the others. */
-static inline Lanes pick(LaneBits mask, Lanes a, Lanes b)
+static inline Lanes select_value(LaneBits mask, Lanes a, Lanes b)
 {
     return (Lanes)(((LaneBits)a & mask) | ((LaneBits)b & ~mask));
 }
@@ -62,17 +62,17 @@ static inline Lanes lanes_branch_of(const Lanes *branch, Lanes *g, int k, Lanes 
 }
 
 /* Mark switching functions first to last - 1 as not in use, by NaN. */
-static inline void silence(Lanes *g, int first, int last)
+static inline void mark_switches_unused(Lanes *g, int first, int last)
 {
     for (int k = first; k < last; k++)
-        g[k] = all_of(NAN);
+        g[k] = broadcast(NAN);
 }
 /* Move the values of switching functions first to last - 1 to `film_switches`, and mark them in g as not in use. */
-static inline void set_aside(Lanes *g, Lanes *film_switches, int first, int last)
+static inline void move_film_switches(Lanes *g, Lanes *film_switches, int first, int last)
 {
     for (int k = first; k < last; k++)
         film_switches[k] = g[k];
-    silence(g, first, last);
+    mark_switches_unused(g, first, last);
 }
 
 /*
@@ -80,12 +80,12 @@ static inline void set_aside(Lanes *g, Lanes *film_switches, int first, int last
  * they are those of its film; where it touches, those of the contact. In the lanes of `is_mixed`, functions that the
  * contact does not use are those of the film.
  */
-static inline void put_together(Lanes *g, const Lanes *film_switches, int first, int last,
+static inline void merge_switches(Lanes *g, const Lanes *film_switches, int first, int last,
     LaneBits is_touching_mask, LaneBits is_mixed)
 {
     for (int k = first; k < last; k++) {
-        const Lanes touching_switch = pick(is_mixed & (g[k] != g[k]), film_switches[k], g[k]);
-        g[k] = pick(is_touching_mask, touching_switch, film_switches[k]);
+        const Lanes touching_switch = select_value(is_mixed & (g[k] != g[k]), film_switches[k], g[k]);
+        g[k] = select_value(is_touching_mask, touching_switch, film_switches[k]);
     }
 }
 
@@ -101,7 +101,7 @@ static inline void put_together(Lanes *g, const Lanes *film_switches, int first,
 #define NormOf LaneNorm
 #define ComplexLinearOf LaneComplexLinear
 /* Return a constant in all lanes. */
-static inline Lanes make_real(double x) { return all_of(x); }
+static inline Lanes make_real(double x) { return broadcast(x); }
 /* Return the larger number of each lane; a NaN in x is propagated. */
 static inline Lanes real_max(Lanes x, Lanes y) { return lanes_max_of(x, y); }
 /* Return the smaller number of each lane; a NaN in x is propagated. */
@@ -111,9 +111,9 @@ static inline Lanes real_abs(Lanes x) { return lanes_fabs(x); }
 /* Return the square root of each lane. */
 static inline Lanes real_sqrt(Lanes x) { return lanes_sqrt(x); }
 /* Return 2^x of each lane to 1e-4. */
-static inline Lanes real_exp2(Lanes x) { return lanes_rough_exp2(x); }
+static inline Lanes real_exp2(Lanes x) { return lanes_approx_exp2(x); }
 /* Return log2 x of each lane to 1e-4. */
-static inline Lanes real_log2(Lanes x) { return lanes_rough_log2(x); }
+static inline Lanes real_log2(Lanes x) { return lanes_approx_log2(x); }
 
 /* ContactState of several runs. */
 typedef struct {

@@ -100,7 +100,7 @@ static void interpolate_position(const Position *node, double t, const Parameter
         position->s_second[k] = interpolate_at_middle(node, PASS_NODES, &node->s_second[k]);
     }
 #endif
-    constraints(after_jump(t), position->q, p, phi);
+    constraints(get_time_after_jump(t), position->q, p, phi);
     position->phi = 0.0;
     for (int r = 0; r < N_ALL_ROWS; r++)
         position->phi = get_larger_or_nan(position->phi, fabs(phi[r]));

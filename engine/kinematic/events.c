@@ -41,7 +41,7 @@ enum { N_COORDINATES = N_X };
  */
 static int compute_newton_step(Position *position, const Parameters *p, double *step)
 {
-    return close_step(after_jump(position->t), position->s, p, step, position->s_rate, &position->phi);
+    return close_step(get_time_after_jump(position->t), position->s, p, step, position->s_rate, &position->phi);
 }
 #else
 enum { N_COORDINATES = N_Q };
@@ -56,9 +56,9 @@ enum { N_COORDINATES = N_Q };
 static int compute_newton_step(Position *position, const Parameters *p, double *step)
 {
     double phi[AT_LEAST_ONE(N_ALL_ROWS)];
-    constraints(after_jump(position->t), position->q, p, phi);
-    const int status = project(after_jump(position->t), position->q, phi, p, step);
-    return status ? status : solve_velocities(after_jump(position->t), position->q, p, position->v);
+    constraints(get_time_after_jump(position->t), position->q, p, phi);
+    const int status = project(get_time_after_jump(position->t), position->q, phi, p, step);
+    return status ? status : solve_velocities(get_time_after_jump(position->t), position->q, p, position->v);
 }
 #endif
 
@@ -112,7 +112,7 @@ static double estimate_event_uncertainty(const KinematicRun *run, SampledPositio
         Position perturbed;
         perturb_position(run, position, mask, &perturbed);
 #if POSITIONS_IN_TREE
-        if (arrive(after_jump(perturbed.t), perturbed.s, perturbed.s_rate, run->p,
+        if (compute_body_motion(get_time_after_jump(perturbed.t), perturbed.s, perturbed.s_rate, run->p,
             perturbed.s_second, perturbed.q, perturbed.v, perturbed.a, &perturbed.phi))
             continue;
 #endif
@@ -287,7 +287,7 @@ static int is_zero_by_constraint(Search *search, SampledPosition *b, int i, Rang
     const double part = (b->position.t - search->begin.position.t) / search->h, most = max_of(-f.lo, f.hi);
     const double error = estimate_event_uncertainty(search->run, &search->begin, i);
     return !f.partly && fabs(search->begin.event[i]) <= error
-        && (most <= MAX_UNCERTAINTY_RATIO * error || is_narrowing(-most, part, -search->max_bound[i]))
+        && (most <= MAX_UNCERTAINTY_RATIO * error || is_bound_narrowing(-most, part, -search->max_bound[i]))
         && get_resolved_value(search->run, b, i, 0) == 0.0;
 }
 

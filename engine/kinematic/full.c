@@ -7,7 +7,7 @@
 static int solve_accelerations(KinematicRun *run, const Position *position, double *a, RhsOutputs *rhs)
 {
     const DiscreteState discrete = {.token = &run->cancellation, DEFAULT_PIVOT_LIMITS};
-    const int status = dynamics(after_jump(position->t), position->q, position->v, &discrete, run->p, a, rhs);
+    const int status = dynamics(get_time_after_jump(position->t), position->q, position->v, &discrete, run->p, a, rhs);
     return status > 0 ? N_ROWS + status : status;
 }
 
@@ -76,9 +76,9 @@ static int solve_position_at(const KinematicRun *run, double t, const Position *
     position->interpolated = 0;
     for (int k = 0; k < N_Q; k++)
         position->q[k] = start->q[k] + (t - start->t) * start->v[k];
-    const int status = solve_position_equations(run, after_jump(t), position->q, correction,
+    const int status = solve_position_equations(run, get_time_after_jump(t), position->q, correction,
         &position->last_correction);
-    return status ? status : solve_velocities(after_jump(t), position->q, run->p, position->v);
+    return status ? status : solve_velocities(get_time_after_jump(t), position->q, run->p, position->v);
 }
 
 /*
@@ -94,7 +94,7 @@ static int complete_position(KinematicRun *run, Position *position)
     const int status = solve_accelerations(run, position, position->a, &rhs);
     if (status)
         return status;
-    constraints(after_jump(position->t), position->q, run->p, phi);
+    constraints(get_time_after_jump(position->t), position->q, run->p, phi);
     position->phi = position->phi_dot = 0.0;
     for (int r = 0; r < N_ALL_ROWS; r++)
         position->phi = get_larger_or_nan(position->phi, fabs(phi[r]));
@@ -114,7 +114,7 @@ static int set_position(KinematicRun *run, double t, const double *q, const doub
     position->interpolated = 0;
     memcpy(position->q, q, sizeof position->q);
     memcpy(position->v, v, sizeof position->v);
-    constraints(after_jump(t), q, run->p, phi); /* equations may depend on each other there */
-    position->last_correction = project(after_jump(t), q, phi, run->p, step) ? INFINITY : 0.0;
+    constraints(get_time_after_jump(t), q, run->p, phi); /* equations may depend on each other there */
+    position->last_correction = project(get_time_after_jump(t), q, phi, run->p, step) ? INFINITY : 0.0;
     return complete_position(run, position);
 }

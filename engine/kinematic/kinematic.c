@@ -75,7 +75,7 @@ void gudgeon_kinematic_progress(const void *integrator, double *t, double *gaine
 }
 
 /* Return how many samples were interpolated at or near a change point; t: the time of the first one, s. */
-long gudgeon_kinematic_interpolated(const void *integrator, double *t)
+long gudgeon_kinematic_count_interpolated(const void *integrator, double *t)
 {
     const KinematicRun *run = integrator;
     *t = run->t_interpolated;
@@ -92,7 +92,7 @@ void gudgeon_kinematic_record(void *integrator, double *rows, long capacity)
 }
 
 /* Return the number of rows recorded since the last call, and let the next row be written to the first one. */
-long gudgeon_kinematic_recorded(void *integrator)
+long gudgeon_kinematic_fetch_records(void *integrator)
 {
     KinematicRun *run = integrator;
     const long n = run->n_recorded;

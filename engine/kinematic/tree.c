@@ -9,7 +9,7 @@ static int solve_accelerations(KinematicRun *run, const Position *position, doub
 {
     const DiscreteState discrete = {.token = &run->cancellation};
     const int status =
-        reduced_dynamics(after_jump(position->t), position->s, position->s_rate, &discrete, run->p, a, rhs);
+        reduced_dynamics(get_time_after_jump(position->t), position->s, position->s_rate, &discrete, run->p, a, rhs);
     return status > 0 ? N_LOOPS + status : status;
 }
 
@@ -67,10 +67,10 @@ static int solve_position_at(const KinematicRun *run, double t, const Position *
     position->interpolated = 0;
     for (int k = 0; k < N_X; k++)
         position->s[k] = start->s[k] + h * (start->s_rate[k] + (half_h != 0.0 ? half_h * start->s_second[k] : 0.0));
-    const double t_after_jump = after_jump(t);
+    const double t_after_jump = get_time_after_jump(t);
     const int status = solve_position_equations(run, t_after_jump, position, correction);
     return status ? status
-        : arrive(t_after_jump, position->s, position->s_rate, run->p, position->s_second, position->q,
+        : compute_body_motion(t_after_jump, position->s, position->s_rate, run->p, position->s_second, position->q,
             position->v, position->a, &position->phi_dot);
 }
 
@@ -89,8 +89,8 @@ static int set_position(KinematicRun *run, double t, const double *q, const doub
     position->last_correction = 0.0;
     position->interpolated = 0;
     reduce_state(t, q, v, p, position->s, position->s_rate);
-    if (!close_step(after_jump(t), position->s, p, step, rates, &position->phi)
-        && !arrive(after_jump(t), position->s, position->s_rate, p, position->s_second,
+    if (!close_step(get_time_after_jump(t), position->s, p, step, rates, &position->phi)
+        && !compute_body_motion(get_time_after_jump(t), position->s, position->s_rate, p, position->s_second,
             position->q, position->v, position->a, &position->phi_dot))
         return 0;
     RhsOutputs rhs;

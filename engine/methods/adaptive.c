@@ -47,7 +47,7 @@ static int commit_step(Integrator *run, Step *step, double fraction, double t_ne
     }
     run->rhs = step->rhs;
     set_last_step_length(run, t_new - run->t);
-    record_step_end(run, event, event >= 0 && t_new - run->t < 1e-9 * step->h);
+    count_step_end(run, event, event >= 0 && t_new - run->t < 1e-9 * step->h);
     run->t = t_new;
     count_step(run, !!step->method->stiff);
     discard_linearization(run);
@@ -76,7 +76,7 @@ static int commit_step(Integrator *run, Step *step, double fraction, double t_ne
  */
 static double compute_end_time_rounding(const Integrator *run, double t)
 {
-    return run->control.fixed > 0.0 ? rounded(t, run->control.fixed) : 0.0;
+    return run->control.fixed > 0.0 ? compute_time_rounding(t, run->control.fixed) : 0.0;
 }
 
 /*
@@ -236,7 +236,7 @@ static int prepare_step(Integrator *run, int is_last, const Parameters *p, const
     const int is_new_step = !run->discrete.held && !run->control.attempt.open;
     *status = is_new_step ? begin_integration(run, t_end - run->t, p) : 0;
     if (!*status && is_new_step)
-        record_after_jump(run, p);
+        record_state_after_jump(run, p);
     mark_jump(run, is_new_step);
     if (run->control.attempt.open)
         return !is_last; /* attempts continue */

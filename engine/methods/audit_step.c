@@ -280,14 +280,14 @@ static void audit_step(Integrator *run, Step *step, double fraction, int event, 
         if (has_end_event && !is_known)
             check_interior_point(run, step, fraction, 0, p);
         for (int k = 0; k < n_points; k++)
-            check_interior_point(run, step, fraction * (k + draw_random(audit)) / n_points, is_random, p);
+            check_interior_point(run, step, fraction * (k + draw_random_number(audit)) / n_points, is_random, p);
         if (is_random && fraction >= 1.0)
             check_rates_at_step_end(run, step, p);
         if (is_measured && is_whole && has_tolerance(run))
             check_step_error(run, step, p);
         if (is_random || (is_due && is_whole)) {
             const double first = audit->turns++ ? 1.0 : AUDIT_FIRST;
-            audit->due = run->counts.steps + 1 + (long)(2.0 * draw_random(audit) * first
+            audit->due = run->counts.steps + 1 + (long)(2.0 * draw_random_number(audit) * first
                 * compute_mean_check_interval(step->method));
         }
         audit->longer += is_longer;

@@ -104,7 +104,7 @@ static int begin_run(Integrator *run, const Parameters *p)
         double absolute_state[N_S];
         convert_to_absolute(run->t, run->y, &run->discrete, p, absolute_state);
         if (has_drive_jump(run->t, absolute_state, absolute_state + N_Q, p))
-            project_state(run, just_after(run->t), run->y, p);
+            project_state(run, get_time_just_after(run->t), run->y, p);
     }
     const int status = initialize_discrete_state(run, p);
     if (DRIVE_IMPULSES)

@@ -73,7 +73,7 @@ static void copy_states_from_lane(const double *lane, int lanes, int n, double (
             target[k][i] = lane[(k * N_Y + i) * lanes];
 }
 
-static void discard_samples(Integrator *run); /* watch/roots.c */
+static void discard_dense_samples(Integrator *run); /* watch/roots.c */
 
 /*
  * Compute the dense output of a step unless it exists. Return 0, or the status if an additional stage is not
@@ -88,7 +88,7 @@ static int compute_dense_output(Integrator *run, const Parameters *p, Step *step
     if (step->dense_ready == FAILED)
         return step->dense_status;
     step->dense_ready = IN_RUN;
-    discard_samples(run);
+    discard_dense_samples(run);
     if (is_in_lane) {
         copy_states_from_lane(step->dense_lane, step->lanes, N_DENSE, step->dense);
         count_evaluations(run, step->method->dense_stages);

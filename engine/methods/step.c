@@ -178,9 +178,9 @@ static void project_state(Integrator *run, double t, double *y, const Parameters
  */
 static inline void apply_drive_impulse(Integrator *run, const Parameters *p)
 {
-    const double before = kinetic_energy(run, p);
+    const double before = compute_kinetic_energy(run, p);
     project_onto_constraints(run, run->t, run->y, p);
-    run->y[2 * N_X] += kinetic_energy(run, p) - before;
+    run->y[2 * N_X] += compute_kinetic_energy(run, p) - before;
 }
 
 /* Return whether the error norm of a step is not finite. */
@@ -207,6 +207,6 @@ static int finish_step(Integrator *run, Step *step, const Parameters *p)
         && run->control.attempt.n_drift_rejections++ < MAX_DRIFT_REJECTIONS)
         step->error = max_of(step->error, constraint_distance);
     project_closed_contacts(run, step->t + step->h, step->y, p);
-    const int status = evaluate_rates_at_rest(run, step->t + step->h, step->y, p, step->dy, &step->rhs);
+    const int status = evaluate_rates_without_residual_slips(run, step->t + step->h, step->y, p, step->dy, &step->rhs);
     return status ? status : all_finite(step->dy, N_Y) ? 0 : NOT_FINITE;
 }

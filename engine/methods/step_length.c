@@ -170,7 +170,7 @@ static double compute_error_order(const Integrator *run, const Step *step)
 }
 
 /* Return x^n for x > 0 with a relative error of 1e-4, which is enough for step lengths. */
-static double approximate_power(double x, double n) { return rough_exp2(n * rough_log2(x)); }
+static double approximate_power(double x, double n) { return approx_exp2(n * approx_log2(x)); }
 
 /* Return the error norm of a step, at least MIN_ERROR, so that a length can be computed from it. */
 static double get_bounded_error(const Step *step) { return max_of(MIN_ERROR, step->error); }
@@ -241,8 +241,8 @@ static void choose_next_length(Integrator *run, const Step *step, int was_reject
         return;
     }
     const double error = get_bounded_error(step), power = step->method->power;
-    double factor = SAFETY * rough_exp2(power
-        * (LAST_ERROR_EXPONENT * rough_log2(run->control.error_before) - ERROR_EXPONENT * rough_log2(error)));
+    double factor = SAFETY * approx_exp2(power
+        * (LAST_ERROR_EXPONENT * approx_log2(run->control.error_before) - ERROR_EXPONENT * approx_log2(error)));
     const double known = run->choice.since <= PATIENCE ? run->choice.rate * step->h : 0.0;
     const double stability = max_of(run->choice.stability, known);
     if (!step->method->stiff && stability > 1.0)
@@ -382,7 +382,7 @@ static int is_step_accepted(Integrator *run, int trial_status, const Parameters 
     const int is_good = !trial_status && step->error <= run->control.accept;
     const double min_length = MIN_STEP_FRACTION * attempt->far;
     if (is_good && !method->stiff && run->choice.stability > method->unstable) {
-        count_rejected(run);
+        count_rejected_step(run);
         if (run->choice.automatic && !attempt->methods_failed)
             change_method(run);
         else
@@ -391,15 +391,15 @@ static int is_step_accepted(Integrator *run, int trial_status, const Parameters 
     }
     if (is_good && FLIGHT_STEP_SLACK * compute_flight_step_limit(run, step, p) < attempt->h) {
         attempt->again = 1;
-        count_rejected(run);
+        count_rejected_step(run);
         attempt->h *= SHRINK_FLIGHT_STEP;
         return prepare_retry(run);
     }
-    const int unresolved = is_good && is_unresolved(run, step, p);
+    const int unresolved = is_good && is_step_unresolved(run, step, p);
     if (is_good && (unresolved || has_unresolved_film_force(run, step, end_error))
         && attempt->n_shortened++ < MAX_SHORTENED) {
         attempt->again = 1;
-        count_rejected(run);
+        count_rejected_step(run);
         attempt->h *= SHRINK_UNRESOLVED;
         return prepare_retry(run);
     }
@@ -407,7 +407,7 @@ static int is_step_accepted(Integrator *run, int trial_status, const Parameters 
         ? find_missed_transient(run, step, p) : 0.0;
     if (transient > 0.0 && attempt->n_shortened++ < MAX_SHORTENED) {
         attempt->again = 1;
-        count_rejected(run);
+        count_rejected_step(run);
         attempt->h *= max_of(SHRINK_UNRESOLVED, TRANSIENT_PART * transient);
         return prepare_retry(run);
     }
@@ -418,7 +418,7 @@ static int is_step_accepted(Integrator *run, int trial_status, const Parameters 
         return 1;
     }
     attempt->again = 1;
-    count_rejected(run);
+    count_rejected_step(run);
     attempt->h *= trial_status == NOT_FOUND ? SHRINK_NEWTON : trial_status ? SHRINK_FAILED
         : compute_shrink_factor(run, step);
     if (attempt->h > min_length)

@@ -41,7 +41,7 @@ static int expand_series(Integrator *run, const Parameters *p)
 {
     if (run->series.ready == IN_RUN)
         return 0;
-    const int n = run->series.order, status = taylor_series(run->t, run->y, p, n, run->series.terms);
+    const int n = run->series.order, status = compute_taylor_series(run->t, run->y, p, n, run->series.terms);
     if (status)
         return status;
     count_evaluations(run, run->series.ready != IN_LANE);

@@ -2,7 +2,7 @@
  * Right-hand side of scenes with driven loops, whose coordinates are functions of time. Without driven loops, this file
  * only calls the functions of the scene.
  */
-#if N_CHAIN
+#if N_DEPENDENT
 /*
  * Compute the rates dy of the integrated state y: independent tree coordinates, their rates, works. Return 0 or a
  * status. Coordinates of driven loops are not in y: they are solved for at time t.
@@ -13,7 +13,7 @@ int evaluate_rhs(double t, const double *y, DiscreteState *discrete, const Param
     int status = build_tree_state(t, y, discrete, p, &tree);
     if (status)
         return status;
-#if !SMOOTH_CHAINS
+#if !SMOOTH_DRIVEN_LOOPS
     loop_switches(t, tree.q, discrete, p, rhs->g);
 #endif
 #ifdef N_IDLE
@@ -38,7 +38,7 @@ int evaluate_contacts(double t, const double *y, DiscreteState *discrete, const 
     const int status = build_tree_state(t, y, discrete, p, &tree);
     if (status)
         return status;
-#if !SMOOTH_CHAINS
+#if !SMOOTH_DRIVEN_LOOPS
     loop_switches(t, tree.q, discrete, p, rhs->g);
 #endif
     return reduced_dynamics(t, tree.q, tree.v, discrete, p, NULL, rhs);
@@ -53,7 +53,7 @@ static void extrapolate_flat_loops(
     double t, const double *y, const DiscreteState *discrete, const Parameters *p, TreeState *tree)
 {
     double fastest = 1e-300;
-    for (int k = 0; k < N_CHAIN; k++)
+    for (int k = 0; k < N_DEPENDENT; k++)
         fastest = max_of(fastest, fabs(discrete->chain.v[k]));
     for (double e = 1e-7; e < 0.05; e *= 10.0)
         for (int branch = -1; branch <= 1; branch += 2) {
@@ -61,11 +61,11 @@ static void extrapolate_flat_loops(
             DiscreteState now = *discrete;
             if (build_tree_state(t - h, y, &now, p, tree))
                 continue;
-            for (int k = 0; k < N_CHAIN; k++) {
-                tree->q[N_X + k] += h * (tree->v[N_X + k] + 0.5 * h * tree->v[N_X + N_CHAIN + k]);
-                tree->v[N_X + k] += h * tree->v[N_X + N_CHAIN + k];
+            for (int k = 0; k < N_DEPENDENT; k++) {
+                tree->q[N_X + k] += h * (tree->v[N_X + k] + 0.5 * h * tree->v[N_X + N_DEPENDENT + k]);
+                tree->v[N_X + k] += h * tree->v[N_X + N_DEPENDENT + k];
             }
-            chain_directions(t, tree->q, discrete, p, tree->q);
+            evaluate_loop_directions(t, tree->q, discrete, p, tree->q);
             return;
         }
     restore_driven_loops(&discrete->chain, tree);
@@ -128,7 +128,7 @@ int linearize_state(double t, const double *y, DiscreteState *discrete, const Pa
     const int status = build_tree_state(t, y, discrete, p, &tree);
     if (status)
         return status;
-    chain_third(t, tree.q, tree.v, discrete, p, tree.v + N_X + 2 * N_CHAIN);
+    compute_third_loop_rates(t, tree.q, tree.v, discrete, p, tree.v + N_X + 2 * N_DEPENDENT);
     linearize(t, tree.q, tree.v, discrete, p, a, rhs, linear);
     return 0;
 }

@@ -101,16 +101,16 @@ int gudgeon_reduced_rescue(
 
 #endif
 /*
- * Solve the driven loops at time t from the guess in q (N_CHAIN), which is replaced, and compute three rates of each in
- * v (3 N_CHAIN). Return 0 or the number of a closure that cannot be solved.
+ * Solve the driven loops at time t from the guess in q (N_DEPENDENT), which is replaced, and compute three rates of
+ * each in v (3 N_DEPENDENT). Return 0 or the number of a closure that cannot be solved.
  */
-int gudgeon_chains(double t, double *q, const double *p, double *v)
+int gudgeon_driven_loops(double t, double *q, const double *p, double *v)
 {
     DiscreteState now = {0};
     solve_driven_loops(t, q, &now, (const Parameters *)p);
-    for (int k = 0; k < N_CHAIN; k++)
+    for (int k = 0; k < N_DEPENDENT; k++)
         q[k] = now.chain.q[k];
-    for (int k = 0; k < 3 * N_CHAIN; k++)
+    for (int k = 0; k < 3 * N_DEPENDENT; k++)
         v[k] = now.chain.v[k];
     return now.chain.failed;
 }

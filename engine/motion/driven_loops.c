@@ -20,24 +20,24 @@ enum { MAX_LOOP_ITERATIONS = 8, MAX_LOOP_PARTS = 60, FLAT_NODES = 4 };
 static int solve_loop_closures(double t, double *q, const DiscreteState *discrete, const Parameters *p,
     double *step_sum)
 {
-    double step[N_CHAIN], second_step[N_CHAIN];
+    double step[N_DEPENDENT], second_step[N_DEPENDENT];
     int row = 1;
     *step_sum = 0.0;
-    chain_directions(t, q, discrete, p, q);
+    evaluate_loop_directions(t, q, discrete, p, q);
     for (int i = 0; i < MAX_LOOP_ITERATIONS; i++) {
         double size = 0.0, second_size = 0.0, sum = 0.0;
-        const int status = chain_step(t, q, discrete, p, step, second_step, &row);
+        const int status = compute_loop_step(t, q, discrete, p, step, second_step, &row);
         if (status)
             return status;
-        for (int k = 0; k < N_CHAIN; k++) {
-            size = max_of(size, fabs(step[k]) * chain_share(p, k));
-            second_size = max_of(second_size, fabs(second_step[k]) * chain_share(p, k));
+        for (int k = 0; k < N_DEPENDENT; k++) {
+            size = max_of(size, fabs(step[k]) * get_loop_step_scale(p, k));
+            second_size = max_of(second_size, fabs(second_step[k]) * get_loop_step_scale(p, k));
             sum += step[k];
             q[N_X + k] -= step[k];
         }
         *step_sum += size;
         if (size > TURN_SMALL) {
-            chain_directions(t, q, discrete, p, q);
+            evaluate_loop_directions(t, q, discrete, p, q);
         } else {
             turn_directions(q, step, p);
         }
@@ -51,23 +51,23 @@ static int solve_loop_closures(double t, double *q, const DiscreteState *discret
 }
 
 /* Store the driven loops' coordinates and two rates at time t from `tree` in `loops`. */
-static inline void store_driven_loops(double t, const TreeState *tree, Chain *loops)
+static inline void store_driven_loops(double t, const TreeState *tree, DrivenLoops *loops)
 {
     loops->t = t;
     for (int k = 0; k < N_LED; k++)
         loops->q[k] = tree->q[N_X + k];
-    for (int k = 0; k < 2 * N_CHAIN; k++)
+    for (int k = 0; k < 2 * N_DEPENDENT; k++)
         loops->v[k] = tree->v[N_X + k];
 }
 
 /*
  * Copy stored coordinates and two rates of the driven loops to `tree`; third rates are computed where they are needed.
  */
-static void restore_driven_loops(const Chain *stored_loops, TreeState *tree)
+static void restore_driven_loops(const DrivenLoops *stored_loops, TreeState *tree)
 {
     for (int k = 0; k < N_LED; k++)
         tree->q[N_X + k] = stored_loops->q[k];
-    for (int k = 0; k < 2 * N_CHAIN; k++)
+    for (int k = 0; k < 2 * N_DEPENDENT; k++)
         tree->v[N_X + k] = stored_loops->v[k];
 }
 
@@ -75,15 +75,15 @@ static void restore_driven_loops(const Chain *stored_loops, TreeState *tree)
  * Return the largest difference of the driven loops' positions in tree_after from their Euler-Maclaurin integral from
  * loops_before, h (s) earlier. In rad; lengths are divided by the size of the mechanism.
  */
-static double compute_loop_position_error(double h, const Chain *loops_before, const TreeState *tree_after,
+static double compute_loop_position_error(double h, const DrivenLoops *loops_before, const TreeState *tree_after,
     const Parameters *p)
 {
-    const double *q = tree_after->q + N_X, *rate = tree_after->v + N_X, *second = rate + N_CHAIN;
+    const double *q = tree_after->q + N_X, *rate = tree_after->v + N_X, *second = rate + N_DEPENDENT;
     double most = 0.0;
-    for (int k = 0; k < N_CHAIN; k++) {
+    for (int k = 0; k < N_DEPENDENT; k++) {
         const double distance = 0.5 * h * (loops_before->v[k] + rate[k]
-            + (1.0 / 6.0) * h * (loops_before->v[N_CHAIN + k] - second[k]));
-        most = max_of(most, chain_share(p, k) * fabs(q[k] - loops_before->q[k] - distance));
+            + (1.0 / 6.0) * h * (loops_before->v[N_DEPENDENT + k] - second[k]));
+        most = max_of(most, get_loop_step_scale(p, k) * fabs(q[k] - loops_before->q[k] - distance));
     }
     return most;
 }
@@ -93,16 +93,17 @@ static double compute_loop_position_error(double h, const Chain *loops_before, c
  * number of a closure if they cannot be solved or the branch is not certain. The branch is certain if the move is short
  * and the positions agree with the integral of the rates.
  */
-static int advance_driven_loops(double t, const Chain *loops_before, const DiscreteState *discrete,
+static int advance_driven_loops(double t, const DrivenLoops *loops_before, const DiscreteState *discrete,
     const Parameters *p, TreeState *tree)
 {
-    const double h = t - loops_before->t, *rate = loops_before->v, *second = rate + N_CHAIN, *third = second + N_CHAIN;
+    const double h = t - loops_before->t, *rate = loops_before->v;
+    const double *second = rate + N_DEPENDENT, *third = second + N_DEPENDENT;
     double step_sum;
-    for (int k = 0; k < N_CHAIN; k++)
+    for (int k = 0; k < N_DEPENDENT; k++)
         tree->q[N_X + k] = loops_before->q[k] + h * (rate[k] + 0.5 * h * (second[k] + (1.0 / 3.0) * h * third[k]));
     int status = solve_loop_closures(t, tree->q, discrete, p, &step_sum);
     if (!status)
-        status = chain_rates(t, tree->q, discrete, p, tree->v);
+        status = compute_loop_rates(t, tree->q, discrete, p, tree->v);
     if (status)
         return status;
     return step_sum <= MAX_LOOP_MOVE
@@ -115,7 +116,7 @@ static int advance_driven_loops(double t, const Chain *loops_before, const Discr
  */
 static int follow_driven_loops_in_parts(double t, const DiscreteState *discrete, const Parameters *p, TreeState *tree)
 {
-    Chain start = discrete->chain;
+    DrivenLoops start = discrete->chain;
     double h = 0.5 * (t - start.t);
     int status = 1;
     for (int part = 0; part < MAX_LOOP_PARTS; part++) {
@@ -129,11 +130,11 @@ static int follow_driven_loops_in_parts(double t, const DiscreteState *discrete,
             continue;
         }
         start.t = next;
-        for (int k = 0; k < N_CHAIN; k++)
+        for (int k = 0; k < N_DEPENDENT; k++)
             start.q[k] = tree->q[N_X + k];
-        for (int k = 0; k < 2 * N_CHAIN; k++)
+        for (int k = 0; k < 2 * N_DEPENDENT; k++)
             start.v[k] = tree->v[N_X + k];
-        chain_third(next, tree->q, tree->v, discrete, p, start.v + 2 * N_CHAIN);
+        compute_third_loop_rates(next, tree->q, tree->v, discrete, p, start.v + 2 * N_DEPENDENT);
         h *= 2.0;
     }
     return status ? status : 1;
@@ -144,16 +145,16 @@ static int follow_driven_loops_in_parts(double t, const DiscreteState *discrete,
  * time pass through regular states before and after; the result is in `loops`, without directions. Return 0, or
  * nonzero if nothing moves, a node cannot be solved or the polynomials do not agree.
  */
-static int interpolate_flat_loops(double t, const DiscreteState *discrete, const Parameters *p, Chain *loops)
+static int interpolate_flat_loops(double t, const DiscreteState *discrete, const Parameters *p, DrivenLoops *loops)
 {
-    double fastest = 0.0, lower[N_CHAIN];
+    double fastest = 0.0, lower[N_DEPENDENT];
     int status = discrete->chain.failed;
-    for (int k = 0; k < N_CHAIN; k++)
-        fastest = max_of(fastest, fabs(discrete->chain.v[k]) * chain_share(p, k));
+    for (int k = 0; k < N_DEPENDENT; k++)
+        fastest = max_of(fastest, fabs(discrete->chain.v[k]) * get_loop_step_scale(p, k));
     if (status || !(fastest > 0.0))
         return 1;
-    *loops = (Chain){.t = t};
-    for (int i = 0; i < N_CHAIN; i++)
+    *loops = (DrivenLoops){.t = t};
+    for (int i = 0; i < N_DEPENDENT; i++)
         lower[i] = 0.0;
     for (int j = 0; j < 2 * FLAT_NODES && !status; j++) {
         const int k = j / 2 + 1;
@@ -162,16 +163,16 @@ static int interpolate_flat_loops(double t, const DiscreteState *discrete, const
         if (advance_driven_loops(t_node, &discrete->chain, discrete, p, &tree))
             status = follow_driven_loops_in_parts(t_node, discrete, p, &tree);
         if (!status)
-            status = chain_third(t_node, tree.q, tree.v, discrete, p, tree.v + N_X + 2 * N_CHAIN);
-        for (int i = 0; i < N_CHAIN && !status; i++) {
+            status = compute_third_loop_rates(t_node, tree.q, tree.v, discrete, p, tree.v + N_X + 2 * N_DEPENDENT);
+        for (int i = 0; i < N_DEPENDENT && !status; i++) {
             loops->q[i] += compute_lagrange_weight(FLAT_NODES, k) * tree.q[N_X + i];
             lower[i] += k < FLAT_NODES ? compute_lagrange_weight(FLAT_NODES - 1, k) * tree.q[N_X + i] : 0.0;
         }
-        for (int i = 0; i < 3 * N_CHAIN && !status; i++)
+        for (int i = 0; i < 3 * N_DEPENDENT && !status; i++)
             loops->v[i] += compute_lagrange_weight(FLAT_NODES, k) * tree.v[N_X + i];
     }
-    for (int i = 0; i < N_CHAIN && !status; i++)
-        status = !(fabs(loops->q[i] - lower[i]) * chain_share(p, i) <= FLAT_TOL);
+    for (int i = 0; i < N_DEPENDENT && !status; i++)
+        status = !(fabs(loops->q[i] - lower[i]) * get_loop_step_scale(p, i) <= FLAT_TOL);
     return status;
 }
 
@@ -182,11 +183,11 @@ static int interpolate_flat_loops(double t, const DiscreteState *discrete, const
  */
 static int accept_driven_loops(double t, const TreeState *tree, DiscreteState *discrete, const Parameters *p)
 {
-    Chain loops = {0}, flat;
+    DrivenLoops loops = {0}, flat;
     store_driven_loops(t, tree, &loops);
-    loops.failed = chain_third(t, tree->q, tree->v, discrete, p, loops.v + 2 * N_CHAIN);
+    loops.failed = compute_third_loop_rates(t, tree->q, tree->v, discrete, p, loops.v + 2 * N_DEPENDENT);
     if (loops.failed && !interpolate_flat_loops(t, discrete, p, &flat)) {
-        for (int k = N_CHAIN; k < N_LED; k++)
+        for (int k = N_DEPENDENT; k < N_LED; k++)
             flat.q[k] = loops.q[k];
         loops = flat;
     }
@@ -203,7 +204,7 @@ static inline int follow_driven_loops(double t, const DiscreteState *discrete, c
 {
     if (discrete->chain.failed)
         return discrete->chain.failed;
-#if SMOOTH_CHAINS
+#if SMOOTH_DRIVEN_LOOPS
     if (discrete->recent.t == t) {
         restore_driven_loops(&discrete->recent, tree);
         return 0;
@@ -212,11 +213,11 @@ static inline int follow_driven_loops(double t, const DiscreteState *discrete, c
     if (!advance_driven_loops(t, &discrete->chain, discrete, p, tree))
         return 0;
     const int status = follow_driven_loops_in_parts(t, discrete, p, tree);
-    Chain flat;
+    DrivenLoops flat;
     if (!status || interpolate_flat_loops(t, discrete, p, &flat))
         return status;
     restore_driven_loops(&flat, tree);
-    chain_directions(t, tree->q, discrete, p, tree->q);
+    evaluate_loop_directions(t, tree->q, discrete, p, tree->q);
     return 0;
 }
 
@@ -229,7 +230,7 @@ static inline int build_tree_state(double t, const double *y, DiscreteState *dis
     TreeState *tree)
 {
     const int status = follow_driven_loops(t, discrete, p, tree);
-#if SMOOTH_CHAINS
+#if SMOOTH_DRIVEN_LOOPS
     if (!status && discrete->recent.t != t)
         store_driven_loops(t, tree, &discrete->recent);
 #endif
@@ -241,18 +242,18 @@ static inline int build_tree_state(double t, const double *y, DiscreteState *dis
 }
 
 /*
- * Solve the driven loops at time t from a guess of their coordinates (N_CHAIN), and store them in `discrete`. They are
- * followed from there. A failure is stored in discrete->chain.failed.
+ * Solve the driven loops at time t from a guess of their coordinates (N_DEPENDENT), and store them in `discrete`. They
+ * are followed from there. A failure is stored in discrete->chain.failed.
  */
 void solve_driven_loops(double t, const double *guess, DiscreteState *discrete, const Parameters *p)
 {
     TreeState tree = {0};
     double step_sum;
-    for (int k = 0; k < N_CHAIN; k++)
+    for (int k = 0; k < N_DEPENDENT; k++)
         tree.q[N_X + k] = guess[k];
     int status = solve_loop_closures(t, tree.q, discrete, p, &step_sum);
     if (!status)
-        status = chain_rates(t, tree.q, discrete, p, tree.v);
+        status = compute_loop_rates(t, tree.q, discrete, p, tree.v);
     const int last = accept_driven_loops(t, &tree, discrete, p);
     discrete->chain.failed = status ? status : last;
 }

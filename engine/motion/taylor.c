@@ -12,7 +12,7 @@ typedef double SeriesRow __attribute__((vector_size(REGISTER)));
  * Compute coefficients[k], k = 0 ... order, of the Taylor series of the integrated state at time t, where it is y.
  * Return 0 or the number of the pivot that vanished; then only coefficients[0] is valid.
  */
-int taylor_series(double t, const double *y, const Parameters *p, int order, double (*coefficients)[TAYLOR_Y])
+int compute_taylor_series(double t, const double *y, const Parameters *p, int order, double (*coefficients)[TAYLOR_Y])
 {
     SeriesRow (*const factors)[TAYLOR_ORDERS][SERIES_ROWS] = get_series_factors();
     TaylorValues at;

@@ -27,7 +27,7 @@ static int is_above_uncertainty(Integrator *run, double t, const double *y, cons
  * Return a pseudo-random number in (0, 1) and advance the generator in `audit`. The linear congruential sequence is the
  * same in every run. Used to select the steps and states that are checked inside.
  */
-static double draw_random(Audit *audit)
+static double draw_random_number(Audit *audit)
 {
     audit->random = audit->random * 1664525u + 1013904223u;
     return ((audit->random >> 8) + 0.5) / 16777216.0;
@@ -180,8 +180,8 @@ static int is_comparison_ill_conditioned(Integrator *run, double t, const double
     const double size = get_mechanism_size(run);
     for (int k = 0; k < N_Y; k++)
         state[k] = k < N_X
-            ? y[k] + AUDIT_CLOSURE * (is_angle[k] ? 1.0 : size) * (2.0 * draw_random(&run->audit) - 1.0) : y[k];
-    const double t_perturbed = N_CHAIN ? t * (1.0 - AUDIT_CLOSED * DBL_EPSILON) : t;
+            ? y[k] + AUDIT_CLOSURE * (is_angle[k] ? 1.0 : size) * (2.0 * draw_random_number(&run->audit) - 1.0) : y[k];
+    const double t_perturbed = N_DEPENDENT ? t * (1.0 - AUDIT_CLOSED * DBL_EPSILON) : t;
     convert_to_absolute(t_perturbed, state, &run->discrete, p, absolute_state);
     if (compute_absolute_accelerations(t_perturbed, absolute_state, &run->discrete, p, a_perturbed, &force))
         return 1;

@@ -68,7 +68,7 @@ static int audit_state(Integrator *run, int n_events_before, const Parameters *p
         return 0;
     check_constraint_residuals(run);
     check_open_gaps(run, run->t, &run->rhs, p);
-#if N_CHAIN
+#if N_DEPENDENT
     double absolute_state[N_S];
     convert_to_absolute(run->t, run->y, &run->discrete, p, absolute_state);
     check_constraints(run, run->t, absolute_state, 0, p);

@@ -111,7 +111,7 @@ static void toggle_contact_or_branch(Integrator *run, int event_function, const 
  */
 static double compute_initial_energy_scale(const Integrator *run, const Parameters *p)
 {
-    double m[N_Q], sum = kinetic_energy(run, p);
+    double m[N_Q], sum = compute_kinetic_energy(run, p);
     mass_matrix(p, m);
     for (int k = 0; k < N_Q; k++)
         sum += 0.5 * m[k] * run->norm.speed_floor[k % 3 == 2] * run->norm.speed_floor[k % 3 == 2];
@@ -186,9 +186,9 @@ static int apply_drive_jump(Integrator *run, int switch_index, const Parameters 
     int status = update_branches_just_after(run, t_after, switch_index, p);
     if (status)
         return status;
-    const double energy_before = kinetic_energy(run, p);
+    const double energy_before = compute_kinetic_energy(run, p);
     apply_drive_impulse(run, p);
-    if (kinetic_energy(run, p) == energy_before)
+    if (compute_kinetic_energy(run, p) == energy_before)
         return update_branches(run, switch_index, p);
     status = update_branches_just_after(run, t_after, switch_index, p); /* branches that depend on the changed speeds */
     if (!status)
@@ -207,13 +207,13 @@ static int apply_drive_jumps_now(Integrator *run, const Parameters *p)
     int has_changed = 0;
     for (int k = 0; k < N_SWITCHES; k++)
         branches_before[k] = run->discrete.branch[k];
-    int status = update_branches_just_after(run, just_after(run->t), -1, p);
+    int status = update_branches_just_after(run, get_time_just_after(run->t), -1, p);
     for (int k = 0; k < N_SWITCHES; k++)
         has_changed |= branches_before[k] != run->discrete.branch[k];
     if (status || !has_changed)
         return status;
     apply_drive_impulse(run, p);
-    status = update_branches_just_after(run, just_after(run->t), -1, p);
+    status = update_branches_just_after(run, get_time_just_after(run->t), -1, p);
     if (!status)
         status = evaluate_run_rhs(run, run->t, run->y, p, run->dy, &run->rhs);
     if (!status)
@@ -266,7 +266,7 @@ static void record_onset_forces(Integrator *run)
 static int apply_event(Integrator *run, int event, const Parameters *p)
 {
     double values_before[AT_LEAST_ONE(N_USER_EVENTS)], branches_before[AT_LEAST_ONE(N_SWITCHES)];
-    const StateBeforeEvent state_before = copy_before_event(run);
+    const StateBeforeEvent state_before = copy_state_before_event(run);
     memcpy(branches_before, run->discrete.branch, sizeof branches_before);
     for (int i = 0; i < N_USER_EVENTS; i++)
         values_before[i] = run->rhs.event[i];

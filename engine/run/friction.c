@@ -173,7 +173,7 @@ static inline double evaluate_friction_event_function(const DiscreteState *discr
 }
 
 /* Evaluate the right-hand side: the scene has no sticking friction whose slip must be removed. Return a status. */
-static inline int evaluate_rates_at_rest(
+static inline int evaluate_rates_without_residual_slips(
     Integrator *run, double t, double *y, const Parameters *p, double *dy, RhsOutputs *rhs)
 {
     return evaluate_run_rhs(run, t, y, p, dy, rhs);

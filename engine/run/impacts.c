@@ -58,7 +58,7 @@ static double compute_flight_step_limit(const Integrator *run, const Step *step,
 static int compute_present_delassus(Integrator *run, const Parameters *p, Delassus *contacts)
 {
     count_evaluations(run, 1 + contacts->n);
-    return compute_delassus(motion_with_inner_states, N_Y, run->t, run->y, &run->discrete, p, contacts);
+    return compute_delassus(evaluate_motion_with_inner_states, N_Y, run->t, run->y, &run->discrete, p, contacts);
 }
 
 /*
@@ -69,7 +69,7 @@ static int compute_present_delassus(Integrator *run, const Parameters *p, Delass
 static void apply_impulses(Integrator *run, const Delassus *impact, const double *impulse, const double *approach_speed,
     const FrictionImpulses *friction, const Parameters *p)
 {
-    const double energy = kinetic_energy(run, p);
+    const double energy = compute_kinetic_energy(run, p);
     double dissipated = 0.0;
     for (int k = 0; k < impact->n; k++) {
         double speed_change = 0.0;
@@ -81,7 +81,7 @@ static void apply_impulses(Integrator *run, const Delassus *impact, const double
     }
     dissipated += apply_friction_impulses(friction, impulse, run->y);
     run->y[2 * N_X + 2] -= dissipated;
-    run->y[2 * N_X] += kinetic_energy(run, p) - energy
+    run->y[2 * N_X] += compute_kinetic_energy(run, p) - energy
         + dissipated; /* work of drives, which keep their motion */
 }
 
@@ -184,7 +184,7 @@ static int update_closed_contacts(Integrator *run, int opening_joint, const Para
  */
 static int separate_contacts(Integrator *run, const Parameters *p)
 {
-    const double energy = kinetic_energy(run, p);
+    const double energy = compute_kinetic_energy(run, p);
     double distance = compute_gap_rounding(run, p);
     int status = 0, has_contact = 1;
     for (int pass = 0; pass < MAX_SEPARATIONS && has_contact && !status; pass++, distance *= 4.0) {
@@ -203,7 +203,7 @@ static int separate_contacts(Integrator *run, const Parameters *p)
         for (int i = 0; i < N_CLEARANCES && touching.n; i++)
             has_contact |= !is_compliant(i) && !run->discrete.contact[i].closed && !(run->rhs.clearance[i].delta < 0.0);
     }
-    run->y[2 * N_X + 2] += kinetic_energy(run, p) - energy; /* of separations slower than the threshold */
+    run->y[2 * N_X + 2] += compute_kinetic_energy(run, p) - energy; /* of separations slower than the threshold */
     return status;
 }
 

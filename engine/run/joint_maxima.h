@@ -42,19 +42,19 @@ static inline void update_joint_peaks(Integrator *run, int joint)
     const double F = compute_force_magnitude(clearance);
     const int closed = is_closed(&run->discrete.contact[joint]), higher = F > run->contacts.F_peak[joint];
     run->contacts.e_max[joint] = max_of(clearance->e, run->contacts.e_max[joint]);
-    run->contacts.F_peak[joint] = pick(higher, F, run->contacts.F_peak[joint]);
-    run->contacts.t_peak[joint] = pick(higher, run->t, run->contacts.t_peak[joint]);
+    run->contacts.F_peak[joint] = select_value(higher, F, run->contacts.F_peak[joint]);
+    run->contacts.t_peak[joint] = select_value(higher, run->t, run->contacts.t_peak[joint]);
     if (!closed)
         return;
     const int highest = closed & (F > run->contacts.open[joint].F_peak);
-    run->contacts.open[joint].F_peak = pick(highest, F, run->contacts.open[joint].F_peak);
-    run->contacts.open[joint].t_peak = pick(highest, run->t, run->contacts.open[joint].t_peak);
+    run->contacts.open[joint].F_peak = select_value(highest, F, run->contacts.open[joint].F_peak);
+    run->contacts.open[joint].t_peak = select_value(highest, run->t, run->contacts.open[joint].t_peak);
     if (!is_compliant(joint))
         return; /* rigid contacts have no rate */
     const double ratio = clearance->deltadot / run->discrete.contact[joint].deltadot_minus;
     const int outside = (ratio < -1.0) | (ratio > 1.0);
-    run->contacts.ratio_min = pick(closed & (ratio < run->contacts.ratio_min), ratio, run->contacts.ratio_min);
-    run->contacts.ratio_max = pick(closed & (ratio > run->contacts.ratio_max), ratio, run->contacts.ratio_max);
+    run->contacts.ratio_min = select_value(closed & (ratio < run->contacts.ratio_min), ratio, run->contacts.ratio_min);
+    run->contacts.ratio_max = select_value(closed & (ratio > run->contacts.ratio_max), ratio, run->contacts.ratio_max);
     const double more = run->contacts.ratio_outside + 1.0;
-    run->contacts.ratio_outside = pick(closed & outside, more, run->contacts.ratio_outside);
+    run->contacts.ratio_outside = select_value(closed & outside, more, run->contacts.ratio_outside);
 }

@@ -125,7 +125,7 @@ static int is_force_monotone(Step *step, double fraction, int joint, double forc
         falls += slope + 0.5 * bend * w < 0.0;
     }
     return fraction == 1.0 && !step->method->stiff && n >= MIN_STAGES && (rises == n - 1 || falls == n - 1)
-        && !may_oscillate_between_stages(step, all, n, p);
+        && !may_terms_oscillate_between_stages(step, all, n, p);
 }
 
 /*
@@ -154,7 +154,7 @@ static void find_rigid_peak(
         const double top = bend < 0.0 && fabs(slope) < -bend ? now.middle.f - 0.5 * slope * slope / bend
             : max_of(from.f, now.end.f);
         const int is_clear = !(top + now.error > largest_known)
-            && !may_oscillate_between(step, from.s, now.end.s, p);
+            && !may_terms_oscillate_between(step, from.s, now.end.s, p);
         if (is_clear || n > MAX_BISECTIONS || samples > MAX_FORCE_SAMPLES) {
             from = now.end;
             n--;

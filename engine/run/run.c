@@ -10,7 +10,7 @@
  * `discrete`. Inner states are copied from y into the contact states; their rates follow the works in dy. Return 0 or
  * the status.
  */
-static int motion_with_inner_states(
+static int evaluate_motion_with_inner_states(
     double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dy, RhsOutputs *rhs)
 {
     copy_inner_states(discrete, y);
@@ -38,9 +38,9 @@ static int evaluate_run_rhs(
     int joint[N_RIGID];
     const int n = list_closed_contacts(&run->discrete, joint);
     count_evaluations(run, n ? n + 1 : 0);
-    return rates_in_contact(motion_with_inner_states, N_Y, t, y, &run->discrete, p, dy, rhs);
+    return compute_rates_in_contact(evaluate_motion_with_inner_states, N_Y, t, y, &run->discrete, p, dy, rhs);
 #else
-    return motion_with_inner_states(t, y, &run->discrete, p, dy, rhs);
+    return evaluate_motion_with_inner_states(t, y, &run->discrete, p, dy, rhs);
 #endif
 }
 
@@ -139,7 +139,7 @@ static int update_branches_at(
 }
 
 /* Return the kinetic energy of all bodies at the present state, J. */
-static double kinetic_energy(const Integrator *run, const Parameters *p)
+static double compute_kinetic_energy(const Integrator *run, const Parameters *p)
 {
     double mass[N_Q], absolute_state[N_S], sum = 0.0;
     mass_matrix(p, mass);

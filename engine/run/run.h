@@ -353,7 +353,7 @@ typedef struct {
 } EventStates;
 
 /* Return the states at the listed user-defined events, which follow the Integrator in memory. */
-static inline EventStates *event_states(Integrator *run) { return (EventStates *)(run + 1); }
+static inline EventStates *get_event_states(Integrator *run) { return (EventStates *)(run + 1); }
 #endif
 
 #endif

@@ -71,7 +71,7 @@ static int remove_slip_residuals(Integrator *run, double t, double *y, const Rhs
  * Evaluate the right-hand side at a state after removing residual slips of sticking friction from y. dy, rhs: the
  * result, at the changed y. Return 0 or a status. Called at states of the dense output and at ends of steps.
  */
-static int evaluate_rates_at_rest(
+static int evaluate_rates_without_residual_slips(
     Integrator *run, double t, double *y, const Parameters *p, double *dy, RhsOutputs *rhs)
 {
     const int status = evaluate_run_rhs(run, t, y, p, dy, rhs);
@@ -90,5 +90,5 @@ static void project_slips(Integrator *run, double t, double *y, const Parameters
     for (int i = 0; i < N_FRICTIONS; i++)
         has_stick |= run->discrete.mode[i] == 0.0;
     if (has_stick)
-        (void)evaluate_rates_at_rest(run, t, y, p, dy, &rhs);
+        (void)evaluate_rates_without_residual_slips(run, t, y, p, dy, &rhs);
 }

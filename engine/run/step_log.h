@@ -24,7 +24,7 @@ static inline void count_step(Integrator *run, int is_stiff)
 }
 
 /* Count a rejected step. */
-static inline void count_rejected(Integrator *run) { run->counts.rejected++; }
+static inline void count_rejected_step(Integrator *run) { run->counts.rejected++; }
 
 /* Count a linearization of the equations of motion. */
 static inline void count_jacobian(Integrator *run) { run->counts.jacobians++; }
@@ -39,7 +39,7 @@ static inline void set_phi_dot_max(Integrator *run, double phi_dot) { run->resid
  * Count the event function that ended a step (-1: none). is_at_beginning: whether it ended the step at its beginning;
  * such successive steps are counted as well.
  */
-static inline void record_step_end(Integrator *run, int event, int is_at_beginning)
+static inline void count_step_end(Integrator *run, int event, int is_at_beginning)
 {
     run->progress.no_advance = is_at_beginning ? run->progress.no_advance + 1 : 0;
     run->progress.ended[event < 0 ? N_EVENT_FUNCTIONS : event]++;

@@ -38,7 +38,7 @@ static void record_state(Integrator *run, double t, const double *y, const Param
 static void mark_jump(Integrator *run, int jumped) { run->step_record.jumped |= jumped; }
 
 /* Append the present state to the step record, marked as the state just after a jump. */
-static void record_after_jump(Integrator *run, const Parameters *p)
+static void record_state_after_jump(Integrator *run, const Parameters *p)
 {
     run->step_record.jumped = 1;
     record_state(run, run->t, run->y, p);

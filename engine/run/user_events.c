@@ -23,7 +23,7 @@ static inline void set_pole_flag(Integrator *run, int is_pole) { run->events.pol
 static int record_user_event(Integrator *run, int event, double t, const double *state_vector, const Parameters *p)
 {
 #if N_USER_EVENTS
-    EventStates *at = event_states(run);
+    EventStates *at = get_event_states(run);
     const double t_first = t - SAME_ZERO_RESOLUTIONS * run->roots.time_resolution;
     for (int k = run->events.n - 1; k >= 0 && run->events.t[k] >= t_first; k--)
         if (run->events.number[k] == event)
@@ -242,7 +242,7 @@ typedef struct {
  * Return a copy of the discrete state, state, rates and event functions of a run, before an event changes them. Called
  * by apply_event() for record_arrivals_at_zero().
  */
-static StateBeforeEvent copy_before_event(const Integrator *run)
+static StateBeforeEvent copy_state_before_event(const Integrator *run)
 {
     StateBeforeEvent copy = {.discrete = run->discrete};
     memcpy(copy.y, run->y, sizeof copy.y);
@@ -311,7 +311,7 @@ typedef struct {
 } StateBeforeEvent;
 
 /* Return a placeholder: nothing can hold an event function at zero in this scene. */
-static StateBeforeEvent copy_before_event(const Integrator *run) { return (void)run, (StateBeforeEvent){0}; }
+static StateBeforeEvent copy_state_before_event(const Integrator *run) { return (void)run, (StateBeforeEvent){0}; }
 
 /* Return 0: nothing can hold an event function at zero in this scene. */
 static int record_arrivals_at_zero(Integrator *run, const StateBeforeEvent *state_before, double duration,
@@ -339,7 +339,7 @@ int gudgeon_run_events(void *integrator, int capacity, double *t, int *event, do
         event[i] = run->events.number[i];
     }
 #if N_USER_EVENTS
-    EventStates *states = event_states(run);
+    EventStates *states = get_event_states(run);
     memcpy(y, states->y, (size_t)count * sizeof states->y[0]);
     memcpy(discrete, states->latched, (size_t)count * sizeof states->latched[0]);
     memcpy(codes, states->state, (size_t)count * sizeof states->state[0]);

@@ -39,5 +39,5 @@ static inline void record_end_stability(IntegratorOf *run, const StepOf *step, R
         change = real_max(real_abs(step->dy[i] - stage_rates[i]) * weight, change);
         distance = real_max(real_abs(step->y[i] - stage_y[i]) * weight, distance);
     }
-    record_stability(run, pick(distance > MIN_RESOLVED, h * change / distance, make_real(0.0)));
+    record_stability(run, select_value(distance > MIN_RESOLVED, h * change / distance, make_real(0.0)));
 }

@@ -116,7 +116,7 @@ static Real dop853_estimate_error(const IntegratorOf *run, const StepOf *step)
         error_3 = real_max(real_abs(sum_3) * weight, error_3);
     }
     const Real squares = error_5 * error_5 + 0.01 * error_3 * error_3;
-    return pick(squares > 0.0, real_abs(step->h) * error_5 * error_5 / real_sqrt(squares), error_5);
+    return select_value(squares > 0.0, real_abs(step->h) * error_5 * error_5 / real_sqrt(squares), error_5);
 }
 
 /*

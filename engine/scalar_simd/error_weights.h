@@ -9,7 +9,7 @@ static void update_energy_scale(IntegratorOf *run, Mask is_accepted, const Real 
 {
     for (int k = 2 * N_X; k < 2 * N_X + N_WORK; k++) {
         const Real energy = run->norm.energy_scale + real_abs(y[k] - run->y[k]);
-        run->norm.energy_scale = pick(is_accepted, energy, run->norm.energy_scale);
+        run->norm.energy_scale = select_value(is_accepted, energy, run->norm.energy_scale);
     }
 }
 

@@ -14,8 +14,8 @@ static void project_onto_constraints(IntegratorOf *run, Real t, Real *y, const P
         if (!any_of(is_active))
             return;
         for (int k = 0; k < N_X; k++) {
-            y[k] = pick(is_active, y[k] - dq[k], y[k]);
-            y[N_X + k] = pick(is_active, y[N_X + k] - dv[k], y[N_X + k]);
+            y[k] = select_value(is_active, y[k] - dq[k], y[k]);
+            y[N_X + k] = select_value(is_active, y[N_X + k] - dv[k], y[N_X + k]);
         }
         is_active &= invert_mask(residual < 1e-15);
         if (!any_of(is_active))

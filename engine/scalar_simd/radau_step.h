@@ -16,7 +16,7 @@ static void RADAU(guess_stages)(const IntegratorOf *run, Real h, Real (*z)[N_Y])
         for (int s = 0; s < RADAU_STAGES; s++) {
             const Real t = RADAU_TABLE.node[s] * h, x = t / H;
             const Real by_rates = i < N_X ? t * (run->dy[i] + 0.5 * t * run->dy[N_X + i]) : t * run->dy[i];
-            z[s][i] = pick(run->newton.continues, x * (d1 + x * (two + x * three)), by_rates);
+            z[s][i] = select_value(run->newton.continues, x * (d1 + x * (two + x * three)), by_rates);
         }
     }
 }
@@ -138,14 +138,14 @@ static int RADAU(solve_stages)(IntegratorOf *run, Real h, const ComplexLinearOf 
     Real force[AT_LEAST_ONE(N_CLEARANCES)][RADAU_STAGES][2] = {0};
     /* the convergence rate of an earlier step is less certain for this one: power 3/4 */
     const Real last_rate = real_sqrt(run->newton.convergence_rate) * real_sqrt(real_sqrt(run->newton.convergence_rate));
-    Real convergence_rate = pick(run->newton.convergence_rate > 0.0, last_rate, make_real(0.5));
+    Real convergence_rate = select_value(run->newton.convergence_rate > 0.0, last_rate, make_real(0.5));
     Real (*const z)[N_Y] = step->k;
     /* rounding bounds the accuracy of the stages; with fixed steps the iteration goes down to it */
     Real rounding = make_real(0.0);
     for (int i = 0; i < N_Y; i++)
         rounding = real_max(real_abs(run->y[i]) * run->norm.weight[i], rounding);
     rounding *= RADAU_ROUNDED;
-    const Real tolerance = pick(run->control.accept <= DBL_MAX, make_real(RADAU_STAGE_TOL), rounding);
+    const Real tolerance = select_value(run->control.accept <= DBL_MAX, make_real(RADAU_STAGE_TOL), rounding);
     const Real max_error = real_max(tolerance, rounding);
     Mask is_active = invert_mask((Mask){0});
     *has_failed = (Mask){0};
@@ -160,15 +160,15 @@ static int RADAU(solve_stages)(IntegratorOf *run, Real h, const ComplexLinearOf 
         Real distance = make_real(0.0);
         for (int s = 0; s < RADAU_STAGES; s++)
             for (int i = 0; i < N_Y; i++) {
-                z[s][i] = pick(is_active, z[s][i] + change[s][i], z[s][i]);
+                z[s][i] = select_value(is_active, z[s][i] + change[s][i], z[s][i]);
                 distance = real_max(real_abs(change[s][i]) * run->norm.weight[i], distance);
             }
-        distance = pick(is_active, distance, make_real(0.0));
+        distance = select_value(is_active, distance, make_real(0.0));
         if (is_error_not_finite(run, distance))
             return NOT_FINITE;
         Mask found = is_active & (distance <= rounding);
         if (pass > 0)
-            convergence_rate = pick(is_active & invert_mask(found), distance / before, convergence_rate);
+            convergence_rate = select_value(is_active & invert_mask(found), distance / before, convergence_rate);
         /* a film force is linear in the velocity by sectors of its direction: the first change may miss the sector */
         if (pass > has_films()) {
             /* the change no longer decreases */
@@ -179,10 +179,10 @@ static int RADAU(solve_stages)(IntegratorOf *run, Real h, const ComplexLinearOf 
         }
         found |= is_active & (convergence_rate * distance <= max_error * (1.0 - convergence_rate))
             & (convergence_rate * force_change <= run->newton.force_found * (1.0 - convergence_rate));
-        run->newton.convergence_rate = pick(found, real_max(convergence_rate, make_real(1e-3)),
+        run->newton.convergence_rate = select_value(found, real_max(convergence_rate, make_real(1e-3)),
             run->newton.convergence_rate);
         is_active &= invert_mask(found);
-        before = pick(is_active, distance, make_real(1.0));
+        before = select_value(is_active, distance, make_real(1.0));
     }
     *has_failed |= is_active;
     return 0;
@@ -239,7 +239,7 @@ static int RADAU(try_step)(IntegratorOf *run, Real h, const ParametersOf *p, Ste
         change = real_max(real_abs(inverse_h * u[i] - r[i]) * run->norm.weight[i], change);
         distance = real_max(real_abs(u[i]) * run->norm.weight[i], distance);
     }
-    record_stability(run, pick(distance > MIN_RESOLVED, h * change / distance, make_real(0.0)));
+    record_stability(run, select_value(distance > MIN_RESOLVED, h * change / distance, make_real(0.0)));
     const Mask large = step->error > run->control.accept;
     if (any_of(large)) { /* repeat at the state with the error: this filters stiff components */
         Real y[N_Y], dy[N_Y];
@@ -250,7 +250,7 @@ static int RADAU(try_step)(IntegratorOf *run, Real h, const ParametersOf *p, Ste
         if (status)
             return status;
         count_stage_evaluations(run, large, 1);
-        step->error = pick(large, RADAU(estimate_error)(run, h, dy, stage_sum, r, u), step->error);
+        step->error = select_value(large, RADAU(estimate_error)(run, h, dy, stage_sum, r, u), step->error);
     }
     if (is_error_not_finite(run, step->error))
         return NOT_FINITE;

@@ -28,7 +28,7 @@ enum { /* bytes of a vector register */
 #define ComplexLinearOf ComplexLinear
 
 /* Return a if the mask is true, else b; in lanes, the choice is made for each lane. */
-static inline double pick(int mask, double a, double b) { return mask ? a : b; }
+static inline double select_value(int mask, double a, double b) { return mask ? a : b; }
 /* Return the negation of a mask. */
 static inline int invert_mask(int mask) { return !mask; }
 /* Return whether a mask is true for any run. */
@@ -46,8 +46,8 @@ static inline double real_abs(double x) { return fabs(x); }
 /* Return the square root of x. */
 static inline double real_sqrt(double x) { return sqrt(x); }
 /* Return 2^x with a relative error of 1e-4. */
-static inline double real_exp2(double x) { return rough_exp2(x); }
+static inline double real_exp2(double x) { return approx_exp2(x); }
 /* Return log2 x with an error of 1e-4. */
-static inline double real_log2(double x) { return rough_log2(x); }
+static inline double real_log2(double x) { return approx_log2(x); }
 
 #endif

@@ -117,7 +117,7 @@ static int taylor_try_series_step(IntegratorOf *run, Real h, const ParametersOf 
         if (is_repeated || !any_of(is_large))
             break;
         const Real shorter = real_min(run->series.max_step, taylor_compute_max_length_by_all_terms(run));
-        run->series.max_step = pick(is_large, shorter, run->series.max_step);
+        run->series.max_step = select_value(is_large, shorter, run->series.max_step);
         h = real_min(h, run->series.max_step);
         uncount_end_evaluation(run);
     }

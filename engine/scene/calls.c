@@ -23,7 +23,7 @@ static int compute_absolute_rates(double t, const double *y, const DiscreteState
 
 /*
  * Compute the rates dy of a state y in absolute coordinates with the contact forces stored in `discrete`, as a callback
- * of rates_in_contact(). Return a status.
+ * of compute_rates_in_contact(). Return a status.
  */
 static int evaluate_state_rates(
     double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dy, RhsOutputs *rhs)
@@ -38,7 +38,7 @@ static int evaluate_state_rates(
 static int evaluate_rates_at(
     double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dy, RhsOutputs *rhs)
 {
-    return rates_in_contact(evaluate_state_rates, N_S, t, y, discrete, p, dy, rhs);
+    return compute_rates_in_contact(evaluate_state_rates, N_S, t, y, discrete, p, dy, rhs);
 }
 #else
 /* Compute the rates dy of a state y in absolute coordinates; the scene has no rigid contacts. Return a status. */

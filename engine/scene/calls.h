@@ -42,8 +42,8 @@ double gudgeon_time_reduced(long count, double t, const double *q, const double 
 int gudgeon_reduced_rescue(double t, const double *q, const double *v, const double *discrete, const double *p,
     double *a);
 #endif
-#if N_CHAIN
-int gudgeon_chains(double t, double *q, const double *p, double *v);
+#if N_DEPENDENT
+int gudgeon_driven_loops(double t, double *q, const double *p, double *v);
 #endif
 #if INTEGRATES
 int gudgeon_jacobian(double t, const double *y, const double *discrete, const double *p, double *J, double *f_t);
@@ -69,7 +69,7 @@ void gudgeon_run_report(const void *integrator, double *t, long *counts, double 
 
 /*
  * A batch of runs: arrays have a row for each run; `numbers` is the number of doubles of Parameters. Samples of run i
- * begin at row place[i] * samples; runs that have ended may leave their rows to others.
+ * begin at row sample_block[i] * samples; runs that have ended may leave their rows to others.
  */
 typedef struct {
     long samples, numbers, limit;         /* rows for the samples of a run; doubles of Parameters; steps per call */
@@ -77,7 +77,7 @@ typedef struct {
     int audit;                            /* level: AuditLevel */
     int fixed;                            /* whether steps have a fixed length */
     double *t;
-    long apart, *wanted, *place;          /* sample times of run i: wanted[i] from t + i * apart; apart = 0: common */
+    long time_stride, *n_requested, *sample_block; /* run i: n_requested[i] times from t + i * time_stride; 0: common */
     double *p, *p_motion, *size;          /* parameters of the start, of the motion; extent of the mechanism */
     double *step, *scale, *least;         /* fixed steps, s; tolerances as for gudgeon_adaptive_setup */
     double *start;                        /* (q, v) where `started`, else filled here */
@@ -106,7 +106,7 @@ typedef struct {
 int gudgeon_ensemble(const void *batch, void *integrator, long *current, long end);
 #endif
 #if HAS_LANES
-const void *gudgeon_single(void);
+const void *gudgeon_single_run_functions(void);
 #endif
 #if !INTEGRATES
 size_t gudgeon_kinematic_size(void);
@@ -114,10 +114,10 @@ void gudgeon_kinematic_begin(
     void *integrator, double max_correction, double extent, double t_end, int (*ask)(void *), void *caller,
     double every);
 void gudgeon_kinematic_record(void *integrator, double *rows, long capacity);
-long gudgeon_kinematic_recorded(void *integrator);
+long gudgeon_kinematic_fetch_records(void *integrator);
 void gudgeon_kinematic_restart(void *integrator);
 void gudgeon_kinematic_progress(const void *integrator, double *t, double *gained, long *steps);
-long gudgeon_kinematic_interpolated(const void *integrator, double *t);
+long gudgeon_kinematic_count_interpolated(const void *integrator, double *t);
 int gudgeon_kinematic(void *integrator, long n, const double *t, const double *p, double *q, double *v, double *a,
     double *phi_max, double *phi_dot_max, long *steps, long *done);
 int gudgeon_kinematic_works(void *integrator, long n, const double *t, const double *p, const double *q,

@@ -205,7 +205,7 @@ static inline int is_frictionally_inconsistent(const Delassus *contacts, int onl
  * FRICTION_INCONSISTENT, or the status of an evaluation. Called at each evaluation of the right-hand side of a scene
  * with rigid contacts.
  */
-static int rates_in_contact(RatesOf *evaluate_rates, int n_rates, double t, const double *y,
+static int compute_rates_in_contact(RatesOf *evaluate_rates, int n_rates, double t, const double *y,
     DiscreteState *discrete, const Parameters *p, double *dy, RhsOutputs *rhs)
 {
     Delassus contacts;

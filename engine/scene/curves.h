@@ -122,7 +122,7 @@ static inline Lanes evaluate_knot_function_in_lanes(const Curve *curve_table, La
 }
 
 #define lanes_knots(which, x) evaluate_knot_function_in_lanes(&curves[which], x)
-#define lanes_curve(which, order, x) evaluate_curve_in_lanes(&curves[which], order, x, all_of(0.0))
+#define lanes_curve(which, order, x) evaluate_curve_in_lanes(&curves[which], order, x, broadcast(0.0))
 #define lanes_curve_on(which, order, x, branch) evaluate_curve_in_lanes(&curves[which], order, x, branch)
 #endif
 

@@ -17,7 +17,7 @@
 static const double TURN_LIMIT = 1e5; /* rad; larger angles go to the library's functions */
 
 /* Return the bits of a floating-point number as an integer. */
-static inline uint64_t bits_of(double x)
+static inline uint64_t to_bits(double x)
 {
     uint64_t bits;
     memcpy(&bits, &x, sizeof bits);
@@ -25,22 +25,22 @@ static inline uint64_t bits_of(double x)
 }
 
 /* Return the floating-point number with these bits. */
-static inline double of_bits(uint64_t bits)
+static inline double from_bits(uint64_t bits)
 {
     double x;
     memcpy(&x, &bits, sizeof x);
     return x;
 }
 
-#define PARTS_OF double
+#define PARTS_REAL double
 #define PARTS_BITS uint64_t
-#define PARTS_NAMED(name) name
+#define PARTS_FUNCTION(name) name
 #define PARTS_POWER(bits) ((double)((int64_t)(bits) >> 52))
 #define PARTS_ENTRY(table, bits, k) table[(bits) & 127][k]
 #include "parts.h"
-#undef PARTS_OF
+#undef PARTS_REAL
 #undef PARTS_BITS
-#undef PARTS_NAMED
+#undef PARTS_FUNCTION
 #undef PARTS_POWER
 #undef PARTS_ENTRY
 
@@ -53,8 +53,8 @@ static inline double compute_sine(double x)
     if (!(fabs(x) < TURN_LIMIT))
         return sin(x);
     double r, r_error;
-    const uint64_t quadrant = quarters(x, &r, &r_error);
-    const double value = quadrant & 1 ? cosine_near(r, r_error) : sine_near(r, r_error);
+    const uint64_t quadrant = reduce_angle(x, &r, &r_error);
+    const double value = quadrant & 1 ? cosine_near_zero(r, r_error) : sine_near_zero(r, r_error);
     return quadrant & 2 ? -value : value;
 }
 
@@ -67,8 +67,8 @@ static inline double compute_cosine(double x)
     if (!(fabs(x) < TURN_LIMIT))
         return cos(x);
     double r, r_error;
-    const uint64_t quadrant = quarters(x, &r, &r_error);
-    const double value = quadrant & 1 ? sine_near(r, r_error) : cosine_near(r, r_error);
+    const uint64_t quadrant = reduce_angle(x, &r, &r_error);
+    const double value = quadrant & 1 ? sine_near_zero(r, r_error) : cosine_near_zero(r, r_error);
     return (quadrant + 1) & 2 ? -value : value;
 }
 
@@ -79,7 +79,7 @@ static inline int is_normal(double x) { return x >= DBL_MIN && x <= DBL_MAX; }
 static inline int is_square_root_power(double x, double y) { return x > 1e-150 && x < 1e150 && (y == 1.5 || y == 0.5); }
 
 /* Return exp x. */
-static inline double compute_exponential(double x) { return fabs(x) < 700.0 ? exp_of_parts(x, 0.0) : exp(x); }
+static inline double compute_exponential(double x) { return fabs(x) < 700.0 ? exp_with_error(x, 0.0) : exp(x); }
 
 /*
  * Return ln x with the same bits on every platform; zero, negative, subnormal and infinite x and NaN use the C library.
@@ -87,7 +87,7 @@ static inline double compute_exponential(double x) { return fabs(x) < 700.0 ? ex
 static inline double compute_logarithm(double x)
 {
     double error;
-    return is_normal(x) ? log_in_parts(x, &error) : log(x);
+    return is_normal(x) ? log_with_error(x, &error) : log(x);
 }
 
 /*
@@ -97,14 +97,14 @@ static inline double compute_logarithm(double x)
 static inline double compute_power(double x, double y)
 {
     if (is_square_root_power(x, y))
-        return y == 0.5 ? sqrt(x) : three_halves(x, sqrt(x));
+        return y == 0.5 ? sqrt(x) : power_three_halves(x, sqrt(x));
     if (is_normal(x) && fabs(y) < 0x1p60) {
         double log_error;
-        const double log_x = log_in_parts(x, &log_error);
-        const double x_high = upper_half(log_x), y_high = upper_half(y);
+        const double log_x = log_with_error(x, &log_error);
+        const double x_high = keep_26_bits(log_x), y_high = keep_26_bits(y);
         const double high = y_high * x_high;
         if (fabs(high) < 690.0)
-            return exp_of_parts(high, (y - y_high) * x_high + y * (log_x - x_high + log_error));
+            return exp_with_error(high, (y - y_high) * x_high + y * (log_x - x_high + log_error));
     }
     return pow(x, y);
 }

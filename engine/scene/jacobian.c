@@ -77,7 +77,7 @@ static int linearize_and_factorize_equations(double t, const double *y, const do
     RhsOutputs rhs;
     double dy[N_Y];
     read_discrete_state(discrete, &discrete_state);
-#if N_CHAIN
+#if N_DEPENDENT
     solve_driven_loops(t, y + FIRST_STATE, &discrete_state, p); /* the guess follows the works */
 #endif
     int status = motion(t, y, &discrete_state, p, dy, &rhs);

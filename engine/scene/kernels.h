@@ -55,20 +55,22 @@ int reduced_project(double t, const double *q, const double *r, const Parameters
 /* Multipliers of the closures from those of all constraint equations. */
 void tree_multipliers(const double *lambda, double *closing);
 #endif
-#if N_CHAIN
-void chain_directions(double t, const double *q, const DiscreteState *discrete, const Parameters *p, double *out);
-int chain_step(double t, const double *q, const DiscreteState *discrete, const Parameters *p, double *step,
+#if N_DEPENDENT
+void evaluate_loop_directions(
+    double t, const double *q, const DiscreteState *discrete, const Parameters *p, double *out);
+int compute_loop_step(double t, const double *q, const DiscreteState *discrete, const Parameters *p, double *step,
     double *bend, int *row);
-int chain_rates(double t, const double *q, const DiscreteState *discrete, const Parameters *p, double *v);
-int chain_third(
+int compute_loop_rates(double t, const double *q, const DiscreteState *discrete, const Parameters *p, double *v);
+int compute_third_loop_rates(
     double t, const double *q, const double *v, const DiscreteState *discrete, const Parameters *p, double *out);
 void loop_switches(double t, const double *q, const DiscreteState *discrete, const Parameters *p, double *g);
 /*
- * chain_share: factor that makes a step of coordinate k dimensionless. turn_directions: directions in q after a step.
+ * get_loop_step_scale: factor that makes a step of coordinate k dimensionless.
+ * turn_directions: directions in q after a step.
  */
-double chain_share(const Parameters *p, int k);
+double get_loop_step_scale(const Parameters *p, int k);
 void turn_directions(double *q, const double *step, const Parameters *p);
-/* Solve the driven loops from a guess of their coordinates (N_CHAIN). */
+/* Solve the driven loops from a guess of their coordinates (N_DEPENDENT). */
 void solve_driven_loops(double t, const double *guess, DiscreteState *discrete, const Parameters *p);
 #endif
 
@@ -92,7 +94,7 @@ int accept_state(double t, const double *y, DiscreteState *discrete, const Param
     double *phi_max, double *phi_dot_max);
 #if TAYLOR
 /* Coefficients c[0] ... c[order] of the motion's series in powers of time from a state on. */
-int taylor_series(double t, const double *y, const Parameters *p, int order, double (*c)[TAYLOR_Y]);
+int compute_taylor_series(double t, const double *y, const Parameters *p, int order, double (*c)[TAYLOR_Y]);
 #endif
 /* Newton's matrix: linearize at a state with rates of motion(), factorize for a step, solve. */
 int linearize_state(double t, const double *y, DiscreteState *discrete, const Parameters *p, const double *a,
@@ -113,8 +115,8 @@ void newton_solve_complex(const ComplexLinear *lin, double eta, double eta_i, co
 /* Kinematic positions: a step of Newton's method, and velocities and accelerations at its end. */
 #if POSITIONS_IN_TREE
 int close_step(double t, const double *q, const Parameters *p, double *step, double *rates, double *worst);
-int arrive(double t, const double *q, const double *v, const Parameters *p, double *a, double *all_q, double *all_v,
-    double *all_a, double *worst);
+int compute_body_motion(double t, const double *q, const double *v, const Parameters *p, double *a, double *all_q,
+    double *all_v, double *all_a, double *worst);
 #else
 int project(double t, const double *q, const double *r, const Parameters *p, double *x);
 #endif

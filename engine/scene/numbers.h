@@ -37,7 +37,7 @@ static inline int same_number(double x, double y) { return x == y && !signbit(x)
  * Return the distance, s, below which a sample coincides with the end t of a step of length h: both contain rounding
  * errors.
  */
-static inline double rounded(double t, double h) { return 8.0 * DBL_EPSILON * fabs(t) + 1e-12 * h; }
+static inline double compute_time_rounding(double t, double h) { return 8.0 * DBL_EPSILON * fabs(t) + 1e-12 * h; }
 
 #ifdef __wasm__ /* in a web page, rare functions are compiled for size */
 #define OPTIMIZE_SIZE __attribute__((minsize))
@@ -54,7 +54,7 @@ static inline double compute_step_end(double t_begin, double t_end, double fixed
 {
     const double n_steps = max_of(ceil((t_end - t_begin) / fixed_step * (1.0 - 1e-12)), 1.0);
     const double last_length = t_end - t_begin - (n_steps - 1.0) * fixed_step, n_before = rint(t_begin / fixed_step);
-    const int is_multiple = fabs(n_before * fixed_step - t_begin) <= rounded(t_begin, fixed_step);
+    const int is_multiple = fabs(n_before * fixed_step - t_begin) <= compute_time_rounding(t_begin, fixed_step);
     *length = index < n_steps || fabs(last_length - fixed_step) < 1e-9 * fixed_step ? fixed_step : last_length;
     return index < n_steps ? (is_multiple ? (n_before + index) * fixed_step : t_begin + index * fixed_step) : t_end;
 }
@@ -73,9 +73,9 @@ static inline double finite_slope(double derivative, double value_after, double 
 }
 
 /* Return a time just after t, so that rounding does not hide on which branch a drive continues. */
-static inline double just_after(double t) { return t + max_of(32.0 * DBL_EPSILON * fabs(t), 1e-100); }
+static inline double get_time_just_after(double t) { return t + max_of(32.0 * DBL_EPSILON * fabs(t), 1e-100); }
 /* Return the time at which rates of drives are evaluated: just after t if they may jump, else t. */
-static inline double after_jump(double t) { return RATE_JUMPS ? just_after(t) : t; }
+static inline double get_time_after_jump(double t) { return RATE_JUMPS ? get_time_just_after(t) : t; }
 
 /* Return mod(a, b) in [0, b), with the sign of b. The end of a period belongs to the period that begins there. */
 static inline double mod_of(double a, double b)

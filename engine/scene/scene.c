@@ -16,19 +16,19 @@
 #if TREE && RESCUED
 #include "../motion/absolute_fallback.c"
 #endif
-#if N_CHAIN
+#if N_DEPENDENT
 #include "../motion/driven_loops.c"
 #endif
 #if INTEGRATES && !TREE
 #include "../motion/full.c"
-#elif INTEGRATES && !N_CHAIN
+#elif INTEGRATES && !N_DEPENDENT
 #include "../motion/tree.c"
 #endif
 #if INTEGRATES
 #include "../motion/driven.c"
 #include "../motion/continuation.c"
 #endif
-#if N_CHAIN
+#if N_DEPENDENT
 #include "../motion/driven_calls.c"
 #elif TREE
 #include "../motion/tree_calls.c"

@@ -174,7 +174,7 @@ OPTIMIZE_SIZE static int compute_start_velocities(StartWorkspace *workspace, dou
         v[k] = 0.0;
     select_leading_equations(workspace, &workspace->subset, N_ALL_ROWS + N_RATES, rate_place);
     jacobian(t, q, p, &workspace->row[0][0]);
-    velocity_rhs(after_jump(t), q, p, required);
+    velocity_rhs(get_time_after_jump(t), q, p, required);
     for (int k = 0; k < N_APART; k++)
         required[apart_row[k]] -= workspace->rates[N_RATES + k];
     for (int i = 0; i < N_RATES; i++) {

@@ -44,8 +44,8 @@ static void compute_sine_and_cosine(double angle, double *sine, double *cosine)
 {
 #define SINES_OF double
 #define SINES_BITS uint64_t
-#define BITS_OF bits_of
-#define OF_BITS of_bits
+#define BITS_OF to_bits
+#define OF_BITS from_bits
 #include "sines.h"
 #undef SINES_OF
 #undef SINES_BITS

@@ -76,16 +76,16 @@ typedef struct {
 #endif
 } ContactState;
 
-#if N_CHAIN
+#if N_DEPENDENT
 /* Coordinates that the drives determine through loops, and three rates of each, at a time. */
 typedef struct {
-    double t, q[N_LED], v[3 * N_CHAIN];
+    double t, q[N_LED], v[3 * N_DEPENDENT];
     int failed; /* 0, or a closure that was at a dead centre there */
-} Chain;
+} DrivenLoops;
 
 /* All that the tree's kernels read at one time: with directions, second and third rates of driven loops. */
 typedef struct {
-    double q[N_X + N_LED], v[N_X + 3 * N_CHAIN];
+    double q[N_X + N_LED], v[N_X + 3 * N_DEPENDENT];
 } TreeState;
 
 #endif
@@ -103,8 +103,8 @@ typedef struct {
     Cancellation *token; /* NULL: no cancellation */
     int singular_policy;                  /* policy near a singular position, one of those below */
     double least, least_size; /* fraction of a pivot, of one or two equations, below which they are dependent */
-#if N_CHAIN
-    Chain chain, recent; /* driven loops at the last accepted state; at the last evaluated time */
+#if N_DEPENDENT
+    DrivenLoops chain, recent; /* driven loops at the last accepted state; at the last evaluated time */
 #endif
 } DiscreteState;
 /* Whether runs continue the motion at singular positions (continuation.c): scenes whose equations do not change. */

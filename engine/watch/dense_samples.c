@@ -31,7 +31,7 @@ static int may_have_zero(const Integrator *run, const Step *step, int event, dou
 
 /*
  * Estimate by how much each watched function changes if every coordinate and velocity changes by one error tolerance:
- * uncertainty (N_WATCHED). Smaller values cannot be resolved. Called by is_unresolved() for the allowed error of
+ * uncertainty (N_WATCHED). Smaller values cannot be resolved. Called by is_step_unresolved() for the allowed error of
  * samples.
  */
 static void estimate_event_function_uncertainty(Integrator *run, const Step *step, const Parameters *p,
@@ -100,7 +100,7 @@ static double compute_resolution_error(const double *samples, double sufficient_
  * such a function, without dense output, or if samples are as near as event times. Called for each tried step before it
  * is accepted; such a step is repeated shorter.
  */
-static int is_unresolved(Integrator *run, Step *step, const Parameters *p)
+static int is_step_unresolved(Integrator *run, Step *step, const Parameters *p)
 {
     double range[N_WATCHED], uncertainties[N_WATCHED];
     step->has_zero_bracket = 0;
@@ -212,7 +212,7 @@ static void bracket_first_zeros(const Integrator *run, Step *step, const Paramet
 
 #else
 /* Return 0: the scene has no watched functions that a step must resolve. */
-static inline int is_unresolved(const Integrator *run, const Step *step, const Parameters *p)
+static inline int is_step_unresolved(const Integrator *run, const Step *step, const Parameters *p)
 {
     (void)run, (void)step, (void)p;
     return 0;

@@ -94,7 +94,7 @@ static int collect_stage_samples(const Step *step, Sample begin, Sample end, Sta
  * of the step. By its bounds, it may then leave the parabola through them by more than MAX_TERM_EXCESS of its range
  * over the step, which is computed on the first call for the step.
  */
-static int may_oscillate_between(Step *step, double begin, double end, const Parameters *p)
+static int may_terms_oscillate_between(Step *step, double begin, double end, const Parameters *p)
 {
     Range term[N_TERMS], term_low[N_TERMS], term_middle[N_TERMS], term_high[N_TERMS];
     const double width = end - begin;
@@ -119,7 +119,7 @@ static int may_oscillate_between(Step *step, double begin, double end, const Par
 }
 #else
 /* Return 0: the scene has no terms of time alone. */
-static int may_oscillate_between(Step *step, double begin, double end, const Parameters *p)
+static int may_terms_oscillate_between(Step *step, double begin, double end, const Parameters *p)
 {
     return (void)step, (void)begin, (void)end, (void)p, 0;
 }
@@ -130,12 +130,12 @@ static int may_oscillate_between(Step *step, double begin, double end, const Par
  * a term may oscillate over the whole step. The result is stored in step->swings at the first call for a step (before:
  * negative).
  */
-static int may_oscillate_between_stages(Step *step, const Sample *samples, int n, const Parameters *p)
+static int may_terms_oscillate_between_stages(Step *step, const Sample *samples, int n, const Parameters *p)
 {
     if (step->swings < 0) {
-        step->swings = may_oscillate_between(step, 0.0, 1.0, p);
+        step->swings = may_terms_oscillate_between(step, 0.0, 1.0, p);
         for (int i = 1, is_tested = step->swings; i < n && is_tested; i++) {
-            step->swings = may_oscillate_between(step, samples[i - 1].s, samples[i].s, p);
+            step->swings = may_terms_oscillate_between(step, samples[i - 1].s, samples[i].s, p);
             is_tested = !step->swings;
         }
     }
@@ -187,7 +187,7 @@ static int is_clear_of_zero(const Integrator *run, Step *step, int event, double
             return 0;
     }
     return (!(allowance > 0.0) || samples[n - 1].f >= -AT_REST)
-        && !may_oscillate_between_stages(step, samples, n, p);
+        && !may_terms_oscillate_between_stages(step, samples, n, p);
 }
 
 /*
@@ -260,7 +260,7 @@ static int has_force_zero(Integrator *run, Step *step, int event, const Paramete
         }
         if (is_small
             || (lower_bound >= -allowance - FORCE_ROUNDING * largest
-                && !may_oscillate_between(step, from.s, current.end.s, p))) {
+                && !may_terms_oscillate_between(step, from.s, current.end.s, p))) {
             from = current.end;
             n--;
             continue;

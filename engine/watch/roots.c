@@ -32,7 +32,7 @@ static int evaluate_state_at(
     interpolate(run, step, fraction, y);
     const double t = step->t + fraction * step->h;
     project_state(run, t, y, p);
-    return evaluate_rates_at_rest(run, t, y, p, dy, rhs);
+    return evaluate_rates_without_residual_slips(run, t, y, p, dy, rhs);
 }
 
 /*
@@ -88,7 +88,7 @@ static double compute_event_function_slope(const Integrator *run, const Step *st
 }
 
 /* Discard all stored samples of the dense output. Called when the dense output of a new step has been computed. */
-static void discard_samples(Integrator *run)
+static void discard_dense_samples(Integrator *run)
 {
     run->roots.samples.n = 0;
     run->roots.samples.beyond = NAN;

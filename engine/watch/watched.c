@@ -86,7 +86,7 @@ static int is_held_at_zero(const EventUncertainties *uncertainties, int index, R
     return fabs(value_begin) <= uncertainties->rounding[index] && fabs(value_end) <= uncertainties->rounding[index]
         && !bounds.partly
         && (bounds.lo >= -uncertainties->tolerance[index]
-            || is_narrowing(bounds.lo, width, uncertainties->whole_lower[index]));
+            || is_bound_narrowing(bounds.lo, width, uncertainties->whole_lower[index]));
 }
 
 /*
@@ -309,7 +309,7 @@ static void bracket_first_zeros(Integrator *run, Step *step, const Parameters *p
 }
 
 /* Return 0: bounds of the watched functions resolve every step. */
-static int is_unresolved(const Integrator *run, const Step *step, const Parameters *p)
+static int is_step_unresolved(const Integrator *run, const Step *step, const Parameters *p)
 {
     (void)run, (void)step, (void)p;
     return 0;

@@ -240,7 +240,7 @@ static inline int classify_zero(Range bounds, double value_begin, double value_e
  * overestimates. It is if the bound has narrowed with the part, as for a function without a zero. whole_lower_bound:
  * the lower bound over the whole interval. Parts longer than NARROWING_WIDTH return 0.
  */
-static inline int is_narrowing(double lower_bound, double width, double whole_lower_bound)
+static inline int is_bound_narrowing(double lower_bound, double width, double whole_lower_bound)
 {
     return width <= NARROWING_WIDTH && lower_bound >= 4.0 * width * whole_lower_bound;
 }

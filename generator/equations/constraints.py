@@ -48,7 +48,7 @@ class Constraints(Freezable):
         self.t = self.symbols.add_symbol("time", Place("t"), "time", "s")
         self.drive_angles: dict[str, tuple[sp.Symbol, sp.Symbol, sp.Symbol]] = {}
 
-    def joint_rows(self, joint: Joint) -> list[Row]:
+    def derive_joint_rows(self, joint: Joint) -> list[Row]:
         """Return the constraint equations of a joint in the order of its type, named "<joint>.<row>".
 
         Further bodies of the type, such as the carrier of a gear, are differentiated too.
@@ -66,15 +66,15 @@ class Constraints(Freezable):
             for name, unit, phi in named_expressions
         ]
 
-    def drive_rows(self, drive: Drive) -> list[Row]:
+    def derive_drive_rows(self, drive: Drive) -> list[Row]:
         """Return the constraint equation of a drive, in a list of one: the driven quantity less f(t)."""
         quantity, bodies, unit = self._find_driven_quantity(drive)
-        phi = quantity - self.drive_value(drive)
+        phi = quantity - self.define_drive_value(drive)
         return [self._derive_row(drive.name, drive.name, "drive", unit, phi, bodies)]
 
     def _point(self, ref: PointRef) -> PointFrame:
         """Return the frame of a named point."""
-        return self.geometry.point(ref)
+        return self.geometry.find_point(ref)
 
     def _find_coordinate_pairs(self, bodies: list[BodySymbols]) -> list[tuple[sp.Symbol, sp.Symbol]]:
         """Return the pairs (coordinate, velocity) of the bodies that a constraint equation may depend on.
@@ -124,7 +124,7 @@ class Constraints(Freezable):
             rules[direction_x][q], rules[direction_y][q] = -direction_y * turning_rate, direction_x * turning_rate
         return length
 
-    def drive_value(self, drive: Drive) -> sp.Symbol:
+    def define_drive_value(self, drive: Drive) -> sp.Symbol:
         """Return the symbol of a drive's f(t).
 
         At the first call f, f′ and f″ are defined as symbols with rules, and stored in `drive_angles`.
@@ -173,7 +173,7 @@ class Constraints(Freezable):
 
 
 @lru_cache(maxsize=256)
-def rate_jumps(drive: Drive) -> bool:
+def has_jumping_rate(drive: Drive) -> bool:
     """Return whether the rate of a drive may jump: its expression has switching points or a root of a square.
 
     The linkage then follows by an impulse. Results are cached.

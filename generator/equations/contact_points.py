@@ -64,8 +64,8 @@ def iterate_contact_points(
     yield ContactPoint(
         joint.name,
         joint.name,
-        geometry.point(joint.first),
-        geometry.point(joint.second),
+        geometry.find_point(joint.first),
+        geometry.find_point(joint.second),
         bearing_symbols,
         bearing_symbols,
     )
@@ -76,17 +76,26 @@ def _make_bearing_symbols(bearing: Bearing, parameter_table: ParameterTable) -> 
 
     The radius of the journal is derived: that of the bearing less the clearance.
     """
-    R_i, c = parameter_table.get_or_add(bearing.radius), parameter_table.get_or_add(bearing.clearance)
-    R_j = parameter_table.derive(f"R_j_{bearing.name}", R_i - c, "journal radius")
+    R_i, c = (
+        parameter_table.get_or_add_parameter(bearing.radius),
+        parameter_table.get_or_add_parameter(bearing.clearance),
+    )
+    R_j = parameter_table.derive_parameter(f"R_j_{bearing.name}", R_i - c, "journal radius")
     return PairSymbols(
-        R_i, R_j, c, parameter_table.get_or_add(bearing.length), *_make_elastic_constants(bearing, parameter_table)
+        R_i,
+        R_j,
+        c,
+        parameter_table.get_or_add_parameter(bearing.length),
+        *_make_elastic_constants(bearing, parameter_table),
     )
 
 
 def _make_elastic_constants(dimensions: Bearing | Guide, parameter_table: ParameterTable) -> list[sp.Expr]:
     """Return E_i, ν_i, E_j, ν_j of bearing and journal (or guide and slider) as parameters."""
     materials = dimensions.bearing_material, dimensions.journal_material
-    return [parameter_table.get_or_add(material.numbers[key]) for material in materials for key in ("E", "nu")]
+    return [
+        parameter_table.get_or_add_parameter(material.numbers[key]) for material in materials for key in ("E", "nu")
+    ]
 
 
 def _make_corner_points(
@@ -96,15 +105,17 @@ def _make_corner_points(
 
     Parameters for their distances from the slider's point are derived here; labels differ from names of joints.
     """
-    first = geometry.point(joint.first)
-    a, b, c = (parameter_table.get_or_add(quantity) for quantity in (guide.half_length, guide.half_height, guide.gap))
-    radius = sp.Integer(0) if guide.corner_radius is None else parameter_table.get_or_add(guide.corner_radius)
+    first = geometry.find_point(joint.first)
+    a, b, c = (
+        parameter_table.get_or_add_parameter(quantity) for quantity in (guide.half_length, guide.half_height, guide.gap)
+    )
+    radius = sp.Integer(0) if guide.corner_radius is None else parameter_table.get_or_add_parameter(guide.corner_radius)
     distances = (("reach", a - radius, "half-length"), ("rise", b - radius, "half-height"))
     axial_distance, normal_distance = (
-        parameter_table.derive(f"{symbol_name}_{guide.name}", x, f"{meaning} less radius")
+        parameter_table.derive_parameter(f"{symbol_name}_{guide.name}", x, f"{meaning} less radius")
         for symbol_name, x, meaning in distances
     )
-    width = parameter_table.derive(f"half_width_{guide.name}", b + c, "half the guide's width")
+    width = parameter_table.derive_parameter(f"half_width_{guide.name}", b + c, "half the guide's width")
     corner_symbols = PairSymbols(width, radius, c, sp.nan, *_make_elastic_constants(guide, parameter_table))
     fields = JointFields(joint, geometry)
     axis_x, axis_y = first.direction(fields.direction("axis"))
@@ -117,7 +128,7 @@ def _make_corner_points(
         x, y = front * axial_distance, upper * normal_distance
         offset = (along_x * x - along_y * y, along_y * x + along_x * y)
         wall = Wall((-upper * axis_y, upper * axis_x), normal_distance)
-        second = geometry.point_at_offset(joint.second, offset, label)
+        second = geometry.find_point_at_offset(joint.second, offset, label)
         yield ContactPoint(
             f"{joint.name}.{corner}", label, first, second, corner_symbols, replace(corner_symbols, R_i=sp.oo), wall
         )
@@ -130,12 +141,12 @@ def _find_axis_in_slider(
 
     The slider is at the angle that the joint prescribes; the components are (1, 0) if that angle is the axis' own.
     """
-    axis_angle = fields.angle_of("axis")
+    axis_angle = fields.derive_vector_angle("axis")
     slider_angle = fields.quantity("angle", axis_angle)
     if slider_angle == axis_angle:
         return sp.Integer(1), sp.Integer(0)
     cos, sin = (
-        parameter_table.derive(
+        parameter_table.derive_parameter(
             f"{function.__name__}_slider_{joint_name}", function(axis_angle - slider_angle), "axis in the slider"
         )
         for function in (sp.cos, sp.sin)

@@ -29,10 +29,10 @@ class JointFields:
         """Return a vector field as a unit vector; along an axis it is exactly (±1, 0) or (0, ±1)."""
         return derive_unit_vector(self._joint.vectors[name], self._joint.name, name, self._parameter_table)
 
-    def angle_of(self, name: str) -> sp.Expr:
+    def derive_vector_angle(self, name: str) -> sp.Expr:
         """Return the angle of a vector field in its body's frame, in rad, as a derived parameter."""
         x, y = self.direction(name)
-        return self._parameter_table.derive(
+        return self._parameter_table.derive_parameter(
             f"{self._joint.name}_{name}_angle",
             sp.atan2(y, x),
             "direction of the axis",
@@ -42,12 +42,12 @@ class JointFields:
     def quantity(self, name: str, default: sp.Expr) -> sp.Expr:
         """Return a number field as a parameter, or `default` if the user specified none."""
         quantity = self._joint.quantities.get(name)
-        return sp.sympify(default) if quantity is None else self._parameter_table.get_or_add(quantity)
+        return sp.sympify(default) if quantity is None else self._parameter_table.get_or_add_parameter(quantity)
 
     def vector(self, name: str) -> tuple[sp.Expr, sp.Expr]:
         """Return both components of a vector field as parameters."""
         x, y = self._joint.vectors[name]
-        return self._parameter_table.get_or_add(x), self._parameter_table.get_or_add(y)
+        return self._parameter_table.get_or_add_parameter(x), self._parameter_table.get_or_add_parameter(y)
 
     def option(self, name: str) -> str:
         """Return the value of a field with fixed choices."""
@@ -58,14 +58,14 @@ class JointFields:
         body = self._joint.options[name]
         return ZERO if body == GROUND else self._geometry.bodies[body].theta
 
-    def direction_on(self, name: str, body: str) -> tuple[sp.Expr, sp.Expr]:
+    def rotate_direction(self, name: str, body: str) -> tuple[sp.Expr, sp.Expr]:
         """Return a unit vector field in ground axes; it is fixed in the body that the field `body` names."""
         local, owner = self.direction(name), self._joint.options[body]
         if owner == GROUND:
             return local
         return self._geometry.rotate_vector(self._geometry.bodies[owner], local, f"axis_{owner}")
 
-    def profile(self, name: str, cam: sp.Expr, carrier: sp.Expr) -> sp.Expr:
+    def define_profile(self, name: str, cam: sp.Expr, carrier: sp.Expr) -> sp.Expr:
         """Return the profile of a cam as a symbol with rules for its derivatives.
 
         It is a function of phi = `cam` − `carrier`, both angles in rad. `name`: the field that holds the expression.
@@ -97,7 +97,7 @@ class JointFields:
 
     def derive(self, name: str, expression: sp.Expr) -> sp.Expr:
         """Return a derived parameter of the joint from an expression of parameters; it is computed once a run."""
-        return self._parameter_table.derive(
+        return self._parameter_table.derive_parameter(
             f"{self._joint.name}_{name}",
             expression,
             f"of joint {self._joint.name}",
@@ -114,7 +114,7 @@ class JointFields:
         for body in self._geometry.bodies.values():
             key = f"{body.name}.theta"
             quantity = start.set.get(key) or start.guess.get(key)
-            values[body.theta] = ZERO if quantity is None else self._parameter_table.get_or_add(quantity)
+            values[body.theta] = ZERO if quantity is None else self._parameter_table.get_or_add_parameter(quantity)
         return self.derive(name, expression.xreplace(values))
 
 
@@ -126,7 +126,7 @@ def derive_unit_vector(
     `owner` and `name`: the joint or element and its field, for the names of derived parameters. The sign of a component
     along an axis is recorded in `parameter_table.signs`, since the equations rely on it.
     """
-    x, y = parameter_table.get_or_add(vector[0]), parameter_table.get_or_add(vector[1])
+    x, y = parameter_table.get_or_add_parameter(vector[0]), parameter_table.get_or_add_parameter(vector[1])
     length = sp.sqrt(x**2 + y**2)
 
     def derive_component(axis: str, value: sp.Expr, other_value: sp.Expr) -> sp.Expr:
@@ -145,7 +145,7 @@ def derive_unit_vector(
                 if entry.address not in parameter_table.signs:
                     parameter_table.signs[entry.address] = ">" if entry.default > 0 else "<"
                 return sp.Integer(1 if entry.default > 0 else -1)
-        return parameter_table.derive(
+        return parameter_table.derive_parameter(
             f"{owner}_{name}_{axis}", value / length, "unit vector", role=ParameterRole(owner, name, axis)
         )
 
@@ -193,7 +193,7 @@ class ElementFields:
         """Return a quantity: a parameter, or its expression if it contains t, coordinates or velocities."""
         variable = MotionNameResolver(self._geometry, self._t)
         if not any(variable.is_variable(name) for name in iterate_names(quantity.value)):
-            return self._geometry.parameter_table.get_or_add(quantity)
+            return self._geometry.parameter_table.get_or_add_parameter(quantity)
         return convert_quantity_to_sympy(quantity, variable)
 
 
@@ -221,7 +221,7 @@ class MotionNameResolver:
         if owner in self._geometry.bodies:
             return getattr(self._geometry.bodies[owner], component)
         body, _, point = owner.partition(".")
-        return _POINT_COMPONENTS[component](self._geometry.point(PointRef(body, point, _NO_LOCATION)))
+        return _POINT_COMPONENTS[component](self._geometry.find_point(PointRef(body, point, _NO_LOCATION)))
 
 
 _POINT_COMPONENTS: Mapping[str, Callable[[PointFrame], sp.Expr]] = {

@@ -110,10 +110,10 @@ class Geometry(Freezable):
         self.bodies = {
             name: self._make_body_symbols(i, body) for i, (name, body) in enumerate(self.mechanism.bodies.items())
         }
-        self.local = {
+        self.local_vectors = {
             (body.name, point): self._derive_local_vector(body, point)
             for body in self.mechanism.bodies.values()
-            for point in self.point_names(body)
+            for point in self.list_point_names(body)
         }
         if is_massless(self.mechanism):
             unit = self._derive_unit_inertia()
@@ -139,8 +139,8 @@ class Geometry(Freezable):
         mass, inertia = ONE, ONE
         if not is_massless(self.mechanism) and body.mass and body.inertia:
             mass, inertia = (
-                self.parameter_table.get_or_add(body.mass),
-                self.parameter_table.get_or_add(body.inertia, zero=True),
+                self.parameter_table.get_or_add_parameter(body.mass),
+                self.parameter_table.get_or_add_parameter(body.inertia, zero=True),
             )
         return BodySymbols(name, first_index, x, y, theta, vx, vy, omega, mass, inertia)
 
@@ -150,14 +150,14 @@ class Geometry(Freezable):
         It is that of 1 kg at the mean squared distance of all points, and defines only the metric in which a closed
         linkage is solved.
         """
-        components = [component for vector in self.local.values() for component in vector if component != 0]
+        components = [component for vector in self.local_vectors.values() for component in vector if component != 0]
         mean_square = sp.Add(*(component**2 for component in components)) / max(len(components), 1)
-        return self.parameter_table.derive(
+        return self.parameter_table.derive_parameter(
             "unit_inertia", mean_square + sp.Float(_MIN_SQUARED_RADIUS, 17), "in place of moments of inertia"
         )
 
     @staticmethod
-    def point_names(body: Body) -> list[str]:
+    def list_point_names(body: Body) -> list[str]:
         """Return the names of all points of a body: head and tail, origin and com, then the user's.
 
         Only a body with a length has a head and a tail.
@@ -174,10 +174,14 @@ class Geometry(Freezable):
         """
         if point in body.points:
             x, y = body.points[point]
-            return self.parameter_table.get_or_add(x), self.parameter_table.get_or_add(y)
+            return self.parameter_table.get_or_add_parameter(x), self.parameter_table.get_or_add_parameter(y)
         if point == "com":
             return com
-        return (self.parameter_table.get_or_add(body.length), ZERO) if point == "head" and body.length else (ZERO, ZERO)
+        return (
+            (self.parameter_table.get_or_add_parameter(body.length), ZERO)
+            if point == "head" and body.length
+            else (ZERO, ZERO)
+        )
 
     def _derive_local_vector(self, body: Body, point: str) -> tuple[sp.Expr, sp.Expr]:
         """Return the vector from a body's centre of mass to a point in its frame, as derived parameters.
@@ -185,12 +189,15 @@ class Geometry(Freezable):
         Without a specified centre of mass the middle of the length is used, or else the origin.
         """
         if body.com is not None:
-            com = (self.parameter_table.get_or_add(body.com[0]), self.parameter_table.get_or_add(body.com[1]))
+            com = (
+                self.parameter_table.get_or_add_parameter(body.com[0]),
+                self.parameter_table.get_or_add_parameter(body.com[1]),
+            )
         else:
-            com = (self.parameter_table.get_or_add(body.length) / 2, ZERO) if body.length else (ZERO, ZERO)
+            com = (self.parameter_table.get_or_add_parameter(body.length) / 2, ZERO) if body.length else (ZERO, ZERO)
         point_vector = self._find_body_vector(body, point, com)
         x, y = (
-            self.parameter_table.derive_signed(
+            self.parameter_table.derive_signed_parameter(
                 f"{body.name}_{point}_{axis}",
                 value - origin,
                 "point from the centre of mass",
@@ -202,7 +209,9 @@ class Geometry(Freezable):
 
     def ground_vector(self, vector: Vector) -> tuple[sp.Expr, sp.Expr]:
         """Return both components of a vector of the ground as parameters."""
-        return self.parameter_table.get_or_add(vector[0]), self.parameter_table.get_or_add(vector[1])
+        return self.parameter_table.get_or_add_parameter(vector[0]), self.parameter_table.get_or_add_parameter(
+            vector[1]
+        )
 
     def find_cos_and_sin(self, body: BodySymbols) -> tuple[sp.Symbol, sp.Symbol]:
         """Return cos θ and sin θ of a body as symbols with rules; they are defined at the first call."""
@@ -246,7 +255,7 @@ class Geometry(Freezable):
             )
         return self._turned[body.name, *s]
 
-    def point_at_offset(self, ref: PointRef, offset: tuple[sp.Expr, sp.Expr], base_name: str) -> PointFrame:
+    def find_point_at_offset(self, ref: PointRef, offset: tuple[sp.Expr, sp.Expr], base_name: str) -> PointFrame:
         """Return the frame of a point at an offset from a named point, given in its body's frame.
 
         `base_name` is the base of its symbols' names.
@@ -269,16 +278,18 @@ class Geometry(Freezable):
         if ref.body == GROUND:
             base_vector = self.ground_vector(self.mechanism.ground[ref.point]) if ref.point else (ZERO, ZERO)
         else:
-            base_vector = self.local[ref.body, ref.point]
+            base_vector = self.local_vectors[ref.body, ref.point]
         x, y = (
             increment
             if value == 0
-            else self.parameter_table.derive_signed(f"{base_name}_{axis}", value + increment, "corner of a slider")
+            else self.parameter_table.derive_signed_parameter(
+                f"{base_name}_{axis}", value + increment, "corner of a slider"
+            )
             for axis, value, increment in zip("xy", base_vector, offset, strict=True)
         )
         return x, y
 
-    def point(self, ref: PointRef) -> PointFrame:
+    def find_point(self, ref: PointRef) -> PointFrame:
         """Return the frame of a named point of a body or of the ground.
 
         A point opposite to another one of the body uses that arm with a negative sign.
@@ -286,10 +297,10 @@ class Geometry(Freezable):
         if ref.body == GROUND:
             position = self.ground_vector(self.mechanism.ground[ref.point]) if ref.point else (ZERO, ZERO)
             return PointFrame(self, None, position)
-        body, local_vector = self.bodies[ref.body], self.local[ref.body, ref.point]
+        body, local_vector = self.bodies[ref.body], self.local_vectors[ref.body, ref.point]
         opposite = (-local_vector[0], -local_vector[1])
-        names = self.point_names(self.mechanism.bodies[ref.body])
-        opposite_name = next((name for name in names if self.local[ref.body, name] == opposite), None)
+        names = self.list_point_names(self.mechanism.bodies[ref.body])
+        opposite_name = next((name for name in names if self.local_vectors[ref.body, name] == opposite), None)
         if (
             opposite_name is not None and local_vector[0].could_extract_minus_sign()
         ):  # a bar's tail is its head turned over

@@ -57,7 +57,7 @@ class AppliedElement:
 
 def apply_element(element: ForceElement, geometry: Geometry, t: sp.Symbol) -> AppliedElement:
     """Return a force element with its loads on a geometry; `t` is the symbol of time."""
-    targets = tuple(geometry.point(ref) for ref in element.targets)
+    targets = tuple(geometry.find_point(ref) for ref in element.targets)
     loads = element_types()[element.kind].build(targets, ElementFields(element, geometry, t))
     return AppliedElement(element, targets, loads)
 

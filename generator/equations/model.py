@@ -92,12 +92,12 @@ def set_notation(matrix: sp.Matrix, find_printer: Callable[[], Any] | None) -> N
     return result
 
 
-def start_values(model: Model) -> dict[str, list[tuple[Quantity, int]]]:
+def list_start_values(model: Model) -> dict[str, list[tuple[Quantity, int]]]:
     """Return the quantities of `guess`, `set` and `rates` in the file's start, each with its sign.
 
     Eccentricities of journals follow the set values, their rates follow the rates. Those of sliders have the sign −1.
     """
-    start, eccentricities = model.scene.mechanism.start, eccentricity_rows(model)
+    start, eccentricities = model.scene.mechanism.start, find_eccentricity_rows(model)
     slider_names = {c.joint.name for c in model.clearances if c.wall}
     signs = [-1 if model.all_rows[k].owner in slider_names else 1 for k, _, _ in eccentricities]
     return {
@@ -113,7 +113,7 @@ def start_values(model: Model) -> dict[str, list[tuple[Quantity, int]]]:
     }
 
 
-def eccentricity_rows(model: Model) -> list[tuple[int, Quantity, Quantity]]:
+def find_eccentricity_rows(model: Model) -> list[tuple[int, Quantity, Quantity]]:
     """Return the equations of Φ that the start violates by a journal's eccentricity: index, e and its rate.
 
     Φ of such a joint is r_i − r_j = −e (physics.md, section 2), so that Φ + e = 0 and Φ_q v = ν − ė. Φ of a slider is
@@ -227,20 +227,20 @@ class Model:
         """
         return bool(self.frictions or self.rigid)
 
-    def squared_arms(self, body: str) -> tuple[sp.Expr, ...]:
+    def compute_squared_arms(self, body: str) -> tuple[sp.Expr, ...]:
         """Return s_x², s_y² of each joint's point on a body, s measured from its centre of mass.
 
         A point of several joints is counted once.
         """
-        mechanism, local = self.scene.mechanism, self.geometry.local
+        mechanism, local = self.scene.mechanism, self.geometry.local_vectors
         ends = [end for joint in mechanism.joints.values() for end in (joint.first, joint.second)]
         points = dict.fromkeys((end.body, end.point) for end in ends if end.body == body and (body, end.point) in local)
         return tuple(s**2 for point in points for s in local[point])
 
-    def turning_inertia(self, body: str) -> sp.Expr:
+    def compute_turning_inertia(self, body: str) -> sp.Expr:
         """Return J + Σ m s² of a body, with s from its centre of mass to the points of its joints."""
         body_symbols = self.geometry.bodies[body]
-        return sp.Add(body_symbols.inertia, *(body_symbols.mass * square for square in self.squared_arms(body)))
+        return sp.Add(body_symbols.inertia, *(body_symbols.mass * square for square in self.compute_squared_arms(body)))
 
     def is_light(self, body: str, joint: Joint | None) -> bool:
         """Return whether a body has nearly no moment of inertia about a joint, because its mass is lumped there.
@@ -249,9 +249,9 @@ class Model:
         """
         body_symbols, default = self.geometry.bodies[body], self.parameter_table.compute_default
         ends = [end for end in (joint.first, joint.second) if end.body == body] if joint else []
-        arm = self.geometry.local.get((body, ends[0].point), ()) if ends else ()
+        arm = self.geometry.local_vectors.get((body, ends[0].point), ()) if ends else ()
         inertia = body_symbols.inertia + sp.Add(*(body_symbols.mass * s**2 for s in arm))
-        return default(inertia) < LIGHT_BODY * default(self.turning_inertia(body))
+        return default(inertia) < LIGHT_BODY * default(self.compute_turning_inertia(body))
 
     @cached_property
     def masses(self) -> tuple[sp.Expr, ...]:
@@ -366,8 +366,8 @@ def make_model(scene: Scene) -> Model:
         parameter_table.get_or_add_constant("baumgarte.alpha", "alpha", BAUMGARTE, rate),
         parameter_table.get_or_add_constant("baumgarte.beta", "beta", BAUMGARTE, rate),
     )
-    rows = [row for joint in mechanism.joints.values() for row in constraints.joint_rows(joint)]
-    rows += [row for drive in mechanism.drives.values() for row in constraints.drive_rows(drive)]
+    rows = [row for joint in mechanism.joints.values() for row in constraints.derive_joint_rows(joint)]
+    rows += [row for drive in mechanism.drives.values() for row in constraints.derive_drive_rows(drive)]
     clearances = [
         clearance
         for name, play in scene.play.items()
@@ -418,7 +418,7 @@ def add_material_parameters(scene: Scene, parameter_table: ParameterTable) -> No
             matching = [material for material in materials if choice.numbers.keys() <= material.numbers.keys()]
             for material in matching:
                 for name in choice.numbers:
-                    parameter_table.get_or_add(material.numbers[name])
+                    parameter_table.get_or_add_parameter(material.numbers[name])
             names = tuple(material.name for material in matching)
             parameter_table.add_choice(choice.address, names, scene.materials[choice.address])
 
@@ -430,18 +430,18 @@ def add_further_parameters(model: Model) -> None:
     """
     for vector in model.scene.mechanism.ground.values():
         model.geometry.ground_vector(vector)
-    for group in start_values(model).values():
+    for group in list_start_values(model).values():
         for quantity, _ in group:
-            model.parameter_table.get_or_add(quantity)
+            model.parameter_table.get_or_add_parameter(quantity)
     if model.frictions:
         model.parameter_table.get_or_add_constant(STICK, "alpha_stick", BAUMGARTE, make_dimension(time=-1))
 
 
-def stick_gain(model: Model) -> sp.Expr:
+def derive_stick_gain(model: Model) -> sp.Expr:
     """Return 2α, in 1/s, of a sticking friction as a derived parameter.
 
     Methods that project stabilise nothing else.
     """
-    return model.parameter_table.derive(
+    return model.parameter_table.derive_parameter(
         "two_alpha_stick", 2 * model.parameter_table.entries[STICK].symbol, "2 alpha of a stick"
     )

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from gudgeon.errors import MissingKeyError, combine_errors
-from gudgeon.generator.equations.constraints import rate_jumps
+from gudgeon.generator.equations.constraints import has_jumping_rate
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.mechanism import Body, Mechanism
 
@@ -56,13 +56,13 @@ def write_scene_notes(model: Model) -> tuple[str, ...]:
 
 def has_jumps(model: Model) -> bool:
     """Return whether the rate of any drive may jump, also in a scene without degrees of freedom."""
-    return any(map(rate_jumps, model.scene.mechanism.drives.values()))
+    return any(map(has_jumping_rate, model.scene.mechanism.drives.values()))
 
 
 def find_drives_with_jumps(model: Model) -> tuple[str, ...]:
     """Return the names of the drives whose rate may jump; empty if the scene has no degree of freedom."""
     drives = model.scene.mechanism.drives.values() if model.degrees_of_freedom else ()
-    return tuple(drive.name for drive in drives if rate_jumps(drive))
+    return tuple(drive.name for drive in drives if has_jumping_rate(drive))
 
 
 def check_masses(model: Model) -> None:

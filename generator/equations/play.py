@@ -179,7 +179,7 @@ def _derive_clearance(
         """
         # named after what it is made of: joints with the same bearing and contact share it
         parameter_name = f"{play.contact.name}_{play.bearing.name}_{name}"
-        constants[name] = parameter_table.derive(parameter_name, expression, meaning)
+        constants[name] = parameter_table.derive_parameter(parameter_name, expression, meaning)
         return constants[name]
 
     def derive_contact_law(
@@ -201,12 +201,12 @@ def _derive_clearance(
     film = derive_contact_law(contact.film, film_symbols)
     floor: sp.Expr = sp.Integer(0)  # of surfaces that give alone
     if contact.velocity_floor:
-        floor = parameter_table.get_or_add(contact.velocity_floor)
+        floor = parameter_table.get_or_add_parameter(contact.velocity_floor)
     elif not (normal and normal.law.rigid):
         floor = parameter_table.get_or_add_constant(
             f"contacts.{contact.name}.velocity_floor", "velocity_floor", VELOCITY_FLOOR, VELOCITY
         )
-    transition = parameter_table.get_or_add(contact.transition) if contact.transition is not None else None
+    transition = parameter_table.get_or_add_parameter(contact.transition) if contact.transition is not None else None
     constants["c"], constants["R_i"], constants["R_j"] = bearing_symbols.c, bearing_symbols.R_i, bearing_symbols.R_j
     return Clearance(
         contact_point.name,
@@ -247,7 +247,7 @@ def _derive_law(
     variables = {name: sp.Symbol(name, real=True) for name in law.variables}
     force_names = {force.name for force in law.expressions}
     parameters = {
-        name: parameter_table.get_or_add(quantity)
+        name: parameter_table.get_or_add_parameter(quantity)
         for name, quantity in law_use.quantities.items()
         if name not in force_names
     }

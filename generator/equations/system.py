@@ -66,7 +66,7 @@ class System:
     dependent: tuple[DependentCoordinate, ...] = field(default=(), kw_only=True)  # of driven chains (driven_chains.py)
     in_tree: ClassVar[bool] = False  # whether the coordinates are those of a tree
 
-    def turning_inertia(self, k: int) -> sp.Expr:
+    def compute_turning_inertia(self, k: int) -> sp.Expr:
         """Return the inertia about coordinate k if it is an angle, else 0.
 
         It is J + m s² of its joints' points, s measured from the centre of mass. It is a derived parameter, with which
@@ -75,16 +75,16 @@ class System:
         if k % 3 != 2:
             return ZERO
         name = self.model.bodies[k // 3].name
-        return self.model.parameter_table.derive(
-            f"{name}_turning", self.model.turning_inertia(name), "J and m s^2 of its joints"
+        return self.model.parameter_table.derive_parameter(
+            f"{name}_turning", self.model.compute_turning_inertia(name), "J and m s^2 of its joints"
         )
 
-    def inertia_of_unit_mass(self, k: int) -> sp.Expr:
+    def compute_inertia_of_unit_mass(self, k: int) -> sp.Expr:
         """Return what coordinate k moves if bodies had 1 kg: s² of its joints' points for an angle, else 1.
 
         It sets least masses in projections.
         """
-        return sp.Add(*self.model.squared_arms(self.model.bodies[k // 3].name)) if k % 3 == 2 else ONE
+        return sp.Add(*self.model.compute_squared_arms(self.model.bodies[k // 3].name)) if k % 3 == 2 else ONE
 
     def compute_generalized_forces(self, loads: Sequence[PointLoad]) -> tuple[list[sp.Expr], dict[str, sp.Expr]]:
         """Return the generalized forces (n) Jᵀ f of loads, and those on prescribed coordinates by name.
@@ -139,7 +139,9 @@ def _derive_weights(model: Model) -> tuple[sp.Expr, ...]:
         for axis, component in zip("xy", model.gravity, strict=True):
             weight = body.mass * component
             weight_parameter = (
-                ZERO if weight == 0 else model.parameter_table.derive(f"weight_{body.name}_{axis}", weight, "weight")
+                ZERO
+                if weight == 0
+                else model.parameter_table.derive_parameter(f"weight_{body.name}_{axis}", weight, "weight")
             )
             forces.append(weight_parameter)
         forces.append(ZERO)

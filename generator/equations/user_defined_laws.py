@@ -66,7 +66,7 @@ def read_force_expression(
     _check_force(force, max_penetration, parameter_table)
     _check_slope(force, value, delta, parameter_table)
     if value.subs(delta, 0) != 0:
-        parameter_table.get_or_add(make_onset_value(force))
+        parameter_table.get_or_add_parameter(make_onset_value(force))
     return value
 
 

@@ -26,7 +26,7 @@ def apply_overrides(root: Map, overrides: Mapping[str, str | float | bool]) -> M
     """
     for address, value in overrides.items():
         keys = _split_address(root, address)
-        text = Text.make(_format_as_file_text(value, address), Location(OVERRIDE + address, 1, 1))
+        text = Text.make_text(_format_as_file_text(value, address), Location(OVERRIDE + address, 1, 1))
         root = _replace_text(root, keys, text, _Address(address, root), FILE, 0)
     return root
 
@@ -104,7 +104,7 @@ def _replace_text(node: Any, keys: list[str], text: Text, address: _Address, fie
         if first_key not in _AXES or _AXES[first_key] >= len(node):
             raise address.make_error()
         component = _AXES[first_key]
-        return Items.make(
+        return Items.make_items(
             [
                 *node[:component],
                 _replace_text(node[component], other_keys, text, address, None, depth + 1),
@@ -125,8 +125,8 @@ def _replace_text(node: Any, keys: list[str], text: Text, address: _Address, fie
             and field_of_child.kind in SCALARS
         ):
             raise address.make_error()
-        key, child = Text.make(first_key, text.where), _make_empty_node(field_of_child, other_keys, text.where)
-    return Map.make(
+        key, child = Text.make_text(first_key, text.where), _make_empty_node(field_of_child, other_keys, text.where)
+    return Map.make_map(
         {**node, key: _replace_text(child, other_keys, text, address, field_of_child, depth + 1)}, node.where
     )
 
@@ -150,8 +150,8 @@ def _make_empty_node(field: Field | None, other_keys: list[str], location: Locat
     `other_keys` contains the keys that follow on the path.
     """
     if other_keys and field is not None and field.kind == VECTOR:
-        return Items.make([Text.make("0", location), Text.make("0", location)], location)
-    return Map.make((), location) if other_keys else Text.make("", location)
+        return Items.make_items([Text.make_text("0", location), Text.make_text("0", location)], location)
+    return Map.make_map((), location) if other_keys else Text.make_text("", location)
 
 
 def _iterate_addresses(node: Any, prefix: str = "") -> Iterator[str]:

@@ -22,9 +22,9 @@ from gudgeon.generator.field import (
     Bound,
     Field,
     Kind,
+    declare_entry_name,
     flag,
     mapping,
-    name_of_entry,
     number,
     record,
     vector,
@@ -76,8 +76,8 @@ BEARING = record(
         required=True,
         bounds=(Bound(">", 0.0, "a bearing's length is positive"),),
     ),
-    name_of_entry("materials", "bearing_material", "material of the hole"),
-    name_of_entry("materials", "journal_material", "material of the pin"),
+    declare_entry_name("materials", "bearing_material", "material of the hole"),
+    declare_entry_name("materials", "journal_material", "material of the pin"),
 )
 
 GUIDE = record(
@@ -115,8 +115,8 @@ GUIDE = record(
             Bound("<=", "half_height", "a corner's radius is at most half the slider's height"),
         ),
     ),
-    name_of_entry("materials", "guide_material", "material of the slot"),
-    name_of_entry("materials", "slider_material", "material of the slider"),
+    declare_entry_name("materials", "guide_material", "material of the slot"),
+    declare_entry_name("materials", "slider_material", "material of the slider"),
 )
 
 
@@ -158,7 +158,9 @@ def _make_law_field(role: str, meaning: str) -> Field:
     def find_law_kinds() -> Mapping[str, Kind]:
         """Return the laws of the role by each of their names, with the keys that each name allows."""
         return {
-            name: Kind(_format_law_title(law, name), law.fields_as(name), like="" if name == law.name else law.name)
+            name: Kind(
+                _format_law_title(law, name), law.list_fields_of_name(name), like="" if name == law.name else law.name
+            )
             for name, law in find_laws_of_role(role).items()
         }
 
@@ -223,7 +225,7 @@ SHAPE = record(
         DENSITY,
         bounds=(Bound(">", 0.0, "a density is positive"),),
     ),
-    name_of_entry("materials", "material", "material whose density is used; instead of `density`", required=False),
+    declare_entry_name("materials", "material", "material whose density is used; instead of `density`", required=False),
     number(
         "thickness",
         "thickness, together with density or material",
@@ -276,7 +278,7 @@ BODY = record(
 CONTACT = record(
     "contact",
     "what happens between journal and bearing: a normal law, a film, or both",
-    name_of_entry("contacts", "extends", "contact from which missing keys are taken", required=False),
+    declare_entry_name("contacts", "extends", "contact from which missing keys are taken", required=False),
     _make_law_field("normal", "law of the normal force"),
     _make_law_field("friction", "law of dry friction"),
     _make_law_field("film", "law of the oil film"),
@@ -354,11 +356,13 @@ SIMULATE = record(
 PLAY = record(
     "play",
     "the play in a joint",
-    name_of_entry(
+    declare_entry_name(
         "bearings", "bearing", "bearing of a revolute joint: its dimensions", False, either="guide", otherwise="a guide"
     ),
-    name_of_entry("guides", "guide", "guide of a translational joint: its dimensions", False, otherwise="a bearing"),
-    name_of_entry("contacts", "contact", "contact whose laws apply"),
+    declare_entry_name(
+        "guides", "guide", "guide of a translational joint: its dimensions", False, otherwise="a bearing"
+    ),
+    declare_entry_name("contacts", "contact", "contact whose laws apply"),
     Field(
         "contour",
         DEPTHS,
@@ -379,7 +383,7 @@ _OF_MATERIAL = (
 SCENE = record(
     "scene",
     "which joints have play, and what goes with that",
-    name_of_entry("scenes", "extends", "scene whose entries are added to its own", required=False),
+    declare_entry_name("scenes", "extends", "scene whose entries are added to its own", required=False),
     mapping("play", "joints with play", PLAY),
     mapping("parameters", "other values of parameters in this scene", number("value", "the value here", None)),
     mapping("events", "events of this scene, in addition to the file's", EVENT),
@@ -387,7 +391,7 @@ SCENE = record(
     mapping(
         "materials",
         "other materials in this scene: bearings.NAME.journal_material, bodies.NAME.shape.material",
-        name_of_entry("materials", "value", "the material here"),
+        declare_entry_name("materials", "value", "the material here"),
         addresses=_OF_MATERIAL,
     ),
     SIMULATE,
@@ -429,7 +433,7 @@ FILE = record(
     "file",
     "a mechanism",
     Field("format", WORD, "the version of this format", values=(FORMAT,), required=True),
-    name_of_entry("", "name", "the mechanism's name"),
+    declare_entry_name("", "name", "the mechanism's name"),
     Field("title", TEXT, "title of the mechanism, one line", otherwise="the name"),
     vector("gravity", "acceleration, in ground axes", ACCELERATION, otherwise="none"),
     mapping("parameters", "parameters by name, which every expression may use", number("value", "the number", None)),

@@ -73,7 +73,7 @@ def check_shape(root: Map) -> CheckedTree:
         for name, value in root.items()
         if not (isinstance(value, Text) and value.is_null and name in _MAY_BE_EMPTY)
     }
-    document = Map.make(sections, root.where)
+    document = Map.make_map(sections, root.where)
     errors: list[InputError] = []
     removed_names: set[str] = set()
     while len(errors) < MAX_FINDINGS:
@@ -205,8 +205,8 @@ def _remove_node(node: Map, path: Path) -> Map:
     if first_key not in node or other_keys and not isinstance(node[first_key], Map):
         return node
     if other_keys:
-        return Map.make({**node, node.find_key(first_key): _remove_node(node[first_key], other_keys)}, node.where)
-    return Map.make({key: value for key, value in node.items() if key != first_key}, node.where)
+        return Map.make_map({**node, node.find_key(first_key): _remove_node(node[first_key], other_keys)}, node.where)
+    return Map.make_map({key: value for key, value in node.items() if key != first_key}, node.where)
 
 
 def _make_errors(findings: Sequence[_Finding], document: Map) -> list[InputError]:

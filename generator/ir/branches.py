@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import sympy as sp
 
 from gudgeon.generator.ir.statements import Line, Statement
-from gudgeon.generator.ir.values import NONE, Names
+from gudgeon.generator.ir.values import NO_NAMES, Names
 from gudgeon.generator.symbols.storage import Key, Place
 from gudgeon.generator.symbols.switches import BranchOf, Pick
 
@@ -58,7 +58,7 @@ class Branch(Line):
     @property
     def writes(self) -> Names:  # type: ignore[override]
         """Return the array or argument that is stored to."""
-        return self.target.names if isinstance(self.target, Place) else NONE
+        return self.target.names if isinstance(self.target, Place) else NO_NAMES
 
     @property
     def declared_local(self) -> str:  # type: ignore[override]

@@ -20,7 +20,7 @@ from gudgeon.generator.ir.finite_slopes import (
     make_slope_or_zero,
 )
 from gudgeon.generator.ir.kernels import KernelBuilder
-from gudgeon.generator.ir.reciprocals import base_name, is_division
+from gudgeon.generator.ir.reciprocals import find_base_name, is_division
 from gudgeon.generator.ir.statements import Statement
 from gudgeon.generator.symbols.derivatives import find_symbols
 from gudgeon.generator.symbols.symbols import Symbols
@@ -83,7 +83,7 @@ class Tangents:
             self._known[symbol] = {}  # a parameter, or a multiplier that is held constant
             if symbol in self._symbols.rules:
                 self.store_tangent(symbol, self.apply_chain_rule(self._symbols.rules[symbol]))
-            elif symbol in self._symbols.definitions and not self._symbols.info[symbol].home:
+            elif symbol in self._symbols.definitions and not self._symbols.info[symbol].place:
                 self.store_tangent(symbol, self.compute_gradient(self._symbols.definitions[symbol], symbol))
         return self._known[symbol]
 
@@ -136,9 +136,9 @@ class Tangents:
         """
         if value.is_Number or value.is_Symbol or (-value).is_Symbol:
             return value
-        return self._builder.append_local(f"{symbol.name}_by_{base.name}", self.share_powers_of(value))
+        return self._builder.append_local(f"{symbol.name}_by_{base.name}", self.store_powers(value))
 
-    def share_powers_of(self, value: sp.Expr) -> sp.Expr:
+    def store_powers(self, value: sp.Expr) -> sp.Expr:
         """Return the value with its denominators stored as locals that derivatives reuse.
 
         With `share_powers` its powers become locals too. A value without powers is returned unchanged.
@@ -165,7 +165,7 @@ class Tangents:
         Its name is the prefix and the name of its base, or "sum" if the base is not a symbol.
         """
         if value not in self._powers:
-            self._powers[value] = self._builder.append_local(f"{prefix}_{base_name(value)}", value)
+            self._powers[value] = self._builder.append_local(f"{prefix}_{find_base_name(value)}", value)
         return self._powers[value]
 
 

@@ -13,7 +13,7 @@ from dataclasses import dataclass, field, replace
 import sympy as sp
 
 from gudgeon.generator.ir.signatures import Argument
-from gudgeon.generator.ir.statements import Branches, Line, SolveDependentRows, Statement
+from gudgeon.generator.ir.statements import DeclareBranches, Line, SolveDependentRows, Statement
 from gudgeon.generator.ir.values import Value
 from gudgeon.generator.symbols.derivatives import find_symbols
 from gudgeon.generator.symbols.storage import PARAMETERS, Key, Place
@@ -44,7 +44,7 @@ class Kernel:
     first_switch: int | None = None  # switches are counted from the argument `first_switch`; None: by their own numbers
 
     @property
-    def operations(self) -> int:
+    def n_operations(self) -> int:
         """Return the number of additions, multiplications, divisions and function calls of the statements.
 
         Lines that are neither an assignment of an expression nor a `SolveDependentRows` are not counted.
@@ -106,12 +106,12 @@ def _count_by_sympy(expression: sp.Basic) -> int:
 
 
 def hold_branches(
-    switches: Switches, owner: str, sections: Iterable[Section], only_known: bool = False
+    switches: Switches, owner: str, sections: Iterable[Section], registered_only: bool = False
 ) -> list[Section]:
     """Return the sections with each switching function replaced by its branch, which is held over a step.
 
     Each branch is assigned once, in a statement before the first that reads it. `owner`: whose switches are counted; ""
-    is the scene. `only_known`: switching functions that are not registered yet stay.
+    is the scene. `registered_only`: switching functions that are not registered yet stay.
     """
     branches: dict[sp.Symbol, sp.Expr] = {}
     result = []
@@ -125,7 +125,7 @@ def hold_branches(
                         statements.append(statement)
                     continue
                 n_known = len(branches)
-                value = switches.hold_branches(statement.value, owner, branches, only_known)
+                value = switches.hold_branches(statement.value, owner, branches, registered_only)
                 statements += [Statement(s.name, branch) for s, branch in list(branches.items())[n_known:]]
                 statement = replace(statement, value=value)
             statements.append(statement)
@@ -168,11 +168,11 @@ def declare_branches(kernel: Kernel, output_target: str = "nobody") -> Kernel:
     """Return the kernel with a first section that declares the held branches.
 
     A kernel that reads no branch is returned unchanged. `output_target`: where the kernel writes its switching
-    functions, "", "nobody" or "rhs" (see `Branches`).
+    functions, "", "nobody" or "rhs" (see `DeclareBranches`).
     """
     if not _has_branch_reads(kernel):
         return kernel
-    return replace(kernel, sections=(Section(HELD_BRANCHES_TITLE, (Branches(output_target),)), *kernel.sections))
+    return replace(kernel, sections=(Section(HELD_BRANCHES_TITLE, (DeclareBranches(output_target),)), *kernel.sections))
 
 
 def _has_branch_reads(kernel: Kernel) -> bool:
@@ -222,13 +222,13 @@ class KernelBuilder:
         inline: bool = False,
         owner: str | None = None,
         prune: bool = False,
-        only_known: bool = False,
+        registered_only: bool = False,
     ) -> Kernel:
         """Return the kernel: inputs and definitions that the collected lines read, then the collected sections.
 
         Empty sections are left out. `status`: the function returns 0 or the number of a failure. With an `owner` ("":
-        the scene) switching functions, or `only_known` ones, are replaced by branches: the function then reads `branch`
-        and writes `g` (symbols/switches.py). `prune`: locals that nothing reads are removed.
+        the scene) switching functions, or `registered_only` ones, are replaced by branches: the function then reads
+        `branch` and writes `g` (symbols/switches.py). `prune`: locals that nothing reads are removed.
         """
         if prune:
             self._sections = _prune_sections(self._sections)
@@ -237,7 +237,7 @@ class KernelBuilder:
         expressions = [x for line in lines for x in line.expressions]
         definitions, inputs = self._resolve_symbols(expressions, declared)
         symbol_info = self._symbols.info
-        inputs_with_places = [(s.name, place) for s in inputs if (place := symbol_info[s].home)]
+        inputs_with_places = [(s.name, place) for s in inputs if (place := symbol_info[s].place)]
         structs = (PARAMETERS, LINEARIZATION)
         groups = {
             struct: [
@@ -262,7 +262,7 @@ class KernelBuilder:
         ]
         sections = input_sections + [Section(title, tuple(group)) for title, group in self._sections]
         if owner is not None:
-            sections = hold_branches(self._symbols.switches, owner, sections, only_known)
+            sections = hold_branches(self._symbols.switches, owner, sections, registered_only)
         nonempty = tuple(section for section in sections if section.statements)
         read_names = {name for section in nonempty for line in section.statements for name in line.reads}
         names = self._symbols.find_shorter_names(read_names)
@@ -284,10 +284,10 @@ class KernelBuilder:
             if symbol in found or symbol.name in declared_names or symbol not in info:
                 continue
             found.add(symbol)
-            if not info[symbol].home:
+            if not info[symbol].place:
                 pending.extend(find_symbols(definitions[symbol]))
         ordered = [symbol for symbol in info if symbol in found]
-        return [s for s in ordered if not info[s].home], [s for s in ordered if info[s].home]
+        return [s for s in ordered if not info[s].place], [s for s in ordered if info[s].place]
 
 
 def _prune_sections(sections: Iterable[tuple[str, Sequence[Line]]]) -> list[tuple[str, list[Line]]]:

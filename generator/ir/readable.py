@@ -91,11 +91,11 @@ def _find_fraction_of_pi(value: float) -> FractionOfPi | None:
     )
 
 
-def make_readable(kernel: Kernel, branching: bool = True) -> Readable:
+def make_readable(kernel: Kernel, name_branches: bool = True) -> Readable:
     """Return the readable form of a kernel: without copies of arguments and parameters, with a line for each branch.
 
-    `branching`: False leaves the branches inside the expressions. Empty sections are removed; values and the order of
-    their terms stay.
+    `name_branches`: False leaves the branches inside the expressions. Empty sections are removed; values and the order
+    of their terms stay.
     """
     arguments = {argument.name for argument in kernel.arguments}
     names = dict(kernel.names)
@@ -109,7 +109,7 @@ def make_readable(kernel: Kernel, branching: bool = True) -> Readable:
     sections = []
     for section in kernel.sections:
         lines = _remove_copies(section.statements, arguments, names)
-        sections.append(Section(section.title, tuple(branches.insert_branches(lines) if branching else lines)))
+        sections.append(Section(section.title, tuple(branches.insert_branches(lines) if name_branches else lines)))
     nonempty = tuple(section for section in sections if section.statements)
     return Readable(nonempty, names, branches.names, kernel.first_switch)
 

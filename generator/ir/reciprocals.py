@@ -22,7 +22,7 @@ def is_division(part: sp.Basic) -> bool:
     return bool(part.is_Pow and part.exp.is_Integer and part.exp < 0 and part.free_symbols)
 
 
-def base_name(power: sp.Basic) -> str:
+def find_base_name(power: sp.Basic) -> str:
     """Return the name for the base x of a power: of its symbol or struct member, or "sum" for other expressions."""
     if isinstance(power.base, PlaceSymbol):
         return power.base.place.member
@@ -41,8 +41,8 @@ def hoist_reciprocals(parameter_table: ParameterTable, value: sp.Expr) -> sp.Exp
 
     def derive_reciprocal(part: sp.Pow) -> sp.Expr:
         """Return the division as a power of a derived parameter 1/x, which is added to the table."""
-        name = base_name(part)
-        return parameter_table.derive(f"inverse_{name}", 1 / part.base, f"1/{name}") ** -part.exp
+        name = find_base_name(part)
+        return parameter_table.derive_parameter(f"inverse_{name}", 1 / part.base, f"1/{name}") ** -part.exp
 
     return value.replace(is_constant_division, derive_reciprocal) if value.has(sp.Pow) else value
 
@@ -92,7 +92,7 @@ def _make_reciprocal_symbol(power: sp.Basic, used_names: set[str]) -> sp.Symbol:
 
     If that name is used, a suffix _2, _3, … is appended. The name is added to `used_names`.
     """
-    base = name = f"inverse_{base_name(power)}"
+    base = name = f"inverse_{find_base_name(power)}"
     for k in range(2, len(used_names) + 3):
         if name not in used_names:
             break

@@ -82,7 +82,7 @@ def split_late_sums(lines: Iterable[TitledLine], make_unique_name: Callable[[str
     return ordered
 
 
-def differences(statements: Iterable[Statement]) -> dict[str, tuple[sp.Expr, str, int]]:
+def find_angle_differences(statements: Iterable[Statement]) -> dict[str, tuple[sp.Expr, str, int]]:
     """Return the locals that are the cosine or sine of a difference a − b, formed from those of a and b.
 
     The result maps each such local to (a − b, the local of the other function, sign in its derivative). A local whose
@@ -139,7 +139,7 @@ class Series:
 
 
 @dataclass(frozen=True)
-class Linear:
+class LinearSystem:
     """A linear system A x = b within a function: A_0 x_k = b_k - A_1 x_{k-1} - ... - A_k x_0, by the factors of A_0.
 
     `entries` of A by two nodes, the locals `loads` that are b and `unknowns` that are x by node; `title`: the section
@@ -153,7 +153,9 @@ class Linear:
     unknowns: Mapping[int, sp.Symbol]
 
 
-def derive_taylor_series(kernel: Kernel, find_place: FindPlace, name: str, linear: Linear | None = None) -> Series:
+def derive_taylor_series(
+    kernel: Kernel, find_place: FindPlace, name: str, linear: LinearSystem | None = None
+) -> Series:
     """Return the functions for the Taylor series of a kernel's results.
 
     `find_place(place)`: the place of a result in the new functions, or None if it is not requested. `linear`: a linear
@@ -198,7 +200,7 @@ def _replace_places(line: Line, local: Mapping[sp.Basic, sp.Basic]) -> Line:
 class _SeriesBuilder(Rules):
     """Builder of both functions, line by line: lines of order 0 and of order k."""
 
-    def __init__(self, lines: Sequence[TitledLine], linear: Linear | None) -> None:
+    def __init__(self, lines: Sequence[TitledLine], linear: LinearSystem | None) -> None:
         """Begin with no converted lines.
 
         `lines`: all titled lines of the kernel, whose names are used and whose functions keep their names. `linear`:
@@ -208,7 +210,7 @@ class _SeriesBuilder(Rules):
         super().__init__({line.declared_local for line in statements})
         self._values: list[TitledLine] = []
         self._terms: list[TitledLine] = []
-        self._angle_differences = differences(statements)
+        self._angle_differences = find_angle_differences(statements)
         self._name_of_function = {
             line.value: line.declared_local for line in statements if isinstance(line.value, sp.Function)
         }
@@ -284,7 +286,7 @@ class _SeriesBuilder(Rules):
             self.define_local(name, expression)
         return symbol
 
-    def _sum_lower_orders(self, linear: Linear, row: int) -> sp.Expr:
+    def _sum_lower_orders(self, linear: LinearSystem, row: int) -> sp.Expr:
         """Return Σ A_j x_{k-j}, j = 1 … k, of equation `row` of the linear system, without constant entries of A."""
         terms = []
         for column, x in linear.unknowns.items():

@@ -9,7 +9,7 @@ from typing import ClassVar
 import sympy as sp
 
 from gudgeon.generator.ir.signatures import Type
-from gudgeon.generator.ir.values import NONE, Names, Test, Value, find_read_names
+from gudgeon.generator.ir.values import NO_NAMES, Names, Test, Value, find_read_names
 from gudgeon.generator.symbols.storage import PARAMETERS, Key, Place
 
 
@@ -17,7 +17,7 @@ from gudgeon.generator.symbols.storage import PARAMETERS, Key, Place
 class Line:
     """A line of a function: expressions and names that it reads, arrays that it writes, the local that it declares."""
 
-    writes: ClassVar[Names] = NONE
+    writes: ClassVar[Names] = NO_NAMES
     declared_local: ClassVar[str] = ""
 
     @property
@@ -28,7 +28,7 @@ class Line:
     @property
     def names(self) -> Names:
         """Return the names that the line reads apart from those in its expressions."""
-        return NONE
+        return NO_NAMES
 
     @cached_property
     def reads(self) -> Names:
@@ -52,12 +52,12 @@ class Statement(Line):
     @property
     def names(self) -> Names:
         """Return the other names in the value."""
-        return NONE if isinstance(self.value, sp.Basic) else self.value.names
+        return NO_NAMES if isinstance(self.value, sp.Basic) else self.value.names
 
     @property
     def writes(self) -> Names:  # type: ignore[override]
         """Return the array or argument that is stored to."""
-        return self.target.names if isinstance(self.target, Place) else NONE
+        return self.target.names if isinstance(self.target, Place) else NO_NAMES
 
     @property
     def declared_local(self) -> str:  # type: ignore[override]
@@ -125,7 +125,7 @@ class Guard(Line):
     @property
     def names(self) -> Names:
         """Return the names that the test or call reads, and those that a call writes."""
-        return self.test.names | (self.test.writes if isinstance(self.test, Call) else NONE)
+        return self.test.names | (self.test.writes if isinstance(self.test, Call) else NO_NAMES)
 
 
 @dataclass(frozen=True)
@@ -258,7 +258,7 @@ class MarkUnread(Line):
 
 
 @dataclass(frozen=True)
-class Branches(Line):
+class DeclareBranches(Line):
     """The declaration of held branches, and of where switching functions are written: "" nowhere, "nobody", "rhs"."""
 
     output_target: str

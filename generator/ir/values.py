@@ -17,7 +17,7 @@ from gudgeon.generator.symbols.storage import Place, PlaceSymbol
 from gudgeon.generator.symbols.switches import BranchOf, Size
 
 Names = frozenset[str]
-NONE: Names = frozenset()
+NO_NAMES: Names = frozenset()
 
 
 @lru_cache(20_000)
@@ -27,7 +27,7 @@ def find_read_names(value: sp.Basic) -> Names:
     A symbol of a place counts as the argument that contains it. Results are cached.
     """
     names = frozenset(s.place.base if isinstance(s, PlaceSymbol) else s.name for s in find_symbols(value))
-    return names | ({"branch", "g"} if value.has(BranchOf) else NONE)
+    return names | ({"branch", "g"} if value.has(BranchOf) else NO_NAMES)
 
 
 class Threshold(float):
@@ -62,7 +62,7 @@ class Test:
         There are none if the bound is a fraction of the value itself.
         """
         if self.is_relative_to_value:
-            return NONE
+            return NO_NAMES
         return frozenset(x.place.base for x in self.bound if isinstance(x, Threshold) and x.place)
 
     @property
@@ -88,7 +88,7 @@ class Conditional:
     test: Test
     then: sp.Basic
     otherwise: sp.Basic
-    names: ClassVar[Names] = NONE
+    names: ClassVar[Names] = NO_NAMES
 
     @property
     def expressions(self) -> tuple[sp.Basic, ...]:

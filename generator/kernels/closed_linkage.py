@@ -7,7 +7,7 @@ from collections.abc import Callable
 import sympy as sp
 
 from gudgeon.generator.equations.constraints import Row
-from gudgeon.generator.equations.model import Model, start_values
+from gudgeon.generator.equations.model import Model, list_start_values
 from gudgeon.generator.ir.kernels import Kernel, KernelBuilder, Section
 from gudgeon.generator.ir.signatures import PARAMETERS, STATE, Number, make_input_argument, make_output_argument
 from gudgeon.generator.ir.statements import Statement
@@ -148,8 +148,10 @@ def make_start_kernel(model: Model) -> Kernel:
         ["Values of the file's start: guesses, set values, then rates; those of journals follow."],
     )
     build.begin_section("start")
-    for key, group in start_values(model).items():
+    for key, group in list_start_values(model).items():
         for k, (quantity, sign) in enumerate(group):
-            build.append_store(Place(key)[k], sign * model.parameter_table.get_or_add(quantity), quantity.address)
+            build.append_store(
+                Place(key)[k], sign * model.parameter_table.get_or_add_parameter(quantity), quantity.address
+            )
     arguments = (PARAMETERS, *(make_output_argument(key) for key in ("guess", "set", "rates")))
     return build.build_kernel(arguments)

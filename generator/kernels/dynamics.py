@@ -9,7 +9,7 @@ import sympy as sp
 
 from gudgeon.generator.equations.contact_points import Wall
 from gudgeon.generator.equations.loads import PointLoad
-from gudgeon.generator.equations.model import Model, stick_gain
+from gudgeon.generator.equations.model import Model, derive_stick_gain
 from gudgeon.generator.equations.play import Clearance
 from gudgeon.generator.equations.system import System
 from gudgeon.generator.ir.branches import ReturnIfOnlyJoints
@@ -163,8 +163,8 @@ def _append_constraint_rhs(model: Model, build: KernelBuilder, kkt: KKT, stabili
         named_rhs = (build.append_local(f"rhs_{row.name.replace('.', '_')}", row.gamma) for row in kkt.rows)
         return {kkt.n + index: rhs for index, rhs in enumerate(named_rhs)}
     alpha, beta = model.baumgarte
-    two_alpha = model.parameter_table.derive("two_alpha", 2 * alpha, "2 alpha")
-    beta_squared = model.parameter_table.derive("beta_squared", beta**2, "beta^2")
+    two_alpha = model.parameter_table.derive_parameter("two_alpha", 2 * alpha, "2 alpha")
+    beta_squared = model.parameter_table.derive_parameter("beta_squared", beta**2, "beta^2")
     rhs: dict[int, sp.Expr] = {}
     if kkt.rows:
         build.begin_section("constraints: Phi, Phi_dot = Phi_q v - nu, gamma")
@@ -188,12 +188,12 @@ def _append_slip_velocities(model: Model, build: KernelBuilder, kkt: KKT, forces
     if kkt.frictions:
         build.begin_section("friction: slip, or stick as a constraint equation")
     coordinate_index = {q: k for k, q in enumerate(kkt.system.q)}
-    two_alpha = stick_gain(model) if kkt.frictions else ZERO
+    two_alpha = derive_stick_gain(model) if kkt.frictions else ZERO
     for index, friction in enumerate(kkt.frictions):
         name, node = friction.name, kkt.first_friction + index
         v = build.append_local(f"slip_{name}", friction.slip.v)
         kkt.stick_symbols[node], sign = append_friction_mode(build, name, index)
-        force = build.append_local(f"kinetic_{name}", -sign * friction.slip.kinetic_at(v))
+        force = build.append_local(f"kinetic_{name}", -sign * friction.slip.evaluate_kinetic_force(v))
         for q, entry in friction.jacobian.items():
             forces[coordinate_index[q]] += entry * force
         stick_rhs[node] = build.append_local(f"rhs_{name}", friction.gamma - two_alpha * v)

@@ -22,7 +22,7 @@ from gudgeon.generator.equations.model import Model
 from gudgeon.generator.ir.finite_slopes import convert_for_intervals
 from gudgeon.generator.ir.kernels import Kernel, Section, declare_branches
 from gudgeon.generator.ir.signatures import PARAMETERS, RHS, TIME
-from gudgeon.generator.ir.statements import Branches, Line, Statement
+from gudgeon.generator.ir.statements import DeclareBranches, Line, Statement
 from gudgeon.generator.symbols.storage import Place
 from gudgeon.generator.symbols.switches import BranchOf, ModOn, PeriodsOf, Pick
 from gudgeon.generator.symbols.unevaluated import Whole
@@ -119,7 +119,7 @@ def make_ranges_kernel(event_kernel: Kernel, switch_indices: Sequence[int], n_ev
         for statement in section.statements:
             if isinstance(statement, Statement) and isinstance(statement.target, Place):
                 statement = replace(statement, target=Place("out")[output_index[statement.target]])
-            lines.append(Branches("") if isinstance(statement, Branches) else statement)
+            lines.append(DeclareBranches("") if isinstance(statement, DeclareBranches) else statement)
         sections.append(Section(section.title, tuple(lines)))
     return replace(
         event_kernel,

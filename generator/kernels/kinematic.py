@@ -61,7 +61,7 @@ def _make_body_motion_kernel(system: System, closures: SquareRows) -> Kernel:
     """
     build = KernelBuilder(
         system.model.symbols,
-        "arrive",
+        "compute_body_motion",
         [
             "Accelerations a of the tree's coordinates q with rates v, and with them the motion of all bodies:",
             "all_q, all_v, all_a (N_Q). `worst`: the largest |Phi_q v - nu|.",

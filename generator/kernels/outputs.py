@@ -78,7 +78,7 @@ def _compute_reaction(
     `rows`: the equations of the joint; `multiplier`: λ by equation. If the second body is the ground, they follow from
     the wrench on all other bodies of the joint.
     """
-    first, second = model.geometry.point(joint.first), model.geometry.point(joint.second)
+    first, second = model.geometry.find_point(joint.first), model.geometry.find_point(joint.second)
     kind = joint_types()[joint.kind]
     point = first if kind.reaction_at == "first" else second
     sign, bodies = 1, [second.body]

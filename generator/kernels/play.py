@@ -81,7 +81,7 @@ def _make_law_kernel(model: Model, clearance: Clearance, equations: LawEquations
     """
     results = equations.results
     fields = name_joint_parameters(model, clearance)
-    names = {symbol: fields[info.home] for symbol, info in model.symbols.info.items() if info.home in fields}
+    names = {symbol: fields[info.place] for symbol, info in model.symbols.info.items() if info.place in fields}
     build = KernelBuilder(model.symbols, make_law_name(equations), describe_law(equations, names))
     build.begin_section("")
     for name, equation in equations.steps.items():

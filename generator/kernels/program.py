@@ -15,13 +15,13 @@ from functools import cached_property
 import sympy as sp
 
 from gudgeon.contract.methods import STAGES
-from gudgeon.generator.equations.model import Model, stick_gain
+from gudgeon.generator.equations.model import Model, derive_stick_gain
 from gudgeon.generator.equations.system import System, make_absolute_system
 from gudgeon.generator.ir.kernels import Kernel, remove_unused_locals
 from gudgeon.generator.ir.series import Series
 from gudgeon.generator.ir.sine_pairs import vectorize_sines
 from gudgeon.generator.kernels import closed_linkage, outputs
-from gudgeon.generator.kernels.driven_chains import ChainKernels
+from gudgeon.generator.kernels.driven_loops import DrivenLoopKernels
 from gudgeon.generator.kernels.dynamics import make_dynamics_kernel
 from gudgeon.generator.kernels.event_functions import WATCHED, TimeTerms, find_time_terms, make_event_function_kernel
 from gudgeon.generator.kernels.kinematic import make_kinematic_kernels
@@ -31,7 +31,7 @@ from gudgeon.generator.kernels.reduced import has_singular_fallback, make_conver
 from gudgeon.generator.kernels.shared import SharedFunctionCall, SharedFunctions
 from gudgeon.generator.kernels.taylor import NAME as TAYLOR
 from gudgeon.generator.kernels.taylor import make_taylor_series
-from gudgeon.generator.reduction.driven_chains import Chain
+from gudgeon.generator.reduction.driven_loops import DrivenLoops
 from gudgeon.generator.reduction.reduction import TreeSystem, reduce_model
 from gudgeon.generator.solvers.kkt import KKT
 from gudgeon.generator.solvers.newton import Newton, make_complex_kernels
@@ -49,7 +49,7 @@ class Integrated:
     reduced: bool
     event_functions: Kernel | None  # event functions, if they do not depend on forces (event_functions.py)
     pivots: tuple[str, ...]  # equations to which a status number of motion() refers
-    chain: Chain | None = None
+    chain: DrivenLoops | None = None
 
     @property
     def switch_indices(self) -> list[int]:
@@ -70,7 +70,7 @@ class TreeFunctions:
     unpaired_kernels: tuple[Kernel, ...]
     kernels: tuple[Kernel, ...]
     has_fallback: bool
-    chains: ChainKernels | None
+    chains: DrivenLoopKernels | None
 
     @property
     def all_kernels(self) -> tuple[Kernel, ...]:
@@ -241,11 +241,11 @@ def _derive_tree_functions(model: Model, pivots: tuple[str, ...]) -> tuple[TreeF
     kernels, rescued = tuple(vectorize_sines(kernel) for kernel in unpaired), has_singular_fallback(system)
     tree = TreeFunctions(system, conversions, tuple(unpaired), kernels, rescued, chains)
     pivots = pivots if rescued else kkt.pivots
-    if system.chain:
-        pivots = (*pivots, *(row.name for row in system.chain.rows))
+    if system.driven_loops:
+        pivots = (*pivots, *(row.name for row in system.driven_loops.rows))
     angles = tuple(int("." not in name) for name in system.unknowns)
     watched = next((kernel for kernel in unpaired if kernel.name == WATCHED), None)
-    return tree, Integrated(system, kkt, angles, True, watched, pivots, system.chain)
+    return tree, Integrated(system, kkt, angles, True, watched, pivots, system.driven_loops)
 
 
 def _derive_methods(model: Model, integrated: Integrated, with_complex_kernels: bool) -> Methods:
@@ -259,11 +259,11 @@ def _derive_methods(model: Model, integrated: Integrated, with_complex_kernels: 
         clearance.name: make_derivative_calls(model, clearance, derivatives) for clearance in model.clearances
     }
     newton = Newton(integrated.system)
-    gains = {"stick": stick_gain(model)} if model.frictions else {}
+    gains = {"stick": derive_stick_gain(model)} if model.frictions else {}
     if not integrated.reduced:
         alpha, beta = model.baumgarte
-        gains["two_alpha"] = model.parameter_table.derive("two_alpha", 2 * alpha)
-        gains["beta_squared"] = model.parameter_table.derive("beta_squared", beta**2)
+        gains["two_alpha"] = model.parameter_table.derive_parameter("two_alpha", 2 * alpha)
+        gains["beta_squared"] = model.parameter_table.derive_parameter("beta_squared", beta**2)
     closing = make_closing_kernel(integrated.system)
     paired_closing = (
         vectorize_sines(remove_unused_locals(closing)) if integrated.reduced else remove_unused_locals(closing)

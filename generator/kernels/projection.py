@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import sympy as sp
 
-from gudgeon.generator.equations.constraints import Row, rate_jumps
+from gudgeon.generator.equations.constraints import Row, has_jumping_rate
 from gudgeon.generator.equations.system import System
 from gudgeon.generator.ir.kernels import Kernel, KernelBuilder, declare_branches
 from gudgeon.generator.ir.signatures import DISCRETE, PARAMETERS, STATE, make_input_argument, make_output_argument
@@ -60,7 +60,7 @@ def add_film_masses(system: System) -> System:
     films = [clearance for clearance in model.clearances if clearance.film is not None]
     if not films or not system.rows:
         return system
-    kappa = model.parameter_table.derive(
+    kappa = model.parameter_table.derive_parameter(
         "film_mass", FILM_MASS_FACTOR * sp.Add(*(body.mass for body in model.bodies)), "of projections"
     )
     mass = dict(system.mass)
@@ -81,8 +81,8 @@ def raise_light_masses(system: System) -> System:
     constraints may be measured by any masses. Ordinary machines keep their masses, to the bit. A system with a drive
     whose rate jumps is returned unchanged: its projection is an impulse, which needs M.
     """
-    model, derive = system.model, system.model.parameter_table.derive
-    if any(rate_jumps(drive) for drive in model.scene.mechanism.drives.values()):
+    model, derive = system.model, system.model.parameter_table.derive_parameter
+    if any(has_jumping_rate(drive) for drive in model.scene.mechanism.drives.values()):
         return system
     # one symbol for the sum: SymPy compares the arguments of each Max by factoring them
     least_body_mass = MIN_MASS_FRACTION * derive(
@@ -90,7 +90,7 @@ def raise_light_masses(system: System) -> System:
     )
     mass = dict(system.mass)
     for k, q in enumerate(system.q):
-        own_mass, least_mass = mass[k, k], least_body_mass * system.inertia_of_unit_mass(k)
+        own_mass, least_mass = mass[k, k], least_body_mass * system.compute_inertia_of_unit_mass(k)
         if least_mass != 0 and model.parameter_table.is_constant(own_mass):
             name = f"{'tree_' if system.in_tree else ''}metric_{q.name}"
             mass[k, k] = derive(name, sp.Max(own_mass, least_mass), "of projections")
@@ -138,5 +138,5 @@ def make_closing_kernel(system: System, name: str = "closing_step") -> Kernel:
     build.append_line(Return())
     outs = (make_output_argument(name) for name in ("dq", "dv", "worst"))
     # a switching function of lengths and parameters alone is not an event function, so its branch is not held
-    kernel = build.build_kernel((*STATE, DISCRETE, PARAMETERS, *outs), status=True, owner="", only_known=True)
+    kernel = build.build_kernel((*STATE, DISCRETE, PARAMETERS, *outs), status=True, owner="", registered_only=True)
     return declare_branches(kernel)

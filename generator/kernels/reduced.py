@@ -12,7 +12,7 @@ from gudgeon.generator.equations.model import Model
 from gudgeon.generator.ir.kernels import Kernel, KernelBuilder, remove_unused_locals
 from gudgeon.generator.ir.signatures import PARAMETERS, STATE, Argument, make_input_argument, make_output_argument
 from gudgeon.generator.ir.statements import Jump, SolveDependentRows
-from gudgeon.generator.kernels.driven_chains import ChainKernels
+from gudgeon.generator.kernels.driven_loops import DrivenLoopKernels
 from gudgeon.generator.kernels.dynamics import make_dynamics_kernel
 from gudgeon.generator.kernels.event_functions import make_event_function_kernel, reads_coordinate_beyond
 from gudgeon.generator.kernels.projection import make_projection_kernel
@@ -42,7 +42,7 @@ def make_conversion_kernels(model: Model, system: TreeSystem) -> list[Kernel]:
     return [_make_expand_kernel(system), *_make_reduce_kernels(model, system)]
 
 
-def make_reduced_kernels(system: TreeSystem) -> tuple[list[Kernel], KKT, ChainKernels | None]:
+def make_reduced_kernels(system: TreeSystem) -> tuple[list[Kernel], KKT, DrivenLoopKernels | None]:
     """Return closures, right-hand side, event functions and projection in tree coordinates, with the KKT elimination.
 
     The functions of kinematically determined loops are returned last, or None; their switches are among the event
@@ -53,13 +53,13 @@ def make_reduced_kernels(system: TreeSystem) -> tuple[list[Kernel], KKT, ChainKe
         system, kkt, DYNAMICS, _DOC, stabilised=False, append_fallback=_append_absolute_solution
     )
     projection, _ = make_projection_kernel(system, system.rows, "reduced_project")
-    chains = ChainKernels(system, system.chain) if system.chain else None
+    chains = DrivenLoopKernels(system, system.driven_loops) if system.driven_loops else None
     is_driven = len(system.q) == len(system.rows) and not (system.model.clearances or system.frictions)
     loop_switches = chains.switch_kernel if chains else None
     watched = (
         None if is_driven else make_event_function_kernel(dynamics, system.model, loop_switches)
     )  # a driven motion has no events here
-    if watched and system.chain and reads_coordinate_beyond(watched, len(system.q)):
+    if watched and system.driven_loops and reads_coordinate_beyond(watched, len(system.q)):
         watched = None  # chains are closed by rates()
     kernels = (*_make_closure_kernels(system), dynamics, *([watched] if watched else []), projection)
     return [remove_unused_locals(kernel) for kernel in kernels], kkt, chains
@@ -104,7 +104,7 @@ def _make_reduce_kernels(model: Model, system: TreeSystem) -> list[Kernel]:
     """
     coordinate_pairs = list(zip(model.q, model.v, strict=True))
     differentiate = model.symbols.differentiate
-    names = (*system.unknowns, *(system.chain.names if system.chain else ()))
+    names = (*system.unknowns, *(system.driven_loops.names if system.driven_loops else ()))
     positions = _express_tree_coordinates(model, system, names)
     rates = [sp.Add(*(differentiate(coordinate, q) * v for q, v in coordinate_pairs)) for coordinate in positions]
     state = KernelBuilder(
@@ -163,7 +163,7 @@ def _compute_slide(model: Model, link: Link) -> sp.Expr:
     """
     assert link.joint is not None
     geometry = model.geometry
-    first, second = geometry.point(link.joint.first), geometry.point(link.joint.second)
+    first, second = geometry.find_point(link.joint.first), geometry.find_point(link.joint.second)
     u_x, u_y = first.direction(JointFields(link.joint, geometry).direction("axis"))
     return u_x * (second.x - first.x) + u_y * (second.y - first.y)
 

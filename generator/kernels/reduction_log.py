@@ -97,10 +97,12 @@ def _make_reduction_steps(model: Model, system: TreeSystem) -> Iterator[Step]:
     if system.slides:
         names = dict.fromkeys(k for expression in system.slides.values() for k in expression if k != CONSTANT)
         yield Step(message.KNOWN, tuple(names) or tuple(system.slides), tuple(system.slides), rows_gone=system.sliding)
-    if system.chain:
-        rows = tuple(row.name for row in system.chain.rows)
-        removed = tuple(name if "." in name else f"{name}.theta" for name in system.chain.names)
-        yield Step(message.CHAIN, tuple(dict.fromkeys(row.owner for row in system.chain.rows)), removed, rows_gone=rows)
+    if system.driven_loops:
+        rows = tuple(row.name for row in system.driven_loops.rows)
+        removed = tuple(name if "." in name else f"{name}.theta" for name in system.driven_loops.names)
+        yield Step(
+            message.CHAIN, tuple(dict.fromkeys(row.owner for row in system.driven_loops.rows)), removed, rows_gone=rows
+        )
 
 
 def _list_joint_names(links: Iterable[Link]) -> tuple[str, ...]:
@@ -139,13 +141,15 @@ def _make_shared_point_steps(tree: Tree) -> Iterator[Step]:
 
     Points whose pairs stay are left out.
     """
-    for hub in tree.hubs:
+    for hub in tree.shared_points:
         joints_in_use = [link.joint for link in tree.links if link.joint in hub.pairs]
         joints_in_use += [joint for joint in tree.closing_pairs if joint in hub.pairs]
         added_rows = tuple(
-            row for joint in joints_in_use if joint and joint not in hub.joints for row in hub.rows_of(joint)
+            row for joint in joints_in_use if joint and joint not in hub.joints for row in hub.list_pair_rows(joint)
         )
-        removed_rows = tuple(row for joint in hub.joints if joint not in joints_in_use for row in hub.rows_of(joint))
+        removed_rows = tuple(
+            row for joint in hub.joints if joint not in joints_in_use for row in hub.list_pair_rows(joint)
+        )
         if removed_rows:
             yield Step(
                 message.HUB, tuple(joint.name for joint in hub.joints), rows_gone=removed_rows, rows_come=added_rows

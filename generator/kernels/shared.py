@@ -108,7 +108,7 @@ def name_joint_parameters(model: Model, clearance: Clearance) -> dict[Place, str
     }
     for name, symbol in _list_file_parameters(model, laws):
         named_symbols.append((f"{name}_file_parameters" if name in used_names else name, symbol))
-    place_of_symbol = {symbol: symbol_info.home for symbol, symbol_info in info.items() if symbol_info.home}
+    place_of_symbol = {symbol: symbol_info.place for symbol, symbol_info in info.items() if symbol_info.place}
     name_of_place: dict[Place, str] = {}
     for name, symbol in named_symbols:
         if symbol in place_of_symbol and name not in name_of_place.values():

@@ -10,7 +10,7 @@ import sympy as sp
 from gudgeon.errors import BadValueError
 from gudgeon.generator.equations.notes import find_drives_with_jumps
 from gudgeon.generator.ir.kernels import KernelBuilder, remove_unused_locals
-from gudgeon.generator.ir.series import Linear, Series, derive_taylor_series
+from gudgeon.generator.ir.series import LinearSystem, Series, derive_taylor_series
 from gudgeon.generator.ir.series_rules import NoTaylorSeries
 from gudgeon.generator.ir.signatures import RHS
 from gudgeon.generator.ir.values import Threshold
@@ -70,7 +70,7 @@ def _derive_series(system: TreeSystem) -> Series:
         make_dynamics_kernel(system, kkt, DYNAMICS, stabilised=False, append_fallback=_ignore_vanishing_pivot)
     )
     diagonal = {(k, k): system.mass[k, k] for k in range(kkt.n) if (k, k) in system.mass}
-    linear = Linear(FACTORS, {**kkt.entries, **diagonal}, kkt.loads, kkt.unknowns)
+    linear = LinearSystem(FACTORS, {**kkt.entries, **diagonal}, kkt.loads, kkt.unknowns)
     return derive_taylor_series(dynamics, _find_result_place, NAME, linear)
 
 

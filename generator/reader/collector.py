@@ -200,7 +200,7 @@ class Reader:
             with other spellings.
             """
             spelling = (
-                text if spelling_text is text else Text.make(spelling_text, text.where, text.plain, text.one_line)
+                text if spelling_text is text else Text.make_text(spelling_text, text.where, text.plain, text.one_line)
             )
             parsed = self.parse_expression(spelling, address, constant=not name_scope)
             dimensions = self.find_name_dimensions(parsed, text.where, name_scope)
@@ -422,7 +422,7 @@ def check_curve_call(call: CurveCall, location: Location, may_vary: bool) -> Non
     if not any(True for _ in iterate_names(argument)) and not curve.is_within(
         x := float(evaluate(argument, lambda _: 0.0))
     ):
-        message = f"curve {call.function} is called {curve.describe_outside(x)}"
+        message = f"curve {call.function} is called {curve.describe_out_of_range(x)}"
         raise BadValueError(message, location, "expected an argument in it")
 
 

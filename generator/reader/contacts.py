@@ -163,8 +163,8 @@ def _merge_contacts(parent: Map, child: Map) -> Map:
             and child_law is not None
             and child_law.get("law", parent_law.get("law")) == parent_law.get("law")
         ):
-            changes[role] = Map.make({**parent_law, **child_law}, child_law.where)
-    return Map.make({**parent, **changes}, child.where)
+            changes[role] = Map.make_map({**parent_law, **child_law}, child_law.where)
+    return Map.make_map({**parent, **changes}, child.where)
 
 
 def _read_contact(reader: Reader, name: Text, node: Map) -> Contact:
@@ -304,7 +304,7 @@ def _read_law(reader: Reader, address: str, role: str, node: Map) -> LawUse:
         hint = format_name_hint(text, laws_of_role)
         hint += "\n  a law of your own is made known by --laws FILE.py, or gudgeon.register"
         raise UnknownNameError(f"unknown {role} law {str(text)[:200]!r}", text.where, hint)
-    law, fields = laws_of_role[text], laws_of_role[text].fields_as(text)
+    law, fields = laws_of_role[text], laws_of_role[text].list_fields_of_name(text)
     if law.name in USER_LAWS:
         reader.laws[law.name] = find_law_key(law.name)
     mistyped = check_keys(reader, node, ["law", *list_field_names(fields)], address)

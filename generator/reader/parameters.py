@@ -37,7 +37,7 @@ def read_parameters(reader: Reader, section: Map) -> dict[str, Quantity]:
 
                 `add_unit_hints` calls this function with other spellings. Raises InputError.
                 """
-                spelling = Text.make(spelling_text, text.where, text.plain, text.one_line)
+                spelling = Text.make_text(spelling_text, text.where, text.plain, text.one_line)
                 tree = reader.parse_expression(spelling, f"parameters.{name}", constant=True)
                 reader.find_name_dimensions(tree, text.where)
                 _find_parameter_dimension(name, tree, lambda _: None, text.where)

@@ -161,7 +161,7 @@ class MotionNames(ResultNames):
 
     def __init__(self, point_names: PointNames, root: Map, numbers: Mapping[str, str]) -> None:
         moving = {"bodies": root["bodies"], "ground": root.get_mapping("ground")}
-        super().__init__(point_names, Map.make(moving, root.where), numbers, ())
+        super().__init__(point_names, Map.make_map(moving, root.where), numbers, ())
         for total in _TOTALS:
             del self.owners[total]
         self.owners = {

@@ -74,7 +74,7 @@ def read_scenes(reader: Reader, parts: SceneParts) -> dict[str, SceneSpec]:
     left out.
     """
     section = parts.root.get_mapping("scenes")
-    empty_map = Map.make((), section.where)
+    empty_map = Map.make_map((), section.where)
     ideal_scene = _MergedScene(empty_map, empty_map, empty_map, empty_map, dict(parts.events))
     merged_scenes: dict[str, _MergedScene] = {IDEAL: ideal_scene}
     scenes: dict[str, SceneSpec] = {
@@ -103,7 +103,7 @@ def _merge_scene(parent: _MergedScene, scene: Map, events: Mapping[str, EventSpe
 
     def merge_section(parent_section: Map, key: str) -> Map:
         """Return one section of the parent, overridden by the scene's own entries at `key`."""
-        return Map.make({**parent_section, **scene.get_mapping(key)}, scene.where)
+        return Map.make_map({**parent_section, **scene.get_mapping(key)}, scene.where)
 
     return _MergedScene(
         merge_section(parent.play, "play"),
@@ -126,7 +126,9 @@ def _split_names(node: Any) -> tuple[Text, ...]:
     parts = zip(node.split(","), offsets, strict=False)
     names_and_offsets = ((part.strip(), begin_offset + len(part) - len(part.lstrip())) for part, begin_offset in parts)
     return tuple(
-        Text.make(name, offset_location(node.where, offset)) for name, offset in names_and_offsets if not node.is_null
+        Text.make_text(name, offset_location(node.where, offset))
+        for name, offset in names_and_offsets
+        if not node.is_null
     )
 
 

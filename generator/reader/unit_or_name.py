@@ -16,7 +16,7 @@ from collections.abc import Callable, Mapping
 from gudgeon.errors import ExpressionError, InputError, UnitError
 from gudgeon.generator.yaml import Text
 from gudgeon.language.curves import Curve
-from gudgeon.language.dimension_check import check_dimension, find_names_over_units
+from gudgeon.language.dimension_check import check_dimension, find_unit_shadowing_names
 from gudgeon.language.parser import parse
 from gudgeon.language.tree import Expr, iterate_names, iterate_units
 from gudgeon.language.units import UNITS, Dimension, find_symbol_dimension
@@ -37,7 +37,7 @@ def choose_interpretation(
     names is returned if no name is also a unit, if the text cannot be parsed with units, or if only names give the
     expected dimension. Raises ExpressionError if both readings are possible.
     """
-    ambiguous_names = sorted(set(find_names_over_units(tree_with_names)))
+    ambiguous_names = sorted(set(find_unit_shadowing_names(tree_with_names)))
     if not ambiguous_names:
         return tree_with_names
     try:

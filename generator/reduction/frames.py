@@ -71,7 +71,7 @@ class Motions:
 
     def hoist_coefficients(self, name: str, affine: Affine) -> Affine:
         """Return an affine expression with its coefficients as derived parameters; `name`: base of their names."""
-        return {k: self.parameter_table.derive(f"{name}_by_{k or 'constant'}", c) for k, c in affine.items()}
+        return {k: self.parameter_table.derive_parameter(f"{name}_by_{k or 'constant'}", c) for k, c in affine.items()}
 
     def compute_value(self, affine: Affine) -> sp.Expr:
         """Return the value of an affine expression."""
@@ -171,7 +171,7 @@ class Motions:
         `base_name`: base of their names; `field_base_name`: base of their fields' names.
         """
         x, y = (
-            self.parameter_table.derive_signed(
+            self.parameter_table.derive_signed_parameter(
                 f"{base_name}_{axis}",
                 sp.expand(part),
                 "vector in its frame",

@@ -82,7 +82,7 @@ class TreeGeometry(Geometry):
         `tree`: the spanning tree; `symbols`, `parameter_table`: tables for new symbols and derived parameters.
         """
         self.symbols, self.parameter_table, self.mechanism = symbols, parameter_table, model.scene.mechanism
-        self.local, self.tree, self._model = model.geometry.local, tree, model
+        self.local_vectors, self.tree, self._model = model.geometry.local_vectors, tree, model
         self.bodies: dict[str, BodySymbols] = {}
         self.frames: dict[str, Frame] = {GROUND: GROUND_FRAME}
         self.frame_of: dict[str, Frame] = {GROUND: GROUND_FRAME}
@@ -143,7 +143,7 @@ class TreeGeometry(Geometry):
         offset = self._offset[body]
         if offset == 0 or vector == (ZERO, ZERO):
             return vector
-        derive = self.parameter_table.derive
+        derive = self.parameter_table.derive_parameter
         cos = derive(f"cos_{body}_offset", sp.cos(offset), f"angle of {body} in its frame")
         sin = derive(f"sin_{body}_offset", sp.sin(offset), f"angle of {body} in its frame")
         rotated = (cos * vector[0] - sin * vector[1], sin * vector[0] + cos * vector[1])
@@ -159,7 +159,7 @@ class TreeGeometry(Geometry):
         else:
             first, second = link.joint.first, link.joint.second
             parent, child, sign = (first, second, 1) if second.body == body else (second, first, -1)
-            base, own_point = self.point(parent), self.local[body, child.point]
+            base, own_point = self.find_point(parent), self.local_vectors[body, child.point]
             if link.slides:
                 axis = JointFields(link.joint, self._model.geometry).direction("axis")
                 w = self.rotate_to_frame(first.body, axis, f"{link.joint.name}_axis")
@@ -326,7 +326,7 @@ class TreeGeometry(Geometry):
             self.frame_of[body.name], self.rotate_to_frame(body.name, vector, base_name), base_name
         )
 
-    def point_at_offset(self, ref: PointRef, offset: Pair, base_name: str) -> TreePoint:
+    def find_point_at_offset(self, ref: PointRef, offset: Pair, base_name: str) -> TreePoint:
         """Return the frame of a point at an offset from a named point, given in its body's frame.
 
         `base_name`: base of the names of symbols.
@@ -337,7 +337,7 @@ class TreeGeometry(Geometry):
         names = (f"{base_name}_x", f"{base_name}_y", f"{base_name}_vx", f"{base_name}_vy")
         return self._make_point(ref.body, s, base_name, names)
 
-    def point(self, ref: PointRef) -> TreePoint:
+    def find_point(self, ref: PointRef) -> TreePoint:
         """Return the frame of a named point of a body or of the ground, made once."""
         key = ref.body, ref.point
         if key not in self._points:
@@ -348,5 +348,5 @@ class TreeGeometry(Geometry):
             else:
                 name = f"{ref.body}_{ref.point}"
                 names = (f"{name}_x", f"{name}_y", f"{name}_vx", f"{name}_vy")
-                self._points[key] = self._make_point(ref.body, self.local[ref.body, ref.point], name, names)
+                self._points[key] = self._make_point(ref.body, self.local_vectors[ref.body, ref.point], name, names)
         return self._points[key]

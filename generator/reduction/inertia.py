@@ -96,7 +96,7 @@ class Inertia:
         if (T, U) not in self._products:
             first, second = self.geometry.frames[T[0]], self.geometry.frames[U[0]]
             name = "_".join(part.replace(".", "_") for part in (*T, *U) if part)
-            derive = self.parameter_table.derive
+            derive = self.parameter_table.derive_parameter
             alpha, beta = (sp.expand(constant) for constant in self._alpha_and_beta[T, U])
             alpha, beta = (
                 derive(f"inertia_{name}", alpha, "sum of m w.w"),
@@ -170,7 +170,9 @@ class Inertia:
 
     def _derive_constant(self, name: str, value: sp.Expr) -> sp.Expr:
         """Return a constant as a derived parameter; the negative of a symbol is one already."""
-        return value if (-value).is_Symbol else self.parameter_table.derive_signed(name, value, "constant of M")
+        return (
+            value if (-value).is_Symbol else self.parameter_table.derive_signed_parameter(name, value, "constant of M")
+        )
 
     def derive_velocity_terms(self) -> dict[str, sp.Expr]:
         """Return h_k = Σ_b m_b ∂r_b/∂z_k · r̈_b at z̈ = 0, by coordinate, prescribed ones included."""
@@ -194,8 +196,12 @@ class Inertia:
         sums: dict[str, sp.Expr] = {}
         for T, (m_x, m_y) in self._mass_moments.items():
             frame, name = self.geometry.frames[T[0]], "_".join(T).replace(".", "_")
-            alpha = self.parameter_table.derive(f"weight_{name}_along", sp.expand(m_x * g_x + m_y * g_y), "weight")
-            beta = self.parameter_table.derive(f"weight_{name}_across", sp.expand(m_x * g_y - m_y * g_x), "weight")
+            alpha = self.parameter_table.derive_parameter(
+                f"weight_{name}_along", sp.expand(m_x * g_x + m_y * g_y), "weight"
+            )
+            beta = self.parameter_table.derive_parameter(
+                f"weight_{name}_across", sp.expand(m_x * g_y - m_y * g_x), "weight"
+            )
             P, Q = alpha * frame.cos + beta * frame.sin, beta * frame.cos - alpha * frame.sin
             for k, (turn, slide) in self._find_jacobian_columns(T).items():
                 sums[k] = sums.get(k, ZERO) + turn * Q + slide * P

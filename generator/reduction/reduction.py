@@ -19,8 +19,8 @@ from gudgeon.generator.equations.model import Model, make_event
 from gudgeon.generator.equations.play import make_clearances
 from gudgeon.generator.equations.system import Motion, PrescribedCoordinate, System
 from gudgeon.generator.mechanism import PointRef
-from gudgeon.generator.reduction.driven_chains import (
-    Chain,
+from gudgeon.generator.reduction.driven_loops import (
+    DrivenLoops,
     add_directions,
     find_dependent_coordinates,
     prescribe_coordinates,
@@ -39,7 +39,7 @@ class TreeSystem(System):
     unknowns: tuple[str, ...]
     slides: Mapping[str, Affine]  # slides that drives or other slides determine
     sliding: tuple[str, ...]  # the equations that determine them, one per slide
-    chain: Chain | None = None  # what the drives determine through loops (driven_chains.py)
+    driven_loops: DrivenLoops | None = None  # what the drives determine through loops (driven_chains.py)
     in_tree = True
 
     def _find_turning_bodies(self, k: int) -> dict[str, sp.Expr]:
@@ -49,19 +49,23 @@ class TreeSystem(System):
         turns = {body: geometry.frame_of[body].turns.get(name, ZERO) for body in geometry.bodies}
         return {body: rate for body, rate in turns.items() if rate != 0}
 
-    def inertia_of_unit_mass(self, k: int) -> sp.Expr:
+    def compute_inertia_of_unit_mass(self, k: int) -> sp.Expr:
         """Return the inertia about an angle k of all bodies that turn with it, each of 1 kg; 1 for a slide."""
         turned = self._find_turning_bodies(k).items()
-        return sp.Add(*(c**2 * s for body, c in turned for s in self.model.squared_arms(body))) if turned else ONE
+        return (
+            sp.Add(*(c**2 * s for body, c in turned for s in self.model.compute_squared_arms(body))) if turned else ONE
+        )
 
-    def turning_inertia(self, k: int) -> sp.Expr:
+    def compute_turning_inertia(self, k: int) -> sp.Expr:
         """Return the inertia about an angle k of all bodies that turn with it, as a derived parameter.
 
         It is 0 for a slide.
         """
         name = self.unknowns[k]
-        inertia = sp.Add(*(c**2 * self.model.turning_inertia(body) for body, c in self._find_turning_bodies(k).items()))
-        return self.model.parameter_table.derive(
+        inertia = sp.Add(
+            *(c**2 * self.model.compute_turning_inertia(body) for body, c in self._find_turning_bodies(k).items())
+        )
+        return self.model.parameter_table.derive_parameter(
             f"{name.replace('.', '_')}_turning", inertia, "J and m s^2 of what turns with it"
         )
 
@@ -98,7 +102,7 @@ class TreeConstraints(Constraints):
 
     def _point(self, ref: PointRef) -> PointFrame:
         """Return the frame of a named point as one sum of arms."""
-        return self.geometry.point(ref).expand_arms()
+        return self.geometry.find_point(ref).expand_arms()
 
     def _find_coordinate_pairs(self, bodies: list[BodySymbols]) -> list[tuple[sp.Symbol, sp.Symbol]]:
         """Return the pairs (coordinate, rate) of the unknowns that move the bodies, without prescribed coordinates."""
@@ -155,7 +159,7 @@ def _eliminate_driven_loops(model: Model, system: TreeSystem) -> TreeSystem:
         name for name, coordinate in geometry.motions.coordinates.items() if coordinate.acceleration is not None
     }
     driven_loops = add_directions(driven_loops, reduced, geometry.frames.values(), prescribed_names)
-    return replace(reduced, unknowns=free, chain=driven_loops)
+    return replace(reduced, unknowns=free, driven_loops=driven_loops)
 
 
 def _make_tree_geometry(model: Model, tree: Tree, slides: Mapping[str, Affine]) -> tuple[TreeGeometry, TreeConstraints]:
@@ -171,7 +175,7 @@ def _make_tree_geometry(model: Model, tree: Tree, slides: Mapping[str, Affine]) 
     used_names = {name for affine in (*tree.angles.values(), *slides.values()) for name in affine}
     for drive in model.scene.mechanism.drives.values():
         if drive.name in used_names:
-            constraints.drive_value(drive)
+            constraints.define_drive_value(drive)
             motions.coordinates[drive.name] = Coordinate(drive.name, *constraints.drive_angles[drive.name])
     geometry.place_bodies(motions, slides)
     return geometry, constraints
@@ -188,11 +192,11 @@ def _derive_closures(model: Model, tree: Tree, constraints: TreeConstraints) -> 
     row_by_name: dict[str, Row] = {}
     for joint in mechanism.joints.values():
         if joint.name in owners:
-            row_by_name |= {row.name: row for row in constraints.joint_rows(joint)}
+            row_by_name |= {row.name: row for row in constraints.derive_joint_rows(joint)}
     for drive in mechanism.drives.values():
         if drive.name in owners:
-            row_by_name |= {row.name: row for row in constraints.drive_rows(drive)}
-    shared_point_rows = [row for joint in tree.closing_pairs for row in constraints.joint_rows(joint)]
+            row_by_name |= {row.name: row for row in constraints.derive_drive_rows(drive)}
+    shared_point_rows = [row for joint in tree.closing_pairs for row in constraints.derive_joint_rows(joint)]
     return (*(row_by_name[name] for name in closure_names), *shared_point_rows)
 
 

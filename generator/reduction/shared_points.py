@@ -22,7 +22,7 @@ def find_end_points(joint: Joint) -> tuple[Point, Point]:
 
 
 @dataclass(frozen=True)
-class Hub:
+class SharedPoint:
     """Points that coincide, the joints of the file that connect them, and every pair of their bodies as a joint."""
 
     points: frozenset[Point]
@@ -32,10 +32,10 @@ class Hub:
     @property
     def rows(self) -> list[str]:
         """Return the names of the equations of the file's joints that make the points coincide."""
-        return [row for joint in self.joints for row in self.rows_of(joint)]
+        return [row for joint in self.joints for row in self.list_pair_rows(joint)]
 
     @staticmethod
-    def rows_of(joint: Joint) -> list[str]:
+    def list_pair_rows(joint: Joint) -> list[str]:
         """Return the names of the equations of a pair that make its points coincide."""
         return [f"{joint.name}.{row}" for row in joint_types()[joint.kind].carries]
 
@@ -81,7 +81,7 @@ class Hub:
         return signs
 
 
-def find_hubs(joints: Iterable[Joint]) -> list[Hub]:
+def find_shared_points(joints: Iterable[Joint]) -> list[SharedPoint]:
     """Return the shared points: points of three or more bodies with as many joints as a tree needs.
 
     Only joints that hold points together count, and at least one must be a pivot.
@@ -98,7 +98,7 @@ def find_hubs(joints: Iterable[Joint]) -> list[Hub]:
         points = frozenset(p for joint in group for p in find_end_points(joint))
         pivots = [j for j in group if joint_types()[j.kind].is_pivot]
         if pivots and len(points) == len(group) + 1 >= 3:
-            shared_points.append(Hub(points, tuple(group), tuple(_make_pairs(group, pivots[0]))))
+            shared_points.append(SharedPoint(points, tuple(group), tuple(_make_pairs(group, pivots[0]))))
     return shared_points
 
 

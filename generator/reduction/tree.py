@@ -15,12 +15,12 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from gudgeon.generator.equations.constraints import Row, rate_jumps
+from gudgeon.generator.equations.constraints import Row, has_jumping_rate
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.kinds.joints.joint_type import joint_types
 from gudgeon.generator.mechanism import GROUND, Joint
 from gudgeon.generator.reduction.frames import CONSTANT, Affine, substitute_coordinate
-from gudgeon.generator.reduction.shared_points import Hub, find_hubs
+from gudgeon.generator.reduction.shared_points import SharedPoint, find_shared_points
 from gudgeon.generator.solvers.sparsity import choose_elimination
 
 
@@ -84,11 +84,15 @@ def _find_coupled_coordinates(
     return coupled
 
 
-class Estimate:
+class OperationEstimate:
     """Estimated operations of a tree's right-hand side, counted from which coordinates are coupled."""
 
     def __init__(
-        self, model: Model, angles: Mapping[str, Affine], used_rows: frozenset[str], shared_points: Sequence[Hub]
+        self,
+        model: Model,
+        angles: Mapping[str, Affine],
+        used_rows: frozenset[str],
+        shared_points: Sequence[SharedPoint],
     ) -> None:
         """Prepare the estimate for a model.
 
@@ -209,7 +213,7 @@ class Tree:
     links: tuple[Link, ...]
     rows: frozenset[str]  # equations that angles and links satisfy by themselves, or that shared points replace
     closing_pairs: tuple[Joint, ...]  # pairs of bodies at a shared point that the tree does not connect
-    hubs: tuple[Hub, ...]
+    shared_points: tuple[SharedPoint, ...]
     solved: Mapping[str, str]  # equations used for angles, each with the body whose angle it gives
     costs: tuple[int, ...]  # estimated operations of the trees tried, the first one grown breadth first
 
@@ -219,7 +223,7 @@ class Tree:
         A closure that is an equation of the file itself gives {row: 1}.
         """
         name, _, component = row.rpartition(".")
-        for shared_point in self.hubs:
+        for shared_point in self.shared_points:
             for joint in self.closing_pairs:
                 if joint in shared_point.pairs and joint.name == name:
                     spanning = [link.joint for link in self.links if link.joint in shared_point.pairs]
@@ -234,7 +238,11 @@ def is_impulsive_drive(model: Model, row: Row) -> bool:
 
     It remains a constraint equation, since the jump causes an impulse.
     """
-    return row.kind == "drive" and model.degrees_of_freedom > 0 and rate_jumps(model.scene.mechanism.drives[row.name])
+    return (
+        row.kind == "drive"
+        and model.degrees_of_freedom > 0
+        and has_jumping_rate(model.scene.mechanism.drives[row.name])
+    )
 
 
 def solve_angles(model: Model) -> tuple[dict[str, Affine], dict[str, str]]:
@@ -295,12 +303,12 @@ def choose_tree(model: Model) -> Tree:
     used_rows = frozenset(solved)
     free = tuple(body_name for body_name in angles if angles[body_name] == {body_name: 1})
     edges = _find_edges(model, angles)
-    shared_points = find_hubs(edges)
+    shared_points = find_shared_points(edges)
     shared_joint_names = {joint.name for shared_point in shared_points for joint in shared_point.joints}
     edges = [joint for joint in edges if joint.name not in shared_joint_names] + [
         joint for shared_point in shared_points for joint in shared_point.pairs
     ]
-    estimate = Estimate(model, angles, used_rows, shared_points)
+    estimate = OperationEstimate(model, angles, used_rows, shared_points)
     best = min((_grow_tree(model, edges, edges, depth) for depth in _MAX_DEPTHS), key=estimate)
     if len(free) <= _MAX_COORDINATES_FOR_EXCHANGE and best == _grow_tree(model, edges, edges, None):
         best = _improve_by_exchange(model, edges, best, estimate)
@@ -367,7 +375,7 @@ def _grow_tree(
 
 
 def _improve_by_exchange(
-    model: Model, edges: Sequence[Joint], links: tuple[Link, ...], estimate: Estimate
+    model: Model, edges: Sequence[Joint], links: tuple[Link, ...], estimate: OperationEstimate
 ) -> tuple[Link, ...]:
     """Return the tree after exchanging joints of loops with those of the tree as long as that reduces the estimate.
 

@@ -85,7 +85,7 @@ class _DerivativeBuilder:
     def append_step(self, step: Step) -> None:
         """Append an equation symbol = value of contact_steps.py, and its tangent."""
         value = read_parameters_at_places(self.model, step.value)
-        value_on_branch = self.tangents.share_powers_of(self.tangents.hold_branches(value))
+        value_on_branch = self.tangents.store_powers(self.tangents.hold_branches(value))
         self.builder.append_line(Statement(step.symbol.name, value_on_branch))
         self.tangents.store_tangent(step.symbol, self.tangents.compute_gradient(value, step.symbol))
 
@@ -101,7 +101,7 @@ class _DerivativeBuilder:
                 sp.Symbol(name, real=True),
                 hoist_reciprocals(self.model.parameter_table, sp.sympify(equation)),
             )
-            self.builder.append_line(Statement(name, law_tangents.share_powers_of(law_tangents.hold_branches(value))))
+            self.builder.append_line(Statement(name, law_tangents.store_powers(law_tangents.hold_branches(value))))
             law_tangents.store_tangent(symbol, law_tangents.compute_gradient(value, symbol))
             if name in equations.results:
                 results[name] = symbol

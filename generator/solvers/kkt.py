@@ -105,7 +105,7 @@ class KKT:
         An angle is left out if that inertia is its entry of M anyway, or 0.
         """
         single_nodes = [k for block in self.blocks for k in block if block[-1] < self.n]
-        inertia_of_angle = {k: self.system.turning_inertia(k) for k in single_nodes}
+        inertia_of_angle = {k: self.system.compute_turning_inertia(k) for k in single_nodes}
         return {
             k: inertia for k, inertia in inertia_of_angle.items() if inertia != 0 and inertia != self.system.mass[k, k]
         }
@@ -192,7 +192,7 @@ class KKT:
         inverse_entry = (
             entry
             if is_unit(entry)
-            else self.system.model.parameter_table.derive(f"inverse_{self.names[row]}", 1 / entry)
+            else self.system.model.parameter_table.derive_parameter(f"inverse_{self.names[row]}", 1 / entry)
         )
         mass = self.system.mass[k, k] - sum((L[k, j] * W[k, j] for j in earlier_columns[k]), ZERO)
         mass = append_local_unless_simple(builder, f"inertia_{self.names[k]}", mass)
@@ -295,7 +295,7 @@ class KKT:
             )
         )
         if self.system.model.parameter_table.is_constant(mobility):
-            mobility = self.system.model.parameter_table.derive(
+            mobility = self.system.model.parameter_table.derive_parameter(
                 f"mobility_{self.names[k]}", mobility, "1/m of the bodies of a row"
             )
         return builder.append_local(f"size_{self.names[k]}", scale + mobility) if mobility != 0 else scale
@@ -345,7 +345,7 @@ class KKT:
             if earlier_columns or not constant or self.system.model.parameter_table.compute_default(mass) <= 0.0:
                 return builder.append_local(f"inverse_pivot_{self.names[k]}", 1 / pivot)
         if not earlier_columns and self.system.model.parameter_table.is_constant(mass):
-            inverse: sp.Expr = self.system.model.parameter_table.derive(
+            inverse: sp.Expr = self.system.model.parameter_table.derive_parameter(
                 f"inverse_{self._make_mass_name(mass, k)}", 1 / mass, "1/M"
             )
             return inverse

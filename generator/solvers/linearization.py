@@ -18,7 +18,7 @@ import sympy as sp
 
 from gudgeon.contract.boundary import N_WORK
 from gudgeon.generator.equations.loads import Friction, PointLoad
-from gudgeon.generator.equations.model import stick_gain
+from gudgeon.generator.equations.model import derive_stick_gain
 from gudgeon.generator.equations.play import Clearance
 from gudgeon.generator.equations.system import System
 from gudgeon.generator.ir.differentiation import Tangent, Tangents
@@ -204,7 +204,7 @@ class Linearization:
     def _derive_gains(self) -> tuple[sp.Expr, sp.Expr]:
         """Return 2α and β² of Baumgarte's terms as derived parameters."""
         alpha, beta = self.model.baumgarte
-        derive = self.model.parameter_table.derive
+        derive = self.model.parameter_table.derive_parameter
         return derive("two_alpha", 2 * alpha, "2 alpha"), derive("beta_squared", beta**2, "beta^2")
 
     def _add_jacobian(self, node: int, jacobian: Mapping[sp.Symbol, sp.Expr]) -> None:
@@ -235,7 +235,7 @@ class Linearization:
         """
         if self.system.frictions:
             self.builder.begin_section("friction: slip, or stick as a constraint equation")
-        two_alpha = stick_gain(self.model) if self.system.frictions else ZERO
+        two_alpha = derive_stick_gain(self.model) if self.system.frictions else ZERO
         for index, friction in enumerate(self.system.frictions):
             node, name, builder = self.n + self.m + index, friction.name, self.builder
             stick, sign = append_friction_mode(builder, name, index)
@@ -245,7 +245,7 @@ class Linearization:
             force = builder.append_local(f"held_force_{name}", held_force_value)
             self.sticks.append(stick)
             self._add_jacobian(node, friction.jacobian)
-            kinetic = friction.slip.kinetic_at(friction.slip.v)
+            kinetic = friction.slip.evaluate_kinetic_force(friction.slip.v)
             stick_residual = sum((entry * self.a[self.q[q]] for q, entry in friction.jacobian.items()), -friction.gamma)
             self._add_derivatives(node, stick_residual + two_alpha * friction.slip.v, 1)
             for q, entry in friction.jacobian.items():

@@ -23,7 +23,7 @@ from dataclasses import replace
 import sympy as sp
 
 from gudgeon.contract.boundary import N_WORK
-from gudgeon.generator.equations.model import stick_gain
+from gudgeon.generator.equations.model import derive_stick_gain
 from gudgeon.generator.equations.system import System
 from gudgeon.generator.ir.complex_parts import convert_to_complex
 from gudgeon.generator.ir.differentiation import Tangents
@@ -116,7 +116,7 @@ class Newton:
 
         def store_value(value: sp.Expr, name: str) -> sp.Expr:
             """Return the symbol of a value that is stored in the pool; `name`: base of its name."""
-            return self.values.store_value(builder, tangents.share_powers_of(value), name)
+            return self.values.store_value(builder, tangents.store_powers(value), name)
 
         def store_part(
             prefix: str,
@@ -207,13 +207,13 @@ class Newton:
     def _append_scales(self, builder: KernelBuilder, scales: Collection[sp.Symbol]) -> None:
         """Append η/κ of constraints and of sticks to the function, if they are among the `scales` that it reads."""
         alpha, beta = self.model.baumgarte
-        derive = self.model.parameter_table.derive
+        derive = self.model.parameter_table.derive_parameter
         two_alpha, beta_squared = derive("two_alpha", 2 * alpha), derive("beta_squared", beta**2)
         builder.begin_section("eta/kappa")
         if ETA_ROW in scales:
             builder.append_line(Statement(ETA_ROW.name, ETA / (1 + ETA * (two_alpha + ETA * beta_squared))))
         if ETA_STICK in scales:
-            builder.append_line(Statement(ETA_STICK.name, ETA / (1 + ETA * stick_gain(self.model))))
+            builder.append_line(Statement(ETA_STICK.name, ETA / (1 + ETA * derive_stick_gain(self.model))))
 
     def _make_factor_kernel(self) -> Kernel:
         """Return the function of L U of the matrix, L with unit diagonal.
@@ -303,7 +303,7 @@ class Newton:
         self._append_scales(builder, {self._find_scale(node) for node in range(self.nodes)})
         builder.begin_section("right-hand side")
         builder.append_line(Declare(Number.REAL, "x", (self.nodes,)))
-        beta_squared = self.model.parameter_table.derive("beta_squared", self.model.baumgarte[1] ** 2)
+        beta_squared = self.model.parameter_table.derive_parameter("beta_squared", self.model.baumgarte[1] ** 2)
         r_q, r_v = ([PlaceSymbol(Place("r")[first + k]) for k in range(n)] for first in (0, n))
         coordinates = sorted({k for node, k in parts.phi_q if node < n + self.m})
         shifted = {
@@ -424,7 +424,7 @@ class Factors:
         if entry.is_Number and entry == 1:  # an inner state that this joint does not have
             return entry
         if not self._earlier_pivots[k] and entry in newton.model.masses:
-            return newton.model.parameter_table.derive(f"inverse_{entry}", 1 / entry, "1/M")
+            return newton.model.parameter_table.derive_parameter(f"inverse_{entry}", 1 / entry, "1/M")
         states = newton.first_state
         independent_pivots = [
             j

@@ -29,7 +29,7 @@ from gudgeon.generator.study.spec import (
     NumberClaim,
     Selection,
     TrendClaim,
-    Trial,
+    TrendStatement,
 )
 from gudgeon.generator.yaml import Items, Map, Text, describe_node
 from gudgeon.language.names import make_unknown_name_error
@@ -186,7 +186,9 @@ def _read_trend_claim(name: Text, node: Map) -> TrendClaim:
     if unknown_keys := [key for key in node.list_keys() if key not in TREND]:
         raise make_unknown_key_error(unknown_keys[0], TREND, address)
     reason = read_line(node, "not_computed", address)
-    statement_node = Map.make([(key, value) for key, value in node.list_entries() if key not in MESSAGES], node.where)
+    statement_node = Map.make_map(
+        [(key, value) for key, value in node.list_entries() if key not in MESSAGES], node.where
+    )
     if reason:
         if extra_keys := [key for key in statement_node.list_keys() if key != "not_computed"]:
             raise BadValueError(
@@ -198,7 +200,7 @@ def _read_trend_claim(name: Text, node: Map) -> TrendClaim:
     )
 
 
-def _read_trend_statements(name: Text, node: Map, address: str) -> list[Trial]:
+def _read_trend_statements(name: Text, node: Map, address: str) -> list[TrendStatement]:
     """Return the statements of a trend: one, or each of `all`, whose keys override those next to `all`.
 
     Raises an InputError for an unknown key or an empty list.
@@ -223,14 +225,14 @@ def _read_trend_statements(name: Text, node: Map, address: str) -> list[Trial]:
         statements.append(
             _read_trend_statement(
                 name,
-                Map.make([*inherited_entries, *statement_node.list_entries()], statement_node.where),
+                Map.make_map([*inherited_entries, *statement_node.list_entries()], statement_node.where),
                 f"{address}.all[{k}]",
             )
         )
     return statements
 
 
-def _read_trend_statement(name: Text, node: Map, address: str) -> Trial:
+def _read_trend_statement(name: Text, node: Map, address: str) -> TrendStatement:
     """Return one statement: its kind, measures, selections and limits. Raises an InputError."""
     selected = [key for key in node.list_keys() if key in KINDS]
     if len(selected) != 1:
@@ -247,7 +249,7 @@ def _read_trend_statement(name: Text, node: Map, address: str) -> Trial:
     base_selection = _read_selection(node, address, kind)
     if kind == COUNTS:
         counts = _read_expected_counts(check_mapping(node[kind], f"{address}.{kind}", kind), f"{address}.{kind}")
-        return Trial(kind, (), base_selection, kind, counts=counts)
+        return TrendStatement(kind, (), base_selection, kind, counts=counts)
     if "measure" not in node:
         raise make_missing_key_error("measure", node.where, address)
     measures = check_texts(node["measure"], f"{address}.measure", node.find_key("measure"), "names of measures")
@@ -280,19 +282,19 @@ def _read_trend_statement(name: Text, node: Map, address: str) -> Trial:
             node.find_key("more_than").where,
             f"expected as many as measure: {len(measures)}",
         )
-    return Trial(kind, measures, base_selection, comparison_text, None, other_measures, factor_or_tolerance)
+    return TrendStatement(kind, measures, base_selection, comparison_text, None, other_measures, factor_or_tolerance)
 
 
 def _read_comparison(
     node: Map, address: str, kind: Text, measures: tuple[Text, ...], base_selection: Selection, factor: Text | None
-) -> Trial:
+) -> TrendStatement:
     """Return a statement that compares two selections of runs; `kind` is "larger" or "most_lowered".
 
     `base_selection` is the selection of the trend, `factor` the value of `by` or None. Raises an InputError if a
     selection is missing.
     """
     if kind == "larger":
-        return Trial(
+        return TrendStatement(
             kind,
             measures,
             _read_other_selection(node, kind, address, base_selection),
@@ -304,7 +306,7 @@ def _read_comparison(
     if missing_keys := [key for key in ("from", "to") if key not in node]:
         raise make_missing_key_error(missing_keys[0], node.where, address)
     other_measures = check_texts(node[kind], f"{address}.{kind}", kind, "other measures, which are lowered less")
-    return Trial(
+    return TrendStatement(
         kind,
         measures,
         _read_other_selection(node, "from", address, base_selection),

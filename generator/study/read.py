@@ -66,7 +66,7 @@ def check_dataset_names(reader: Reader, study: StudyFile, root: Map) -> None:
                 )
         first_keys.setdefault(parameter_name, key)
     refused_choices = set(_find_conflicting_choices(reader, study, first_keys))
-    groups = [Text.make(axis.name, axis.where) for axis in study.axes if axis.grouped]
+    groups = [Text.make_text(axis.name, axis.where) for axis in study.axes if axis.grouped]
     users_of_names = {str(key): ("a number of the runs", key) for key in parameter_keys}
     for kind, key in _iterate_dataset_names(study, root, groups):
         is_reserved = key in RESERVED and not (key == "run" and key in groups)
@@ -85,7 +85,7 @@ def check_dataset_names(reader: Reader, study: StudyFile, root: Map) -> None:
 def _iterate_dataset_names(study: StudyFile, root: Map, zip_keys: list[Text]) -> Iterator[tuple[str, Text]]:
     """Yield (kind, name) for each name of the dataset that is not a parameter: zips, choices, measures, series."""
     yield from (("numbers that go together", key) for key in zip_keys)
-    yield from (("a choice", Text.make(choice.name, choice.where)) for choice in study.choices)
+    yield from (("a choice", Text.make_text(choice.name, choice.where)) for choice in study.choices)
     if isinstance(root.get("measures"), Map):
         yield from (("a measure", key) for key in root.get_mapping("measures").list_keys())
     yield from (("a series that is kept", key) for key in study.keep)
@@ -221,7 +221,7 @@ def _split_parts(reader: Reader, root: Map) -> Iterator[tuple[str, str, Map]]:
                 yield (
                     check_label_of_entry(name, "part"),
                     f"parts.{name}",
-                    Map.make([*inherited_entries, *part_node.list_entries()], part_node.where),
+                    Map.make_map([*inherited_entries, *part_node.list_entries()], part_node.where),
                 )
 
 
@@ -247,8 +247,8 @@ def _read_part(reader: Reader, root: Map, file: str, settings: Mapping[str, str]
         return None
     parameters = apply_settings(*read_parameters(reader, root), read_draw(reader, root), settings)
     starts, choices = read_starts(reader, root), read_choices(reader, root)
-    title = mechanism = Text.make("", root.where)
-    is_single_scene, scenes = True, (*[Text.make("ideal", root.where)],)
+    title = mechanism = Text.make_text("", root.where)
+    is_single_scene, scenes = True, (*[Text.make_text("ideal", root.where)],)
     with reader.collect_errors():
         mechanism = check_text(
             root["mechanism"], "mechanism", root.find_key("mechanism"), "a file beside this one, or a name"
@@ -327,8 +327,8 @@ def _read_method(reader: Reader, root: Map) -> Text:
     with reader.collect_errors():
         if "method" in root:
             name = check_word(root["method"], "method", root.find_key("method"), (*OFFERED, KINEMATIC))
-            return Text.make(name, root["method"].where)
-    return Text.make(AUTO, root.where)
+            return Text.make_text(name, root["method"].where)
+    return Text.make_text(AUTO, root.where)
 
 
 def _read_rtol(reader: Reader, root: Map) -> Text | None:

@@ -28,23 +28,27 @@ def build_tree(value: Any, address: str = "", depth: int = 0) -> Any:
             if not isinstance(key, str):
                 raise BadValueError(f"{address or 'the study'}: its key {shorten_value(key)} is no text", location)
         addresses = {key: f"{address}.{key}" if address else key for key in value}
-        pairs = ((Text.make(key, Location(f"value of {name}", 1, 1)), value[key]) for key, name in addresses.items())
-        return Map.make(
+        pairs = (
+            (Text.make_text(key, Location(f"value of {name}", 1, 1)), value[key]) for key, name in addresses.items()
+        )
+        return Map.make_map(
             ((key, build_tree(inner_value, addresses[key], depth + 1)) for key, inner_value in pairs), location
         )
     if isinstance(value, str):
-        return Text.make(value, location, one_line="\n" not in value)
+        return Text.make_text(value, location, one_line="\n" not in value)
     if isinstance(value, bool) or value is None:
-        return Text.make({True: "true", False: "false", None: ""}[value], location)
+        return Text.make_text({True: "true", False: "false", None: ""}[value], location)
     if isinstance(value, Iterable):
         values = value.tolist() if hasattr(value, "tolist") else list(value)
         if not isinstance(values, list):  # an array without a dimension
             return build_tree(values, address, depth + 1)
         if len(values) > MAX_VALUES:
             raise BadValueError(f"{address} has {len(values)} values", location, f"expected at most {MAX_VALUES}")
-        return Items.make((build_tree(item, f"{address}[{k}]", depth + 1) for k, item in enumerate(values)), location)
+        return Items.make_items(
+            (build_tree(item, f"{address}[{k}]", depth + 1) for k, item in enumerate(values)), location
+        )
     try:
-        return Text.make(repr(int(value)) if is_integer(value) else repr(float(value)), location)
+        return Text.make_text(repr(int(value)) if is_integer(value) else repr(float(value)), location)
     except (TypeError, ValueError, OverflowError):
         hint = "expected a number, a text, a list or a mapping"
         raise BadValueError(f"{address or 'the study'} is {shorten_value(value)}", location, hint) from None
@@ -88,7 +92,7 @@ def apply_settings(
     set_names = {remove_section_name(name) for name in settings}
     set_values = build_tree({f"--set {name}": value for name, value in settings.items()})
     fixed_values = {key: value for key, value in fixed_parameters.items() if remove_section_name(key) not in set_names}
-    fixed_values |= {Text.make(key.removeprefix("--set "), key.where): value for key, value in set_values.items()}
+    fixed_values |= {Text.make_text(key.removeprefix("--set "), key.where): value for key, value in set_values.items()}
     axes_with_removed_columns = [
         (axis, {key: numbers for key, numbers in axis.columns.items() if remove_section_name(key) in set_names})
         for axis in axes

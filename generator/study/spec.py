@@ -50,7 +50,7 @@ class NumberClaim:
 
 
 @dataclass(frozen=True)
-class Trial:
+class TrendStatement:
     """Represent one testable statement of a trend: its kind, its measures and the runs that it concerns."""
 
     kind: str
@@ -70,7 +70,7 @@ class TrendClaim:
     name: Text
     figure: str
     says: str
-    trials: tuple[Trial, ...]
+    statements: tuple[TrendStatement, ...]
     not_computed: str
     note: str
     heading: str = ""
@@ -266,7 +266,7 @@ class StudyFile:
     wear: WearRounds | None = None
     left_out: tuple[Axis, ...] = ()  # dimensions of the file that `--set` replaces by one value
 
-    def with_starts(self, count: int | None, seed: int | None) -> StudyFile:
+    def replace_starts(self, count: int | None, seed: int | None) -> StudyFile:
         """Return the study with another count or seed of its perturbed starts, if it has any."""
         changed_settings = {name: str(value) for name, value in (("count", count), ("seed", seed)) if value is not None}
         if self.starts is None or not changed_settings:
@@ -289,7 +289,7 @@ class StudySet:
     titles: Mapping[str, str] = field(default_factory=dict)  # of names, for people
     about: tuple[str, ...] = ()  # paragraphs, for people
 
-    def with_starts(self, count: int | None, seed: int | None) -> StudySet:
+    def replace_starts(self, count: int | None, seed: int | None) -> StudySet:
         """Return the studies with another count or seed of their perturbed starts.
 
         Raises BadValueError if no part has any.
@@ -300,4 +300,4 @@ class StudySet:
             raise BadValueError(
                 f"no run has perturbed starts, whose {' and '.join(changed_settings)} is given", None, hint
             )
-        return replace(self, parts={name: part.with_starts(count, seed) for name, part in self.parts.items()})
+        return replace(self, parts={name: part.replace_starts(count, seed) for name, part in self.parts.items()})

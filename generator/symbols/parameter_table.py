@@ -65,7 +65,6 @@ class ParameterTable(Freezable):
         self.signs: dict[str, str] = {}  # address -> ">" or "<": the sign to zero that the equations rely on
         self.tables: dict[str, list[sp.Symbol]] = {}  # parameters in arrays of Parameters, by the array's name
         self._derived_by: dict[sp.Expr, sp.Symbol] = {}
-        self._default_by_symbol: dict[sp.Symbol, sp.Float] = {}  # of `compute_default`
         self._parameters, self._instead = scene.parameters, scene.chosen_properties
         for name in scene.parameters:
             self._get_or_add_named_parameter(name)
@@ -119,7 +118,7 @@ class ParameterTable(Freezable):
 
         def find_symbol(path: str) -> sp.Expr:
             """Return the SymPy expression of a name in the quantity's expression: a named part of it or a parameter."""
-            return self.get_or_add(parts[path]) if path in parts else self._get_or_add_named_parameter(path)
+            return self.get_or_add_parameter(parts[path]) if path in parts else self._get_or_add_named_parameter(path)
 
         def find_default(path: str) -> float:
             """Return the default value of a name in the quantity's expression."""
@@ -134,7 +133,7 @@ class ParameterTable(Freezable):
         self.entries[address] = ParameterEntry(symbol, address, value, default, quantity.dimension, (), quantity.value)
         return symbol
 
-    def get_or_add(self, quantity: Quantity, zero: bool = False) -> sp.Expr:
+    def get_or_add_parameter(self, quantity: Quantity, zero: bool = False) -> sp.Expr:
         """Return the parameter of a quantity, added at its first use.
 
         A scene may replace the quantity. A literal zero gives 0 unless `zero` is True.
@@ -187,7 +186,7 @@ class ParameterTable(Freezable):
         self.get_or_add_constant(address, address.partition(".")[2], float(words.index(default)))
         self.entries[address] = replace(self.entries[address], choice_words=words)
 
-    def derive(
+    def derive_parameter(
         self,
         base_name: str,
         expression: sp.Expr,
@@ -214,7 +213,7 @@ class ParameterTable(Freezable):
         self.symbols.add_shared_parameter(self._derived_by[expression])
         return self._derived_by[expression]
 
-    def derive_signed(
+    def derive_signed_parameter(
         self, base_name: str, expression: sp.Expr, meaning: str = "", field_base_name: str = ""
     ) -> sp.Expr:
         """Return a derived parameter as `derive`, but as −s if the opposite expression has the symbol s already.
@@ -222,19 +221,19 @@ class ParameterTable(Freezable):
         Opposite arms then share one parameter.
         """
         opposite = self._derived_by.get(-expression)
-        return self.derive(base_name, expression, meaning, field_base_name) if opposite is None else -opposite
+        return self.derive_parameter(base_name, expression, meaning, field_base_name) if opposite is None else -opposite
 
     def compute_default(self, expression: sp.Expr) -> float:
         """Return the value of a constant expression with every parameter at its default.
 
         Derived parameters are replaced by their definitions; other symbols must not occur.
         """
-        default_by_symbol = self._default_by_symbol
-        if len(default_by_symbol) != len(self.entries):
-            default_by_symbol |= {entry.symbol: sp.Float(entry.default, 17) for entry in self.entries.values()}
+        default_by_symbol = {entry.symbol: entry.default for entry in self.entries.values()}
         value = sp.sympify(expression)
         while symbols := value.free_symbols:
-            value = value.xreplace({s: default_by_symbol.get(s, self.derived.get(s)) for s in symbols})
+            value = value.xreplace(
+                {s: self.derived[s] if s in self.derived else sp.Float(default_by_symbol[s], 17) for s in symbols}
+            )
         return float(value)
 
     def list_symbols(self) -> list[sp.Symbol]:
@@ -247,7 +246,7 @@ class ParameterTable(Freezable):
 
     def find_place(self, symbol: sp.Symbol) -> Place:
         """Return the place of a parameter in the struct Parameters; the symbol must be a parameter."""
-        home = self.symbols.info[symbol].home
+        home = self.symbols.info[symbol].place
         assert home is not None
         return home
 

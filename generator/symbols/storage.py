@@ -59,7 +59,7 @@ class Result(Place):
 class PlaceSymbol(sp.Symbol):
     """A symbol that is read at a place; among others it is ordered as a plain symbol of its path."""
 
-    place: Place
+    find_name_position: Place
     __slots__ = ("place",)
 
     def __new__(cls, place: Place) -> PlaceSymbol:
@@ -70,7 +70,7 @@ class PlaceSymbol(sp.Symbol):
 
     def __getnewargs_ex__(self) -> tuple[Any, ...]:
         """Return the arguments with which the symbol is unpickled."""
-        return (self.place,), {}
+        return (self.find_name_position,), {}
 
     @classmethod
     def class_key(cls) -> Any:

@@ -249,24 +249,24 @@ class Switches(Freezable):
         return [switch for switch in self.switch_by_key.values() if switch.owner == owner]
 
     def hold_branches(
-        self, expression: sp.Expr, owner: str, branches: dict[sp.Symbol, sp.Expr], only_known: bool = False
+        self, expression: sp.Expr, owner: str, branches: dict[sp.Symbol, sp.Expr], registered_only: bool = False
     ) -> sp.Expr:
         """Return an expression in which max, min, abs, sign, Heaviside, curves and mod use held branches.
 
         Each branch is a symbol `side_<k>`; `branches` is extended in place by these symbols with their `BranchOf`.
-        `owner`: joint with play, or "". `only_known`: switching functions without a switch stay as they are, for a
+        `owner`: joint with play, or "". `registered_only`: switching functions without a switch stay as they are, for a
         function next to the one that writes all of them.
         """
         if not expression.has(sp.Max, sp.Min, sp.Abs, sp.sign, sp.Heaviside, CurveOf, ModOf):
             return expression
-        arguments = [self.hold_branches(a, owner, branches, only_known) for a in expression.args]
+        arguments = [self.hold_branches(a, owner, branches, registered_only) for a in expression.args]
 
         def make_branch_symbol(g: sp.Expr) -> sp.Expr:
             """Return the symbol of the branch of g with its sign, and register it.
 
-            With `only_known`, a g without a switch gives sign(g).
+            With `registered_only`, a g without a switch gives sign(g).
             """
-            if only_known and self.find_switch(owner, g) is None:
+            if registered_only and self.find_switch(owner, g) is None:
                 return sp.sign(g)
             switch, sign = self.get_or_add_switch(owner, g)
             symbol = sp.Symbol(f"side_{switch.index}", real=True)
@@ -276,11 +276,11 @@ class Switches(Freezable):
         match expression:
             case CurveOf() if arguments[2].free_symbols:
                 knots = KnotsOf(arguments[0], arguments[2])
-                is_known = not only_known or self.find_switch(owner, knots) is not None
+                is_known = not registered_only or self.find_switch(owner, knots) is not None
                 return CurveOn(*arguments, make_branch_symbol(knots)) if is_known else CurveOf(*arguments)
             case ModOf():
                 periods = PeriodsOf(*arguments)
-                is_known = not only_known or self.find_switch(owner, periods) is not None
+                is_known = not registered_only or self.find_switch(owner, periods) is not None
                 return ModOn(*arguments, make_branch_symbol(periods)) if is_known else ModOf(*arguments)
             case sp.Abs():
                 return make_branch_symbol(arguments[0]) * arguments[0]

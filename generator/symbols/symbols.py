@@ -41,14 +41,14 @@ def strip_identifier(symbol: sp.Symbol) -> str:
 class SymbolInfo:
     """Place, meaning and unit of a symbol; `home` is where the symbol is read, None for a local of its kernel."""
 
-    home: Place | None
+    place: Place | None
     meaning: str
     unit: str
 
     @property
     def is_parameter(self) -> bool:
         """Return whether the symbol is a parameter of the run."""
-        return self.home is not None and self.home.base == PARAMETERS
+        return self.place is not None and self.place.base == PARAMETERS
 
 
 class Symbols(Freezable):
@@ -145,23 +145,23 @@ class Symbols(Freezable):
     def _find_place(self, name: str) -> Place | None:
         """Return the place of the symbol with a name; None for a local or an unknown name."""
         info = self.info.get(sp.Symbol(name, real=True))
-        return info.home if info else None
+        return info.place if info else None
 
     def add_symbol(
-        self, base_name: str, home: Place | None = None, meaning: str = "", unit: str = "", field_base_name: str = ""
+        self, base_name: str, place: Place | None = None, meaning: str = "", unit: str = "", field_base_name: str = ""
     ) -> sp.Symbol:
         """Return a new real symbol, with an unused name made from `base_name`.
 
-        `home`: the place where it is read; with OWN_FIELD it is a field of Parameters, called as `field_base_name` or
+        `place`: the place where it is read; with OWN_FIELD it is a field of Parameters, called as `field_base_name` or
         else as the symbol. Terms are ordered by the symbol's own name.
         """
-        shared_table = self._shared_table if home and home.is_parameter else None
+        shared_table = self._shared_table if place and place.is_parameter else None
         name, field_name = (
             self._make_name_for_both_tables(text, shared_table) if text else "" for text in (base_name, field_base_name)
         )
         symbol = sp.Symbol(name, real=True)
-        home = Place(PARAMETERS)[field_name or name] if home == OWN_FIELD else home
-        self.info[symbol] = SymbolInfo(home, meaning, unit)
+        place = Place(PARAMETERS)[field_name or name] if place == OWN_FIELD else place
+        self.info[symbol] = SymbolInfo(place, meaning, unit)
         if shared_table is not None:
             shared_table.info[symbol] = self.info[symbol]
         return symbol
@@ -182,7 +182,7 @@ class Symbols(Freezable):
         self,
         base_name: str,
         expression: sp.Expr,
-        home: Place | None = None,
+        place: Place | None = None,
         meaning: str = "",
         unit: str = "",
         field_base_name: str = "",
@@ -191,9 +191,9 @@ class Symbols(Freezable):
 
         A parameter's definition is stored in the shared table too.
         """
-        symbol = self.add_symbol(base_name, home, meaning, unit, field_base_name)
+        symbol = self.add_symbol(base_name, place, meaning, unit, field_base_name)
         self.definitions[symbol] = expression
-        if self._shared_table is not None and home is not None and home.is_parameter:
+        if self._shared_table is not None and place is not None and place.is_parameter:
             self._shared_table.definitions[symbol] = expression
         return symbol
 
@@ -225,7 +225,7 @@ class Symbols(Freezable):
 
     def read_at_places(self, value: sp.Expr) -> sp.Expr:
         """Return the value with each symbol that is stored at a place replaced by the `PlaceSymbol` of that place."""
-        homes = ((s, self.info[s].home) for s in value.free_symbols if s in self.info)
+        homes = ((s, self.info[s].place) for s in value.free_symbols if s in self.info)
         return value.xreplace({s: PlaceSymbol(home) for s, home in homes if home})
 
     def expand_definitions(self, expression: sp.Expr) -> sp.Expr:

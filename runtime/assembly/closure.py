@@ -128,7 +128,7 @@ class Closure:
         self.max_distance = self._compute_max_distance(q)
         return self._fit_guessed_points(q) if self.points else q
 
-    def find_nearest(self) -> tuple[Array, bool]:
+    def find_nearest_configuration(self) -> tuple[Array, bool]:
         """Return the closed configuration nearest to the guess and True; or the best open one and False.
 
         Newton's result may not be the nearest. If it is far from the guess, the configuration beyond the guess is

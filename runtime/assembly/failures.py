@@ -18,7 +18,7 @@ from gudgeon.assembly.linkage import find_point_in_body
 from gudgeon.assembly.rank import compute_dependence_shares
 from gudgeon.errors import AssemblyError
 from gudgeon.model.compiled import Array, describe_mass_ratio
-from gudgeon.model.written import explain_undefined_ahead
+from gudgeon.model.written import explain_undefined_value_after
 
 FAR = 100.0  # times the next longest length: a sign of lengths in mm next to lengths in m
 FEW = 60  # coordinates up to which wrong lengths are searched
@@ -84,7 +84,7 @@ def make_closure_error(closure: Closure, q: Array) -> AssemblyError:
     """
     scaled_residuals = np.abs(closure.compute_residual(q) / closure.row_scale)
     if not np.isfinite(scaled_residuals).all():
-        why = explain_undefined_ahead(closure.linkage.source, closure.p, closure.t, q, np.zeros_like(q))
+        why = explain_undefined_value_after(closure.linkage.source, closure.p, closure.t, q, np.zeros_like(q))
         message = f"{why}\n  expected a number at the start" if why else "the constraints are not finite at the guess"
         return AssemblyError(f"the start cannot be assembled: {message}")
     worst = np.argsort(-scaled_residuals)[:6]

@@ -17,7 +17,9 @@ from gudgeon.model.compiled import Array
 APART = 0.2  # rad, or relative to the size: difference from which on assemblies are distinguished by a guess
 LISTED = "gudgeon check --branches lists those that there are"
 # guesses that runs of batches do not follow; None: warn at once
-NOTED: ContextVar[list[Mapping[str, float]] | None] = ContextVar("guesses that runs do not follow", default=None)
+UNFOLLOWED_GUESSES: ContextVar[list[Mapping[str, float]] | None] = ContextVar(
+    "guesses that runs do not follow", default=None
+)
 FOLLOWED = np.pi / 6  # rad; smaller differences from a guess are not reported
 
 
@@ -49,7 +51,7 @@ def find_unfollowed_guesses(linkage: Linkage, p: Array, q: Array) -> dict[str, f
 
 def warn_unfollowed_guesses(linkage: Linkage, p: Array, q: Array) -> None:
     """Warn about each guess that the start q does not follow; within a batch, append them to NOTED instead."""
-    off, noted = find_unfollowed_guesses(linkage, p, q), NOTED.get()
+    off, noted = find_unfollowed_guesses(linkage, p, q), UNFOLLOWED_GUESSES.get()
     if noted is not None:
         noted.append(off)
         return
@@ -61,12 +63,12 @@ def warn_unfollowed_guesses(linkage: Linkage, p: Array, q: Array) -> None:
         warnings.warn(f"{message}; {LISTED}", stacklevel=find_user_stack_level())
 
 
-def warn_unfollowed_in_runs(source: KernelSource, unfollowed_guesses: Sequence[Mapping[str, float]]) -> None:
+def warn_unfollowed_guesses_in_runs(source: KernelSource, unfollowed_guesses: Sequence[Mapping[str, float]]) -> None:
     """Issue one warning for all runs of a batch: guesses that starts do not follow, number of runs, largest difference.
 
     unfollowed_guesses: {name: difference} of each run. If a study collects them in NOTED, they are added there instead.
     """
-    if (kept := NOTED.get()) is not None:  # by who makes many batches
+    if (kept := UNFOLLOWED_GUESSES.get()) is not None:  # by who makes many batches
         kept.extend(unfollowed_guesses)
         return
     message = []

@@ -11,12 +11,12 @@ from gudgeon.assembly.linkage import Linkage
 from gudgeon.contract.boundary import CLEARANCE_Fx, CLEARANCE_Fy
 from gudgeon.contract.clearance_info import ClearanceInfo
 from gudgeon.errors import AssemblyError, SingularError
-from gudgeon.language.plot_units import format_distinct
+from gudgeon.language.plot_units import format_distinct_numbers
 from gudgeon.model.cached_values import cache_by_values
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.contours import (
     compute_corner_approach,
-    compute_corner_gap,
+    compute_corner_penetration,
     compute_max_clearance,
     find_contour,
     find_slider_dimensions,
@@ -41,7 +41,7 @@ def check_journal_positions(linkage: Linkage, p: Array) -> None:
             _check_corner_depth(linkage, p, joint, e - c)
             continue
         if joint.name in linkage.source.rigid and e > c * (1.0 + ROUNDED):
-            length, most = format_distinct(1e3 * e, 1e3 * c)
+            length, most = format_distinct_numbers(1e3 * e, 1e3 * c)
             raise AssemblyError(
                 f"start.play.{joint.name}.e is {length} mm long and may be {most} mm, the clearance: the surfaces of"
                 " this joint do not give (newton_restitution)\n"
@@ -49,7 +49,7 @@ def check_journal_positions(linkage: Linkage, p: Array) -> None:
             )
         deepest = DEEPEST * float(p[joint.constants["R_i"]])
         if e - c > deepest:
-            length, most = format_distinct(1e3 * e, 1e3 * (c + deepest))
+            length, most = format_distinct_numbers(1e3 * e, 1e3 * (c + deepest))
             bare = "; a bare number is in m" if e > FAR * (c + deepest) else ""
             raise AssemblyError(
                 f"start.play.{joint.name}.e is {length} mm long and may be {most} mm: the clearance is {1e3 * c:.4g}"
@@ -110,7 +110,7 @@ def describe_journals_in_walls(linkage: Linkage, p: Array) -> Iterator[str]:
             so = "a run begins in contact" if joint.dry else "there is no film there"
             yield (
                 f"{joint.name} begins {1e6 * (e - c):.4g} µm inside {wall}, "
-                f"e/c = {format_distinct(e / c, 1.0, 3)[0]}: {so}"
+                f"e/c = {format_distinct_numbers(e / c, 1.0, 3)[0]}: {so}"
             )
 
 
@@ -174,12 +174,12 @@ def _describe_corner_without_onset(
     joint_index: of the joint among those with play. Other arguments as in `describe_contacts_without_onset`.
     """
     joint = compiled.source.clearances[joint_index]
-    depth, deltadot = compute_corner_gap(compiled, p, t, q, v, joint_index)
+    depth, deltadot = compute_corner_penetration(compiled, p, t, q, v, joint_index)
     if not (depth > 0.0 and deltadot <= 0.0):
         return
     steps = np.eye(len(v))
     deltadot_by_v = np.array(
-        [compute_corner_gap(compiled, p, t, q, v + step, joint_index)[1] - deltadot for step in steps]
+        [compute_corner_penetration(compiled, p, t, q, v + step, joint_index)[1] - deltadot for step in steps]
     )
     approach = v + (1.0 - deltadot) / float(deltadot_by_v @ deltadot_by_v) * deltadot_by_v  # δ̇ = 1 m/s
     if _depends_on_approach_speed(compiled, p, t, q, approach, discrete_states, joint_index):
@@ -218,7 +218,7 @@ def _depends_on_approach_speed(
     contact_states = np.array([discrete_states, discrete_states])
     contact_states[:, joint_index] = 1e-3, np.inf
     try:
-        columns = compiled.evaluate([t, t], [q, q], [v, v], contact_states, p, parts=("clearance",)).clearance[
+        columns = compiled.evaluate([t, t], [q, q], [v, v], contact_states, p, field_names=("clearance",)).clearance[
             :, joint_index
         ]
     except SingularError:  # the run itself tells

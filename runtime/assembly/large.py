@@ -11,7 +11,7 @@ from collections.abc import Callable
 import numpy as np
 
 from gudgeon.model.compiled import Array
-from gudgeon.waiting.imports import SPARSE, import_completely
+from gudgeon.waiting.imports import SPARSE, import_modules_completely
 
 LARGE = 150  # coordinates from which on sparse solvers are used
 DAMPING = 1e-10  # of the sum of squares, as in C's first step (engine/scene/start.c)
@@ -70,7 +70,7 @@ def solve_damped_least_squares(matrix: Array, right_hand_side: Array) -> Array:
     return np.asarray(x, dtype=np.float64)
 
 
-def is_independent(matrix: Array, relative_limit: float) -> bool:
+def has_independent_rows(matrix: Array, relative_limit: float) -> bool:
     """Return whether all rows are surely independent, by an estimate of the smallest singular value.
 
     It must be far above `relative_limit` times the largest; False also for numbers that are not finite, no rows, or
@@ -132,7 +132,7 @@ def _factorize(matrix: Array, damping: float) -> Callable[[Array], Array]:
 
     Raises RuntimeError if the matrix is singular.
     """
-    import_completely(*SPARSE)
+    import_modules_completely(*SPARSE)
     from scipy import sparse
     from scipy.sparse.linalg import splu
 

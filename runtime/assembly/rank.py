@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gudgeon.assembly.large import LARGE, compute_rank_by_rows, estimate_dependence_shares, is_independent
+from gudgeon.assembly.large import LARGE, compute_rank_by_rows, estimate_dependence_shares, has_independent_rows
 from gudgeon.assembly.linkage import Linkage, compute_mechanism_size, find_angles, scale_rows
 from gudgeon.errors import AssemblyError, SolverError
 from gudgeon.model.cached_values import cache_by_values
@@ -48,7 +48,11 @@ def compute_rank(matrix: Array, relative_limit: float = RANK) -> int:
     without singular values.
     """
     if matrix.shape[1] >= LARGE:
-        return len(matrix) if is_independent(matrix, relative_limit) else compute_rank_by_rows(matrix, relative_limit)
+        return (
+            len(matrix)
+            if has_independent_rows(matrix, relative_limit)
+            else compute_rank_by_rows(matrix, relative_limit)
+        )
     return _compute_rank_by_svd(matrix, relative_limit)
 
 
@@ -184,7 +188,7 @@ def check_redundant_equations(compiled: CompiledModel, p: Array, t: float, q: Ar
         )
 
 
-def find_contradiction(problem: Problem, trajectory: Trajectory) -> SolverError | None:
+def find_constraint_violation(problem: Problem, trajectory: Trajectory) -> SolverError | None:
     """Return the error for the first sample at which a trajectory violates a redundant equation; None if none does.
 
     Of an interrupted run, at most MOST samples are checked, the last one among them. Raises KeyboardInterrupt.

@@ -56,7 +56,7 @@ def search_start(linkage: Linkage, p: Array, t: float = 0.0) -> Start:
 
     closure = Closure(linkage, p, t)
     with np.errstate(all="ignore"):  # Newton handles undefined directions itself
-        q, closed = closure.find_nearest()
+        q, closed = closure.find_nearest_configuration()
     if not closed:
         from gudgeon.assembly.failures import make_closure_error
 

@@ -108,7 +108,7 @@ def _assemble_scene(linkage: NumPyLinkage, rows: Sequence[int]) -> AssembledScen
     check_journal_positions(linkage, p)
     closure = Closure(linkage, p, 0.0)
     with np.errstate(all="ignore"):
-        q, closed = closure.find_nearest()
+        q, closed = closure.find_nearest_configuration()
         if not closed:
             raise make_closure_error(closure, q)
         compute_start_velocities(closure, q)

@@ -18,7 +18,7 @@ from gudgeon.commands.progress import show_status_line
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.contract.methods import KINEMATIC
 from gudgeon.contract.reduction_log import ReductionLog
-from gudgeon.contract.reduction_words import describe_outcome, describe_steps
+from gudgeon.contract.reduction_words import describe_reduced_system, describe_reduction_steps
 from gudgeon.errors import AssemblyError, InputError, InputErrors, MissingKeyError
 from gudgeon.integrators.adaptive import select_first_method
 from gudgeon.language.text_output import print_json
@@ -298,7 +298,10 @@ def yield_reduction_logs(
 
     printed_logs: list[tuple[str, list[tuple[int, int, str]], list[tuple[str, str]]]] = []
     for scene, source in scenes.items():
-        steps, lines = list(describe_steps(source)), [*describe_outcome(source), *yield_further_lines(source)]
+        steps, lines = (
+            list(describe_reduction_steps(source)),
+            [*describe_reduced_system(source), *yield_further_lines(source)],
+        )
         earlier_log = next((other for other in printed_logs if other[1] == steps), None)
         if earlier_log:
             lines = [line for line in lines if line not in earlier_log[2]]

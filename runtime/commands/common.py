@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING
 
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import BadValueError, InputError, Location, OutputError, UnknownNameError, shorten_path
-from gudgeon.files.writing import check_target
-from gudgeon.language.names import make_unknown_error
+from gudgeon.files.writing import check_output_path
+from gudgeon.language.names import make_missing_name_error
 from gudgeon.loading.kernel_sources import compute_generator_hash, find_mechanism, read_bytes
 from gudgeon.model.parameters import (
     PARAMETER_GROUPS,
@@ -59,7 +59,7 @@ def select_scenes(mechanism: str, requested: tuple[str, ...]) -> tuple[str, ...]
     names = read_scene_names(mechanism)
     for scene in requested:
         if scene not in names:
-            raise make_unknown_error(f"no scene {scene!r} in {mechanism}", scene, names)
+            raise make_missing_name_error(f"no scene {scene!r} in {mechanism}", scene, names)
     return tuple(dict.fromkeys(requested)) or names
 
 
@@ -98,7 +98,7 @@ def check_addresses(addresses: Iterable[str], file: str, sources: Sequence[Kerne
                 meant = (name, f"expressions.{name}")
                 location = next((Location(file, w.line, w.column) for w in every if w.address in meant), None)
                 raise UnknownNameError(f"--set: {message}", location, hint)
-        raise make_unknown_error(f"--set: no scene has a number {name!r}", name, known_addresses)
+        raise make_missing_name_error(f"--set: no scene has a number {name!r}", name, known_addresses)
 
 
 def select_known_settings(source: KernelSource, given: Mapping[str, float | str]) -> dict[str, float | str]:
@@ -174,7 +174,7 @@ def check_output_file(option: str, path: Path) -> None:
 def check_output_name(option: str, path: Path) -> None:
     """Raise InputError if `path` is a folder or a link, or cannot be a file; its parent folder is not checked."""
     try:
-        check_target(path)
+        check_output_path(path)
     except OutputError as error:
         raise InputError(f"{option}: {error}") from error
 

@@ -15,10 +15,10 @@ def complete_files(incomplete: str) -> list[str]:
     """Return completions of a file name: shipped mechanisms, YAML files and folders that begin with the text,
     sorted.
     """
-    from gudgeon.loading.shipped import list_shipped
+    from gudgeon.loading.shipped import list_shipped_mechanisms
 
     folder, _, begun = incomplete.rpartition("/")
-    file_names = [] if folder else [name for name in list_shipped() if name.startswith(begun)]
+    file_names = [] if folder else [name for name in list_shipped_mechanisms() if name.startswith(begun)]
     with suppress(OSError), os.scandir(f"{folder}/" if folder or incomplete.startswith("/") else ".") as entries:
         for entry in entries:
             if entry.name.startswith(begun) and not entry.name.startswith("."):
@@ -35,12 +35,12 @@ def complete_scenes(context: typer.Context, incomplete: str) -> list[str]:
     read.
     """
     from gudgeon.generator.yaml import parse_yaml
-    from gudgeon.loading.shipped import find_shipped_file, list_shipped
+    from gudgeon.loading.shipped import find_shipped_file, list_shipped_mechanisms
 
     scene_names = {"ideal"}
     with suppress(Exception):
         name = str(context.params.get("file") or context.args[0])  # args: after an option without value
-        path = find_shipped_file(name) if name in list_shipped() else Path(name)
+        path = find_shipped_file(name) if name in list_shipped_mechanisms() else Path(name)
         scene_names |= {str(scene) for scene in parse_yaml(path.read_bytes(), name).get_mapping("scenes").list_keys()}
     return sorted(scene for scene in scene_names if scene.startswith(incomplete))
 

@@ -22,7 +22,7 @@ from gudgeon.commands.common import (
     require_suffix,
     select_scenes,
 )
-from gudgeon.commands.outcome import report_written
+from gudgeon.commands.outcome import report_written_file
 from gudgeon.commands.progress import show_progress_bars, show_status_line
 from gudgeon.errors import AssemblyError, BadValueError, GudgeonError, SolverError, shorten_path
 from gudgeon.files.writing import write_bytes
@@ -104,7 +104,7 @@ def draw_file(request: Request) -> int:
                 drawn, failure = _draw_start(request, file, values)
         data = drawn.as_bytes(target.suffix.lower())
     write_bytes(target, data)
-    report_written("picture", target)
+    report_written_file("picture", target)
     if failure is not None:
         raise failure
     return 0
@@ -176,7 +176,7 @@ def _draw_start(request: Request, file: Path, values: Mapping[str, float | str])
     linkage = apply_settings(mechanism, linkage, values)
     closure = Closure(linkage, linkage.p, 0.0)
     with np.errstate(all="ignore"):
-        q, closed = closure.find_nearest()
+        q, closed = closure.find_nearest_configuration()
     caption = _format_caption(mechanism.title or mechanism.name, request.scene, 0.0)
     if not closed:
         return _draw_unclosed_linkage(mechanism, closure, q, caption)
@@ -213,12 +213,12 @@ def _make_sketches(mechanism: Mechanism, closure: Closure, postures: Sequence[Po
     """
     from gudgeon.assembly.mobility import find_mobility
     from gudgeon.drawing.failures import draw_free_motions
-    from gudgeon.drawing.plan import make_plan
+    from gudgeon.drawing.layout import make_layout
     from gudgeon.drawing.sketch import compute_common_box, make_sketch
 
     with np.errstate(all="ignore"):
         mobility = find_mobility(closure.linkage, closure.p, postures[0].q)
-    plans, sketches = [make_plan([posture], postures[0]) for posture in postures], []
+    plans, sketches = [make_layout([posture], postures[0]) for posture in postures], []
     unit = min(plan.unit for plan in plans)
     plans = [replace(plan, unit=unit) for plan in plans]
     box = compute_common_box(postures, plans)
@@ -226,7 +226,9 @@ def _make_sketches(mechanism: Mechanism, closure: Closure, postures: Sequence[Po
     for posture, plan in zip(postures, plans, strict=True):
         shapes, labels = draw_free_motions(closure, posture, unit, mobility.loose) if marked else ([], [])
         loose = frozenset(mobility.loose)
-        sketches.append(make_sketch(posture, plan, shapes_on_top=shapes, labels=labels, unconnected=loose, box=box))
+        sketches.append(
+            make_sketch(posture, plan, shapes_on_top=shapes, labels=labels, unconnected_bodies=loose, box=box)
+        )
     return sketches
 
 

@@ -9,10 +9,10 @@ from hashlib import sha256
 from pathlib import Path
 
 from gudgeon.commands.common import check_output_folder, select_scenes
-from gudgeon.commands.outcome import report_note, report_written
+from gudgeon.commands.outcome import report_note, report_written_file
 from gudgeon.commands.progress import show_status_line
 from gudgeon.errors import InputError, shorten_path
-from gudgeon.files.writing import PART, AtomicFiles, check_target, read_regular
+from gudgeon.files.writing import PART, AtomicFiles, check_output_path, read_regular_file
 from gudgeon.loading import compiler
 from gudgeon.loading.engine import read_engine_files, read_engine_readme
 from gudgeon.loading.kernel_sources import find_kernel_source, find_mechanism, read_bytes
@@ -49,12 +49,12 @@ def emit_c(mechanism: str, folder: Path, scene_names: tuple[str, ...]) -> int:
             source, _ = find_kernel_source(data, file, scene)
         texts = {**source.files, REST: replace(source, files={}).to_json() + "\n"}
         _write_folder(folder / scene, {name: text.encode() for name, text in texts.items()})
-        report_written(scene, folder / scene, f": {', '.join(texts)}")
+        report_written_file(scene, folder / scene, f": {', '.join(texts)}")
         needs_engine |= not source.cdef
     if needs_engine:
         for engine_folder, texts in engine_folders.items():
             _write_folder(folder / engine_folder, {name: text.encode() for name, text in texts.items()})
-        report_written(ENGINE, folder / ENGINE, ": what all scenes share")
+        report_written_file(ENGINE, folder / ENGINE, ": what all scenes share")
     return 0
 
 
@@ -66,7 +66,7 @@ def _emit_fmu(mechanism: str, target: Path, scene_names: tuple[str, ...]) -> int
     scenes = select_scenes(mechanism, scene_names or ("ideal",))
     if len(scenes) != 1:
         raise InputError(f"an FMU is of one scene, not of {len(scenes)}", hint="name one with --scene")
-    check_target(target)
+    check_output_path(target)
     from gudgeon.exchange.fmu import write_fmu
     from gudgeon.exchange.fmu_description import explain_exchange_obstacle
     from gudgeon.simulation.from_file import load
@@ -76,7 +76,7 @@ def _emit_fmu(mechanism: str, target: Path, scene_names: tuple[str, ...]) -> int
         write_fmu(simulation, target)
     why = explain_exchange_obstacle(simulation.source)
     kinds = f"Co-Simulation alone ({why})" if why else "Co-Simulation and Model Exchange"
-    report_written("fmu", target, f": FMI 3.0, {kinds}, scene {scenes[0]}")
+    report_written_file("fmu", target, f": FMI 3.0, {kinds}, scene {scenes[0]}")
     if others := [scene for scene in select_scenes(mechanism, ()) if scene not in scenes and not scene_names]:
         report_note(f"other scenes, by --scene: {', '.join(others)}")
     if not compiler.has_compiler():
@@ -139,7 +139,7 @@ def _read_checksums(folder: Path) -> dict[str, set[str]]:
     list.
     """
     sums_by_name: dict[str, set[str]] = {}
-    for line in (read_regular(folder / LIST) or b"").decode(errors="replace").splitlines():
+    for line in (read_regular_file(folder / LIST) or b"").decode(errors="replace").splitlines():
         parts = _LINE.fullmatch(line)
         if not parts:
             return {}
@@ -161,7 +161,7 @@ def refuse_foreign_files(folder: Path, subfolders: Collection[str] = ()) -> None
         if not folder.is_dir():
             raise InputError(f"{shown} is a file", hint="name another folder")
         sums_by_name = _read_checksums(folder)
-        if not sums_by_name and read_regular(folder / LIST):
+        if not sums_by_name and read_regular_file(folder / LIST):
             message = f"{folder / LIST} is no list as `emit` writes it: it does not tell which files there are its own"
             raise InputError(message, hint="put the list back as it was, remove the folder, or name another one")
         kept = (
@@ -199,5 +199,5 @@ def _is_unchanged_output(path: Path, sums_by_name: Mapping[str, set[str]]) -> bo
         return bool(sums_by_name) or path.stat().st_size == 0
     if PART.fullmatch(path.name):
         return True
-    data = read_regular(path) if path.name in sums_by_name else None
+    data = read_regular_file(path) if path.name in sums_by_name else None
     return data is not None and sha256(data).hexdigest() in sums_by_name[path.name]

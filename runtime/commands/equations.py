@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from gudgeon.commands.common import check_output_file, require_suffix, select_scenes
-from gudgeon.commands.outcome import report_text, report_written
+from gudgeon.commands.outcome import report_text, report_written_file
 from gudgeon.commands.progress import show_status_line
 from gudgeon.errors import BadValueError, GudgeonError
 from gudgeon.files.writing import write_text
@@ -46,7 +46,7 @@ def write_equations(mechanism: str, target: Path, scenes: tuple[str, ...]) -> in
         report_text("equations", text.removesuffix("\n"))
         return 0
     write_text(target, text)
-    report_written("equations", target)
+    report_written_file("equations", target)
     if target.suffix.lower() == ".ipynb":
         _check_notebook_run(mechanism, scene, target)
     return 0
@@ -88,7 +88,7 @@ def _write_pages(mechanism: str, folder: Path, scenes: tuple[str, ...]) -> int:
                 text = build_page(load(mechanism, scene), files)
             folder.mkdir(parents=True, exist_ok=True)
             write_text(folder / file, text)
-            report_written(scene, folder / file)
+            report_written_file(scene, folder / file)
     return 0
 
 
@@ -110,14 +110,14 @@ def _format_equations(mechanism: str, scene: str, target: Path) -> str:
         from gudgeon.web.page import build_page
 
         return build_page(load(mechanism, scene))
-    from gudgeon.generator.targets.latex import equations_tex, equations_text
+    from gudgeon.generator.targets.latex import render_equations_tex, render_equations_text
 
     model = _derive_model(mechanism, scene)
     if suffix == ".ipynb":
         from gudgeon.teaching.notebook import write_notebook
 
         return write_notebook(model, _find_mechanism_from_notebook(mechanism, target))
-    return equations_tex(model) if suffix == ".tex" else equations_text(model)
+    return render_equations_tex(model) if suffix == ".tex" else render_equations_text(model)
 
 
 def _find_mechanism_from_notebook(mechanism: str, target: Path) -> str:

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from gudgeon.commands.common import check_output_file, require_suffix, select_scenes
-from gudgeon.commands.outcome import report_written
+from gudgeon.commands.outcome import report_written_file
 from gudgeon.commands.progress import show_status_line
 from gudgeon.errors import AssemblyError, GudgeonError, SolverError
 from gudgeon.files.writing import AtomicFiles
@@ -40,8 +40,8 @@ def write_exercise(mechanism: str, target: Path, scene: str, seed: int, at: str 
         for file, text in zip((target, solutions), texts, strict=True):
             atomic_files.write(file.name, text.encode())
         atomic_files.move()
-    report_written("exercise", target)
-    report_written("solutions", solutions)
+    report_written_file("exercise", target)
+    report_written_file("solutions", solutions)
     return 0
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from gudgeon.commands.outcome import report_note, report_written
+from gudgeon.commands.outcome import report_note, report_written_file
 from gudgeon.commands.progress import show_status_line
 from gudgeon.errors import InputError
 from gudgeon.exchange.read import convert_to_mechanism
@@ -27,7 +27,7 @@ def import_linkage(file: Path, target: Path | None) -> int:
     write_text(target, text)
     for line in (line for line in text.splitlines()[1:] if line.startswith("# ")):
         report_note(line[2:])
-    report_written("mechanism", target)
+    report_written_file("mechanism", target)
     if not is_tried:
         report_note(f"More than {MAX_TRIED} bodies: whether they assemble was not tried.")
     report_note(f"next: gudgeon check {target} -v, gudgeon draw {target}, gudgeon run {target}")

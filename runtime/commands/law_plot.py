@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gudgeon.commands.outcome import report_written
+from gudgeon.commands.outcome import report_written_file
 from gudgeon.errors import BadValueError, MissingKeyError
 from gudgeon.files.writing import write_bytes
 from gudgeon.language.names import make_unknown_name_error
@@ -66,7 +66,7 @@ def plot_law(law: Law, name: str, target: Path, settings: Mapping[str, float | s
     from gudgeon.drawing.picture import encode_figure
 
     write_bytes(target, encode_figure(make_law_figure(law, name, settings), target.suffix.lower()))
-    report_written("plot", target)
+    report_written_file("plot", target)
 
 
 def make_law_figure(law: Law, name: str, settings: Mapping[str, float | str]) -> Figure:
@@ -104,7 +104,7 @@ def _select_law_values(law: Law, name: str, settings: Mapping[str, float | str])
     """Return the law with the values of `settings`, and default or usual ones for the rest. Raises as `plot_law`."""
     from gudgeon.generator.field import resolve_dimensions
 
-    fields = {field.name: field for field in resolve_dimensions(law.fields_as(name), settings)}
+    fields = {field.name: field for field in resolve_dimensions(law.list_fields_of_name(name), settings)}
     for key in settings:
         if key not in fields:
             raise make_unknown_name_error(f"key of {name}", key, tuple(fields), None)
@@ -125,7 +125,7 @@ def _select_law_values(law: Law, name: str, settings: Mapping[str, float | str])
             numbers[field.name] = value
             if value != field.default or field.name in settings:
                 description.append(f"{field.name} = {format_quantity(value, _get_unit(field))}")
-    law.check(numbers)
+    law.check_bounds(numbers)
     return _SelectedLaw(law, name, numbers, options, ", ".join(description))
 
 

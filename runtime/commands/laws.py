@@ -127,7 +127,7 @@ def _build_law_document(law: Law, name: str) -> dict[str, Any]:
         "chosen": dict(law.also.get(name, {})),
         "equations": first["equations"],
         "choices": [form for form in others if form["equations"]],
-        "keys": [_build_key_document(field) for field in law.fields_as(name)],
+        "keys": [_build_key_document(field) for field in law.list_fields_of_name(name)],
         "states": {state.name: state.meaning for state in law.states},
         "validity": law.validity,
         "reference": law.reference or law.source,

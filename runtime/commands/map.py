@@ -12,7 +12,7 @@ from gudgeon.contract.kernel_source import RuntimeParameter
 from gudgeon.contract.methods import OFFERED
 from gudgeon.errors import BadValueError
 from gudgeon.integrators.adaptive import parse_tolerance
-from gudgeon.language.names import make_unknown_error
+from gudgeon.language.names import make_missing_name_error
 from gudgeon.model.parameters import list_addresses, parse_typed_number, read_parameter_value
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.studies.axes import GROUPS, SETTINGS, make_axis, parse_axis
@@ -171,7 +171,7 @@ def _check_axis_names(map_options: MapOptions, simulations: Sequence[Simulation]
     for option, texts in (("--axis", map_options.axes), ("--range", map_options.ranges)):
         for text in texts:
             if "=" in text and _get_axis_name(text) not in known_names:
-                raise make_unknown_error(
+                raise make_missing_name_error(
                     f"{option} {text}: no scene has a number {_get_axis_name(text)!r}",
                     _get_axis_name(text),
                     known_names,

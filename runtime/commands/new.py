@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
-from gudgeon.commands.outcome import report_note, report_written
+from gudgeon.commands.outcome import report_note, report_written_file
 from gudgeon.errors import BadNameError, BadValueError, InputError
 from gudgeon.files.writing import write_text
 from gudgeon.language.names import check_name
@@ -15,7 +15,7 @@ TEMPLATE, OF_STUDY = (PACKAGE / "templates" / name for name in ("new.yaml", "stu
 NAME = re.compile(r"^name: .*$", re.MULTILINE)
 
 
-def new_mechanism(name: str, like: str | None) -> int:
+def create_mechanism_file(name: str, like: str | None) -> int:
     """Write NAME.yaml from the template, or from a shipped mechanism `like`, and return the exit code.
 
     Raises BadNameError, UnknownNameError for `like`, InputError if the file exists.
@@ -28,12 +28,12 @@ def new_mechanism(name: str, like: str | None) -> int:
     if like is not None:
         text = f"# Begun from {like}, which comes with gudgeon. What follows is told of that one.\n{text}"
     write_text(target, text)
-    report_written("mechanism", target)
+    report_written_file("mechanism", target)
     report_note(f"next: gudgeon check {target} -v, gudgeon draw {target}, gudgeon run {target}")
     return 0
 
 
-def new_study(name: str, like: str | None) -> int:
+def create_study_file(name: str, like: str | None) -> int:
     """Write NAME.yaml from the study template, and return the exit code. Raises as new_mechanism."""
     if like is not None:
         raise BadValueError("--like is of mechanisms", hint="gudgeon new NAME --study begins a study; then edit it")
@@ -41,7 +41,7 @@ def new_study(name: str, like: str | None) -> int:
     _check_new_name(name, "study")
     target = _find_new_path(name)
     write_text(target, OF_STUDY.read_text(encoding="utf-8"))
-    report_written("study", target)
+    report_written_file("study", target)
     report_note(f"next: gudgeon study {target} --runs, gudgeon study {target}, gudgeon study report {name}.study")
     return 0
 

@@ -106,7 +106,7 @@ class Document:
 _document: Document | None = None  # of the running command, if JSON is requested
 
 
-def report_written(kind: str, path: Path, suffix: str = "") -> None:
+def report_written_file(kind: str, path: Path, suffix: str = "") -> None:
     """Print that a file or folder was written, or add it to the JSON document; kind: its key; suffix: text
     after its name.
     """

@@ -37,7 +37,7 @@ from gudgeon.commands.progress import show_progress_bars, show_status_line
 from gudgeon.errors import AssemblyError, GudgeonError, InputError, MemoryShortage, SolverError, shorten_path
 from gudgeon.files.free_space import check_disk, check_memory
 from gudgeon.files.writing import write_bytes
-from gudgeon.language.names import make_unknown_error
+from gudgeon.language.names import make_missing_name_error
 from gudgeon.language.text_output import escape_invisible, format_path, print_json
 from gudgeon.loading.kernel_sources import find_mechanism
 from gudgeon.model.default_step import T_END, evaluate_scene_end, evaluate_scene_number
@@ -175,7 +175,7 @@ def _check_request(request: Request, settings: Settings, simulations: Mapping[st
         for option, names in (("--watch", request.watch), ("--peaks", request.peaks)):
             for name in names:
                 if name not in series:
-                    raise make_unknown_error(f"{option}: no scene has a series {name!r}", name, series)
+                    raise make_missing_name_error(f"{option}: no scene has a series {name!r}", name, series)
 
 
 def _select_peak_series(request: Request, source: KernelSource) -> tuple[str, ...] | None:

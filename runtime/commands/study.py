@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from gudgeon.commands.common import check_output_file, check_output_folder, parse_settings, require_suffix
-from gudgeon.commands.outcome import report_as_json, report_written
+from gudgeon.commands.outcome import report_as_json, report_written_file
 from gudgeon.commands.progress import show_progress_bars, show_status_line
 from gudgeon.errors import BadValueError, shorten_path
 from gudgeon.files.writing import write_bytes
@@ -59,11 +59,11 @@ def report_study(folder: str, out: Path | None, json: bool) -> int:
         html = load_study(folder).report().to_html()
     with report_as_json(json):
         write_bytes(page, html.encode())
-        report_written("report", page)
+        report_written_file("report", page)
     return 0
 
 
-def study_file(request: Request) -> int:
+def run_study_file(request: Request) -> int:
     """Run what is missing of a study, print the results, and return the exit code: 1 if every run failed."""
     if request.finished is not None:
         if request.file != REPORT:

@@ -12,7 +12,7 @@ from gudgeon.contract.reduction_log import ReductionLog, Solve, Step
 MAX_NAMES = 16  # largest number of names that are listed in full
 
 
-def describe_steps(source: KernelSource) -> Iterator[tuple[int, int, str]]:
+def describe_reduction_steps(source: KernelSource) -> Iterator[tuple[int, int, str]]:
     """Yield for each reduction step the numbers of coordinates and equations that remain, and its description.
 
     The first item is that of all bodies before the reduction.
@@ -23,7 +23,7 @@ def describe_steps(source: KernelSource) -> Iterator[tuple[int, int, str]]:
         yield n, m, _WORDS[step.kind](step)
 
 
-def describe_outcome(source: KernelSource) -> Iterator[tuple[str, str]]:
+def describe_reduced_system(source: KernelSource) -> Iterator[tuple[str, str]]:
     """Yield titles and texts on the tree, the unknowns, the linear systems and the operations of a scene.
 
     The tree is left out if there is none, the closures for the full formulation.
@@ -223,8 +223,8 @@ def _format_operations(source: KernelSource) -> str:
     """
     counts = source.operations
     n_full = counts["dynamics"]
-    if "arrive" in counts:
-        step, n_sample = counts["close_step"], counts["arrive"]
+    if "compute_body_motion" in counts:
+        step, n_sample = counts["close_step"], counts["compute_body_motion"]
         return (
             f"accelerations {n_full:,} → {n_sample:,} with all positions and velocities"
             + f", {_format_ratio(n_full, n_sample)}"
@@ -236,7 +236,7 @@ def _format_operations(source: KernelSource) -> str:
         return f"accelerations {n_full:,}{_format_law_operations(source)}"
     n_reduced, chains = counts["reduced_dynamics"], ""
     if source.chain:
-        n_steps, n_rates = counts["chain_step"], counts["chain_rates"]
+        n_steps, n_rates = counts["compute_loop_step"], counts["compute_loop_rates"]
         n_reduced += n_steps + n_rates
         chains = f" with {n_rates:,} for the rates of driven chains and {n_steps:,} for each step that closes them"
     ratio = _format_ratio(n_full, n_reduced)

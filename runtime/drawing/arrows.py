@@ -8,13 +8,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from gudgeon.assembly.linkage import compute_point_position
-from gudgeon.drawing.movers import HEAD, draw_arrow
+from gudgeon.drawing.drives_and_forces import HEAD, draw_arrow
 from gudgeon.drawing.posture import Posture, find_outline_points
 from gudgeon.drawing.shapes import Shape
 from gudgeon.language.plot_units import choose_prefix
 from gudgeon.model.compiled import Array
 
-LONGEST = 9.0  # units
+MAX_ARROW_LENGTH = 9.0  # units
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,7 +41,7 @@ def draw_arrows(
     """
     if not max_magnitude > 0.0:
         return Arrows(role, (), 0.0, "")
-    metres_per_unit, shapes = LONGEST * unit_length / max_magnitude, list[Shape]()
+    metres_per_unit, shapes = MAX_ARROW_LENGTH * unit_length / max_magnitude, list[Shape]()
     for name, (position, vector) in vectors.items():
         length = metres_per_unit * float(np.hypot(*vector))
         if length > 1e-3 * unit_length:

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from gudgeon.contract.kernel_source import PartInfo
-from gudgeon.drawing.joint_at import (
+from gudgeon.drawing.joint_geometry import (
     compute_guide_directions,
     compute_wall_gap,
     find_guide_and_slider,
@@ -15,7 +15,7 @@ from gudgeon.drawing.joint_at import (
     is_block,
     iterate_sliding_joints,
 )
-from gudgeon.drawing.plan import Plan
+from gudgeon.drawing.layout import Layout
 from gudgeon.drawing.posture import Posture, find_outline_points, get_body_name, remove_repeated_positions
 from gudgeon.drawing.shapes import Disc, Label, Line, Shape, compute_rectangle, compute_rounded_outline
 from gudgeon.model.compiled import Array
@@ -24,7 +24,7 @@ BLOCK = (2.1, 1.25)  # half length and width of a slider, in units
 SLOT, STRIP = 1.0, 0.55  # half widths: of a slotted link, of a bar that guides
 
 
-def draw_bodies(posture: Posture, layout: Plan, unconnected_bodies: frozenset[str] = frozenset()) -> Iterator[Shape]:
+def draw_bodies(posture: Posture, layout: Layout, unconnected_bodies: frozenset[str] = frozenset()) -> Iterator[Shape]:
     """Yield the outlines of every body of a scene, closed lines, and dots of its named points.
 
     Bodies in `unconnected_bodies` have the colour of an error.
@@ -37,7 +37,7 @@ def draw_bodies(posture: Posture, layout: Plan, unconnected_bodies: frozenset[st
         yield from _draw_point_marks(posture, layout, body, tint)
 
 
-def _iterate_outlines(posture: Posture, layout: Plan, body: str) -> Iterator[tuple[str, Array]]:
+def _iterate_outlines(posture: Posture, layout: Layout, body: str) -> Iterator[tuple[str, Array]]:
     """Yield role and closed outline (N, 2) of a body: its link or plate, its guides for other bodies, its blocks.
 
     A body with a guide or block that has points at one place only is drawn without link or plate.
@@ -77,7 +77,7 @@ def _has_one_position(posture: Posture, body: str) -> bool:
     return len(remove_repeated_positions(posture.get_position(name) for name in names)) < 2
 
 
-def compute_guide_ends(posture: Posture, layout: Plan, part: PartInfo) -> list[Array]:
+def compute_guide_ends(posture: Posture, layout: Layout, part: PartInfo) -> list[Array]:
     """Return both ends of a slot or guide bar, two points (2,) in m, as far as the slider travels.
 
     They extend to the body's own point on the line, except for a slot on one of the body's links.
@@ -112,7 +112,7 @@ def _is_on_link(posture: Posture, body: str, *ends: Array) -> bool:
     return False
 
 
-def _draw_point_marks(posture: Posture, layout: Plan, body: str, tint: int) -> Iterator[Shape]:
+def _draw_point_marks(posture: Posture, layout: Layout, body: str, tint: int) -> Iterator[Shape]:
     """Yield a small dot for each named point of a body that no joint, drive or force element uses.
 
     `tint` is the number of the body's colour.
@@ -124,7 +124,7 @@ def _draw_point_marks(posture: Posture, layout: Plan, body: str, tint: int) -> I
             yield Disc(f"point {name}", "mark", posture.get_position(name), 0.22 * layout.unit, tint)
 
 
-def label_bodies(posture: Posture, layout: Plan) -> Iterator[Label]:
+def label_bodies(posture: Posture, layout: Layout) -> Iterator[Label]:
     """Yield the label of each body at the mean of its points, then the labels of named points that have a dot."""
     for body in posture.bodies:
         positions = remove_repeated_positions(find_outline_points(posture, body).values())

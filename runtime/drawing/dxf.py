@@ -114,8 +114,8 @@ def _draw_sketch(modelspace: Modelspace, layers: _Layers, sketch: Sketch, offset
         else:
             _draw_line(modelspace, shape, offset, attributes)
     for label in sketch.labels:
-        angle = np.radians(label.way)
-        position = label.place + offset + (label.clear + sketch.unit) * np.array([np.cos(angle), np.sin(angle)])
+        angle = np.radians(label.direction)
+        position = label.position + offset + (label.clearance + sketch.unit) * np.array([np.cos(angle), np.sin(angle)])
         colour = NAMES[label.role][0]
         attributes = {"layer": layers(label.part, 0)}
         if colour.startswith("#"):

@@ -10,8 +10,8 @@ from gudgeon.assembly.closure import Closure
 from gudgeon.assembly.failures import format_length
 from gudgeon.assembly.mobility import compute_free_motions
 from gudgeon.contract.kernel_source import PartInfo
-from gudgeon.drawing.joint_at import JointAt
-from gudgeon.drawing.movers import HEAD, draw_arrow, draw_round_arrow, find_pivot
+from gudgeon.drawing.drives_and_forces import HEAD, draw_arrow, draw_round_arrow, find_pivot
+from gudgeon.drawing.joint_geometry import JointGeometry
 from gudgeon.drawing.posture import Posture, get_joint_type
 from gudgeon.drawing.shapes import Label, Line, Shape, unit_vector
 from gudgeon.model.compiled import Array
@@ -45,13 +45,13 @@ def draw_gaps(closure: Closure, posture: Posture) -> tuple[list[Shape], list[Lab
                 shapes.append(Line(f"gap {owner}", "gap", gap_line))
                 part_lengths, position = [float(np.hypot(*(gap_line[1] - gap_line[0])))], gap_line.mean(axis=0)
             elif part_lengths:
-                position = get_joint_type(part).symbol.place(JointAt(posture, part))
+                position = get_joint_type(part).symbol.find_name_position(JointGeometry(posture, part))
             else:
                 position = find_pivot(posture, part)
             texts = [format_length(length) for length in part_lengths] + [
                 f"{np.degrees(angle):.3g}°" for angle in angles
             ]
-            labels.append(Label(f"gap {owner}", "gap", f"{owner}: {', '.join(texts)}", position, way=90.0))
+            labels.append(Label(f"gap {owner}", "gap", f"{owner}: {', '.join(texts)}", position, direction=90.0))
     return shapes, labels
 
 
@@ -63,7 +63,7 @@ def _compute_gap_line(posture: Posture, part: PartInfo, lengths: list[float]) ->
     """
     if part.section == "joints":
         gap = get_joint_type(part).symbol.gap
-        return np.array(gap(JointAt(posture, part), lengths)) if gap else None
+        return np.array(gap(JointGeometry(posture, part), lengths)) if gap else None
     if part.kind == "coordinate":
         k = "xy".index(part.options["coordinate"])
         point = posture.get_position(part.ends[0])

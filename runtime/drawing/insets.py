@@ -6,8 +6,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from gudgeon.drawing.joint_at import compute_corner_approaches, find_sliding_axis, find_touching_corners
-from gudgeon.drawing.plan import is_visible_to_scale
+from gudgeon.drawing.joint_geometry import compute_corner_approaches, find_sliding_axis, find_touching_corners
+from gudgeon.drawing.layout import is_visible_to_scale
 from gudgeon.drawing.posture import Posture
 from gudgeon.drawing.shapes import Disc, Label, Line, Shape, compute_rectangle, rotate_quarter_turn
 from gudgeon.language.plot_units import choose_prefix

@@ -27,7 +27,7 @@ except ModuleNotFoundError as error:
 
 RINGS = (2.0, 6.0, 11.0, 17.0, 25.0, 35.0, 48.0, 64.0, 84.0, 110.0, 145.0, 190.0)  # points from the named part
 ORDER = (45.0, 0.0, 90.0, 180.0, 270.0, 135.0, 315.0, 225.0, *(22.5 + 45.0 * k for k in range(8)))  # on a ring, degrees
-LED = 15.0  # points from its part, beyond which a name has a leader line
+MIN_LEADER_DISTANCE = 15.0  # points from its part, beyond which a name has a leader line
 GAP = 1.2  # points between names
 CROSSED = 2.0  # cost of a crossing of a leader line, in crossings of other lines
 LEFT_FREE = 3.0  # points between a name and the leader line of another one
@@ -47,13 +47,15 @@ class NameLabels(Artist):
         self.set_in_layout(False)
         self.sketch, self.boxes = sketch, dict[str, tuple[float, float, float, float]]()
         self.label_offsets, self.previous_offsets = dict[str, tuple[float, float]](), dict[str, tuple[float, float]]()
-        self.order = {shape.part: shape.tint for shape in sketch.shapes if shape.part.startswith("body ")}
+        self.body_tints = {shape.part: shape.tint for shape in sketch.shapes if shape.part.startswith("body ")}
         self.texts = [self._make_text(label, size) for label in sketch.labels]
 
     def _make_text(self, label: Label, size: float) -> Text:
         """Return the text artist of a label, centred and without position, in the style of its role."""
         colour_name, weight = NAMES[label.role]
-        colour = resolve_colour(colour_name, self.order.get(label.part, 0)) if colour_name in ("edge",) else colour_name
+        colour = (
+            resolve_colour(colour_name, self.body_tints.get(label.part, 0)) if colour_name in ("edge",) else colour_name
+        )
         text = Text(
             0.0,
             0.0,
@@ -79,7 +81,7 @@ class NameLabels(Artist):
             return
         self.place_texts(renderer)
         renderer.open_group("names")
-        for line in self.leads:
+        for line in self.leader_lines:
             line.draw(renderer)
         for text in self.texts:
             text.draw(renderer)
@@ -108,17 +110,17 @@ class NameLabels(Artist):
         self.label_offsets = place_names(
             self.sketch, half_sizes, self.previous_offsets, to_pixels, metre, point, picture_box
         )
-        self.leads, self.boxes = [], {}
+        self.leader_lines, self.boxes = [], {}
         for text, label in zip(self.texts, self.sketch.labels, strict=True):
             text.set_visible(label.part in self.label_offsets)
             if label.part not in self.label_offsets:
                 continue
-            anchor, half_size, clear = to_pixels(label.place), half_sizes[label.part], label.clear * metre
+            anchor, half_size, clear = to_pixels(label.position), half_sizes[label.part], label.clearance * metre
             middle = anchor + self.label_offsets[label.part]
             text.set_position((float(middle[0]), float(middle[1])))
             self.boxes[label.part] = tuple([*(middle - half_size), *(middle + half_size)])
             if is_leader_needed(anchor, middle, half_size, clear, point):
-                self.leads.append(self._create_leader_line(anchor, middle, half_size, clear))
+                self.leader_lines.append(self._create_leader_line(anchor, middle, half_size, clear))
 
     def _create_omission_note(self, count: int) -> Text:
         """Return a text for the upper right corner that names were left out."""
@@ -155,7 +157,7 @@ def place_names(
     offsets, occupied_boxes, leader_lines = dict[str, tuple[float, float]](), np.zeros((0, 4)), np.zeros((0, 4))
     shape_segments: Array | None = None
     for label in sketch.labels:
-        anchor, half_size, clearance = to_pixels(label.place), half_sizes[label.part], label.clear * metre_size
+        anchor, half_size, clearance = to_pixels(label.position), half_sizes[label.part], label.clearance * metre_size
         text_centre = anchor + previous_offsets.get(label.part, (0.0, 0.0))
         box = np.array([[*(text_centre - half_size), *(text_centre + half_size)]])
         if (
@@ -169,7 +171,7 @@ def place_names(
             position = find_best_position(
                 anchor,
                 half_size,
-                label.way,
+                label.direction,
                 clearance,
                 point_size,
                 shape_segments,
@@ -206,7 +208,7 @@ def is_leader_needed(anchor: Array, text_centre: Array, half_size: Array, cleara
     Arguments as for `compute_leader_line`, in pixels; `point_size` is the size of a point.
     """
     edge = np.clip(anchor, text_centre - half_size, text_centre + half_size)
-    return float(np.hypot(*(edge - anchor))) - clearance > LED * point_size
+    return float(np.hypot(*(edge - anchor))) - clearance > MIN_LEADER_DISTANCE * point_size
 
 
 def make_identifier(kind: str, part: str) -> str:

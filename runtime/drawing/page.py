@@ -169,7 +169,7 @@ def _compute_label_positions(
     """Return [x, y] of the middle of each name in pixels; of an inset also its text, which changes."""
     labels, positions = {label.part: label for label in sketch.labels}, list[list[Any]]()
     for part in parts:
-        x, y = np.round(to_pixels(labels[part].place) + np.array(offsets[part]) * [1.0, -1.0], 1)
+        x, y = np.round(to_pixels(labels[part].position) + np.array(offsets[part]) * [1.0, -1.0], 1)
         positions.append([float(x), float(y), *([labels[part].text] if labels[part].role == "inset" else [])])
     return positions
 

@@ -9,8 +9,8 @@ from typing import ClassVar
 import numpy as np
 
 from gudgeon.drawing.bodies import BLOCK, SLOT, compute_guide_ends
-from gudgeon.drawing.joint_at import JointAt, compute_guide_directions, compute_wall_gap
-from gudgeon.drawing.plan import Plan, is_visible_to_scale
+from gudgeon.drawing.joint_geometry import JointGeometry, compute_guide_directions, compute_wall_gap
+from gudgeon.drawing.layout import Layout, is_visible_to_scale
 from gudgeon.drawing.posture import GROUND, get_body_name
 from gudgeon.drawing.shapes import (
     Disc,
@@ -28,10 +28,10 @@ STAND = 2.3  # how far below its pin the ground is
 
 
 @dataclass(frozen=True, eq=False)
-class Pen(JointAt):
+class Pen(JointGeometry):
     """Drawing functions for one joint: each method adds to `shapes`. Roles are those of roles.py."""
 
-    layout: Plan
+    layout: Layout
     shapes: list[Shape] = field(default_factory=list)
 
     ROLLER: ClassVar[float] = 0.95  # radius in units
@@ -52,28 +52,28 @@ class Pen(JointAt):
         """Whether one of the bodies is the ground."""
         return self.part.name in self.layout.ground_directions
 
-    def axis_of_body(self, k: int) -> Array:
+    def compute_body_axis(self, k: int) -> Array:
         """Return the x axis of the first (0) or second (1) body, a unit vector."""
         angle = self.posture.get_angle(self.bodies[k])
         return np.array([np.cos(angle), np.sin(angle)])
 
-    def line(self, role: str, points: Sequence[Array], closed: bool = False, tint: int = 0) -> None:
+    def add_line(self, role: str, points: Sequence[Array], closed: bool = False, tint: int = 0) -> None:
         """Add a line through points (m)."""
         self.shapes.append(Line(self.name, role, np.array(points), closed, tint))
 
-    def disc(self, role: str, centre: Array, radius: float, tint: int = 0) -> None:
+    def add_disc(self, role: str, centre: Array, radius: float, tint: int = 0) -> None:
         """Add a circle with a radius in m."""
         self.shapes.append(Disc(self.name, role, centre, radius, tint))
 
-    def box(self, role: str, centre: Array, axis: Array, length: float, width: float) -> None:
+    def add_box(self, role: str, centre: Array, axis: Array, length: float, width: float) -> None:
         """Add a rectangle with half its length, along the unit vector `axis`, and half its width in units."""
-        self.line(role, list(compute_rectangle(centre, axis, length * self.unit, width * self.unit)), True)
+        self.add_line(role, list(compute_rectangle(centre, axis, length * self.unit, width * self.unit)), True)
 
-    def pin(self, position: Array, size: float = 1.0) -> None:
+    def add_pin(self, position: Array, size: float = 1.0) -> None:
         """Add a pin; `size` is a fraction of the usual size."""
-        self.disc("pin", position, size * PIN * self.unit)
+        self.add_disc("pin", position, size * PIN * self.unit)
 
-    def stand(self) -> None:
+    def add_stand(self) -> None:
         """Add the triangle and the hatched ground under each end of the joint on the ground.
 
         Nothing is added if neither body is the ground.
@@ -83,14 +83,14 @@ class Pen(JointAt):
                 position, direction = self.posture.get_position(end), self.layout.ground_directions[self.part.name]
                 self.shapes.extend(_draw_stand(self.name, position, direction, self.unit))
 
-    def wall(self, position: Array) -> None:
+    def add_wall(self, position: Array) -> None:
         """Add the ground at a fixed point; nothing if neither body is the ground."""
         if self.on_ground:
             self.shapes.extend(
                 draw_ground_wall(self.name, position, self.layout.ground_directions[self.part.name], self.unit, 2.0)
             )
 
-    def bearing(self) -> None:
+    def add_bearing(self) -> None:
         """Add the stand of a pin, and for a joint with play the hole around its first point.
 
         A clearance that is visible to scale is drawn as a circle of its radius instead, without a stand.
@@ -98,13 +98,13 @@ class Pen(JointAt):
         posture, name = self.posture, self.part.name
         has_play = name in posture.clearances
         if has_play and is_visible_to_scale(posture, name, self.unit):
-            self.disc("clearance", self.first, float(posture.p[posture.clearances[name].clearance]))
+            self.add_disc("clearance", self.first, float(posture.p[posture.clearances[name].clearance]))
             return
-        self.stand()
+        self.add_stand()
         if has_play:
-            self.disc("worn", self.first, WORN * self.unit)
+            self.add_disc("worn", self.first, WORN * self.unit)
 
-    def rail(self, distance: float, side_sign: float = 1.0) -> None:
+    def add_rail(self, distance: float, side_sign: float = 1.0) -> None:
         """Add the hatched ground under a slider over its whole travel.
 
         `distance` is that of the ground from the slider's line in m. With `side_sign` −1 the ground is on the other
@@ -122,31 +122,31 @@ class Pen(JointAt):
             line_point + min_travel * axis - overhang + distance * ground_direction,
             line_point + max_travel * axis + overhang + distance * ground_direction,
         )
-        self.line("rail", [begin, end])
+        self.add_line("rail", [begin, end])
         for stroke in compute_hatching(begin, end, ground_direction, 0.95 * self.unit):
-            self.line("hatch", list(stroke))
+            self.add_line("hatch", list(stroke))
 
-    def guide(self) -> None:
+    def add_guide(self) -> None:
         """Add the guide of a block: rails of the ground, or the axis line of the guiding body.
 
         Rails are on one side without play, on both sides with play. The axis line lies under the block.
         """
         if not self.on_ground:
-            self.line("axis", compute_guide_ends(self.posture, self.layout, self.part))
+            self.add_line("axis", compute_guide_ends(self.posture, self.layout, self.part))
             return
         wall_gap = compute_wall_gap(self.posture, self.part, self.unit)
         for sign in (1.0, -1.0) if wall_gap else (1.0,):
-            self.rail(BLOCK[1] * self.unit + wall_gap, sign)
+            self.add_rail(BLOCK[1] * self.unit + wall_gap, sign)
 
-    def slot(self) -> None:
+    def add_slot(self) -> None:
         """Add the slot in the guiding body, as long as the travel."""
-        self.line(
+        self.add_line(
             "slot",
             list(compute_rounded_outline(compute_guide_ends(self.posture, self.layout, self.part), SLOT * self.unit)),
             True,
         )
 
-    def wheel(self, k: int, centre: Array, radius: float, is_ring: bool = False) -> None:
+    def add_wheel(self, k: int, centre: Array, radius: float, is_ring: bool = False) -> None:
         """Add a wheel of the first (0) or second (1) body: its pitch circle and a spoke that shows its rotation.
 
         `radius` is in m. With `is_ring` the wheel has teeth inside: a rim is added outside, and the spoke lies in the
@@ -155,10 +155,13 @@ class Pen(JointAt):
         body, names = self.bodies[k], list(self.posture.bodies)
         tint = names.index(body) if body in names else 0
         if is_ring:
-            self.disc("rim", centre, radius + 1.2 * self.unit, tint)
-        self.disc("ring" if is_ring else "wheel", centre, radius, tint)
-        direction, spoke_radii = self.axis_of_body(k), (radius, radius + 1.2 * self.unit) if is_ring else (0.0, radius)
-        self.line("spoke", [centre + r * direction for r in spoke_radii], tint=tint)
+            self.add_disc("rim", centre, radius + 1.2 * self.unit, tint)
+        self.add_disc("ring" if is_ring else "wheel", centre, radius, tint)
+        direction, spoke_radii = (
+            self.compute_body_axis(k),
+            (radius, radius + 1.2 * self.unit) if is_ring else (0.0, radius),
+        )
+        self.add_line("spoke", [centre + r * direction for r in spoke_radii], tint=tint)
 
 
 def draw_ground_wall(

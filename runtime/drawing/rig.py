@@ -19,7 +19,7 @@ from typing import Any
 
 import numpy as np
 
-from gudgeon.drawing.plan import Plan, make_plan
+from gudgeon.drawing.layout import Layout, make_layout
 from gudgeon.drawing.posture import GROUND, Posture, get_body_name, list_direction_keys
 from gudgeon.drawing.roles import ROLES
 from gudgeon.drawing.shapes import Disc, Shape, Sketch
@@ -167,13 +167,13 @@ def _round_to_integers(lengths: Array, step: float) -> list[int]:
     return [round(float(x) / step) for x in lengths]
 
 
-def make_rig(postures: Sequence[Posture], layout: Plan | None = None) -> Rig:
+def make_rig(postures: Sequence[Posture], layout: Layout | None = None) -> Rig:
     """Return the rig for the postures of a motion: the drawing of the first one, with a moving frame for each point.
 
     Insets are left out, and drives' arrows keep their direction of the first posture. A point that no moving frame
     reproduces to EXACT gets the nearest moving frame; the error is stored as `max_error`.
     """
-    layout = layout or make_plan(postures)
+    layout = layout or make_layout(postures)
     postures = [replace(posture, v=postures[0].v) for posture in postures]
     box = compute_common_box(postures, [layout])
     sketches = [make_sketch(postures[0], layout, box=box, shows_insets=False, shows_zero_loads=False)]
@@ -219,7 +219,7 @@ def _find_label_frame(
     """
     label = sketches[0].labels[k]
     search = _FrameSearch(postures, list(_iterate_candidate_frames(postures[0], label.part)), tolerance, n_motion)
-    label_positions = [Disc(label.part, "mark", sketch.labels[k].place, 1.0) for sketch in sketches]
+    label_positions = [Disc(label.part, "mark", sketch.labels[k].position, 1.0) for sketch in sketches]
     moving_shape = search.attach_shape(label_positions[0], list(label_positions))
     return moving_shape.moving_frames[0], moving_shape.offsets[0]
 

@@ -35,14 +35,14 @@ class Disc:
 
 @dataclass(frozen=True, eq=False)
 class Label:
-    """A text at a distance `clear` (m) from a place (2,), in the direction `way` (degrees) if there is room."""
+    """A text at a distance `clear` (m) from a place (2,), in the direction `direction` (degrees) if there is room."""
 
     part: str
     role: str
     text: str
-    place: Array
-    clear: float = 0.0
-    way: float = 45.0
+    position: Array
+    clearance: float = 0.0
+    direction: float = 45.0
 
 
 Shape: TypeAlias = Line | Disc

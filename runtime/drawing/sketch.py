@@ -11,9 +11,7 @@ import numpy as np
 
 from gudgeon.drawing.arrows import Arrows, find_round_number
 from gudgeon.drawing.bodies import BLOCK, draw_bodies, label_bodies
-from gudgeon.drawing.insets import draw_insets, find_contacts
-from gudgeon.drawing.joint_at import JointAt, compute_wall_gap, has_rail
-from gudgeon.drawing.movers import (
+from gudgeon.drawing.drives_and_forces import (
     HEAD,
     compute_arrow_radii,
     draw_arrow,
@@ -21,8 +19,10 @@ from gudgeon.drawing.movers import (
     find_gravity_direction,
     label_drives_and_forces,
 )
+from gudgeon.drawing.insets import draw_insets, find_contacts
+from gudgeon.drawing.joint_geometry import JointGeometry, compute_wall_gap, has_rail
+from gudgeon.drawing.layout import Layout, make_layout
 from gudgeon.drawing.pen import Pen
-from gudgeon.drawing.plan import Plan, make_plan
 from gudgeon.drawing.posture import Posture, get_joint_type
 from gudgeon.drawing.shapes import Label, Line, Shape, Sketch, compute_bounding_box
 from gudgeon.model.compiled import Array
@@ -32,14 +32,14 @@ MARGIN = 2.6  # units around all
 
 def make_sketch(
     posture: Posture,
-    layout: Plan | None = None,
+    layout: Layout | None = None,
     *,
     shapes_on_top: Sequence[Shape] = (),
     labels: Sequence[Label] = (),
     arrows: Sequence[Arrows] = (),
-    unconnected: frozenset[str] = frozenset(),
-    touching: frozenset[str] | None = None,
-    touched: frozenset[str] = frozenset(),
+    unconnected_bodies: frozenset[str] = frozenset(),
+    contact_names: frozenset[str] | None = None,
+    earlier_contact_names: frozenset[str] = frozenset(),
     box: tuple[Array, Array] | None = None,
     shows_insets: bool = True,
     shows_zero_loads: bool = True,
@@ -47,14 +47,14 @@ def make_sketch(
     """Return the drawing of a posture; `shapes_on_top` with their `labels`, and `arrows` with their scales, lie on top.
 
     With a `box` from `compute_common_box` the drawing has the same box as others of a motion. Without
-    `shows_zero_loads` names contain no values that change. `touching`: joints with play in contact, None: those that
-    overlap; `touched`: those in contact since the previous picture. `shows_insets` False leaves insets out. Bodies in
-    `unconnected` have the colour of an error.
+    `shows_zero_loads` names contain no values that change. `contact_names`: joints with play in contact, None: those
+    that overlap; `earlier_contact_names`: those in contact since the previous picture. `shows_insets` False leaves
+    insets out. Bodies in `unconnected_bodies` have the colour of an error.
     """
-    layout = layout or make_plan([posture])
+    layout = layout or make_layout([posture])
     shapes_on_top = [*shapes_on_top, *(shape for kind in arrows for shape in kind.shapes)]
     shapes = [
-        *draw_bodies(posture, layout, unconnected),
+        *draw_bodies(posture, layout, unconnected_bodies),
         *draw_joints(posture, layout),
         *draw_drives_and_forces(posture, layout),
         *shapes_on_top,
@@ -62,10 +62,10 @@ def make_sketch(
     low, high = box or compute_box(shapes, layout)
     all_labels = [*label_bodies(posture, layout), *label_joints(posture, layout, compute_arrow_radii(posture))]
     all_labels = [*labels, *all_labels, *label_drives_and_forces(posture, layout, shows_zero_loads)]
-    touching = find_contacts(posture) if touching is None else touching
+    contact_names = find_contacts(posture) if contact_names is None else contact_names
     notes, upper_corner, annotations = list[str](), high.copy(), list[Shape]()
     for inset_shapes, label, note in (
-        draw_insets(posture, layout.unit, low, high, touching, touched) if shows_insets else ()
+        draw_insets(posture, layout.unit, low, high, contact_names, earlier_contact_names) if shows_insets else ()
     ):
         annotations += inset_shapes
         all_labels, notes = [*all_labels, label], [*notes, note]
@@ -78,13 +78,13 @@ def make_sketch(
     return Sketch((*shapes, *annotations), tuple(all_labels), low, upper_corner, layout.unit, tuple(notes))
 
 
-def compute_box(shapes: Sequence[Shape], layout: Plan) -> tuple[Array, Array]:
+def compute_box(shapes: Sequence[Shape], layout: Layout) -> tuple[Array, Array]:
     """Return the box of shapes with a margin for names."""
     lower_corner, upper_corner = compute_bounding_box(shapes)
     return lower_corner - MARGIN * layout.unit, upper_corner + MARGIN * layout.unit
 
 
-def compute_common_box(postures: Sequence[Posture], layouts: Sequence[Plan]) -> tuple[Array, Array]:
+def compute_common_box(postures: Sequence[Posture], layouts: Sequence[Layout]) -> tuple[Array, Array]:
     """Return the lower and upper corner of the box that contains the drawings of several postures, in m.
 
     `layouts` is one layout for all postures, or one for each.
@@ -101,7 +101,7 @@ def compute_common_box(postures: Sequence[Posture], layouts: Sequence[Plan]) -> 
 
 
 def _draw_references(
-    posture: Posture, layout: Plan, lower_corner: Array, upper_corner: Array, arrows: Sequence[Arrows]
+    posture: Posture, layout: Layout, lower_corner: Array, upper_corner: Array, arrows: Sequence[Arrows]
 ) -> Iterator[tuple[list[Shape], Label]]:
     """Yield shapes and label of each reference: gravity, the scale of lengths, and a reference arrow for each kind of
     arrow.
@@ -137,7 +137,7 @@ def format_length(length: float) -> str:
     return f"{1e3 * length:g} mm" if length < 1.0 else f"{length:g} m"
 
 
-def draw_joints(posture: Posture, layout: Plan) -> Iterator[Shape]:
+def draw_joints(posture: Posture, layout: Layout) -> Iterator[Shape]:
     """Yield the shapes of all joints, drawn by the symbols of their kinds."""
     for part in posture.iterate_parts("joints"):
         pen = Pen(posture, part, layout)
@@ -145,7 +145,7 @@ def draw_joints(posture: Posture, layout: Plan) -> Iterator[Shape]:
         yield from pen.shapes
 
 
-def label_joints(posture: Posture, layout: Plan, arrow_radii: Mapping[str, float]) -> Iterator[Label]:
+def label_joints(posture: Posture, layout: Layout, arrow_radii: Mapping[str, float]) -> Iterator[Label]:
     """Yield the label of each joint, outside of the arrows around it.
 
     `arrow_radii` are the radii in units of these arrows, by joint. The label of a joint on a rail lies beyond the
@@ -153,7 +153,7 @@ def label_joints(posture: Posture, layout: Plan, arrow_radii: Mapping[str, float
     """
     for part in posture.iterate_parts("joints"):
         symbol = get_joint_type(part).symbol
-        position = symbol.place(JointAt(posture, part))
+        position = symbol.find_name_position(JointGeometry(posture, part))
         clearance, angle = max(symbol.clear, arrow_radii.get(part.name, 0.0)), 45.0
         if has_rail(part) and part.name in layout.ground_directions:  # beyond the ground, where nothing slides
             x, y = layout.ground_directions[part.name]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 
-from gudgeon.drawing.labels import LED, NameLabels
+from gudgeon.drawing.labels import MIN_LEADER_DISTANCE, NameLabels
 from gudgeon.drawing.picture import compute_figure_size, draw_sketch
 from gudgeon.drawing.roles import NAMES, ROLES, resolve_colour
 from gudgeon.drawing.shapes import Disc, Shape, Sketch
@@ -104,13 +104,13 @@ def _iterate_name_nodes(
     for label, text in zip(sketch.labels, names.texts, strict=True):
         if label.part not in names.label_offsets or not text.get_visible():
             continue
-        position = to_points(label.place)
+        position = to_points(label.position)
         text_centre = position + names.label_offsets[label.part]
         colour_name, weight = NAMES[label.role]
         colour = colours(
-            resolve_colour(colour_name, names.order.get(label.part, 0)) if colour_name == "edge" else colour_name
+            resolve_colour(colour_name, names.body_tints.get(label.part, 0)) if colour_name == "edge" else colour_name
         )
-        if float(abs(text_centre - position).max()) > 2.0 * LED:
+        if float(abs(text_centre - position).max()) > 2.0 * MIN_LEADER_DISTANCE:
             ends = f"{_format_coordinates(position)} -- {_format_coordinates(text_centre)}"
             yield rf"\path[line width=.4bp, draw=gray] {ends};"
         font = r"\bfseries" if weight == "bold" else r"\itshape" if label.role == "joint" else ""

@@ -28,9 +28,9 @@ from gudgeon.exchange.fmu_description import (
     UNITS,
     build_build_description,
     build_description,
-    compute_token,
+    compute_instantiation_token,
     explain_exchange_obstacle,
-    find_jumps,
+    find_jump_switches,
     iterate_outputs,
 )
 from gudgeon.files.writing import write_bytes
@@ -184,7 +184,7 @@ def _format_header(simulation: Simulation) -> str:
     angles = [int(x) for x in find_integrated_angles(source)] if source.tree or source.formulation == "full" else []
     output_columns = [(part, column) for _, _, part, column, _ in iterate_outputs(source)]
     defines: dict[str, object] = {
-        "FMU_TOKEN": f'"{compute_token(source)}"',
+        "FMU_TOKEN": f'"{compute_instantiation_token(source)}"',
         "FMU_SLOTS": max(len(source.slots), 1),
         "FMU_NUMBERS": max(compiled.n_p, 1),
         "FMU_SLOTS_USED": len(source.slots),
@@ -205,7 +205,7 @@ def _format_header(simulation: Simulation) -> str:
         "FMU_STIFF_FINE": f'"{stiff_method_fine}"',
         "FMU_EXCHANGE": int(not explain_exchange_obstacle(source)),
         "FMU_CONDITIONS": len(list_conditions(source)),
-        "FMU_JUMPS": len(find_jumps(source)),
+        "FMU_JUMPS": len(find_jump_switches(source)),
         "FMU_LEAST_CLEARANCE": repr(MIN_RELATIVE_CLEARANCE),
     }
     lines = ["/* What the FMU's functions must know of this scene. */", "#define FMU_AT_LEAST(n) ((n) > 0 ? (n) : 1)"]
@@ -217,7 +217,7 @@ def _format_header(simulation: Simulation) -> str:
         _format_c_array("int", "fmu_plays", clearance_indices),
         _format_c_array("int", "fmu_sizes", [f"{{{x}, {y}}}" for x, y in sizes], "[2]"),
         _format_c_array("unsigned char", "fmu_is_angle", angles),
-        _format_c_array("int", "fmu_jumps", find_jumps(source)),
+        _format_c_array("int", "fmu_jumps", find_jump_switches(source)),
         _format_c_array("int", "fmu_outputs", [f"{{{part}, {column}}}" for part, column in output_columns], "[2]"),
     ]
     return "\n".join([*lines, *_format_condition_tables(source)]) + "\n"

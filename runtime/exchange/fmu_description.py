@@ -133,7 +133,7 @@ def list_states(source: KernelSource) -> list[tuple[str, str]]:
     return position_states + [(f"state.work.{kind}", "J") for kind in WORK_NAMES]
 
 
-def compute_token(source: KernelSource) -> str:
+def compute_instantiation_token(source: KernelSource) -> str:
     """Return the instantiation token by which a library recognizes its description.
 
     It is a hash of mechanism, scene and generated C.
@@ -218,7 +218,7 @@ def _format_local_variable(name: str, reference: int, unit: str, attributes: str
     )
 
 
-def find_jumps(source: KernelSource) -> list[int]:
+def find_jump_switches(source: KernelSource) -> list[int]:
     """Return the indices of switching points at which a value may jump, because the branches may differ there.
 
     They are read from the header of the scene. Branches of contact laws meet, so that they are left out. Empty for
@@ -237,7 +237,7 @@ def list_indicators(source: KernelSource) -> list[tuple[str, str]]:
     """
     if explain_exchange_obstacle(source):
         return []
-    switching_functions = [(f"corner {k + 1}", "") for k in range(len(find_jumps(source)))]
+    switching_functions = [(f"corner {k + 1}", "") for k in range(len(find_jump_switches(source)))]
     return [(f"{joint.name}.indicator", "m") for joint in source.clearances] + switching_functions
 
 
@@ -280,7 +280,7 @@ def build_description(source: KernelSource, name: str) -> str:
         [
             '<?xml version="1.0" encoding="UTF-8"?>',
             f'<fmiModelDescription fmiVersion="3.0" modelName={quoteattr(name)} '
-            f'instantiationToken="{compute_token(source)}"',
+            f'instantiationToken="{compute_instantiation_token(source)}"',
             f'  description={title} generationTool="gudgeon" variableNamingConvention="flat">',
             *(
                 [

@@ -20,7 +20,7 @@ class Body:
     """
 
     name: str
-    local: dict[str, Point]
+    point_positions: dict[str, Point]
     mass: float | None = None
     inertia: float | None = None
     com: Point | None = None
@@ -30,7 +30,7 @@ class Body:
 
         Both points are of this body; positions are in its own frame.
         """
-        (x_first, y_first), (x_second, y_second) = self.local[first_point], self.local[second_point]
+        (x_first, y_first), (x_second, y_second) = self.point_positions[first_point], self.point_positions[second_point]
         direction = math.atan2(y_second - y_first, x_second - x_first) + angle
         return x_first + distance * math.cos(direction), y_first + distance * math.sin(direction)
 
@@ -75,7 +75,7 @@ class Linkage:
     gravity: Point | None = None
     measured: bool = False  # whether the file specifies the unit
     notes: list[str] = field(default_factory=list)
-    holders: dict[str, list[Body]] = field(
+    bodies_by_point: dict[str, list[Body]] = field(
         default_factory=dict
     )  # bodies of each point; written by `add_body` and `add_point`
 
@@ -84,26 +84,26 @@ class Linkage:
 
         Raises InputError if it has fewer than two points, or if the first two coincide.
         """
-        if len(body.local) < 2:
-            raise InputError(f"link {body.name}: it holds {len(body.local)} joints, expected two at least")
-        (x_first, y_first), (x_second, y_second) = list(body.local.values())[:2]
+        if len(body.point_positions) < 2:
+            raise InputError(f"link {body.name}: it holds {len(body.point_positions)} joints, expected two at least")
+        (x_first, y_first), (x_second, y_second) = list(body.point_positions.values())[:2]
         if not math.hypot(x_second - x_first, y_second - y_first) > 0.0:
             raise InputError(f"link {body.name}: its first two joints are at one place")
         self.bodies.append(body)
-        for point in body.local:
-            self.holders.setdefault(point, []).append(body)
+        for point in body.point_positions:
+            self.bodies_by_point.setdefault(point, []).append(body)
         return body
 
     def add_point(self, body: Body, point: str, position: Point) -> None:
         """Add a point to a body at a position in the body's frame; a point that it has is moved."""
-        if point not in body.local:
-            self.holders.setdefault(point, []).append(body)
-        body.local[point] = position
+        if point not in body.point_positions:
+            self.bodies_by_point.setdefault(point, []).append(body)
+        body.point_positions[point] = position
 
     def find_body(self, *points: str) -> Body | None:
         """Return the first body that contains all of these points, or None."""
-        candidates = min((self.holders.get(point, []) for point in points), key=len)
-        return next((body for body in candidates if all(point in body.local for point in points)), None)
+        candidates = min((self.bodies_by_point.get(point, []) for point in points), key=len)
+        return next((body for body in candidates if all(point in body.point_positions for point in points)), None)
 
     def find_or_add_bar(self, first_point: str, second_point: str, length: float) -> Body | None:
         """Return the first body that contains both points, or else add a bar of this length and return it.
@@ -118,6 +118,6 @@ class Linkage:
             Body(f"{first_point}_{second_point}", {first_point: (0.0, 0.0), second_point: (length, 0.0)})
         )
 
-    def points(self) -> Iterator[str]:
+    def iterate_points(self) -> Iterator[str]:
         """Yield the name of every point once."""
-        yield from dict.fromkeys([*self.positions, *self.ground, *self.holders])
+        yield from dict.fromkeys([*self.positions, *self.ground, *self.bodies_by_point])

@@ -87,7 +87,7 @@ class _Writer:
 
     def format_point_reference(self, body: Body, point: str) -> str:
         """Return how a joint refers to a point of a body: "rod.head"; the first two points are tail and head."""
-        names_of_ends = dict(zip(islice(body.local, 2), ENDS, strict=True))
+        names_of_ends = dict(zip(islice(body.point_positions, 2), ENDS, strict=True))
         point_name = names_of_ends[point] if point in names_of_ends else self.get_point_name(point)
         return f"{self.get_body_name(body)}.{point_name}"
 
@@ -124,8 +124,8 @@ class _Writer:
         on lines become `point_on_line` joints. Raises InputError for a line without direction or body.
         """
         lines = []
-        for point in self.linkage.points():
-            holders = [self.format_point_reference(body, point) for body in self.linkage.holders.get(point, [])]
+        for point in self.linkage.iterate_points():
+            holders = [self.format_point_reference(body, point) for body in self.linkage.bodies_by_point.get(point, [])]
             if point in self.linkage.ground:
                 holders.insert(0, f"ground.{self.get_point_name(point)}")
             for index, other_end in enumerate(holders[1:]):
@@ -156,7 +156,7 @@ class _Writer:
         """Return the initial angle of a bar in rad; 0 for the ground (None), None if a position is unknown."""
         if body is None:
             return 0.0
-        ends = [self.linkage.positions.get(point) for point in islice(body.local, 2)]
+        ends = [self.linkage.positions.get(point) for point in islice(body.point_positions, 2)]
         if None in ends:
             return None
         (x_tail, y_tail), (x_head, y_head) = ends  # type: ignore[misc]
@@ -198,7 +198,7 @@ class _Writer:
 
     def _list_ground_points(self) -> list[tuple[str, Point]]:
         """Return the points of the ground that bodies or lines use."""
-        used = {*self.linkage.holders, *(line.through for line in self.linkage.lines)}
+        used = {*self.linkage.bodies_by_point, *(line.through for line in self.linkage.lines)}
         return [(p, position) for p, position in self.linkage.ground.items() if p in used]
 
     def _format_motion(self) -> list[str]:
@@ -257,7 +257,7 @@ def _convert_to_bar_axes(body: Body) -> tuple[float, dict[str, Point], Point | N
 
     The centre of mass is None if the body has none.
     """
-    (x_tail, y_tail), (x_head, y_head) = list(body.local.values())[:2]
+    (x_tail, y_tail), (x_head, y_head) = list(body.point_positions.values())[:2]
     length = math.hypot(x_head - x_tail, y_head - y_tail)
 
     def convert_to_bar_axes(position: Point) -> Point:
@@ -269,13 +269,13 @@ def _convert_to_bar_axes(body: Body) -> tuple[float, dict[str, Point], Point | N
         )
         return longitudinal / length, transverse / length
 
-    other_points = {name: convert_to_bar_axes(point) for name, point in list(body.local.items())[2:]}
+    other_points = {name: convert_to_bar_axes(point) for name, point in list(body.point_positions.items())[2:]}
     return length, other_points, None if body.com is None else convert_to_bar_axes(body.com)
 
 
 def _convert_direction(body: Body, direction: Point) -> Point:
     """Return a direction of the body's frame in the axes of the bar, multiplied by its length."""
-    (x_tail, y_tail), (x_head, y_head) = list(body.local.values())[:2]
+    (x_tail, y_tail), (x_head, y_head) = list(body.point_positions.values())[:2]
     return direction[0] * (x_head - x_tail) + direction[1] * (y_head - y_tail), direction[1] * (
         x_head - x_tail
     ) - direction[0] * (y_head - y_tail)

@@ -47,7 +47,7 @@ class SpecialJoints:
     sliders: dict[str, float] = field(default_factory=dict)
 
 
-def find_address(text: str) -> str | None:
+def find_query(text: str) -> str | None:
     """Return the decoded text after the question mark of the first link of PMKS+ in a text; None if there is none."""
     for link in text.split():
         start = link.find("://")
@@ -295,7 +295,7 @@ def add_input_drives(linkage: Linkage, special_joints: SpecialJoints, rate: floa
     that two inputs drive.
     """
     for joint in special_joints.inputs:
-        bodies, is_grounded = linkage.holders.get(joint, []), joint in linkage.ground
+        bodies, is_grounded = linkage.bodies_by_point.get(joint, []), joint in linkage.ground
         if joint in special_joints.sliders:
             raise InputError(f"joint {joint}: a slider that is driven is not read", hint="leave the input out of it")
         if is_grounded and bodies:

@@ -224,7 +224,7 @@ def _add_line(linkage: Linkage, point_name: str, first_point: str, second_point:
     if first_point in linkage.ground and second_point in linkage.ground:
         points, body = linkage.ground, None
     elif body := linkage.find_body(first_point, second_point):
-        points = body.local
+        points = body.point_positions
     else:
         raise InputError(
             f"joint {point_name}: its line leads through {first_point} and {second_point}, which no body holds"
@@ -260,7 +260,7 @@ def _read_links(linkage: Linkage, joints: Sequence[Entry], links: Any) -> None:
             _add_link(linkage, name, link, [joint for joint in joints_by_link[name] if joint not in tracker_names])
     for joint in trackers:
         name = _read_name(joint, "id", "joint")
-        if name in linkage.positions or name in linkage.holders:
+        if name in linkage.positions or name in linkage.bodies_by_point:
             raise InputError(f"two joints are called {name}", hint="each joint needs an id of its own")
         parents = [_read_name(joint, key, f"tracker {name}") for key in ("ref_joint1_id", "ref_joint2_id")]
         owner = f"joint {name}"

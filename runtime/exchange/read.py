@@ -9,7 +9,7 @@ from pathlib import Path
 from gudgeon.errors import InputError, InputErrors
 from gudgeon.exchange.linkage import Linkage
 from gudgeon.exchange.mechanism_yaml import write_mechanism_text
-from gudgeon.exchange.pmks import BEGIN, find_address, read_old_pmks, read_pmks
+from gudgeon.exchange.pmks import BEGIN, find_query, read_old_pmks, read_pmks
 from gudgeon.exchange.pylinkage import read_pylinkage
 from gudgeon.files.reading import MAX_BYTES, read_user_file
 
@@ -27,7 +27,7 @@ def read_linkage(file: str | os.PathLike[str]) -> Linkage:
     except UnicodeDecodeError as error:
         raise InputError(f"{file} is no text", hint=f"expected {KNOWN}") from error
     try:
-        query = None if text.lstrip()[:1] in ("{", "[") else find_address(text)
+        query = None if text.lstrip()[:1] in ("{", "[") else find_query(text)
         if query is None:
             return read_pylinkage(_parse_json(text))
         return (read_old_pmks if query.startswith(BEGIN) else read_pmks)(query, Path(file).stem)

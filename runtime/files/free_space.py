@@ -35,14 +35,14 @@ def check_disk(folder: str | os.PathLike[str], size: float, purpose: str, path: 
 
     `purpose` names what needs them; the error is that of `path`, or else of the folder.
     """
-    if size > (free := read_free_disk(folder)):
+    if size > (free := read_free_disk_space(folder)):
         description = (
             f"{os.strerror(errno.ENOSPC)}: {purpose} would take {format_size(size)}, and {format_size(free)} are free"
         )
         raise OutputError(path or folder, OSError(errno.ENOSPC, description))
 
 
-def read_free_disk(folder: str | os.PathLike[str]) -> float:
+def read_free_disk_space(folder: str | os.PathLike[str]) -> float:
     """Return the bytes that the user may write in a folder, or in its nearest existing parent; infinite if unknown."""
     path = Path(folder).absolute()
     for existing_folder in (path, *path.parents):

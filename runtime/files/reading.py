@@ -35,14 +35,14 @@ def read_user_file(file: str | os.PathLike[str], max_bytes: int, description: st
                 data = opened.read(max_bytes + 1) if status.st_size <= max_bytes else b""
     except (OSError, ValueError) as error:  # ValueError: a name with a zero byte
         raise InputError(f"cannot read {file_text}: {getattr(error, 'strerror', '') or error}", hint=hint) from error
-    check_regular(status, file_text, hint)
+    check_regular_file(status, file_text, hint)
     size = max(status.st_size, len(data))
     if size > max_bytes:
         raise LimitError(f"a file of {size} bytes", Location(os.fspath(file), 1, 1), f"expected at most {max_bytes}")
     return data
 
 
-def check_regular(status: os.stat_result, file_text: str, hint: str = "") -> None:
+def check_regular_file(status: os.stat_result, file_text: str, hint: str = "") -> None:
     """Raise InputError for a folder, a device or a pipe; `status` is the result of os.stat.
 
     `file_text` names the file in the error.

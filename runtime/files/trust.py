@@ -15,11 +15,11 @@ from functools import cache
 MAX_LINKS = 40  # largest number of links on a path, as in the kernel
 
 
-class Untrusted(Exception):
+class UntrustedPathError(Exception):
     """Signal that another user may have written a file; the text says which and who."""
 
 
-def check_path(path: str | os.PathLike[str]) -> None:
+def check_trusted_path(path: str | os.PathLike[str]) -> None:
     """Raise Untrusted if another user may write the folder or replace it or a folder above it.
 
     The folder need not exist yet: then only the existing folders above it are checked.
@@ -37,13 +37,13 @@ def check_owner_and_permissions(path: str | os.PathLike[str], status: os.stat_re
     `status` is the result of os.stat. The permissions of a link do not count.
     """
     if status.st_uid not in (os.geteuid(), 0):
-        raise Untrusted(f"{os.fspath(path)} belongs to another user (uid {status.st_uid})")
+        raise UntrustedPathError(f"{os.fspath(path)} belongs to another user (uid {status.st_uid})")
     if status.st_mode & 0o022 and not stat.S_ISLNK(status.st_mode):
         writer = "everybody" if status.st_mode & 0o002 else f"the group (gid {status.st_gid})"
-        raise Untrusted(f"{writer} may write {os.fspath(path)}")
+        raise UntrustedPathError(f"{writer} may write {os.fspath(path)}")
 
 
-def check_folder(path: str | os.PathLike[str]) -> None:
+def check_trusted_folder(path: str | os.PathLike[str]) -> None:
     """Raise Untrusted if a folder is not the user's or root's, or if group or others may write it.
 
     Raises NotADirectoryError for a link or a file, OSError if there is nothing.
@@ -61,15 +61,15 @@ def _check_path_component(path: str, status: os.stat_result) -> None:
     """
     trusted_users = (os.geteuid(), 0)
     if status.st_uid not in trusted_users and not (status.st_uid == _read_overflow_user() and _is_root_unmapped()):
-        raise Untrusted(f"{path} belongs to another user (uid {status.st_uid})")
+        raise UntrustedPathError(f"{path} belongs to another user (uid {status.st_uid})")
     if stat.S_ISLNK(status.st_mode) or status.st_mode & stat.S_ISVTX:
         return
     if status.st_mode & 0o002 or (status.st_mode & 0o020 and not _is_own_group(status.st_gid)):
         writer = "everybody" if status.st_mode & 0o002 else f"the group (gid {status.st_gid})"
-        raise Untrusted(f"{writer} may write {path}")
+        raise UntrustedPathError(f"{writer} may write {path}")
 
 
-def read_trusted(path: str | os.PathLike[str]) -> bytes:
+def read_trusted_file(path: str | os.PathLike[str]) -> bytes:
     """Return the bytes of a regular file that only the user or root may write; links are not followed.
 
     Raises Untrusted, and OSError for a file that cannot be opened or is not regular.

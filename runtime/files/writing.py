@@ -122,7 +122,7 @@ class AtomicFiles:
         An absent file is not an error. Raises OutputError.
         """
         with convert_os_errors(self.folder / name):
-            data = read_regular(name, dir_fd=self._fd)
+            data = read_regular_file(name, dir_fd=self._fd)
             if data is not None and is_accepted(data):
                 os.unlink(name, dir_fd=self._fd)
 
@@ -151,7 +151,7 @@ def write_text(path: str | os.PathLike[str], text: str) -> None:
     write_bytes(path, text.encode())
 
 
-def read_regular(name: str | os.PathLike[str], *, dir_fd: int | None = None) -> bytes | None:
+def read_regular_file(name: str | os.PathLike[str], *, dir_fd: int | None = None) -> bytes | None:
     """Return the bytes of a regular file up to MAX_REGULAR_BYTES; None if it is absent, a link, a device or too large.
 
     `name` is relative to the folder of the descriptor `dir_fd`, if one is given. Raises OSError for other errors.
@@ -172,7 +172,7 @@ def read_regular(name: str | os.PathLike[str], *, dir_fd: int | None = None) -> 
         os.close(descriptor)
 
 
-def check_target(path: str | os.PathLike[str]) -> None:
+def check_output_path(path: str | os.PathLike[str]) -> None:
     """Raise OutputError if a file at this path could not be written: an empty name, a folder, a device, a protected
     file.
 

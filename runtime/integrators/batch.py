@@ -83,7 +83,7 @@ class Runs(StoredRuns):
         n, N = len(p), times.max_count
         has_lanes = side_by_side and not python_loop and lanes.may_use_lanes(compiled, method, n)
         if has_lanes:
-            compiled.lib.wait_for_optimized()  # whose functions are called from within lanes, for all runs
+            compiled.lib.wait_for_optimized_library()  # whose functions are called from within lanes, for all runs
         self.lane_provider = LaneProvider(compiled) if has_lanes else None
         self.n_lanes = self.lane_provider.count if self.lane_provider else 1
         if self.lane_provider and has_shared_rows:
@@ -117,7 +117,7 @@ class Runs(StoredRuns):
         scale, least = adaptive.compute_tolerances(compiled, x["p"], self.rtol)
         x |= {
             "t": self.times.t,
-            "wanted": self.times.count,
+            "n_requested": self.times.count,
             "scale": scale,
             "least": least,
             "size": compute_mechanism_sizes(compiled.source, x["p"]),
@@ -132,7 +132,7 @@ class Runs(StoredRuns):
         }
         self.arrays = {name: np.ascontiguousarray(array) for name, array in x.items()}
         struct = compiled.ffi.new("Batch *")
-        struct.samples, struct.apart, struct.numbers = self.times.max_count, self.times.stride, x["p"].shape[1]
+        struct.samples, struct.time_stride, struct.numbers = self.times.max_count, self.times.stride, x["p"].shape[1]
         struct.limit = CHUNK
         struct.choice, struct.automatic = adaptive.find_method_numbers(compiled, self.method, self.rtol)
         struct.fixed, struct.stop, struct.audit = math.isfinite(x["step"][0]), self.stop, self.audit

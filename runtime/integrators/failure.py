@@ -36,9 +36,9 @@ from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.contours import compute_max_clearance
 from gudgeon.model.written import (
     evaluate_at_times,
-    explain_undefined_ahead,
-    explain_undefined_near,
     explain_undefined_rate,
+    explain_undefined_value_after,
+    explain_undefined_value_near,
     find_steep_force,
     find_unbounded_drive,
     read_expression_trees,
@@ -108,14 +108,14 @@ def _build_status_error(
         return too_large
     q, v = np.ravel(last_state)[: compiled.n], np.ravel(last_state)[compiled.n : 2 * compiled.n]
     if status in (UNBOUNDED, TOO_SMALL, NOT_FINITE) and (
-        reason_text := explain_undefined_near(compiled.source, p, t, q, v, step_ahead)
+        reason_text := explain_undefined_value_near(compiled.source, p, t, q, v, step_ahead)
     ):
         return NonFiniteError(f"{reason_text}\n  {NO_NUMBER}", t)
     if status in (UNBOUNDED, TOO_SMALL) and (drive := find_unbounded_drive(compiled, p, t)):
         return _build_unbounded_drive_error(drive, t)
     status = NOT_FINITE if status == UNBOUNDED else status
     if status in (NOT_FINITE, TOO_SMALL) or status > 0:
-        reason_text = explain_undefined_ahead(compiled.source, p, t, q, v, step_ahead)
+        reason_text = explain_undefined_value_after(compiled.source, p, t, q, v, step_ahead)
         if reason_text or (
             reason_text := explain_undefined_rate(
                 compiled, p, np.array([t, t + 1e-13 * max(1.0, abs(t))]), np.zeros_like(q)

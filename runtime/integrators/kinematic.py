@@ -40,7 +40,7 @@ from gudgeon.integrators.trajectory import (
     split_undefined_events,
 )
 from gudgeon.model.compiled import Array, CompiledModel
-from gudgeon.model.written import explain_undefined_ahead, explain_undefined_between, explain_undefined_rate
+from gudgeon.model.written import explain_undefined_rate, explain_undefined_value_after, explain_undefined_value_between
 from gudgeon.waiting.cancellation import CancellationPoll
 
 NAME, ORDER, SOURCE = "kinematic", 0, "Newton's method on the constraints"
@@ -234,7 +234,9 @@ class _KinematicRun:
         expression.
         """
         compiled, p = self.compiled, self.problem.p
-        why = explain_undefined_ahead(compiled.source, p, t, self.q[self.last_complete], self.v[self.last_complete])
+        why = explain_undefined_value_after(
+            compiled.source, p, t, self.q[self.last_complete], self.v[self.last_complete]
+        )
         why = why or explain_undefined_rate(compiled, p, np.array([t]), np.zeros(compiled.n))[0]
         why = why or f"what the drives and forces do is no number at t = {t:.9g} s{format_drive_states(compiled, p, t)}"
         return NonFiniteError(f"{why}\n  {NO_NUMBER}", t)
@@ -324,7 +326,7 @@ def compute_motion_at(compiled: CompiledModel, p: Array, t: Array, q: Array, v: 
         T - 1,
         pointer(t),
         pointer(p),
-        *(pointer(x, written=True) for x in (every_q, every_v, a)),
+        *(pointer(x, is_written=True) for x in (every_q, every_v, a)),
         pointer(maxima),
         pointer(maxima[1:]),
         pointer(done, "long *"),
@@ -343,7 +345,7 @@ def _build_motion_error(problem: Problem, status: int, t: float, q: Array) -> So
         return message
     later = problem.t[problem.t > t]
     t_next = float(later[0]) if len(later) else t
-    reason_text, when = explain_undefined_between(problem.compiled.source, problem.p, t, t_next)
+    reason_text, when = explain_undefined_value_between(problem.compiled.source, problem.p, t, t_next)
     if not reason_text:
         times = np.linspace(t, t_next, 1001)
         reason_text, when = explain_undefined_rate(problem.compiled, problem.p, times, np.zeros(problem.compiled.n))

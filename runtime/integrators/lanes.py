@@ -22,9 +22,9 @@ from numpy.typing import NDArray
 from gudgeon.contract.boundary import ALL_OVER, LISTS, NEW, NOT_CLOSED, OVER
 from gudgeon.contract.methods import SMOOTH
 from gudgeon.loading.compiler import has_compiler
-from gudgeon.model.arrays import find_address
+from gudgeon.model.arrays import find_memory_address
 from gudgeon.model.compiled import CompiledModel
-from gudgeon.waiting.programs import set_wait_condition
+from gudgeon.waiting.programs import set_cancellation_check
 
 if TYPE_CHECKING:
     from gudgeon.contract.kernel_source import KernelSource
@@ -77,7 +77,7 @@ class Lanes:
                 if (i := next(waiting_runs, NONE)) != NONE:
                     run_of_lane[k] = i
                     if runs.has_shared_rows:
-                        runs.arrays["place"][i] = free_rows.pop()
+                        runs.arrays["sample_block"][i] = free_rows.pop()
             before = list(run_of_lane)
             status = self.lib.gudgeon_lanes(*arguments, run_of_lane)
             empty_lanes = [k for k, i in enumerate(run_of_lane) if i == NONE and k < len(rows)]
@@ -87,7 +87,7 @@ class Lanes:
             unstored += [before[k] for k in empty_lanes if before[k] != NONE]
             if runs.has_shared_rows and len(free_rows) < len(empty_lanes):
                 runs.store_finished_runs(unstored)
-                free_rows += runs.arrays["place"][unstored].tolist()
+                free_rows += runs.arrays["sample_block"][unstored].tolist()
                 unstored.clear()
         runs.store_finished_runs(unstored)
         for k, i in enumerate(run_of_lane):
@@ -103,7 +103,7 @@ class Lanes:
         rows = [runs.compiled.pointer(storage, "void *") for storage in storages[: self.count]]
         pointers = self.ffi.new("void *[]", self.count)
         for k, storage in enumerate(storages[: self.count]):
-            pointers[k] = self.ffi.cast("void *", find_address(runs.compiled.ffi, storage))
+            pointers[k] = self.ffi.cast("void *", find_memory_address(runs.compiled.ffi, storage))
         batch = self.ffi.cast("void *", int(runs.compiled.ffi.cast("uintptr_t", runs.struct)))
         return (batch, self.single, pointers), rows, self.ffi.new("long[]", [NONE] * self.count)
 
@@ -127,7 +127,7 @@ class LaneProvider:
         self.lanes = self.lanes or _made.get(self.compiled)  # another batch may have made them
         if self.lanes is None and self._is_worth_compiling(runs) and _making.acquire(blocking=False):
             try:
-                with set_wait_condition(lambda: runs.is_stopping):
+                with set_cancellation_check(lambda: runs.is_stopping):
                     self.lanes = self.lanes or _load_lanes(self.compiled)
             except KeyboardInterrupt:  # the batch is ending: who waits for it has taken Ctrl-C
                 return None

@@ -58,7 +58,7 @@ class StepLog:
 
     def register_rows(self, run: Any) -> None:
         """Register the rows with C's integrator `run`, which is about to begin and will write its states into them."""
-        self.compiled.lib.gudgeon_run_record(run, self.compiled.pointer(self.rows, written=True), len(self.rows))
+        self.compiled.lib.gudgeon_run_record(run, self.compiled.pointer(self.rows, is_written=True), len(self.rows))
 
     def pass_steps(self, run: Any) -> None:
         """Pass a copy of the states that C's integrator has written since the last call, if any, to the observer."""
@@ -122,7 +122,7 @@ class KinematicStepLog:
 
     def register_rows(self, motion_struct: Any, rows: int = ROWS) -> None:
         """Make C write the states of the motion into the first `rows` rows from now on; with 0, end that."""
-        lib, where = self.compiled.lib, self.compiled.pointer(self.rows, written=True)
+        lib, where = self.compiled.lib, self.compiled.pointer(self.rows, is_written=True)
         lib.gudgeon_kinematic_record(motion_struct, where if rows else self.compiled.ffi.NULL, rows)
 
     def collect_steps(self, motion_struct: Any) -> None:
@@ -161,7 +161,7 @@ class KinematicStepLog:
             pointer(p),
             pointer(motion[1]),
             pointer(motion[2]),
-            pointer(work, written=True),
+            pointer(work, is_written=True),
             pointer(done, "long *", True),
         )
         if status:  # reported by the samples' works

@@ -114,7 +114,7 @@ class _ThreadContacts:
         """Allocate an empty block for BLOCK contacts, with C pointers to it."""
         self.numbers, self.joints, self.n = np.empty((BLOCK, N_IMPACT_COLUMNS)), np.empty(BLOCK, np.intc), 0
         pointer = self.compiled.pointer
-        self.pointers = pointer(self.numbers, written=True), pointer(self.joints, "int *", written=True)
+        self.pointers = pointer(self.numbers, is_written=True), pointer(self.joints, "int *", is_written=True)
 
     def fetch_contacts(self, i: int, run: Any, is_over: bool) -> None:
         """Fetch the contacts of run i from C into blocks, allocated as needed; with `is_over` also closed ones."""
@@ -164,7 +164,7 @@ class StoredRuns:
         self.compiled, self.method, self.times, self.n = compiled, method, times, len(p)
         n, N, size, nc = self.n, times.max_count, 2 * compiled.n + N_WORK, max(len(compiled.source.clearances), 1)
         self.arrays: dict[str, NDArray[Any]] = {
-            "place": np.arange(n) % n_rows,
+            "sample_block": np.arange(n) % n_rows,
             "p": p,
             "p_motion": p_motion,
             "step": step,
@@ -202,7 +202,7 @@ class StoredRuns:
             np.empty((self.n, TRACE_ROWS, compute_envelope_width(joints))),
             np.zeros(self.n, np.int_),
         )
-        self.struct.trace, self.struct.trace_rows = self.compiled.pointer(x["trace"], written=True), TRACE_ROWS
+        self.struct.trace, self.struct.trace_rows = self.compiled.pointer(x["trace"], is_written=True), TRACE_ROWS
         self.struct.traced = self.compiled.pointer(x["traced"], "long *", True)
 
     def _join_contacts(self) -> None:
@@ -217,7 +217,7 @@ class StoredRuns:
         """Copy the Trajectory of run i, which a time loop in Python computed, into the arrays, and record its error
         if any.
         """
-        x, k, N, n = self.arrays, int(self.arrays["place"][i]), len(trajectory.t), self.compiled.n
+        x, k, N, n = self.arrays, int(self.arrays["sample_block"][i]), len(trajectory.t), self.compiled.n
         for columns, values in (
             (slice(n), trajectory.q),
             (slice(n, 2 * n), trajectory.v),
@@ -301,7 +301,7 @@ class StoredRuns:
 
         States are (k, 2n + 3): q, q̇ and works.
         """
-        x, compiled, k = self.arrays, self.compiled, int(self.arrays["place"][i])
+        x, compiled, k = self.arrays, self.compiled, int(self.arrays["sample_block"][i])
         t, joints = self._get_reached_times(i), len(compiled.source.clearances)
         y, memory, state = (x[name][k, : len(t)] for name in ("y", "latched", "state"))
         return t, y, memory[:, : compiled.n_memory], state[:, :joints]
@@ -309,7 +309,7 @@ class StoredRuns:
     def get_accelerations(self, i: int) -> Array | None:
         """Return a view of q̈ (k, n) at the samples of run i if a time loop in Python computed it; else None."""
         a: Array | None = self.arrays.get("a")
-        return None if a is None else a[self.arrays["place"][i], : self.arrays["done"][i]]
+        return None if a is None else a[self.arrays["sample_block"][i], : self.arrays["done"][i]]
 
     def _get_reached_times(self, i: int) -> Array:
         """Return the times (s) of the samples of run i that were reached; where it ended early, the last is its end."""

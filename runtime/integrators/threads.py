@@ -22,7 +22,7 @@ PORTION = 16  # largest number of runs handed to a thread at once
 POLL_INTERVAL_S = 0.05  # s between two checks of the waiting thread
 
 
-def available_threads() -> int:
+def count_available_threads() -> int:
     """Return the number of cores that this process may use."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
@@ -70,7 +70,7 @@ def _integrate_portions_in_python(runs: Runs, portions: deque[range | list[int]]
     """Integrate runs by a time loop in Python, in the thread with this index, until the queue of portions is empty."""
     for i in yield_waiting_runs(runs, portions):
         if runs.has_shared_rows:
-            runs.arrays["place"][i] = thread_index * runs.n_rows_per_thread
+            runs.arrays["sample_block"][i] = thread_index * runs.n_rows_per_thread
         runs.integrate_run_in_python(i)
 
 
@@ -101,5 +101,5 @@ def _integrate_portions_in_c(runs: Runs, portions: deque[range | list[int]], thr
         for i in portion:
             if runs.arrays["phase"][i] == NEW:
                 if runs.has_shared_rows:
-                    runs.arrays["place"][i] = first_row
+                    runs.arrays["sample_block"][i] = first_row
                 runs.integrate_run_to_end(i, storages[0], first_log)

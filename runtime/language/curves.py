@@ -89,16 +89,16 @@ class Curve:
         unit = find_si_unit(self.argument) if self.argument is not None else ""
         return f"from {self.x[0]:.6g} to {self.x[-1]:.6g} {unit or '(SI, angles in rad)'}"
 
-    def describe_outside(self, x: float) -> str:
+    def describe_out_of_range(self, x: float) -> str:
         """Return a text for a message: argument x lies outside the range, which is given in SI and in the file's unit.
 
         The numbers have enough digits to differ. The text names keys that extend the curve.
         """
-        from gudgeon.language.plot_units import format_distinct
+        from gudgeon.language.plot_units import format_distinct_numbers
         from gudgeon.language.units import parse_unit
 
         low, high = self.x[0], self.x[-1]
-        value_text, end = format_distinct(x, high if x > high else low, 6)
+        value_text, end = format_distinct_numbers(x, high if x > high else low, 6)
         ends = (f"{low:.6g}", end) if x > high else (end, f"{high:.6g}")
         unit_and_end = parse_unit(self.over) if self.over else None
         size = unit_and_end[0].to_si(Fraction(1)) if unit_and_end else 1.0

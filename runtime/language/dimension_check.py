@@ -47,21 +47,21 @@ def check_dimension(
             message = f"expected {describe_dimension(expected)}, got {describe_dimension(dimension)}"
             raise UnitError(message, location, _suggest_explicit_division(expr, expected))
     except UnitError as error:
-        if not (shadowed := dict.fromkeys(find_names_over_units(expr))):
+        if not (shadowed := dict.fromkeys(find_unit_shadowing_names(expr))):
             raise
         are = [f"{name} is a name of this file here: the unit is written {name}^1" for name in shadowed]
         raise UnitError(error.message, error.where, "; ".join([error.hint, *are] if error.hint else are)) from None
     return expected if isinstance(dimension, _Flexible) else dimension
 
 
-def find_names_over_units(expr: Expr) -> Iterator[str]:
+def find_unit_shadowing_names(expr: Expr) -> Iterator[str]:
     """Yield names that are also symbols of units and are factors after a number with a unit: `m` in `3 N/m`."""
     match expr:
         case Unary(operand=operand):
-            yield from find_names_over_units(operand)
+            yield from find_unit_shadowing_names(operand)
         case Binary(operator=operator, left=left, right=right):
-            yield from find_names_over_units(left)
-            yield from find_names_over_units(right)
+            yield from find_unit_shadowing_names(left)
+            yield from find_unit_shadowing_names(right)
             if operator in ("*", "/") and isinstance(right, Name) and find_symbol_dimension(right.path) is not None:
                 while isinstance(left, Unary) or isinstance(left, Binary) and left.operator in ("*", "/"):
                     of_name = isinstance(left, Binary) and isinstance(left.right, Name)
@@ -70,7 +70,7 @@ def find_names_over_units(expr: Expr) -> Iterator[str]:
                     yield right.path
         case Call(arguments=arguments):
             for argument in arguments:
-                yield from find_names_over_units(argument)
+                yield from find_unit_shadowing_names(argument)
 
 
 def _suggest_explicit_division(expr: Expr, expected: Dimension) -> str:

@@ -162,7 +162,7 @@ def make_unknown_name_error(
     return UnknownNameError(f"unknown {kind} {str(name)[:200]!r}", location, format_name_hint(name, known_names))
 
 
-def make_unknown_error(message: str, name: str, known_names: tuple[str, ...]) -> UnknownNameError:
+def make_missing_name_error(message: str, name: str, known_names: tuple[str, ...]) -> UnknownNameError:
     """Return an UnknownNameError with this message; the hint has the nearest known names, or all if they are few.
 
     If there are many and none is near, parameters are listed first and addresses (with a dot) as examples.

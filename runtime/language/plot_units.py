@@ -52,7 +52,7 @@ def format_quantity(value: float, unit: str, digits: int = 4) -> str:
     return f"{value * factor:.{digits}g} {text}".strip()
 
 
-def format_distinct(value: float, other_value: float, digits: int = 4) -> tuple[str, str]:
+def format_distinct_numbers(value: float, other_value: float, digits: int = 4) -> tuple[str, str]:
     """Return two numbers as texts with at least `digits` digits, and up to 17 so that different numbers have different
     texts.
     """

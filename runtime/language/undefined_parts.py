@@ -90,7 +90,7 @@ def _iterate_constant_parts(expr: Expr, known_names: Container[str]) -> Iterator
                     yield Binary("/", Number(1.0), part) if part is divides else part
 
 
-def may_be_undefined(expr: Expr, known_values: Mapping[str, NDArray[np.float64]]) -> NDArray[np.bool_]:
+def find_possibly_undefined_cases(expr: Expr, known_values: Mapping[str, NDArray[np.float64]]) -> NDArray[np.bool_]:
     """Return for each of n cases whether a part of the expression may not be finite, (n,).
 
     known_values: values (n,) by name. The inactive branch of a `where` is included, so that `find_undefined_part` must

@@ -18,7 +18,7 @@ from gudgeon.errors import GudgeonError
 from gudgeon.files.temporary import TemporaryFolder
 from gudgeon.loading import compiler
 from gudgeon.loading.cache import Cache, compute_digest, get_default_cache
-from gudgeon.loading.compiler import build_unit_command, finish_compiler, start_compiler
+from gudgeon.loading.compiler import build_unit_command, start_compiler, wait_for_compiler
 from gudgeon.loading.engine import UNIT, compute_engine_digest
 from gudgeon.waiting.ctrl_c import DelayedCtrlC
 from gudgeon.waiting.programs import Programs
@@ -203,7 +203,7 @@ class SharedObject:
             for name, text in self.texts.items():
                 (folder / name).write_text(text, encoding="utf-8")
             with Programs() as programs:
-                if failed := finish_compiler(
+                if failed := wait_for_compiler(
                     programs, start_compiler(programs, self.command_line, folder), folder / self.name
                 ):
                     raise failed

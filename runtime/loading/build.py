@@ -15,7 +15,7 @@ from gudgeon.errors import BuildError
 from gudgeon.loading import compiler
 from gudgeon.loading.background_compilation import BackgroundCompilation, build_command_lines
 from gudgeon.loading.cache import Cache, Make, compute_digest, get_default_cache, get_private_cache, warn_once
-from gudgeon.loading.compiler import finish_compiler, start_compiler
+from gudgeon.loading.compiler import start_compiler, wait_for_compiler
 from gudgeon.loading.engine import compute_engine_digest, list_scene_texts
 from gudgeon.loading.library import Library, open_bundled_library, open_library
 from gudgeon.loading.optimized_library import KIND, SOURCE, OptimizedLibrary, may_compile_in_background
@@ -57,7 +57,7 @@ def compile_kernels(
         loaded = None if rebuild else _libraries.get(key)
     if loaded:
         if not quick:
-            loaded.lib.wait_for_optimized()
+            loaded.lib.wait_for_optimized_library()
         return loaded
 
     def build(folder: Path, quick: bool = False, background: BackgroundCompilation | None = background) -> None:
@@ -246,11 +246,11 @@ def _build_library(
         failed = [
             finished
             for process, name in compilations
-            if (finished := finish_compiler(programs, process, folder / name))
+            if (finished := wait_for_compiler(programs, process, folder / name))
         ]
         link = [*compiler.find_compiler(), *compiler.build_link_flags(), *command_lines, *objects, "-o", LIBRARY, "-lm"]
         if not failed and (
-            finished := finish_compiler(programs, start_compiler(programs, link, folder), folder / LIBRARY)
+            finished := wait_for_compiler(programs, start_compiler(programs, link, folder), folder / LIBRARY)
         ):
             failed = [finished]
         if failed:

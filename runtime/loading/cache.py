@@ -23,7 +23,7 @@ from hashlib import sha256
 from pathlib import Path
 
 from gudgeon.errors import LIMITED, BadValueError, CacheError
-from gudgeon.files.trust import Untrusted, check_folder, check_path, read_trusted
+from gudgeon.files.trust import UntrustedPathError, check_trusted_folder, check_trusted_path, read_trusted_file
 from gudgeon.waiting.ctrl_c import DelayedCtrlC
 
 LIST = "checksums"
@@ -64,7 +64,7 @@ class Cache:
             if not renew and _is_usable(entry):
                 return entry
             return self._make_entry(entry, write_files, renew)
-        except (OSError, Untrusted) as error:
+        except (OSError, UntrustedPathError) as error:
             if self.private:
                 message = f"the temporary folder {self.root} cannot be used: {error}"
                 is_limit = getattr(error, "errno", 0) == errno.EFBIG and "ulimit" not in message
@@ -77,7 +77,7 @@ class Cache:
         try:
             self._check_trusted(kind)
             return is_complete(self.root / kind / key)
-        except (OSError, Untrusted):
+        except (OSError, UntrustedPathError):
             return False
 
     def has_folder(self, kind: str, key: str) -> bool:
@@ -91,19 +91,19 @@ class Cache:
         """
         try:
             if self.private:
-                check_folder(self.root)
+                check_trusted_folder(self.root)
             else:
-                check_path(self.root)
+                check_trusted_path(self.root)
             for folder in folders:
-                check_folder(self.root / folder)
+                check_trusted_folder(self.root / folder)
         except FileNotFoundError:
             return
 
-    def _warn_unusable(self, error: OSError | Untrusted) -> None:
+    def _warn_unusable(self, error: OSError | UntrustedPathError) -> None:
         """Warn once that the cache folder cannot be used, why, and what the user can do."""
         what = f"the cache folder {self.root} cannot be used ({error})"
         do = "Set GUDGEON_CACHE to a folder that can be written."
-        if isinstance(error, Untrusted):
+        if isinstance(error, UntrustedPathError):
             what = f"the cache folder {self.root} is not used: {error}, and code in it would run as you"
             do = "Set GUDGEON_CACHE to a folder that is yours alone."
             if self.root.is_dir():
@@ -199,7 +199,7 @@ def _is_usable(entry: Path) -> bool:
     """Return whether a cache entry is complete; warn, and return False, if another user may have written it."""
     try:
         return is_complete(entry)
-    except Untrusted as error:
+    except UntrustedPathError as error:
         warn_once(f"an entry of the cache is not used, since {error}; it is made anew")
         return False
 
@@ -210,14 +210,14 @@ def is_complete(entry: Path) -> bool:
     Raises Untrusted if another user may have written it.
     """
     try:
-        check_folder(entry)
-        lines = read_trusted(entry / LIST).decode().splitlines()
+        check_trusted_folder(entry)
+        lines = read_trusted_file(entry / LIST).decode().splitlines()
         if not lines or lines.pop() != _format_last_line(entry):
             return False
         pairs = [line.split(" ", 1) for line in lines]
         if any(os.path.basename(name) != name for _, name in pairs):
             return False
-        return all(sha256(read_trusted(entry / name)).hexdigest() == sum_ for sum_, name in pairs)
+        return all(sha256(read_trusted_file(entry / name)).hexdigest() == sum_ for sum_, name in pairs)
     except (OSError, ValueError):
         return False
 

@@ -169,7 +169,7 @@ def describe_compiler(command: tuple[str, ...], cache: Cache) -> str:
     return "\n".join([*command, (entry / "version").read_text(), *_describe_machine()])
 
 
-def read_version() -> str:
+def read_compiler_version() -> str:
     """Return the first line of the compiler's version; without a compiler, a text that the library came with
     gudgeon.
     """
@@ -245,7 +245,7 @@ def start_compiler(programs: Programs, command_line: Sequence[str], folder: Path
         raise BuildError(f"the compiler {command_line[0]} cannot be run: {error}\n  {INSTALL_COMPILER}") from error
 
 
-def finish_compiler(programs: Programs, process: subprocess.Popen[str], output_file: Path) -> Exception | None:
+def wait_for_compiler(programs: Programs, process: subprocess.Popen[str], output_file: Path) -> Exception | None:
     """Wait for a compiler; return None if it wrote `output_file`, else the error.
 
     The error is an OSError for a full disk or file-size limit, so that another folder is tried; else BuildError with

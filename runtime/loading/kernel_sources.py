@@ -22,12 +22,12 @@ from gudgeon.loading.engine import read_files
 from gudgeon.loading.shipped import (
     PACKAGE,
     find_shipped_file,
-    list_shipped,
+    list_shipped_mechanisms,
     read_committed_header,
     read_committed_source,
 )
 from gudgeon.waiting.cancellation import report_work
-from gudgeon.waiting.imports import GENERATOR, READER, import_completely, pause_garbage_collector
+from gudgeon.waiting.imports import GENERATOR, READER, import_modules_completely, pause_garbage_collector
 
 if TYPE_CHECKING:
     from gudgeon.loading.background_compilation import BackgroundCompilation
@@ -91,7 +91,7 @@ def read_bytes(file: Path) -> bytes:
     except LimitError:
         raise
     except InputError as error:
-        if file.stem not in list_shipped():
+        if file.stem not in list_shipped_mechanisms():
             raise
         hint = f"the mechanism that comes with gudgeon is called {file.stem}"
         raise InputError(error.message, hint=hint) from error
@@ -141,11 +141,11 @@ def find_kernel_source(
         return KernelSource.from_json((entry / SOURCE).read_bytes().decode())
 
     source = fetch_source(key, regenerate)
-    present_files = hash_present_tables(source, file), find_present_laws(source)
+    present_files = hash_present_tables(source, file), find_present_law_keys(source)
     if present_files != (source.tables, source.laws):  # of other bytes: an entry of its own
         key = compute_digest([key, json.dumps(present_files)])
         source = fetch_source(key, False)
-        if (hash_present_tables(source, file), find_present_laws(source)) != (
+        if (hash_present_tables(source, file), find_present_law_keys(source)) != (
             source.tables,
             source.laws,
         ):  # edited meanwhile
@@ -164,7 +164,7 @@ def is_source_cached(mechanism: str, scene: str, overrides: Overrides) -> bool:
 
 def _has_structural_overrides(data: bytes, file: Path, scene: str, overrides: Overrides) -> bool:
     """Return whether overrides change the equations of the scene, not only parameter values."""
-    import_completely(*READER)
+    import_modules_completely(*READER)
     from gudgeon.generator.reader.read import overrides_change_scene
 
     return overrides_change_scene(data, str(file), scene, overrides)
@@ -178,7 +178,7 @@ def hash_present_tables(source: KernelSource, file: Path) -> tuple[tuple[str, st
     return tuple((name, sha256(read_table_file(file, name, MAX_TABLE_BYTES)).hexdigest()) for name, _ in source.tables)
 
 
-def find_present_laws(source: KernelSource) -> tuple[tuple[str, str], ...]:
+def find_present_law_keys(source: KernelSource) -> tuple[tuple[str, str], ...]:
     """Return the user-defined laws of a kernel source as pairs of name and present key; "" if not registered."""
     if not source.laws:
         return ()
@@ -205,7 +205,7 @@ def derive_kernel_source(
         report_work(f"deriving {file.stem}, scene {scene}"),
         pause_garbage_collector(),
     ):  # nearly all that SymPy makes stays in its caches
-        import_completely(*READER)
+        import_modules_completely(*READER)
         from gudgeon.generator.reader.read import read_scene
 
         read = read_scene(data, str(file), scene, overrides, seconds)
@@ -214,7 +214,7 @@ def derive_kernel_source(
         ):  # a copy of a shipped file mostly has its numbers alone changed
             background.prefetch_engine(read_committed_header(read.mechanism.name, scene))
         start = perf_counter()
-        import_completely(*GENERATOR)
+        import_modules_completely(*GENERATOR)
         from gudgeon.generator.pipeline import derive_equations, generate_c
 
         if seconds is not None and (took := perf_counter() - start) > 0.01:

@@ -30,7 +30,7 @@ from gudgeon.loading.engine import (
     list_scene_texts,
 )
 from gudgeon.loading.shipped import PACKAGE
-from gudgeon.waiting.imports import CFFI, import_completely
+from gudgeon.waiting.imports import CFFI, import_modules_completely
 
 UNOPTIMIZED_NOTE = "its optimized library was still being compiled when the run began: it takes less time from now on"
 CARRIED = PACKAGE / "carried"  # folder of the bundled libraries
@@ -94,7 +94,7 @@ class Functions:
         if (pending_library := self._pending_library) and not pending_library.switch_if_ready(self):
             self._pending_library = None
 
-    def wait_for_optimized(self) -> None:
+    def wait_for_optimized_library(self) -> None:
         """Wait for the optimized library, if one is being made, and switch to it, before long computations."""
         if pending_library := self._pending_library:
             pending_library.wait_and_switch(self)
@@ -133,7 +133,7 @@ def _get_engine_interface() -> Any:
 
 def _parse_declarations(text: str) -> Any:
     """Return cffi's interface to declarations that are parsed now."""
-    import_completely(*CFFI)
+    import_modules_completely(*CFFI)
     from cffi import FFI
 
     ffi = FFI()
@@ -148,7 +148,7 @@ def open_bundled_library(source: KernelSource) -> Library | None:
     """
     if os.environ.get("CC"):
         return None
-    path = CARRIED / format_platform(sys.platform, os.uname().machine) / compute_file_name(source)
+    path = CARRIED / format_platform(sys.platform, os.uname().machine) / compute_library_file_name(source)
     try:
         return open_library(path, source.cdef) if path.is_file() else None
     except ImportError:  # of another C library, as musl
@@ -160,7 +160,7 @@ def format_platform(system: str, machine: str) -> str:
     return f"{system}-{machine}"
 
 
-def compute_file_name(source: KernelSource) -> str:
+def compute_library_file_name(source: KernelSource) -> str:
     """Return the name of a bundled library: a digest of everything that it is compiled from."""
     return (
         compute_digest(["carried/1", source.main, source.cdef, compute_engine_digest(), *list_scene_texts(source)])[:32]

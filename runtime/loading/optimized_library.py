@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING
 
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import GudgeonError
-from gudgeon.files.trust import Untrusted
+from gudgeon.files.trust import UntrustedPathError
 from gudgeon.loading.cache import LOCK_SECONDS, Cache, is_complete
 from gudgeon.loading.library import Functions, Library
 from gudgeon.waiting.ctrl_c import DelayedCtrlC
@@ -95,7 +95,7 @@ class OptimizedLibrary:
             if not self._cache.has_folder("libraries", self._key):
                 return not has_ended
             entry = self._cache.root / "libraries" / self._key
-            with suppress(GudgeonError, OSError, Untrusted):  # the next start makes it anew, and tells
+            with suppress(GudgeonError, OSError, UntrustedPathError):  # the next start makes it anew, and tells
                 if is_complete(entry):
                     self._switch_to(functions, entry)
             return False

@@ -20,7 +20,7 @@ GENERATED = PACKAGE / "generated"
 STUDY = b"format: gudgeon-study/"  # text that marks the file of a study
 
 
-def list_shipped() -> tuple[str, ...]:
+def list_shipped_mechanisms() -> tuple[str, ...]:
     """Return the names of the mechanisms that come with gudgeon, sorted."""
     return tuple(sorted(path.stem for folder in (MECHANISMS, GALLERY) for path in folder.glob("*.yaml")))
 
@@ -41,7 +41,7 @@ def find_shipped_file(name: str) -> Path:
 
     Raises UnknownNameError with the nearest name, or InputError if none are installed.
     """
-    names = list_shipped()
+    names = list_shipped_mechanisms()
     if name in names:
         file = next(path for folder in (MECHANISMS, GALLERY) if (path := folder / f"{name}.yaml").exists())
         return file.resolve()  # in a clone the package has links: show the real file

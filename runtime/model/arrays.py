@@ -31,8 +31,8 @@ Shape = tuple[int | None, ...]  # required lengths; None for any length
 MAX_ENTRIES = 2**32  # largest number of entries that are copied
 
 
-def make_pointer(ffi: Any, array: NDArray[Any], kind: str = "double *", written: bool = False) -> Any:
-    """Return a C pointer to an array's memory, which keeps the array alive; `written`: C writes there.
+def make_pointer(ffi: Any, array: NDArray[Any], kind: str = "double *", is_written: bool = False) -> Any:
+    """Return a C pointer to an array's memory, which keeps the array alive; `is_written`: C writes there.
 
     `kind` is the pointer's type in C, a key of _KINDS. Raises ArrayError for an array that C would read wrongly: of
     another type or byte order, not contiguous, not aligned, or read-only where C writes.
@@ -42,7 +42,7 @@ def make_pointer(ffi: Any, array: NDArray[Any], kind: str = "double *", written:
         if not array.flags.aligned:
             raise ArrayError(f"an array at an odd address for {kind}")
         try:
-            return ffi.from_buffer(type_for_cffi, array, written)
+            return ffi.from_buffer(type_for_cffi, array, is_written)
         except (BufferError, ValueError) as error:
             layout = f"of shape {array.shape} and strides {array.strides}"
             raise ArrayError(f"an array {layout} for {kind}: {error}") from None
@@ -55,7 +55,7 @@ def as_c_array(
     shape: Shape | None = None,
     *,
     dtype: np.dtype[Any] = FLOAT,
-    finite: bool = False,
+    require_finite: bool = False,
     always_copy: bool = False,
     max_entries: int = MAX_ENTRIES,
 ) -> NDArray[Any]:
@@ -78,13 +78,13 @@ def as_c_array(
         array = _convert_to_c_array(values, name, shape, dtype, always_copy, max_entries)
     if shape is not None and array.shape != shape and not _has_shape(array.shape, shape):
         _check_shape(array, name, shape)
-    if finite and not np.isfinite(array).all():
+    if require_finite and not np.isfinite(array).all():
         index = tuple(np.argwhere(~np.isfinite(array))[0].tolist())
         raise ArrayError(f"{name}{_format_index(index)} is {array[index]}: expected finite numbers")
     return array
 
 
-def find_address(ffi: Any, array: NDArray[Any], kind: str = "void *") -> int:
+def find_memory_address(ffi: Any, array: NDArray[Any], kind: str = "void *") -> int:
     """Return the memory address of an array as an integer, for a library of another cffi.
 
     The caller keeps the array alive, which must be writable. Raises ArrayError as `make_pointer`.

@@ -20,7 +20,7 @@ from gudgeon.errors import SingularError
 from gudgeon.language.argument_checks import check_number, check_time
 from gudgeon.model.arrays import FLAG, as_c_array, make_pointer
 from gudgeon.model.choices import fill_in_chosen_values, find_choices
-from gudgeon.model.evaluation import PARTS, Evaluation, evaluate, make_empty_fields
+from gudgeon.model.evaluation import FIELD_NAMES, Evaluation, evaluate, make_empty_fields
 
 if TYPE_CHECKING:
     from gudgeon.loading.library import Library
@@ -62,9 +62,9 @@ class CompiledModel:
     @cached_property
     def compiler(self) -> str:
         """Return the first line of the C compiler's version; the compiler is asked at the first use."""
-        from gudgeon.loading.compiler import read_version
+        from gudgeon.loading.compiler import read_compiler_version
 
-        return read_version()
+        return read_compiler_version()
 
     @cached_property
     def has_mod_in_drives(self) -> bool:
@@ -75,7 +75,7 @@ class CompiledModel:
         return any("mod" in list_functions(tree) for _, tree in read_expression_trees(self.source, ("drives",)))
 
     @cached_property
-    def may_switch(self) -> bool:
+    def may_drive_acceleration_jump(self) -> bool:
         """Return whether an acceleration that a drive prescribes may jump."""
         from gudgeon.model.left_limit import may_acceleration_jump
 
@@ -104,12 +104,12 @@ class CompiledModel:
         """Restore the pickled state."""
         self.__dict__.update(state)
 
-    def pointer(self, array: NDArray[Any], kind: str = "double *", written: bool = False) -> Any:
-        """Return a C pointer to an array, which it keeps alive; `written`: C writes there.
+    def pointer(self, array: NDArray[Any], kind: str = "double *", is_written: bool = False) -> Any:
+        """Return a C pointer to an array, which it keeps alive; `is_written`: C writes there.
 
         Raises ArrayError for an array of another type than `kind`, or another layout.
         """
-        return make_pointer(self.ffi, array, kind, written)
+        return make_pointer(self.ffi, array, kind, is_written)
 
     def prepare(self, given: ArrayLike, is_given: ArrayLike) -> Array:
         """Return all values of a run, (n_parameters + n_derived,), from given parameters (n_parameters,) and a mask.
@@ -129,7 +129,9 @@ class CompiledModel:
             )
         return p
 
-    def prepare_each(self, given: Array, is_given: NDArray[np.generic], zero_indices: Sequence[int] = ()) -> Array:
+    def prepare_parameters_of_runs(
+        self, given: Array, is_given: NDArray[np.generic], zero_indices: Sequence[int] = ()
+    ) -> Array:
         """Return the values of n runs, (n, n_parameters + n_derived), from parameters and mask (n, n_parameters).
 
         Parameters with an index in `zero_indices` are 0. RUNS_PER_CALL runs are computed at a time, one by one if a
@@ -298,14 +300,14 @@ class CompiledModel:
         memory: ArrayLike,
         p: ArrayLike,
         poll_cancellation: Callable[[], object] = lambda: None,
-        parts: Collection[str] = PARTS,
+        field_names: Collection[str] = FIELD_NAMES,
     ) -> Evaluation:
         """Return all quantities at N samples: t (N,), q and v (N, n), memory (N, n_clearances + n_frictions).
 
-        `poll_cancellation` is called every few milliseconds, and its exceptions are passed on. `parts`: the requested
-        fields of Evaluation. Raises SingularError for a sample that has no accelerations.
+        `poll_cancellation` is called every few milliseconds, and its exceptions are passed on. `field_names`: the
+        requested fields of Evaluation. Raises SingularError for a sample that has no accelerations.
         """
-        return evaluate(self, t, q, v, memory, p, poll_cancellation, parts)
+        return evaluate(self, t, q, v, memory, p, poll_cancellation, field_names)
 
     def as_discrete_states(self, memory: ArrayLike | None) -> Array:
         """Return the discrete states (n_memory,): δ̇⁻ per joint with play, mode per friction. Do not write to it.
@@ -371,7 +373,7 @@ class CompiledModel:
 
     def _get_output_pointer(self, array: Array) -> Any:
         """Return a pointer to an array that C fills."""
-        return self.pointer(array, written=True)
+        return self.pointer(array, is_written=True)
 
 
 def _find_row_index(source: KernelSource, row: str) -> int:

@@ -26,8 +26,9 @@ Number = TypeVar("Number", float, Array)
 _DEPTH, _RATE = (CLEARANCE_COLUMNS.index(name) for name in ("delta", "deltadot"))
 
 
-def read_contours(source: KernelSource, contour: Any, runs: bool = False) -> dict[str, Array]:
-    """Return the checked depths of the given joints, (n,) each as in the file; with `runs` also (N, n) for N runs.
+def read_contours(source: KernelSource, contour: Any, allows_runs: bool = False) -> dict[str, Array]:
+    """Return the checked depths of the given joints, (n,) each as in the file; with `allows_runs` also (N, n) for N
+    runs.
 
     Raises UnknownNameError for a joint without a contour, ArrayError for another number of depths or values that are
     not finite, BadValueError for different numbers of runs.
@@ -41,9 +42,9 @@ def read_contours(source: KernelSource, contour: Any, runs: bool = False) -> dic
                 else "contour: 128 in the play of a joint"
             )
             raise UnknownNameError(f"contour: no contour at {shorten_value(joint)}", hint=hint)
-        is_for_each_run = runs and np.ndim(depths) == 2
+        is_for_each_run = allows_runs and np.ndim(depths) == 2
         shape = (None, contours_by_joint[joint].count) if is_for_each_run else (contours_by_joint[joint].count,)
-        depths_by_joint[joint] = as_c_array(depths, f"contour[{joint!r}]", shape, finite=True)
+        depths_by_joint[joint] = as_c_array(depths, f"contour[{joint!r}]", shape, require_finite=True)
     n_runs_by_joint = {
         joint: len(depths_of_joint) for joint, depths_of_joint in depths_by_joint.items() if depths_of_joint.ndim == 2
     }
@@ -128,7 +129,7 @@ def find_contour_parameters(source: KernelSource) -> frozenset[int]:
     return frozenset(k for info in source.contours for k in range(info.first, info.first + info.count))
 
 
-def compute_corner_gap(
+def compute_corner_penetration(
     compiled: CompiledModel, p: Array, t: float, q: Array, v: Array, clearance_index: int
 ) -> tuple[float, float]:
     """Return penetration δ (m) and δ̇ (m/s) of the slider corner that is joint `clearance_index`, at q, v (n,).
@@ -138,7 +139,9 @@ def compute_corner_gap(
     memory = np.zeros(compiled.n_memory)
     memory[: len(compiled.source.clearances)] = math.nan
     try:
-        columns = compiled.evaluate([t], [q], [v], [memory], p, parts=("clearance",)).clearance[0, clearance_index]
+        columns = compiled.evaluate([t], [q], [v], [memory], p, field_names=("clearance",)).clearance[
+            0, clearance_index
+        ]
     except SingularError:
         return math.nan, math.nan
     return float(columns[_DEPTH]), float(columns[_RATE])

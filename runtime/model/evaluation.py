@@ -52,7 +52,7 @@ class Evaluation:
     drift: Array  # (N, 2) largest |Φ| (m, rad) and |Φ̇| (m/s, rad/s) of the rows
 
 
-PARTS = frozenset(field.name for field in fields(Evaluation))  # names of the fields of an Evaluation
+FIELD_NAMES = frozenset(field.name for field in fields(Evaluation))  # names of the fields of an Evaluation
 
 
 def evaluate(
@@ -95,7 +95,9 @@ def evaluate(
         start_time, count = perf_counter(), min(chunk_size, N - first)
         chunk = slice(first, first + count)
         input_pointers = [compiled.pointer(as_c_array(values[chunk], name, (count, None))) for name, values in inputs]
-        output_pointers = [compiled.pointer(x[first:], written=True) if len(x) else null_pointer for x in result_arrays]
+        output_pointers = [
+            compiled.pointer(x[first:], is_written=True) if len(x) else null_pointer for x in result_arrays
+        ]
         status = compiled.lib.gudgeon_evaluate(
             count, compiled.pointer(time[chunk]), *input_pointers, parameter_pointer, *output_pointers, failed_index
         )
@@ -130,7 +132,7 @@ def evaluate_runs(
     parameter_pointer = compiled.pointer(as_c_array(p, "p", (len(sample_counts), compiled.n_p)))
     evaluation, failed_index = _allocate_evaluation(compiled, N, field_names), compiled.ffi.new("long *")
     output_pointers = [
-        compiled.pointer(x, written=True) if len(x) else compiled.ffi.NULL for x in vars(evaluation).values()
+        compiled.pointer(x, is_written=True) if len(x) else compiled.ffi.NULL for x in vars(evaluation).values()
     ]
     counts_pointer = compiled.ffi.new("long[]", sample_counts)
     status = compiled.lib.gudgeon_evaluate_runs(

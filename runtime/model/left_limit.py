@@ -46,7 +46,7 @@ def find_evaluation_times(
     run, for a single sample after it. q, v: (N, n).
     """
     previous_time = float(t[-2]) if len(t) > 1 else start_time
-    if not len(t) or not previous_time < t[-1] or not compiled.may_switch:
+    if not len(t) or not previous_time < t[-1] or not compiled.may_drive_acceleration_jump:
         return t
     before, after = (float(t[-1] + sign * find_rounding_distance(t[-1])) for sign in (-2.0, 2.0))
     gamma = [compiled.closed_gamma(time, q[-1], v[-1], p) for time in (before, after)]

@@ -274,7 +274,7 @@ def prepare_values_of_runs(
     Baumgarte gains; else they are the same array. Runs are invalid if their parameters violate a condition of
     `parameters.check_parameter_values`.
     """
-    p = compiled.prepare_each(given_values, is_given)
+    p = compiled.prepare_parameters_of_runs(given_values, is_given)
     motion_values = prepare_without_baumgarte(compiled, given_values, is_given) if without_baumgarte else p
     errors = {}
     parts = [slice(k, k + RUNS_PER_CALL) for k in range(0, len(p), RUNS_PER_CALL)]

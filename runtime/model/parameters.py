@@ -276,7 +276,7 @@ def prepare_without_baumgarte(compiled: CompiledModel, given_values: Array, is_g
     index_by_address = compiled.source.slot_index
     gain_indices = [index_by_address[name] for name in GAINS if name in index_by_address]
     if given_values.ndim == 2:
-        return compiled.prepare_each(given_values, is_given, gain_indices)
+        return compiled.prepare_parameters_of_runs(given_values, is_given, gain_indices)
     values, mask = given_values.copy(), is_given.copy()
     values[gain_indices], mask[gain_indices] = 0.0, True
     return compiled.prepare(values, mask)

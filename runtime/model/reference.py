@@ -23,7 +23,7 @@ SHARE = 1e-6  # of the largest value of an array: stored values have seven digit
 EVALUATED = ("a", "multipliers", "reactions", "torques", "series", "energy", "power")
 
 
-def check_reference(compiled: CompiledModel) -> None:
+def check_reference_values(compiled: CompiledModel) -> None:
     """Compare the library's functions with the stored values. AuditError names the function that differs.
 
     Compared are parameter values, also for two sets of given parameters, and the functions of t, q and v at stored

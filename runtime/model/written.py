@@ -31,7 +31,7 @@ from gudgeon.language.tree import (
     iterate_names,
     replace_names,
 )
-from gudgeon.language.undefined_parts import find_undefined_part, is_total_expression, may_be_undefined
+from gudgeon.language.undefined_parts import find_possibly_undefined_cases, find_undefined_part, is_total_expression
 from gudgeon.model.cached_values import cache_by_values
 from gudgeon.model.compiled import Array, CompiledModel, Evaluation
 
@@ -94,7 +94,9 @@ def read_expression_trees(source: KernelSource, kinds: Iterable[str]) -> list[tu
     return [(info, from_json(json.loads(info.tree))) for info in source.written if info.address.split(".")[0] in kinds]
 
 
-def explain_undefined_ahead(source: KernelSource, p: Array, t: float, q: Array, v: Array, duration: float = 0.0) -> str:
+def explain_undefined_value_after(
+    source: KernelSource, p: Array, t: float, q: Array, v: Array, duration: float = 0.0
+) -> str:
     """Return why a drive or force is not a number at a state, or within `duration` s after it; "" if all are numbers.
 
     States after it are extrapolated by the velocity. If q or v is not finite, only expressions of t and parameters are
@@ -115,7 +117,9 @@ def explain_undefined_ahead(source: KernelSource, p: Array, t: float, q: Array, 
     return ""
 
 
-def explain_undefined_near(source: KernelSource, p: Array, t: float, q: Array, v: Array, duration: float = 0.0) -> str:
+def explain_undefined_value_near(
+    source: KernelSource, p: Array, t: float, q: Array, v: Array, duration: float = 0.0
+) -> str:
     """Return why a drive or force is not a number at a state, or in a where-branch near it; else "".
 
     A step that ends or begins at a switching point evaluates both branches. Switching points are searched within
@@ -144,7 +148,7 @@ def explain_undefined_near(source: KernelSource, p: Array, t: float, q: Array, v
     return ""
 
 
-def find_undefined_at_switch(
+def find_undefined_value_at_switch(
     source: KernelSource, p: Array, info: WrittenInfo, tree: Expr, t: Array
 ) -> tuple[str, float] | None:
     """Return (message, time) for a drive that is not a number where one of its wheres switches.
@@ -200,7 +204,7 @@ def _explain_undefined_branch(
     return ""
 
 
-def explain_undefined_between(source: KernelSource, p: Array, t0: float, t1: float) -> tuple[str, float]:
+def explain_undefined_value_between(source: KernelSource, p: Array, t0: float, t1: float) -> tuple[str, float]:
     """Return why a drive ceases to be a number between t0 and t1 (s), and when; ("", t1) if none does.
 
     The time is located by bisection between samples; of several drives the earliest is returned.
@@ -240,7 +244,7 @@ def explain_undefined_rate(compiled: CompiledModel, p: Array, times: Array, q: A
     return "", float(times[-1])
 
 
-def add_notes_on_undefined(run: Result, evaluation: Evaluation) -> Result:
+def add_undefined_output_notes(run: Result, evaluation: Evaluation) -> Result:
     """Return the run with notes on outputs that are not numbers although all their inputs are.
 
     The run itself without any. Drives and forces by a `where` that compares values that are not numbers are noted too:
@@ -370,7 +374,7 @@ def _describe_part(tree: Expr, values: Values) -> str:
         case Binary(operator=operator):
             return f"{texts[0]} {operator} {texts[1]}"
         case CurveCall(function=function, curve=curve):
-            return f"curve {function} {curve.describe_outside(part_values[0])}"
+            return f"curve {function} {curve.describe_out_of_range(part_values[0])}"
         case Call(function=function):
             return f"{function} of {', '.join(texts)}"
     return "a number that is not finite"
@@ -443,7 +447,7 @@ def find_undefined_runs(source: KernelSource, p: Array, is_given: NDArray[np.gen
     has_undefined = np.zeros(len(p), dtype=np.bool_)
     for partial in _find_affected_expressions(source, p):
         values_by_name = {name: p[:, k] for name, k in partial.slots.items()}
-        undefined = may_be_undefined(partial.tree, values_by_name)
+        undefined = find_possibly_undefined_cases(partial.tree, values_by_name)
         has_undefined |= undefined & ~is_given[:, partial.slot].astype(bool) if partial.slot >= 0 else undefined
     return has_undefined
 

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import GudgeonError
-from gudgeon.integrators.threads import available_threads
+from gudgeon.integrators.threads import count_available_threads
 from gudgeon.language import tree
 from gudgeon.language.argument_checks import check_names, is_integer, raise_bad_value, shorten_value
 from gudgeon.language.text_output import format_count
@@ -350,7 +350,7 @@ def depends_on_works(source: KernelSource, name: str) -> bool:
     return name == "energy.residual" or (series_entry.stored is not None and series_entry.stored[0] == "work")
 
 
-def check_stored(batch: Batch, names: Iterable[str]) -> None:
+def check_series_stored(batch: Batch, names: Iterable[str]) -> None:
     """Raise GudgeonError for the first of `names` that a batch without states did not store.
 
     A batch with states can evaluate every series, so that nothing is raised.
@@ -387,13 +387,13 @@ def collect_series(batch: Batch, names: Sequence[str]) -> dict[str, Array]:
     that was not stored, SingularError.
     """
     names = check_series_names(batch.source, names)
-    check_stored(batch, names)
+    check_series_stored(batch, names)
     values_by_series = {
         name: stored_values for name in names if (stored_values := _copy_stored_series(batch, name)) is not None
     }
     evaluated_names = [name for name in names if name not in values_by_series]
     values_by_series |= {name: np.full((len(batch), batch.t.shape[-1]), np.nan) for name in evaluated_names}
-    for i, sample_times, values_by_name in iterate_rows(batch, evaluated_names) if evaluated_names else ():
+    for i, sample_times, values_by_name in iterate_run_series(batch, evaluated_names) if evaluated_names else ():
         for name, values in values_by_name.items():
             values_by_series[name][i, : len(sample_times)] = values
     return {name: values_by_series[name] for name in names}
@@ -416,13 +416,13 @@ def _copy_stored_series(batch: Batch, name: str) -> Array | None:
     return values
 
 
-def iterate_rows(batch: Batch, names: Sequence[str]) -> Iterator[Row]:
+def iterate_run_series(batch: Batch, names: Sequence[str]) -> Iterator[Row]:
     """Yield (run number, sample times, {name: values}) for each run that has samples, in order of the runs.
 
     Series are evaluated by threads, a few blocks of runs in advance. Raises GudgeonError for a series that was not
     stored.
     """
-    check_stored(batch, names)
+    check_series_stored(batch, names)
     make_row = _read_stored_row if batch.states is None else _evaluate_row
     evaluation_parts = find_evaluation_parts(batch.source, names)
 
@@ -434,7 +434,7 @@ def iterate_rows(batch: Batch, names: Sequence[str]) -> Iterator[Row]:
         return [row for row in rows if row is not None]
 
     yield from _evaluate_blocks_in_order(
-        make_block, range(0, len(batch), BLOCK), min(batch.threads, available_threads())
+        make_block, range(0, len(batch), BLOCK), min(batch.threads, count_available_threads())
     )
 
 

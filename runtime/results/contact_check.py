@@ -95,7 +95,7 @@ def compute_penetrations(run: Result) -> Array:
     return np.stack(columns, axis=1) if columns else np.zeros((len(run.t), 0))
 
 
-def check_samples(run: Result, run_with_peaks: Result | None = None) -> ContactCheck:
+def check_contact_samples(run: Result, run_with_peaks: Result | None = None) -> ContactCheck:
     """Compare the samples of a run with its list of contacts and return a ContactCheck with the faults, by time.
 
     `run_with_peaks` is the run whose diagnostics have the peaks over all steps; None: the same run. Joints with a film

@@ -63,7 +63,7 @@ class Extremes:
 
 
 @dataclass(frozen=True)
-class JointExamined:
+class JointContactStatistics:
     """Statistics of a joint's contacts from a second pass through the run (simulation/examine.py).
 
     NaN: the joint has no such contacts.
@@ -109,10 +109,10 @@ class Difference:
 
 
 @dataclass(frozen=True)
-class Examined:
+class Examination:
     """Results of additional runs for a report; empty where they failed, with the reason in `notes`."""
 
-    joints: tuple[JointExamined, ...] = ()
+    joints: tuple[JointContactStatistics, ...] = ()
     ideal: tuple[IdealForce, ...] = ()
     differences: tuple[Difference, ...] = ()
     compared_with: str = ""  # "steps half as long"
@@ -150,7 +150,7 @@ class Diagnostics:
     t_end: float = float("nan")  # s, requested end of a run that ended before; NaN: it reached its end
     horizon: float = float("nan")  # s, predictability horizon; inf: beyond the end, NaN: not requested
     extremes: tuple[Extremes, ...] = ()  # over all steps, of the series in `peaks`
-    examined: Examined | None = None  # results of additional runs, for a report; None: not requested
+    examined: Examination | None = None  # results of additional runs, for a report; None: not requested
     audit: tuple[Finding, ...] = ()  # largest value of each check, as a multiple of its limit; empty: switched off
     rubbed: tuple[SlidingLoads, ...] = ()  # over all steps, of joints whose wear was requested; not saved
 
@@ -226,13 +226,13 @@ def extremes_from_json(text: str) -> tuple[Extremes, ...]:
     return tuple(Extremes(**_convert_to_floats(fields, Extremes)) for fields in json.loads(text))
 
 
-def _read_examined_json(data: dict[str, Any]) -> Examined:
+def _read_examined_json(data: dict[str, Any]) -> Examination:
     """Return the Examined from its part of the parsed JSON of `Diagnostics.to_json`, with words converted to floats."""
-    classes = {"joints": JointExamined, "ideal": IdealForce, "differences": Difference}
+    classes = {"joints": JointContactStatistics, "ideal": IdealForce, "differences": Difference}
     records = {
         name: tuple(cls(**_convert_to_floats(fields, cls)) for fields in data[name]) for name, cls in classes.items()
     }
-    return Examined(**data | records | {"notes": tuple(data["notes"])})
+    return Examination(**data | records | {"notes": tuple(data["notes"])})
 
 
 def _convert_to_json_values(value: Any) -> Any:
@@ -258,7 +258,7 @@ def _convert_to_floats(data: dict[str, Any], cls: type) -> dict[str, Any]:
     return {key: float(value) if key in float_fields else value for key, value in data.items()}
 
 
-def provenance_of(compiled: CompiledModel) -> dict[str, str]:
+def collect_provenance(compiled: CompiledModel) -> dict[str, str]:
     """Return version, platform, compiler, date and mechanism text of a run, by the keys of PROVENANCE.
 
     Nothing is computed from it, and no comparison reads it. `SOURCE_DATE_EPOCH` (s since 1970) in the environment

@@ -63,7 +63,7 @@ def find_extremes_over_steps(run: Result, name: str, is_error: bool) -> Extremes
     not have, BadValueError for one whose peaks were not requested.
     """
     if not isinstance(name, str) or name not in run.names:
-        raise run.unknown(name)
+        raise run.make_unknown_name_error(name)
     for extremes in run.diagnostics.extremes:
         if extremes.name == name and bool(extremes.against) == is_error:
             return extremes if is_error else _extend_by_samples(extremes, run)
@@ -287,7 +287,7 @@ def find_first_contact_force(impacts: NDArray[Any]) -> float:
     return math.nan if is_rigid_impact(impacts[:1])[0] else float(impacts["F_peak"][0])
 
 
-def find_zeno_points(joints: Sequence[str], impacts: NDArray[Any]) -> Iterator[str]:
+def describe_zeno_points(joints: Sequence[str], impacts: NDArray[Any]) -> Iterator[str]:
     """Yield a sentence for each Zeno point: impacts in ever shorter intervals until the contact closes.
 
     The first MESSAGES of each joint are reported one by one, and all by one more sentence if there are more.

@@ -22,7 +22,7 @@ from gudgeon.integrators.trajectory import IMPACT_DTYPE, make_empty_events
 from gudgeon.language.argument_checks import check_text
 from gudgeon.language.text_output import format_count
 from gudgeon.model.choices import format_parameter
-from gudgeon.model.evaluation import PARTS, Evaluation
+from gudgeon.model.evaluation import FIELD_NAMES, Evaluation
 from gudgeon.model.left_limit import find_evaluation_times_of_result
 from gudgeon.results.diagnostics import Diagnostics, Extremes
 from gudgeon.results.notebook_display import NotebookDisplay
@@ -77,7 +77,7 @@ class Result(NotebookDisplay):
     def __getitem__(self, name: str) -> Array:
         """Return the series of that name, (N,), in SI, read-only. Raises UnknownNameError with the nearest name."""
         if not isinstance(name, str):
-            raise self.unknown(name)
+            raise self.make_unknown_name_error(name)
         if name == "t":
             return self.t
         if name not in self.stored:
@@ -320,7 +320,7 @@ class Result(NotebookDisplay):
             return self.parameters[name]
         if name in self:
             return self[name]
-        raise self.unknown(name)
+        raise self.make_unknown_name_error(name)
 
     def to_xarray(self, part: str = "series") -> xarray.Dataset:
         """Return all series as one Dataset over `time`, with units and long names; `.to_dataframe()` has a row for each
@@ -386,9 +386,9 @@ class Result(NotebookDisplay):
         try:
             return self._catalogue[name]
         except KeyError:
-            raise self.unknown(name) from None
+            raise self.make_unknown_name_error(name) from None
 
-    def unknown(self, name: str) -> UnknownNameError:
+    def make_unknown_name_error(self, name: str) -> UnknownNameError:
         """Return, without raising it, the error for a name that this result does not have, with the nearest name."""
         from gudgeon.results.series import list_parameter_names, make_unknown_series_error
 
@@ -406,7 +406,7 @@ def read(path: str | os.PathLike[str]) -> Result:
 class EvaluatedSamples(Result):
     """A Result whose series are computed from `parts` of an Evaluation only; it has no diagnostics."""
 
-    parts: frozenset[str] = PARTS
+    parts: frozenset[str] = FIELD_NAMES
 
     @cached_property
     def evaluation(self) -> Evaluation:
@@ -417,7 +417,7 @@ class EvaluatedSamples(Result):
         if self.compiled is None:
             raise GudgeonError("there is no library to evaluate samples with")
         times = find_evaluation_times_of_result(self, self.compiled)
-        return self.compiled.evaluate(times, self.q, self.v, self.memory, self.p, parts=self.parts)
+        return self.compiled.evaluate(times, self.q, self.v, self.memory, self.p, field_names=self.parts)
 
 
 def make_evaluated_samples(
@@ -465,5 +465,5 @@ def make_empty_result(source: KernelSource) -> EvaluatedSamples:
     p = np.full(len(source.slots) + len(source.derived), np.nan)
     empty_arrays = np.zeros((0, n)), np.zeros((0, n)), np.zeros((0, 3)), np.zeros((0, source.n_memory))
     return make_evaluated_samples(
-        source, None, p, np.zeros(0), *empty_arrays, np.zeros((0, n_clearances), np.int8), PARTS
+        source, None, p, np.zeros(0), *empty_arrays, np.zeros((0, n_clearances), np.int8), FIELD_NAMES
     )

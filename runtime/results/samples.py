@@ -44,7 +44,7 @@ def split_off_start(run: Run) -> Run:
     return run_without_start
 
 
-def join_start(run: Run) -> Run:
+def prepend_start(run: Run) -> Run:
     """Return the run with its start as the first sample; the run itself if its samples include the start.
 
     Series computed so far are kept if they are known for the start too.
@@ -141,7 +141,7 @@ def make_result_at_events(run: Result) -> Result:
     Stored states are used; the motion of a kinematically driven scene is computed again. Raises GudgeonError if neither
     is possible.
     """
-    run, event_states, n = join_start(run), run.event_states, run.q.shape[1]
+    run, event_states, n = prepend_start(run), run.event_states, run.q.shape[1]
     if event_states is None:
         repeated_motion = _recompute_motion(run)
         sample_indices = np.searchsorted(repeated_motion.t, run.events["t"])

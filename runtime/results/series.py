@@ -469,7 +469,7 @@ def compute_spectrum(t: Array, values: Array, window: str = "hann") -> tuple[Arr
     return np.fft.rfftfreq(len(t), 1.0 / sampling_rate), amplitudes
 
 
-def low_pass(t: Array, values: Array, cutoff: float, order: int = 2, causal: bool = True) -> Array:
+def apply_low_pass(t: Array, values: Array, cutoff: float, order: int = 2, causal: bool = True) -> Array:
     """Return a series (N,) after a Butterworth low-pass with −3 dB at `cutoff` (Hz). `causal`: one pass forwards, as in
     an amplifier, with its phase lag, from rest at the first value. Otherwise forwards and backwards without phase, with
     a cutoff such that both passes together have −3 dB there. Raises BadValueError for a cutoff above half the sampling

@@ -56,7 +56,7 @@ class SlidingLoads:
     radii: tuple[float, float]  # m, of bearing and journal
     length: float  # m
 
-    def depth(self, side: int, law: str = "archard", rate: float = 1.0) -> Array:
+    def compute_depth(self, side: int, law: str = "archard", rate: float = 1.0) -> Array:
         """Return the wear depth in m of each cell, (points,), of the bearing (side 0) or the journal (side 1).
 
         `law` is "archard" or "reye"; `rate` is k/H in 1/Pa.

@@ -61,7 +61,7 @@ class Bearing:
 
 def check_vector(vector: ArrayLike, name: str) -> tuple[float, float]:
     """Return two finite components (x, y) of an array-like argument. Raises BadValueError with its `name`."""
-    x, y = as_c_array(vector, name, (2,), finite=True)
+    x, y = as_c_array(vector, name, (2,), require_finite=True)
     return float(x), float(y)
 
 

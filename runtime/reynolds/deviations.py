@@ -91,7 +91,10 @@ def deviation(
     """
     ratio = check_positive(l_over_d, "l_over_d")
     bearing = _make_bearing(ratio)
-    ratios, alpha = as_c_array(eps, "eps", (None,), finite=True), as_c_array(motion, "motion", (None,), finite=True)
+    ratios, alpha = (
+        as_c_array(eps, "eps", (None,), require_finite=True),
+        as_c_array(motion, "motion", (None,), require_finite=True),
+    )
     if not ratios.size or not alpha.size or ratios.min() <= 0.0 or ratios.max() >= 1.0:
         raise BadValueError("eps and motion: expected at least one each, eps above 0 and below 1")
     law_forces = _evaluate_law(law, ratio, ratios, alpha, keys)
@@ -161,7 +164,7 @@ def make_law_force(name: str, bearing: Bearing, keys: Mapping[str, float | str |
         for option in law.parameters
         if (x := field_values[option.name]) is not None
     }
-    law.check(numbers)
+    law.check_bounds(numbers)
     selected: dict[str, Any] = {option.name: field_values[option.name] for option in law.options} | dict(
         law.also.get(name, {})
     )

@@ -92,7 +92,7 @@ def _broadcast_states(eps: ArrayLike, eps_rate: ArrayLike, omega_s: ArrayLike) -
     Raises BadValueError for shapes that do not fit, more than MAX_STATES states, or ε outside [0, 1).
     """
     arguments = ((eps, "eps"), (eps_rate, "eps_rate"), (omega_s, "omega_s"))
-    arrays = [as_c_array(x, name, finite=True, max_entries=MAX_STATES) for x, name in arguments]
+    arrays = [as_c_array(x, name, require_finite=True, max_entries=MAX_STATES) for x, name in arguments]
     try:
         count = math.prod(np.broadcast_shapes(*(x.shape for x in arrays)))
     except ValueError:

@@ -107,7 +107,7 @@ def _check_output_times(t0: float, output: ArrayLike) -> tuple[Array, bool]:
 
     Raises BadValueError for booleans, no times, times that do not increase, and times before t0.
     """
-    times = as_c_array(output, "output", (None,), finite=True, always_copy=True, max_entries=MAX_OUTPUT)
+    times = as_c_array(output, "output", (None,), require_finite=True, always_copy=True, max_entries=MAX_OUTPUT)
     if not isinstance(output, np.ndarray) or output.dtype.kind == "b":
         for k, value in enumerate(np.asarray(output, object)[:MAX_CHECKED_ITEMS]):
             if isinstance(value, (bool, np.bool_)):

@@ -223,7 +223,7 @@ def _check_random_samples(
         compiled.pointer(values)
         for values in (trajectory.t[samples], trajectory.q[samples], trajectory.v[samples], memory, problem.p)
     ]
-    compiled.lib.gudgeon_audit_samples(len(samples), *given, size, compiled.pointer(errors, written=True))
+    compiled.lib.gudgeon_audit_samples(len(samples), *given, size, compiled.pointer(errors, is_written=True))
     limits, body = LIMITS, ""
     if problem.audit > 1 or trajectory.counts.right_hand_sides > MIN_CALLS_OF_LONG_RUN:
         residuals = compute_newton_euler_residuals(compiled, problem.p, trajectory.q, evaluation, samples)

@@ -22,9 +22,9 @@ from gudgeon.contract.methods import ADAPTIVE, CHOOSING
 from gudgeon.errors import GudgeonError
 from gudgeon.language.argument_checks import check_integer
 from gudgeon.model.contours import find_contour, interpolate_depth
-from gudgeon.results.contact_check import ContactCheck, check_samples
-from gudgeon.results.diagnostics import Difference, Examined, IdealForce, JointExamined
-from gudgeon.results.samples import join_start
+from gudgeon.results.contact_check import ContactCheck, check_contact_samples
+from gudgeon.results.diagnostics import Difference, Examination, IdealForce, JointContactStatistics
+from gudgeon.results.samples import prepend_start
 from gudgeon.results.series import MOTION, choose_watched_series, find_rate_names
 from gudgeon.simulation.predictability_horizon import (
     build_repeat_settings,
@@ -60,10 +60,10 @@ def examine(
     """
     check_simulation_of_run(simulation, run, "examine")
     notes: list[str] = []
-    run_with_start = join_start(run)
+    run_with_start = prepend_start(run)
     joints = _examine_joints(simulation, run_with_start, notes, progress)
     differences, description = _estimate_errors(simulation, run_with_start, notes, progress)
-    examined = Examined(joints, _compute_ideal_forces(run, ideal, notes), differences, description, tuple(notes))
+    examined = Examination(joints, _compute_ideal_forces(run, ideal, notes), differences, description, tuple(notes))
     return replace(run, diagnostics=replace(run.diagnostics, examined=examined))
 
 
@@ -98,7 +98,7 @@ def _yield_repetitions(
 
 def _examine_joints(
     simulation: Simulation, run: Result, notes: list[str], progress: Progress | None
-) -> tuple[JointExamined, ...]:
+) -> tuple[JointContactStatistics, ...]:
     """Return the works, forces and restitution of each joint with play, from a repetition of the run at Gauss points.
 
     Return () without play or with one sample. If the run cannot be repeated exactly, return () and append a note to
@@ -201,7 +201,7 @@ def _compute_quadrature(run: Result) -> tuple[Array, Array]:
 
 def _examine_joint(
     run: Result, repetition: Result, dry_repetition: Result, k: int, joint: ClearanceInfo, indices: Any, weights: Array
-) -> JointExamined:
+) -> JointContactStatistics:
     """Return the examined quantities of joint k from the repeated run `repetition` at the sample indices `indices`.
 
     `weights` (s) belong to these samples. `dry_repetition` is the same run with the forces of touching surfaces only,
@@ -236,7 +236,7 @@ def _examine_joint(
     rms = math.sqrt(float(weights @ force**2) / span)
     compression, returned, friction = works if joint.dry else (math.nan,) * 3
     compression, returned = (math.nan, math.nan) if rigid else (compression, returned)
-    return JointExamined(
+    return JointContactStatistics(
         name,
         impacting,
         rms,
@@ -401,12 +401,12 @@ def check_contacts(run: Result, n_intervals: int, progress: Progress | None = No
     from gudgeon.simulation.simulation import Simulation
 
     n_intervals = check_integer(n_intervals, "samples", MIN_SAMPLES, MAX_SAMPLES)
-    run = join_start(run)
+    run = prepend_start(run)
     if not run.source.clearances or len(run.t) < MIN_SAMPLES:
-        return check_samples(run)
+        return check_contact_samples(run)
     dense_run = run
     if run.compiled is not None:
         times = np.union1d(run.t, np.linspace(run.t[0], run.t[-1], n_intervals + 1))
         dense_run = repeat_run_exactly(Simulation(run.compiled, ""), run, times, progress) or run
-    check = check_samples(dense_run, run)
+    check = check_contact_samples(dense_run, run)
     return check if dense_run is not run else replace(check, notes=(NOTE_STORED_SAMPLES,))

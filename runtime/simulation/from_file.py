@@ -21,7 +21,7 @@ from gudgeon.loading.kernel_sources import (
 )
 from gudgeon.loading.optimized_library import may_compile_in_background
 from gudgeon.waiting.ctrl_c import EndingSignals
-from gudgeon.waiting.imports import RUNTIME, import_completely
+from gudgeon.waiting.imports import RUNTIME, import_modules_completely
 
 if TYPE_CHECKING:
     from gudgeon.simulation.simulation import Simulation
@@ -97,16 +97,16 @@ def load_bytes(
         )
         have_source = perf_counter()
         if ahead.is_busy:
-            import_completely(*RUNTIME)  # while compilers are at work
+            import_modules_completely(*RUNTIME)  # while compilers are at work
         library = compile_kernels(source, portable=portable, rebuild=regenerate, background=ahead, quick=quick)
     have_library = perf_counter()
 
-    import_completely(*RUNTIME)
+    import_modules_completely(*RUNTIME)
     from gudgeon.model.compiled import CompiledModel
-    from gudgeon.model.reference import check_reference
+    from gudgeon.model.reference import check_reference_values
     from gudgeon.simulation.simulation import Simulation
 
     loading = Loading(origin, read - start, have_source - read, have_library - have_source, have_library - start)
     compiled = CompiledModel(source, library, portable, data.decode())
-    check_reference(compiled)
+    check_reference_values(compiled)
     return Simulation(compiled, file=file, overrides=dict(overrides or {}), loading=loading)

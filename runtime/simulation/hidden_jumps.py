@@ -25,7 +25,7 @@ from gudgeon.language.functions import CORNERED, JUMPING, select_function_names
 from gudgeon.language.tree import Binary, Call, Expr, Number, Unary, iterate_names, list_functions
 from gudgeon.model.cached_values import cache_by_values
 from gudgeon.model.compiled import Array
-from gudgeon.model.written import evaluate_at_times, find_undefined_at_switch, read_expression_trees
+from gudgeon.model.written import evaluate_at_times, find_undefined_value_at_switch, read_expression_trees
 
 _HIDING = select_function_names(lambda f: f.hides_corners)  # functions that may hide a switching point
 # grid intervals, largest number of candidates of `_find_jumps`, and of `_find_first_discontinuity`
@@ -218,7 +218,7 @@ def _find_first_discontinuity(
     end_margin = END_MARGIN * (t1 - t0)
     t1 += end_margin
     info = next(info for info, _ in read_expression_trees(source, ("drives",)) if info.address.split(".")[1] == drive)
-    undefined = find_undefined_at_switch(source, p, info, tree, np.linspace(t0, t1, GRID + 1))
+    undefined = find_undefined_value_at_switch(source, p, info, tree, np.linspace(t0, t1, GRID + 1))
     if undefined:
         t1 = undefined[1]
     ratios, h = (

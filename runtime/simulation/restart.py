@@ -51,8 +51,8 @@ def copy_checked_state(source: KernelSource, start: Any) -> State:
     return replace(
         start,
         t=check_number(start.t, "start.t"),
-        q=as_c_array(start.q, "start.q", (n,), finite=True, always_copy=True),
-        v=as_c_array(start.v, "start.v", (n,), finite=True, always_copy=True),
+        q=as_c_array(start.q, "start.q", (n,), require_finite=True, always_copy=True),
+        v=as_c_array(start.v, "start.v", (n,), require_finite=True, always_copy=True),
         state=state,
         memory=memory,
     )

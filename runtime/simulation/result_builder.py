@@ -12,7 +12,7 @@ import numpy as np
 
 from gudgeon.assembly.journals import find_eccentricity
 from gudgeon.assembly.linkage import compute_mechanism_size
-from gudgeon.assembly.rank import find_contradiction, find_dependent_equations
+from gudgeon.assembly.rank import find_constraint_violation, find_dependent_equations
 from gudgeon.contract.boundary import AT_REST, MODE_HELD, PEAK_F, PEAK_e_max, PEAK_t
 from gudgeon.contract.clearance_info import ClearanceInfo
 from gudgeon.contract.kernel_source import KernelSource
@@ -23,13 +23,13 @@ from gudgeon.integrators.failure import build_audit_error, build_audit_notes
 from gudgeon.integrators.times import compute_last_step
 from gudgeon.integrators.trajectory import Counts, Problem, Trajectory
 from gudgeon.model.compiled import Array, CompiledModel
-from gudgeon.model.contours import compute_corner_gap, compute_max_clearance
+from gudgeon.model.contours import compute_corner_penetration, compute_max_clearance
 from gudgeon.model.evaluation import Evaluation
 from gudgeon.model.left_limit import find_evaluation_times
 from gudgeon.model.seams import iterate_seam_notes
-from gudgeon.model.written import add_notes_on_undefined, find_unbounded_drive
-from gudgeon.results.diagnostics import Diagnostics, Peak, provenance_of
-from gudgeon.results.peaks import find_first_contact_force, find_zeno_points
+from gudgeon.model.written import add_undefined_output_notes, find_unbounded_drive
+from gudgeon.results.diagnostics import Diagnostics, Peak, collect_provenance
+from gudgeon.results.peaks import describe_zeno_points, find_first_contact_force
 from gudgeon.results.results import Result
 from gudgeon.results.samples import split_off_start
 from gudgeon.results.series import explain_missing_masses
@@ -171,7 +171,7 @@ def _build_notes(compiled: CompiledModel, problem: Problem, trajectory: Trajecto
     notes += iterate_seam_notes(compiled.source, p, float(problem.t[0]), float(trajectory.t[-1]))
     notes += yield_range_notes(compiled, p, float(problem.t[0]), problem.q, counts, trajectory.peaks)
     if compiled.source.rigid:
-        notes += find_zeno_points([joint.name for joint in compiled.source.clearances], trajectory.impacts)
+        notes += describe_zeno_points([joint.name for joint in compiled.source.clearances], trajectory.impacts)
         notes += _yield_stiff_film_note(compiled.source, problem, counts)
     notes += build_audit_notes(trajectory.audit)
     notes += yield_redundancy_note(compiled.source)
@@ -281,7 +281,7 @@ def _compute_penetration(compiled: CompiledModel, p: Array, t: float, q: Array, 
     For a journal in its bearing it is e − c, without the depth of a measured contour; for a slider's corner it is δ.
     """
     if joint.is_corner:
-        return compute_corner_gap(compiled, p, t, q, np.zeros_like(q), k)[0]
+        return compute_corner_penetration(compiled, p, t, q, np.zeros_like(q), k)[0]
     return float(np.hypot(*find_eccentricity(compiled, p, t, q, joint)[1])) - float(p[joint.clearance])
 
 
@@ -358,7 +358,7 @@ def build_result(
         events=x.events,
         event_states=x.event_states,
         trace=x.trace,
-        provenance=provenance_of(compiled),
+        provenance=collect_provenance(compiled),
         begun=problem.resumed_state,
     )
     if evaluation is not None:
@@ -370,7 +370,7 @@ def build_result(
     result = result if problem.start_is_sample else split_off_start(result)
     if evaluation is not None:
         evaluation = result.evaluation
-        result = _add_undetermined_friction_notes(add_notes_on_undefined(result, evaluation), evaluation)
+        result = _add_undetermined_friction_notes(add_undefined_output_notes(result, evaluation), evaluation)
         result.__dict__.pop("evaluation", None)
         if len(x.t) <= KEPT:
             result.__dict__["evaluation"] = evaluation
@@ -453,13 +453,13 @@ def check_result(problem: Problem, trajectory: Trajectory, result: Result) -> tu
     """
     findings = result.diagnostics.audit
     try:
-        failure = find_contradiction(problem, trajectory) or (
+        failure = find_constraint_violation(problem, trajectory) or (
             build_audit_error(findings) if has_failed_finding(findings) else None
         )
     except KeyboardInterrupt:
         result, failure = (
             _mark_as_interrupted(result),
-            find_contradiction(problem, replace(trajectory, interrupted=True)),
+            find_constraint_violation(problem, replace(trajectory, interrupted=True)),
         )
     return result, trajectory.stopped or failure
 

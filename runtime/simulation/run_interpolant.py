@@ -18,7 +18,7 @@ from gudgeon.integrators.kinematic import compute_motion_at
 from gudgeon.integrators.steps import Steps
 from gudgeon.integrators.trajectory import IMPACT_DTYPE
 from gudgeon.model.compiled import Array, CompiledModel, Evaluation
-from gudgeon.model.evaluation import PARTS, find_rounding_distance
+from gudgeon.model.evaluation import FIELD_NAMES, find_rounding_distance
 from gudgeon.results.batch import depends_on_works, find_evaluation_parts
 from gudgeon.results.diagnostics import Diagnostics
 from gudgeon.results.results import Result
@@ -70,7 +70,7 @@ class RunInterpolant:
         self.p, self.given, self.is_given = parameter_arrays  # as in a Result
         self.catalogue = get_catalogue(self.source)
         requested = self.catalogue.keys() if names is None else [name for name in names if name in self.catalogue]
-        self.parts = PARTS if names is None else find_evaluation_parts(self.source, requested) | {"a"}
+        self.parts = FIELD_NAMES if names is None else find_evaluation_parts(self.source, requested) | {"a"}
         self.needs_works = any(depends_on_works(self.source, name) for name in requested)
         self.is_kinematic = self.source.methods == (KINEMATIC,)
         self.has_films = any(joint.film for joint in self.source.clearances)
@@ -207,7 +207,7 @@ class RunInterpolant:
                     if is_solvable.all()
                     else (t[is_solvable], steps.q[is_solvable], steps.v[is_solvable], steps.memory[is_solvable])
                 )
-                evaluation = self.compiled.evaluate(*states, self.p, parts=self.parts)
+                evaluation = self.compiled.evaluate(*states, self.p, field_names=self.parts)
                 break
             except SolverError as error:
                 remaining = is_solvable & (np.abs(t - error.time) > 4.0 * find_rounding_distance(t))

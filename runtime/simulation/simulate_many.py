@@ -10,14 +10,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gudgeon.assembly.guess_warnings import warn_unfollowed_in_runs
+from gudgeon.assembly.guess_warnings import warn_unfollowed_guesses_in_runs
 from gudgeon.assembly.journals import check_journal_positions, describe_contacts_without_onset
-from gudgeon.assembly.rank import find_contradiction, list_redundant_equations
+from gudgeon.assembly.rank import find_constraint_violation, list_redundant_equations
 from gudgeon.errors import AssemblyError, BadValueError, SolverError
 from gudgeon.integrators import adaptive
 from gudgeon.integrators.batch import Runs
 from gudgeon.integrators.failure import INTERRUPTED
-from gudgeon.integrators.threads import available_threads
+from gudgeon.integrators.threads import count_available_threads
 from gudgeon.integrators.times import Times
 from gudgeon.integrators.trajectory import Problem, Progress, convert_counts_of_runs
 from gudgeon.language.argument_checks import check_callable, check_flag, check_text, is_integer, shorten_value
@@ -100,14 +100,14 @@ def simulate_many(
     compiled, source = simulation.compiled, simulation.source
     names, against = check_requested_peaks(source, peaks), check_compared_scene(source, against)
     run_arguments = BatchArguments(compiled, t_end, output, step)
-    contours = read_contours(source, contour, runs=True)
+    contours = read_contours(source, contour, allows_runs=True)
     starts = _Starts(simulation, parameters, start, run_arguments, contours)
     stop, side_by_side, level = (
         check_flag(stop, "stop"),
         check_flag(side_by_side, "side_by_side"),
         parse_audit_level(audit),
     )
-    workers = available_threads() if threads is None else threads
+    workers = count_available_threads() if threads is None else threads
     if not is_integer(workers) or workers < 1:
         raise BadValueError(f"threads is {shorten_value(threads)}: expected a number of threads, 1 or more")
     workers = int(min(workers, max(len(starts.given), 1)))  # no more than there is to do
@@ -165,7 +165,9 @@ def _run_batch(
     results.integrate_runs(options.progress)
     for i in (i for i in jumps if i not in runs.failures and runs.is_complete(i)):
         runs.failures[i] = build_jump_error(simulation.source, jumps[i])
-    warn_unfollowed_in_runs(simulation.source, [*runs.unfollowed.values(), *[{}] * (runs.n - len(runs.unfollowed))])
+    warn_unfollowed_guesses_in_runs(
+        simulation.source, [*runs.unfollowed.values(), *[{}] * (runs.n - len(runs.unfollowed))]
+    )
     results.observations = [search.build_observation() if search else Observation() for search in observers]
     batch = _build_batch(results, times)
     return replace(batch, seconds=time.perf_counter() - time_at_begin, threads=options.threads)
@@ -308,7 +310,7 @@ class _Results:
             return
         for i in finished_runs if list_redundant_equations(runs.compiled) else ():
             if runs.arrays["done"][i] and (
-                error := find_contradiction(self._build_problem(i), runs.build_trajectory(i))
+                error := find_constraint_violation(self._build_problem(i), runs.build_trajectory(i))
             ):
                 runs.failures.setdefault(i, error)
         if self.stored_series:

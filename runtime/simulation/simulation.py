@@ -43,7 +43,7 @@ from gudgeon.simulation.restart import build_violation_notes, check_resumed_stat
 from gudgeon.simulation.result_builder import build_result, check_result, mark_result_if_interrupted
 from gudgeon.simulation.step_observers import StepObserver, check_compared_scene, check_requested_peaks, make_observer
 from gudgeon.waiting.ctrl_c import DelayedCtrlC
-from gudgeon.waiting.imports import GENERATOR, import_completely
+from gudgeon.waiting.imports import GENERATOR, import_modules_completely
 
 if TYPE_CHECKING:
     from gudgeon.generator.equations.model import Model
@@ -90,7 +90,7 @@ class Simulation(NotebookDisplay):
         Raises InputError if the file, a table or a law changed after loading.
         """
         if self._model is None:
-            import_completely(*GENERATOR)
+            import_modules_completely(*GENERATOR)
             from gudgeon.generator.pipeline import derive_scene
 
             self._model = derive_scene(self._read_unchanged_file(), str(self.file), self.source.scene, self._overrides)
@@ -151,7 +151,7 @@ class Simulation(NotebookDisplay):
         Raises InputError if the file or one of its tables was edited after loading. The error is also raised if a
         registered law was replaced or is not registered in this process.
         """
-        from gudgeon.loading.kernel_sources import find_present_laws, hash_present_tables, read_bytes
+        from gudgeon.loading.kernel_sources import find_present_law_keys, hash_present_tables, read_bytes
 
         data = read_bytes(self.file)
         is_same_file = sha256(data).hexdigest() == self.source.sha256
@@ -161,7 +161,9 @@ class Simulation(NotebookDisplay):
                 " equations derived from it now would not be those of this simulation",
                 hint="load it again with gudgeon.load(…), or put the file back as it was",
             )
-        for (name, loaded_key), (_, present_key) in zip(self.source.laws, find_present_laws(self.source), strict=True):
+        for (name, loaded_key), (_, present_key) in zip(
+            self.source.laws, find_present_law_keys(self.source), strict=True
+        ):
             if present_key != loaded_key:
                 difference = "is another one now" if present_key else "is not registered in this process"
                 hint = (

@@ -109,7 +109,7 @@ def _concatenate_samples(
     )
     if parts:
         numbers = runs.arrays["p"][indices]
-        if compiled.may_switch:
+        if compiled.may_drive_acceleration_jump:
             last = zip(samples_of_runs, numbers, strict=True)
             t = np.concatenate(
                 [find_evaluation_times(compiled, t, y[:, :n], y[:, n : 2 * n], p) for (t, y, *_), p in last]

@@ -22,9 +22,9 @@ import numpy as np
 from gudgeon.contract.boundary import N_WORK
 from gudgeon.integrators.adaptive import find_integrated_angles
 from gudgeon.model.compiled import Array, CompiledModel
-from gudgeon.model.contours import compute_corner_gap, find_contour, interpolate_depth
+from gudgeon.model.contours import compute_corner_penetration, find_contour, interpolate_depth
 from gudgeon.model.parameters import prepare_without_baumgarte
-from gudgeon.results.samples import join_start
+from gudgeon.results.samples import prepend_start
 from gudgeon.simulation.neighbours import INITIAL_DISTANCE, DifferenceNorm, flatten_state
 
 if TYPE_CHECKING:
@@ -175,7 +175,7 @@ class Flow:
         """
         full, n, rows = self.expand_state(t, y, q_dep), self.compiled.n, self.rows[joint]
         if self.compiled.source.clearances[joint].is_corner:
-            return compute_corner_gap(self.compiled, self.p, t, full[:n], full[n:], joint)
+            return compute_corner_penetration(self.compiled, self.p, t, full[:n], full[n:], joint)
         e = self.compiled.closed_phi(t, full[:n], self.p)[rows]
         rate = self.compiled.closed_phi_q(t, full[:n], self.p)[rows] @ full[n:]
         rate -= self.compiled.closed_nu(t, full[:n], self.p)[rows]
@@ -193,7 +193,7 @@ class Flow:
 
     def make_pointers(self, *arrays: Array, is_written: bool = False) -> list[Any]:
         """Return C pointers to arrays, for C to write into if `is_written`; those to empty arrays have length 1."""
-        return [self.compiled.pointer(array if array.size else np.zeros(1), written=is_written) for array in arrays]
+        return [self.compiled.pointer(array if array.size else np.zeros(1), is_written=is_written) for array in arrays]
 
 
 @dataclass(eq=False)
@@ -319,7 +319,7 @@ class Tangent:
 
     def _compute_states(self, times: list[float]) -> dict[float, tuple[Array, Array]]:
         """Return (q, q̇), (2n,), and discrete states by time, from a run through these increasing times (s)."""
-        run = join_start(self._simulate_to_times([t for t in times if t > self.state.t]))
+        run = prepend_start(self._simulate_to_times([t for t in times if t > self.state.t]))
         rows = np.searchsorted(run.t, times)
         return {
             t: (np.concatenate([run.q[k], run.v[k]]), run.memory[k].copy()) for t, k in zip(times, rows, strict=True)

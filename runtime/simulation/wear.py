@@ -173,7 +173,8 @@ def _build_wear(run: Result, loads: SlidingLoads, rates: tuple[float, float], la
     """
     hours = (loads.end - loads.begin) / HOUR
     bearing, journal = (
-        Surface(loads.depth(side, law, rate), loads.radii[side], loads.length, hours) for side, rate in enumerate(rates)
+        Surface(loads.compute_depth(side, law, rate), loads.radii[side], loads.length, hours)
+        for side, rate in enumerate(rates)
     )
     span, title = (loads.begin, loads.end), f"{format_one_line(run.source.title)}: {run.source.scene}"
     angle = compute_cell_angles(loads.requested.points)
@@ -245,7 +246,7 @@ class WearObserver:
         states = slice(memory.shape[2] - len(self.compiled.source.states), None)
         memory[:, :, states] += s * (x.memory[k + 1, states] - x.memory[k, states])[:, None]
         q_flat, v_flat, latched = (array.reshape(t.size, -1) for array in (q, v, memory))
-        evaluation = self.compiled.evaluate(t.ravel(), q_flat, v_flat, latched, self.p, parts=("clearance",))
+        evaluation = self.compiled.evaluate(t.ravel(), q_flat, v_flat, latched, self.p, field_names=("clearance",))
         columns = dict(zip(CLEARANCE_COLUMNS, evaluation.clearance[:, self.joint_index].T, strict=True))
         F_n, F_t, e_x, e_y, e, v_t, delta = (
             columns[name].reshape(t.shape) for name in ("Fn", "Ft", "ex", "ey", "e", "vt", "delta")

@@ -68,7 +68,7 @@ class WearModel:
 
         Depths over the contour are averaged and smoothed.
         """
-        depth = self.scale * loads.depth(0, self.law, self.rate)
+        depth = self.scale * loads.compute_depth(0, self.law, self.rate)
         return depth, smooth_depths(average_depths_over_arcs(depth, n_angles), self.passes)
 
 
@@ -120,7 +120,7 @@ def wear_loop(
         check_integer(passes, "passes", 0, MOST_PASSES),
         -np.inf if since is None else check_number(since, "since"),
     )
-    loop = WearLoop(simulation, wearing, read_contours(simulation.source, contour, runs=True))
+    loop = WearLoop(simulation, wearing, read_contours(simulation.source, contour, allows_runs=True))
     check_callable(progress, "progress")
     count = check_integer(rounds, "rounds", 1, MOST_ROUNDS)
     for k_round in range(count):
@@ -182,7 +182,7 @@ class WearLoop:
             loads = batch.rubbed[i][index]
             depth[i], contour_depth[i] = self.wearing.compute_depths(loads, n_angles)
             work[i] = (loads.load if self.wearing.law == LAWS[0] else loads.friction)[0].sum()
-            journal[i] = self.wearing.scale * loads.depth(1, self.wearing.law, self.wearing.rate)
+            journal[i] = self.wearing.scale * loads.compute_depth(1, self.wearing.law, self.wearing.rate)
             sizes[:, i] = loads.radii[0], loads.length, loads.radii[1]
         joint_index = [clearance.name for clearance in batch.source.clearances].index(joint)
         self.depths[joint].append(depth)
@@ -199,7 +199,7 @@ class WearLoop:
         compiled, source = self.simulation.compiled, self.simulation.source
         given, is_given = read_given_parameters_of_runs(source, read_parameter_rows(parameters)[0])
         for joint in self.wearing.joints:
-            contour = find_contour(source, compiled.prepare_each(given, is_given), joint)
+            contour = find_contour(source, compiled.prepare_parameters_of_runs(given, is_given), joint)
             if contour is not None:
                 self.given.setdefault(joint, contour if len(contour) > 1 else contour[0])
 

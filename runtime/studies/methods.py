@@ -51,7 +51,7 @@ def select_methods(simulation: Simulation, requested: Sequence[str] | None, quic
             raise BadValueError(
                 f"method {text!r}: expected some of {', '.join(all_methods)}, or a pattern such as 'scipy:*'"
             )
-    reason = python_driver.explain_unfit(simulation.source)
+    reason = python_driver.explain_unsupported_scene(simulation.source)
     fitting, left_out = [], []
     for method in selected:
         package = method.partition(":")[0]

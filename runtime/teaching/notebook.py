@@ -191,7 +191,7 @@ def _write_pivot_code(model: Model, owner: str, name: str, rows: list[Row], name
         return None
     lines = []
     for what, ref in (("first", joint.first), ("second", joint.second)):
-        frame = model.geometry.point(ref)
+        frame = model.geometry.find_point(ref)
         coordinates = [format_expression(component, model, names) for component in (frame.x, frame.y)]
         lines.append(f"{what}_{owner} = {_write_column_by_lines(coordinates)}  # {ref.body}.{ref.point}")
     return "\n".join((*lines, f"{name} = first_{owner} - second_{owner}"))

@@ -16,7 +16,7 @@ from gudgeon.generator.kinds.joints.joint_type import joint_types
 from gudgeon.generator.symbols.switches import Pick
 from gudgeon.generator.targets.latex.document import Block, Equation, make_paragraph, make_row, make_tables
 from gudgeon.generator.targets.latex.kinematics import format_gamma
-from gudgeon.generator.targets.latex.letters import Name, make_letter
+from gudgeon.generator.targets.latex.letters import Name, make_symbol_name
 from gudgeon.model.compiled import Array
 from gudgeon.teaching.draw_parameters import NOISE
 from gudgeon.teaching.sheet import LONGEST, Question, Subject
@@ -140,7 +140,7 @@ def _ask_jacobian(subject: Subject) -> Question:
             numbers[f"{row.name} {subject.simulation.source.coordinates[column_of[q]]}"] = x
             coordinate_text = subject.notation.format_expression(q)
             left = Name(rf"\partial \Phi_{{{k}}} / \partial {coordinate_text.latex}", f"∂Φ_{k}/∂{coordinate_text.text}")
-            entry = subject.notation.expand(row.phi_q[q])
+            entry = subject.notation.expand_symbols(row.phi_q[q])
             formula: str | Name = subject.notation.format_expression(entry) if sp.count_ops(entry) <= LONGEST else ""
             if isinstance(formula, Name) and len(formula.text) > MAX_CELL_WIDTH:
                 below.append(subject.make_equation(left, entry))
@@ -221,9 +221,9 @@ def _ask_play(subject: Subject) -> Iterator[Question]:
     )
     touch = "they touch" if e > clearance else "they do not touch"
     solved = (
-        subject.make_value_equation(make_letter("e", joint), e, "m"),
-        subject.make_value_equation(make_letter("epsilon", joint), e / clearance),
-        subject.make_value_equation(make_letter("delta", joint), e - clearance, "m"),
+        subject.make_value_equation(make_symbol_name("e", joint), e, "m"),
+        subject.make_value_equation(make_symbol_name("epsilon", joint), e / clearance),
+        subject.make_value_equation(make_symbol_name("delta", joint), e - clearance, "m"),
         make_paragraph(f"As δ is {'positive' if e > clearance else 'negative'}, {touch}."),
     )
     numbers = {"e": e, "ratio": e / clearance, "delta": e - clearance}
@@ -237,7 +237,7 @@ def list_abbreviations(subject: Subject, expressions: Iterable[sp.Expr]) -> list
     def add_abbreviations(expression: sp.Expr) -> None:
         """Add the abbreviations of one expression, those of their definitions first."""
         for symbol in sorted(
-            notation.expand(expression).free_symbols, key=lambda s: notation.format_expression(s).text
+            notation.expand_symbols(expression).free_symbols, key=lambda s: notation.format_expression(s).text
         ):
             if symbol in notation.shown_symbols and symbol in definitions and symbol not in abbreviations:
                 add_abbreviations(definitions[symbol])
@@ -257,7 +257,7 @@ def define_abbreviations(subject: Subject, symbols: list[sp.Symbol]) -> list[Blo
 
 def _define_symbol(subject: Subject, symbol: sp.Symbol) -> list[Block]:
     """Return the definition of one abbreviation as blocks; for a drive with steps with the progress of its steps."""
-    value = subject.notation.expand(subject.model.symbols.definitions[symbol])
+    value = subject.notation.expand_symbols(subject.model.symbols.definitions[symbol])
     for driven in subject.model.constraints.drive_angles.values():
         if symbol in driven:
             message = _define_by_steps(subject, symbol, driven)
@@ -272,7 +272,7 @@ def _define_by_steps(subject: Subject, symbol: sp.Symbol, driven: tuple[sp.Symbo
     and its time derivatives, of which `symbol` is one.
     """
     notation, t = subject.notation, subject.model.t
-    value = notation.expand(subject.model.symbols.definitions[driven[0]])
+    value = notation.expand_symbols(subject.model.symbols.definitions[driven[0]])
     shares = {
         clamp: progress for clamp in value.atoms(sp.Max) if (progress := _find_clamped_progress(clamp)) is not None
     }
@@ -288,11 +288,13 @@ def _define_by_steps(subject: Subject, symbol: sp.Symbol, driven: tuple[sp.Symbo
     names = {s: Name(s.name if "_" not in s.name else f"{base}_{{{s.name[2:]}}}", s.name) for s in rates}
     step_notation = notation.rename_symbols(names)
     shown = [
-        Equation(step_notation.format_expression(steps[clamp]), step_notation.terms(progress))
+        Equation(step_notation.format_expression(steps[clamp]), step_notation.format_terms(progress))
         for clamp, progress in shares.items()
     ]
     still = ", and is still before and behind" if driven.index(symbol) else ", before it 0 and behind it 1"
-    terms = step_notation.terms(sp.Add(*(_expand_progress(term, list(rates)) for term in sp.Add.make_args(inside))))
+    terms = step_notation.format_terms(
+        sp.Add(*(_expand_progress(term, list(rates)) for term in sp.Add.make_args(inside)))
+    )
     return [
         *shown,
         make_paragraph(f"which goes from 0 to 1{still}:"),
@@ -324,7 +326,7 @@ def _expand_progress(term: sp.Expr, steps: list[sp.Symbol]) -> sp.Expr:
 
 def make_indexed_symbol(quantity: str, index: int) -> Name:
     """Return the symbol of a quantity with an index, in LaTeX and as text; `quantity`: key of its letter."""
-    name = make_letter(quantity)
+    name = make_symbol_name(quantity)
     return Name(f"{name.latex}_{{{index}}}", f"{name.text}_{index}")
 
 
@@ -365,7 +367,7 @@ def ask_acceleration(subject: Subject) -> Question:
         ),
     ]
     phi_q, gamma = compiled.phi_q(drawn.t, drawn.q, drawn.p), compiled.gamma(drawn.t, drawn.q, drawn.v, drawn.p)
-    signs = [make_letter(base, body.name, dots=2) for body in model.bodies for base in ("x", "y", "theta")]
+    signs = [make_symbol_name(base, body.name, dots=2) for body in model.bodies for base in ("x", "y", "theta")]
     shown = range(len(gamma)) if len(gamma) <= MAX_SHOWN_ROWS else [r for r in range(len(gamma)) if phi_q[r, k]]
     scale, errors = (
         float(np.abs(gamma).max()),
@@ -402,7 +404,9 @@ def _make_linear_equation(subject: Subject, left: Name, factors: Array, symbols_
     )
     scale = float(np.abs(factors).max())
     shown = [(float(f"{x:.4g}"), s) for x, s in zip(factors, symbols, strict=True) if abs(x) > NOISE * scale]
-    return Equation(left, notation.terms(sp.Add(*(s * (sp.nsimplify(x) if abs(x) == 1.0 else x) for x, s in shown))))
+    return Equation(
+        left, notation.format_terms(sp.Add(*(s * (sp.nsimplify(x) if abs(x) == 1.0 else x) for x, s in shown)))
+    )
 
 
 def ask_reaction(subject: Subject) -> Iterator[Question]:
@@ -444,10 +448,10 @@ def ask_reaction(subject: Subject) -> Iterator[Question]:
         make_paragraph(f"The force on {second.body} is what these multipliers put on it, ", FORCE, ":"),
     ]
     solved += [
-        subject.make_value_equation(make_letter("F", axis, name), x, "N", F[2])
+        subject.make_value_equation(make_symbol_name("F", axis, name), x, "N", F[2])
         for axis, x in zip("xy", F, strict=False)
     ]
-    solved.append(subject.make_value_equation(make_letter("F", name), F[2], "N", F[2]))
+    solved.append(subject.make_value_equation(make_symbol_name("F", name), F[2], "N", F[2]))
     yield Question("The force in a joint", tuple(message), tuple(solved), dict(zip(("Fx", "Fy", "F"), F, strict=True)))
 
 

@@ -27,11 +27,11 @@ from gudgeon.generator.targets.latex.mechanism import (
     format_drive_value,
     format_point,
     list_field_rows,
-    make_part_sections,
+    make_mechanism_sections,
 )
 from gudgeon.generator.targets.latex.notation import Notation, make_notation
 from gudgeon.generator.targets.latex.theory import read_sketch
-from gudgeon.generator.targets.latex.values import Values, get_unit
+from gudgeon.generator.targets.latex.values import ValueFormatter, get_unit
 from gudgeon.generator.targets.latex.write import add_letters_section, add_paper_section
 from gudgeon.language.text_output import format_one_line
 from gudgeon.language.tree import Number
@@ -90,7 +90,7 @@ class Subject:
     def make_equation(self, left: Name | sp.Symbol, right: sp.Expr) -> Equation:
         """Return the equation left = right in the notation of the document."""
         name = left if isinstance(left, Name) else self.notation.format_expression(left)
-        return Equation(name, self.notation.terms(self.notation.expand(right)))
+        return Equation(name, self.notation.format_terms(self.notation.expand_symbols(right)))
 
     def make_value_equation(
         self, left: Name, x: float, unit: str = "", scale: float = 0.0, uncertainty: float = 0.0
@@ -155,7 +155,9 @@ def _build_solution_sections(k: int, question: Question) -> tuple[Section, ...]:
 def _build_given_sections(subject: Subject) -> list[Section]:
     """Return the sections with bodies, points, joints, drives, forces and parameters, each with its symbol."""
     model, notation = subject.model, subject.notation
-    sections = {section.title: section for section in make_part_sections(model, notation) if section.title in GIVEN}
+    sections = {
+        section.title: section for section in make_mechanism_sections(model, notation) if section.title in GIVEN
+    }
     joints = Section("Joints and drives", tuple(_build_joint_blocks(subject)))
     forces = [Section("Gravity and forces", blocks)] if (blocks := tuple(_build_force_blocks(subject))) else []
     last = [title for title in ("Curves", "Parameters") if title in sections]
@@ -165,7 +167,7 @@ def _build_given_sections(subject: Subject) -> list[Section]:
 
 def _build_joint_blocks(subject: Subject) -> list[Block]:
     """Return tables of joints and drives, and a sketch of each type of joint, without constraint equations."""
-    model, values = subject.model, Values(subject.model, subject.notation)
+    model, values = subject.model, ValueFormatter(subject.model, subject.notation)
     mechanism, rows = model.scene.mechanism, []
     for joint in mechanism.joints.values():
         joint_type = joint_types()[joint.kind]
@@ -180,7 +182,7 @@ def _build_joint_blocks(subject: Subject) -> list[Block]:
         make_row(drive.name, _format_driven_quantity(drive), format_drive_value(model, subject.notation, drive.name))
         for drive in mechanism.drives.values()
     ]
-    blocks += make_tables(make_row("drive", "prescribes", "value"), driven, (2,)) + values.below()
+    blocks += make_tables(make_row("drive", "prescribes", "value"), driven, (2,)) + values.take_long_expressions()
     for kind in dict.fromkeys(joint.kind for joint in mechanism.joints.values()):
         summary, *lines = read_sketch(joint_types()[kind])
         blocks += [make_paragraph(summary), Sketch(tuple(lines))]
@@ -189,9 +191,9 @@ def _build_joint_blocks(subject: Subject) -> list[Block]:
 
 def _build_force_blocks(subject: Subject) -> list[Block]:
     """Return gravity and tables of the force elements as blocks; [] without both."""
-    model, values = subject.model, Values(subject.model, subject.notation)
+    model, values = subject.model, ValueFormatter(subject.model, subject.notation)
     gravity, elements = model.scene.mechanism.gravity, [e.element for e in model.elements.values()]
-    blocks = make_tables(make_row("gravity"), [make_row(values.vector(gravity))]) if gravity is not None else []
+    blocks = make_tables(make_row("gravity"), [make_row(values.format_vector(gravity))]) if gravity is not None else []
     kinds = {element.name: element_types()[element.kind] for element in elements}
     rows = [
         make_row(e.name, kinds[e.name].title, " and ".join(format_point(x, kinds[e.name].targets) for x in e.targets))
@@ -201,7 +203,7 @@ def _build_force_blocks(subject: Subject) -> list[Block]:
     blocks += make_tables(
         make_row("element", "field", "value"), [r for e in elements for r in list_field_rows(e, values)]
     )
-    return blocks + values.below()
+    return blocks + values.take_long_expressions()
 
 
 def _format_driven_quantity(drive: Drive) -> str:

@@ -22,7 +22,7 @@ SPARSE = ("numpy", "scipy.sparse", "scipy.sparse.linalg")
 _frozen = False  # whether other code froze objects; counting them takes ten milliseconds
 
 
-def import_completely(*module_names: str) -> None:
+def import_modules_completely(*module_names: str) -> None:
     """Import modules completely in another thread; return at once if they are imported already.
 
     Ctrl-C is raised meanwhile, but leaves no module half imported. An error of the import is raised here.

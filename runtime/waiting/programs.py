@@ -21,7 +21,7 @@ _is_cancelled: ContextVar[Callable[[], bool] | None] = ContextVar("whether waiti
 
 
 @contextmanager
-def set_wait_condition(is_cancelled: Callable[[], bool]) -> Iterator[None]:
+def set_cancellation_check(is_cancelled: Callable[[], bool]) -> Iterator[None]:
     """Let `Programs.wait` in this thread raise KeyboardInterrupt once `is_cancelled()` is true, within the with block.
 
     Python raises no signals in other threads than the main one; the thread that received Ctrl-C sets the condition.
@@ -70,7 +70,7 @@ class Programs:
     def wait(self, process: subprocess.Popen[str]) -> tuple[str, str]:
         """Wait for a program to end, and return its standard output and error as texts.
 
-        Raises KeyboardInterrupt soon after Ctrl-C, or once the condition of `set_wait_condition` is true.
+        Raises KeyboardInterrupt soon after Ctrl-C, or once the condition of `set_cancellation_check` is true.
         """
         import subprocess
 

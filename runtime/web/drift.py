@@ -8,7 +8,7 @@ from string import Template
 import numpy as np
 
 from gudgeon.contract.methods import KINEMATIC
-from gudgeon.loading.shipped import find_shipped_file, list_shipped
+from gudgeon.loading.shipped import find_shipped_file, list_shipped_mechanisms
 from gudgeon.results.results import Result
 from gudgeon.simulation.simulation import Simulation
 
@@ -115,7 +115,7 @@ def format_load_arguments(simulation: Simulation) -> str:
     The file is the name of a shipped mechanism, or of the user's file without its folder.
     """
     name = simulation.file.stem
-    is_own_file = name not in list_shipped() or not simulation.file.samefile(find_shipped_file(name))
+    is_own_file = name not in list_shipped_mechanisms() or not simulation.file.samefile(find_shipped_file(name))
     return ", ".join(
         json.dumps(argument) for argument in (simulation.file.name if is_own_file else name, simulation.source.scene)
     )

@@ -16,7 +16,7 @@ from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.contract.methods import KINEMATIC
 from gudgeon.errors import BadValueError, BuildError
 from gudgeon.loading.cache import Cache, compute_digest, get_default_cache
-from gudgeon.loading.compiler import build_environment, find_zig, finish_compiler
+from gudgeon.loading.compiler import build_environment, find_zig, wait_for_compiler
 from gudgeon.loading.engine import UNIT, build_include_flags, compute_engine_digest, select_declarations
 from gudgeon.waiting.cancellation import report_work
 from gudgeon.waiting.programs import Programs
@@ -149,6 +149,6 @@ def _compile_module(source: KernelSource, command: list[str], folder: Path) -> N
             process = programs.start(command, folder, {**build_environment(), **cache_folders})
         except OSError as error:
             raise BuildError(f"zig cannot be run: {error}\n  install it anew: pip install 'gudgeon[web]'") from error
-        if build_error := finish_compiler(programs, process, folder / MODULE):
+        if build_error := wait_for_compiler(programs, process, folder / MODULE):
             raise build_error
     shutil.rmtree(folder / "zig", ignore_errors=True)

@@ -36,9 +36,11 @@ def build_page(simulation: Simulation, scenes: Mapping[str, str] | None = None) 
     InputError if the file was edited since, GudgeonError without the extras `docs` and `plot`, BuildError if the C does
     not compile, SolverError if no start is found.
     """
-    from gudgeon.generator.targets.latex import equations_html
+    from gudgeon.generator.targets.latex import render_equations_html
 
-    return equations_html(simulation.model, **build_page_parts(simulation, scenes)._asdict(), source=simulation.source)
+    return render_equations_html(
+        simulation.model, **build_page_parts(simulation, scenes)._asdict(), source=simulation.source
+    )
 
 
 def build_page_parts(simulation: Simulation, scenes: Mapping[str, str] | None = None) -> Parts:
@@ -48,9 +50,9 @@ def build_page_parts(simulation: Simulation, scenes: Mapping[str, str] | None = 
     by the full formulation, in which constraints drift. Raises as `build_page`.
     """
     import gudgeon.results.figures.plots  # noqa: F401 (without matplotlib it says what to install)
-    from gudgeon.web.page_parts import build_running_parts
+    from gudgeon.web.page_parts import build_simulator_parts
 
-    return build_running_parts(simulation, scenes or {})
+    return build_simulator_parts(simulation, scenes or {})
 
 
 def build_script(source: KernelSource) -> str:

@@ -35,7 +35,7 @@ NO_SIMULATOR = (
 )
 
 
-def build_running_parts(simulation: Simulation, scenes: Mapping[str, str]) -> Parts:
+def build_simulator_parts(simulation: Simulation, scenes: Mapping[str, str]) -> Parts:
     """Return the HTML parts of a scene's interactive page: style, visible frame, scripts.
 
     `scenes` are pages of other scenes by name. Without the compiler the page has one recorded run, and a warning is

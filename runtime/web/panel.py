@@ -11,14 +11,14 @@ import numpy as np
 
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.drawing.labels import NameLabels
+from gudgeon.drawing.layout import make_layout
 from gudgeon.drawing.page import PIXELS
 from gudgeon.drawing.picture import compute_figure_size, draw_sketch
-from gudgeon.drawing.plan import make_plan
 from gudgeon.drawing.rig import Rig, make_rig
 from gudgeon.drawing.shapes import Sketch
 from gudgeon.results.figures.animation import QUICK, SHOWN, SLOW
 from gudgeon.results.figures.postures import select_postures
-from gudgeon.results.reports.comparison import NOISE
+from gudgeon.results.reports.comparison import ROUNDING_TOL
 from gudgeon.results.results import Result
 from gudgeon.results.series import choose_watched_series, find_rate_names
 from gudgeon.simulation.simulation import Simulation
@@ -34,7 +34,7 @@ MAX_SAMPLES, MAX_SERIES = 400, 60  # samples and series of a recorded run
 def build_rig(run: Result) -> Rig:
     """Return the drawing of a run."""
     motion = select_postures(run, SHOWN_AT)
-    return make_rig(motion, make_plan(motion))
+    return make_rig(motion, make_layout(motion))
 
 
 def build_panel(simulation: Simulation, run: Result, rig: Rig) -> dict[str, Any]:
@@ -47,7 +47,7 @@ def build_panel(simulation: Simulation, run: Result, rig: Rig) -> dict[str, Any]
     return {
         "groups": build_parameter_sections(simulation, simulation.p),
         "units": list_units(source),
-        "noise": NOISE,
+        "noise": ROUNDING_TOL,
         "rig": rig.to_json_data(),
         "names": list(_iterate_names(rig)),
         "joints": [[name, point] for name, point in points_by_joint.items() if f"{name}.Fx" in run.names],
@@ -144,7 +144,7 @@ def _iterate_names(rig: Rig) -> Iterator[list[Any]]:
             label.part,
             f"{make_css_class(role, tint)}-name",
             *visible_shifts,
-            float(f"{label.clear:.3g}"),
+            float(f"{label.clearance:.3g}"),
         ]
 
 

@@ -54,9 +54,9 @@ def test_rank_and_tied_rows_are_those_of_a_dense_decomposition(angle: float, lea
 
 def test_rows_beyond_the_columns_or_no_numbers_are_not_taken_for_independent() -> None:
     matrix = squares(1.5)
-    assert large.is_independent(matrix, 1e-9)
-    assert not large.is_independent(np.vstack([matrix, matrix[:3]]), 1e-9)
-    assert not large.is_independent(np.where(matrix == 1.0, np.nan, matrix), 1e-9)
+    assert large.has_independent_rows(matrix, 1e-9)
+    assert not large.has_independent_rows(np.vstack([matrix, matrix[:3]]), 1e-9)
+    assert not large.has_independent_rows(np.where(matrix == 1.0, np.nan, matrix), 1e-9)
     assert not large.estimate_dependence_shares(np.where(matrix == 1.0, np.nan, matrix), 1e-6).any()
 
 

@@ -67,4 +67,4 @@ def test_a_closed_guess_is_the_start_to_the_bit(load: Load, linkage: str) -> Non
     numbers = {**place, "psi": -0.9, **guess}
     assert scene.start(numbers).q.tobytes() == q.tobytes()
     closure = Closure(scene.compiled, prepare_values(scene.compiled, numbers)[0], 0.0)
-    assert closure.find_nearest()[0].tobytes() == q.tobytes()
+    assert closure.find_nearest_configuration()[0].tobytes() == q.tobytes()

@@ -21,7 +21,7 @@ from gudgeon.generator.kinds.laws.law import RESULTS, Law, find_bundled_laws, fi
 from gudgeon.generator.targets.latex.document import Equation
 from gudgeon.generator.targets.latex.law import GIVEN, derive_forms, print_equation
 from gudgeon.generator.targets.latex.law_page import list_laws, print_laws_page
-from gudgeon.generator.targets.latex.letters import make_name
+from gudgeon.generator.targets.latex.letters import make_name_from_latex
 from tests.equations.one_law import PAIR, Evaluator
 from tests.kinds.own import example, forgotten
 from tests.oracles.dry import delivered
@@ -93,7 +93,7 @@ def test_what_is_read_is_what_the_law_gives(name: str) -> None:
     law = law_of(name)
     numbers = {own.name: 0.31 + 0.07 * k for k, own in enumerate(law.parameters)} | NUMBERS.get(law.name, {})
     state = {key: STATES[key] for key in law.variables}
-    known = {make_name(own.symbol).text: numbers[own.name] for own in law.parameters}
+    known = {make_name_from_latex(own.symbol).text: numbers[own.name] for own in law.parameters}
     known |= {key.replace("nu", "ν"): value for key, value in vars(PAIR).items()}
     known |= {LETTERS.get(key, key): value for key, value in state.items()}
     if "ratio" in state:  # it is written as a fraction
@@ -101,7 +101,9 @@ def test_what_is_read_is_what_the_law_gives(name: str) -> None:
     first, *others = derive_forms(law, name)
     for form in (first, *others):
         changed = ((), ()) if form is first else (form.constants, form.steps)
-        letters = {make_name(own.symbol).text for own in law.parameters if form.selected.get(own.name) == GIVEN}
+        letters = {
+            make_name_from_latex(own.symbol).text for own in law.parameters if form.selected.get(own.name) == GIVEN
+        }
         constants = [one for one in first.constants if one.left.text not in letters]  # what is given follows from none
         read = evaluate([*merged(constants, changed[0]), *merged(first.steps, changed[1])], known)
         selected = dict(law.also.get(name, {})) | {key: x for key, x in form.selected.items() if x != GIVEN}
@@ -124,14 +126,14 @@ def test_all_about_one(name: str, call: Gudgeon) -> None:
     assert done.exit_code == 0 and law.title in text and (law.reference or law.source) in text and "probe_" not in text
     assert max(map(width, done.stdout.splitlines())) <= 100
     message = json.loads(call("laws", name, "--json").stdout)
-    assert [key["key"] for key in message["keys"]] == [own.name for own in law.fields_as(name)]
+    assert [key["key"] for key in message["keys"]] == [own.name for own in law.list_fields_of_name(name)]
     assert message["law"] == law.name and message["role"] == law.role and message["validity"] == law.validity
     lines = sections(done.stdout)
     assert [f"  {line}" for line in message["equations"]] == [line for line in lines["Equations"] if " = " in line]
     found = {cells[0]: cells for cells in rows(lines["Numbers"]) if len(cells) == 6}
-    for own in law.fields_as(name):
+    for own in law.list_fields_of_name(name):
         assert own.name in (found if own.kind == NUMBER else " ".join(lines["Options"]))
-    assert found[next(own.name for own in law.parameters)][1] == make_name(law.parameters[0].symbol).text
+    assert found[next(own.name for own in law.parameters)][1] == make_name_from_latex(law.parameters[0].symbol).text
 
 
 def test_dampings_are_cited(call: Gudgeon) -> None:

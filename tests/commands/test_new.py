@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from gudgeon.generator.reader.read import read_mechanism
-from gudgeon.loading.shipped import list_shipped
+from gudgeon.loading.shipped import list_shipped_mechanisms
 from tests.programs import needs_compiler
 from tests.pump import Gudgeon, written
 
@@ -54,7 +54,7 @@ def test_the_name_of_the_file_is_taken_as_that_of_the_mechanism(call: Gudgeon, t
     assert read_mechanism((tmp_path / "mine.yaml").read_bytes(), "mine.yaml").name == "mine"
 
 
-@pytest.mark.parametrize("like", list_shipped())
+@pytest.mark.parametrize("like", list_shipped_mechanisms())
 def test_like_any_that_is_shipped(like: str, call: Gudgeon, tmp_path: Path) -> None:
     assert call("new", "mine", "--like", like).exit_code == 0
     assert read_mechanism((tmp_path / "mine.yaml").read_bytes(), "mine.yaml").name == "mine"

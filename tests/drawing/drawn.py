@@ -41,7 +41,7 @@ def drawn(file: Path | str) -> Drawn:
     linkage, _ = build_closed_linkage(mechanism, list(mechanism.scenes)[-1])
     closure = Closure(linkage, linkage.p, 0.0)
     with np.errstate(all="ignore"):
-        q, _ = closure.find_nearest()
+        q, _ = closure.find_nearest_configuration()
     return Drawn(mechanism, linkage, closure, Posture(linkage.source, linkage.p, q))
 
 

@@ -210,12 +210,12 @@ def test_names_follow_and_lie_on_no_other(name: str) -> None:
     followed = list(_iterate_name_offsets(drawn, dict.fromkeys(halves, (0.0, 0.0)), halves, scale))[1:]
     fixed = still = moves = 0
     for sketch, before, now in zip(drawn[2:], followed, followed[1:], strict=False):
-        middles = {label.part: scale * label.place + now[label.part] for label in sketch.labels}
+        middles = {label.part: scale * label.position + now[label.part] for label in sketch.labels}
         boxes = np.array([[*(at - halves[part]), *(at + halves[part])] for part, at in middles.items()])
         assert find_overlaps(boxes, boxes).sum() == len(boxes)
         moves += sum(before[part] != now[part] for part in now)
         still += sum(before[part] == now[part] for part in now)
-        first = [scale * label.place + followed[0][label.part] for label in sketch.labels]
+        first = [scale * label.position + followed[0][label.part] for label in sketch.labels]
         boxes = np.array([[*(at - half), *(at + half)] for at, half in zip(first, halves.values(), strict=True)])
         fixed += int(find_overlaps(boxes, boxes).sum() > len(boxes))
     assert fixed > 0 and 0 < moves < 0.1 * still  # without following some would lie on others

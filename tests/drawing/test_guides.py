@@ -10,7 +10,7 @@ import pytest
 pytest.importorskip("matplotlib")
 
 from gudgeon.assembly.branches import find_assemblies  # noqa: E402
-from gudgeon.drawing.plan import make_plan  # noqa: E402
+from gudgeon.drawing.layout import make_layout  # noqa: E402
 from gudgeon.drawing.shapes import Line  # noqa: E402
 from gudgeon.drawing.sketch import make_sketch  # noqa: E402
 from tests.drawing.drawn import drawn, named  # noqa: E402
@@ -45,7 +45,7 @@ def test_the_ground_stays_on_its_side_of_a_guide() -> None:
     others = find_assemblies(first.linkage, first.linkage.p, first.posture.q, ())
     assert len(others) > 1
     postures = [start.posture for start in starts] + [replace(first.posture, q=one.q) for one in others]
-    for plan in (make_plan(postures), make_plan(postures[::-1]), *(make_plan([posture]) for posture in postures)):
+    for plan in (make_layout(postures), make_layout(postures[::-1]), *(make_layout([posture]) for posture in postures)):
         assert plan.ground_directions["rail"] == pytest.approx([0.0, 1.0], abs=1e-15)
         assert plan.ground_directions["column"] == pytest.approx([1.0, 0.0], abs=1e-15)
 
@@ -68,7 +68,7 @@ start: {set: {cart.x: 0 m, arm.theta: ANGLE}}
 def test_a_guide_alone_lies_away_from_what_it_carries_at_the_start(angle: str, up: float) -> None:
     start = drawn(TROLLEY.replace("ANGLE", angle)).posture
     swung = replace(start, q=start.q + [0.0, 0.0, 0.0, 0.0, 0.0, 2.0])
-    for plan in (make_plan([start]), make_plan([start, swung]), make_plan([swung], start)):
+    for plan in (make_layout([start]), make_layout([start, swung]), make_layout([swung], start)):
         assert plan.ground_directions["rail"] == pytest.approx([0.0, up], abs=1e-15)
 
 
@@ -111,7 +111,7 @@ start: {guess: {car.x: 150 mm}}
 
 def test_a_spring_at_a_rails_own_point_has_its_wall_and_keeps_off_the_rail() -> None:
     of = drawn(CAR)
-    plan = make_plan([of.posture])
+    plan = make_layout([of.posture])
     sketch = make_sketch(of.posture, plan)
     lines = [shape for shape in (*sketch.of("joint rail"), *sketch.of("force spring")) if isinstance(shape, Line)]
     wires = [line for line in lines if line.part == "force spring"]

@@ -16,8 +16,8 @@ from gudgeon.assembly.branches import find_assemblies  # noqa: E402
 from gudgeon.assembly.mobility import compute_free_motions, find_mobility  # noqa: E402
 from gudgeon.drawing.failures import draw_free_motions, draw_gaps  # noqa: E402
 from gudgeon.drawing.labels import NameLabels  # noqa: E402
+from gudgeon.drawing.layout import make_layout  # noqa: E402
 from gudgeon.drawing.picture import build_figure, encode_figure  # noqa: E402
-from gudgeon.drawing.plan import make_plan  # noqa: E402
 from gudgeon.drawing.posture import Posture  # noqa: E402
 from gudgeon.drawing.shapes import Disc, Label, Line  # noqa: E402
 from gudgeon.drawing.sketch import make_sketch  # noqa: E402
@@ -183,7 +183,7 @@ def test_what_may_move_is_told_by_arrows_along_it() -> None:
         tips = [head.points[0] for head in heads[part] if isinstance(head, Line)]
         span = tips[0] - tips[1]
         assert abs(span @ [-np.sin(along), np.cos(along)]) < 1e-12 * float(np.hypot(*span)) + 1e-15
-    sketch = make_sketch(posture, shapes_on_top=shapes, labels=labels, unconnected=frozenset(mobility.loose))
+    sketch = make_sketch(posture, shapes_on_top=shapes, labels=labels, unconnected_bodies=frozenset(mobility.loose))
     assert {s.role for s in sketch.of("body stray")} == {"loose"} and {s.role for s in sketch.of("body crank")} == {
         "body"
     }
@@ -206,7 +206,7 @@ def test_the_plan_of_a_motion_holds_all_of_it() -> None:
     """Rails reach as far as their sliders go."""
     posture = drawn(ROOT / "mechanisms/slider_crank.yaml").posture
     postures = [replace(posture, q=posture.q + [0, 0, 0, 0, 0, 0, shift, 0, 0]) for shift in (0.0, -0.03, 0.02)]
-    plan = make_plan(postures)
+    plan = make_layout(postures)
     low, high = plan.travel["cylinder"]
     assert (low, high) == pytest.approx((0.14, 0.19), abs=1e-9)
     rail = next(s for s in make_sketch(posture, plan).of("joint cylinder") if s.role == "rail")
@@ -220,7 +220,7 @@ def test_what_leads_to_a_name_begins_at_the_edge_of_what_is_named() -> None:
     picture.draw_without_rendering()
     (ax,) = picture.axes
     (names,) = [artist for artist in ax.get_children() if isinstance(artist, NameLabels)]
-    feet = np.array([np.asarray(line.get_xydata(), float)[0] for line in names.leads])
+    feet = np.array([np.asarray(line.get_xydata(), float)[0] for line in names.leader_lines])
     begins = ax.transData.inverted().transform(feet)
     assert len(begins) > 10
     assert np.hypot(*begins.T) == pytest.approx(clear, rel=1e-9)
@@ -230,7 +230,7 @@ def test_a_name_stands_outside_the_arrow_around_its_pin() -> None:
     sketch = make_sketch(drawn(ROOT / "mechanisms/four_bar.yaml").posture)
     (bow, *_) = (s.points for s in sketch.of("drive motor") if isinstance(s, Line))
     (label,) = (label for label in sketch.labels if label.part == "joint A0")
-    assert label.clear == pytest.approx(np.hypot(*(bow[0] - label.place)))
+    assert label.clearance == pytest.approx(np.hypot(*(bow[0] - label.position)))
 
 
 def test_what_an_earlier_version_wrote_is_told() -> None:

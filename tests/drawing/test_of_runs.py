@@ -12,8 +12,8 @@ import pytest
 pytest.importorskip("matplotlib")
 
 import gudgeon  # noqa: E402
+from gudgeon.drawing.drives_and_forces import ARROW  # noqa: E402
 from gudgeon.drawing.labels import NameLabels, count_crossings  # noqa: E402
-from gudgeon.drawing.movers import ARROW  # noqa: E402
 from gudgeon.errors import BadValueError, UnknownNameError  # noqa: E402
 from gudgeon.results.figures import plots  # noqa: E402
 from gudgeon.results.figures.mechanism_plots import draw_sketch_at_time  # noqa: E402
@@ -234,7 +234,7 @@ def test_no_line_leads_under_a_name() -> None:
         ax: Any = run.plot.mechanism(float(t))
         ax.figure.draw_without_rendering()
         names = next(artist for artist in ax.get_children() if isinstance(artist, NameLabels))
-        leads: Any = names.leads
+        leads: Any = names.leader_lines
         for line in leads:
             segment = line.get_xydata().reshape(1, 4)
             inner = [np.array(box) + [1.0, 1.0, -1.0, -1.0] for box in names.boxes.values()]

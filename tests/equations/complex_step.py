@@ -90,7 +90,7 @@ class ComplexStep:
                     friction.gamma,
                     friction.slip.v,
                     friction.slip.speed,
-                    friction.slip.kinetic_at(friction.slip.v),
+                    friction.slip.evaluate_kinetic_force(friction.slip.v),
                 ]
             )
             for friction in model.frictions

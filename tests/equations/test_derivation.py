@@ -45,7 +45,7 @@ def test_an_arm_is_that_of_the_point_whose_name_it_has() -> None:
     assert len(named) > 10
     for symbol, of in named.items():
         cos, sin = geometry.find_cos_and_sin(geometry.bodies[of.body])
-        x, y = geometry.local[of.body, of.point]
+        x, y = geometry.local_vectors[of.body, of.point]
         want = cos * x - sin * y if of.axis == "x" else sin * x + cos * y
         assert sp.expand(model.symbols.definitions[symbol] - want) == 0
 

@@ -13,9 +13,9 @@ import pytest
 
 from gudgeon.contract.kernel_source import EventInfo, KernelSource
 from gudgeon.errors import BadValueError, UnknownNameError
-from gudgeon.generator.pipeline import derive_scene, generate
+from gudgeon.generator.pipeline import derive_scene, generate_kernel_source
 from gudgeon.generator.reader.read import read_mechanism
-from gudgeon.generator.targets.latex import equations_text
+from gudgeon.generator.targets.latex import render_equations_text
 from gudgeon.loading.compiler import find_compiler
 from gudgeon.loading.engine import build_include_flags, parse_sizes
 
@@ -60,7 +60,7 @@ def test_an_override_changes_an_event_and_makes_none() -> None:
 
 
 def test_the_runtime_is_told() -> None:
-    source = generate(file(), "slider.yaml", "dry")
+    source = generate_kernel_source(file(), "slider.yaml", "dry")
     assert source.events == (
         EventInfo("reach", "record", "rising"),
         EventInfo("lift", "record", "both"),
@@ -79,7 +79,7 @@ def test_terms_that_cancel_are_refused_at_their_place() -> None:
 
 
 def test_a_scene_without_events_has_no_code_for_them() -> None:
-    source = generate(file(""), "slider.yaml", "ideal")
+    source = generate_kernel_source(file(""), "slider.yaml", "ideal")
     assert parse_sizes(source)["N_USER_EVENTS"] == 0 and "watched.c" not in source.files
     assert not any("event[" in text for text in source.files.values())
 
@@ -135,7 +135,7 @@ BOTH = """\
 
 def test_both_formulations_agree(tmp_path: Path) -> None:
     """At random places of the tree, corners in the same order."""
-    source = generate(file(), "slider.yaml", "dry")
+    source = generate_kernel_source(file(), "slider.yaml", "dry")
     driver = IN_TREE[: IN_TREE.index("        (void)dynamics")] + BOTH + "    return 0;\n}\n"
     states = np.random.default_rng(5).uniform(-1.0, 1.0, (20, 1 + 2 * len(source.tree)))
     states[:, 0] += 1.5  # t
@@ -154,11 +154,11 @@ def test_values_at_random_states(scene: str, tmp_path: Path) -> None:
         v[4] + v[5] * 0.06 * np.cos(q[5]) - 3.0 + q[7] / (t + 1.0),
         np.abs(q[5]) - 0.3 * v[2] / (20 * np.pi),
     ]
-    found = values(generate(file(), "slider.yaml", scene), DRIVER, states, tmp_path).reshape(20, 3)
+    found = values(generate_kernel_source(file(), "slider.yaml", scene), DRIVER, states, tmp_path).reshape(20, 3)
     np.testing.assert_allclose(found, np.transpose(expected), rtol=1e-13, atol=1e-14)
 
 
 def test_written_equations_hold_them() -> None:
-    text = equations_text(derive_scene(file(), "slider.yaml", "ideal"))
+    text = render_equations_text(derive_scene(file(), "slider.yaml", "ideal"))
     assert "corner: where it falls through zero the run ends:" in text
     assert "z_reach = " in text and "lift: where it crosses zero the time is recorded:" in text

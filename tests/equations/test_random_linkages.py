@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from gudgeon.generator.pipeline import generate
+from gudgeon.generator.pipeline import generate_kernel_source
 from gudgeon.loading import compiler
 from gudgeon.loading.build import compile_kernels
 from gudgeon.model.compiled import CompiledModel, Evaluation
@@ -34,7 +34,7 @@ NAN = np.full((1, 1), np.nan)
 
 def compiled(case: Case, monkeypatch: pytest.MonkeyPatch) -> CompiledModel:
     """The case's library, not optimised: compiling would take longer than everything else."""
-    source = generate(to_yaml(case).encode(), f"random_{case.seed}.yaml", "ideal")
+    source = generate_kernel_source(to_yaml(case).encode(), f"random_{case.seed}.yaml", "ideal")
     with monkeypatch.context() as patch:
         patch.setattr(compiler, "FLAGS", ("-O0", *(flag for flag in compiler.FLAGS if not flag.startswith("-O"))))
         return CompiledModel(source, compile_kernels(source))

@@ -56,8 +56,8 @@ def test_points_move_as_in_pylinkage(name: str, tmp_path: Path) -> None:
     run = as_mechanism(convert_to_mechanism(file), tmp_path).simulate(float(len(steps)), output=len(steps))
     compared = 0
     for k, joint in enumerate(stored["ids"]):
-        for body in (body for body in linkage.bodies if joint in body.local):
-            at = list(body.local).index(joint)
+        for body in (body for body in linkage.bodies if joint in body.point_positions):
+            at = list(body.point_positions).index(joint)
             point = f"{body.name}.{('tail', 'head')[at] if at < 2 else joint}"
             found = np.stack([run[f"{point}.x"], run[f"{point}.y"]], axis=1)[1:]
             assert abs(found - steps[:, k]).max() < 1e-13 * max(1.0, abs(steps).max())

@@ -21,7 +21,7 @@ import gudgeon
 from gudgeon.cli import app
 from gudgeon.errors import InputError
 from gudgeon.exchange.mechanism_yaml import write_mechanism_text
-from gudgeon.exchange.pmks import find_address, read_old_pmks, read_pmks
+from gudgeon.exchange.pmks import find_query, read_old_pmks, read_pmks
 from gudgeon.exchange.pylinkage import read_pylinkage
 from gudgeon.exchange.read import convert_to_mechanism, read_linkage
 from gudgeon.generator.reader.read import read_mechanism
@@ -168,7 +168,7 @@ def test_damaged_links_of_pmks_are_refused_or_read(tmp_path: Path) -> None:
 
 def test_work_grows_with_the_size_of_a_file() -> None:
     """A megabyte of addresses without an end; joints that are placed by joints that come later in the file."""
-    assert find_address("https://pmks" * 80_000) is None  # a search of cubic cost would not come back
+    assert find_query("https://pmks" * 80_000) is None  # a search of cubic cost would not come back
 
     def chain(count: int) -> Any:
         joints = [{"type": "Static", "name": "P0", "x": 0, "y": 0}, {"type": "Static", "name": "Q", "x": 1, "y": 9}]
@@ -205,16 +205,16 @@ def test_work_grows_with_the_size_of_a_file() -> None:
 
 def test_old_links_have_the_points_of_today() -> None:
     """The six-bar of the authors of PMKS+ as it was shared before 2023, and as today; a welded linkage of May 2023."""
-    today = read_pmks(find_address(SIX_BAR) or "")
-    old = read_old_pmks(find_address(LINKS["pr92_old_sixbar"]) or "")
+    today = read_pmks(find_query(SIX_BAR) or "")
+    old = read_old_pmks(find_query(LINKS["pr92_old_sixbar"]) or "")
     assert old.positions == {name: pytest.approx(at) for name, at in today.positions.items()}
     assert set(old.ground) == set(today.ground) == {"A", "G"}
-    assert {frozenset(b.local) for b in old.bodies} == {frozenset(b.local) for b in today.bodies}
+    assert {frozenset(b.point_positions) for b in old.bodies} == {frozenset(b.point_positions) for b in today.bodies}
     assert old.drives[0].rate == pytest.approx(10 * math.pi / 30.0) and old.unit == "cm"
-    welded = read_pmks(find_address(LINKS["pr35_welded"]) or "")
+    welded = read_pmks(find_query(LINKS["pr35_welded"]) or "")
     assert [body.name for body in welded.bodies] == ["ab", "cd", "gh", "hi", "bcefgj"]
     body, parts = welded.bodies[-1], [(-4.048, -1.016), (-14.153, 3.773)]
-    assert set(body.local) == set("bcefgj") and body.mass == pytest.approx(2.0)
+    assert set(body.point_positions) == set("bcefgj") and body.mass == pytest.approx(2.0)
     assert body.com == pytest.approx(np.mean(parts, axis=0), abs=2e-3)
     apart = (parts[0][0] - parts[1][0]) ** 2 + (parts[0][1] - parts[1][1]) ** 2
     assert body.inertia == pytest.approx(2.0 + apart / 2.0, rel=1e-3)

@@ -17,7 +17,7 @@ import pytest
 import gudgeon
 from gudgeon.errors import OutputError
 from gudgeon.files import free_space
-from gudgeon.files.free_space import check_disk, check_memory, format_size, read_free_disk, read_free_memory
+from gudgeon.files.free_space import check_disk, check_memory, format_size, read_free_disk_space, read_free_memory
 from gudgeon.model.evaluation import compute_evaluation_bytes, compute_sample_bytes
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.studies.axes import make_axis
@@ -109,7 +109,7 @@ def test_the_bar(monkeypatch: pytest.MonkeyPatch) -> None:
 
 def test_a_disk_is_that_of_the_nearest_folder_which_is_there(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     real = os.statvfs(tmp_path)
-    assert read_free_disk(tmp_path / "a/b") == pytest.approx(real.f_bavail * real.f_frsize, rel=0.2)
+    assert read_free_disk_space(tmp_path / "a/b") == pytest.approx(real.f_bavail * real.f_frsize, rel=0.2)
     requested: list[Path] = []
 
     def statvfs(path: Path) -> Disk:
@@ -124,7 +124,7 @@ def test_a_disk_is_that_of_the_nearest_folder_which_is_there(tmp_path: Path, mon
         check_disk(tmp_path / "a/b", 8193, "it", "x")
     assert requested[:3] == [tmp_path / "a/b", tmp_path / "a", tmp_path]
     monkeypatch.setattr(os, "statvfs", lambda path: Disk(0, f_blocks=0))  # a file system that does not say
-    assert math.isinf(read_free_disk(tmp_path))
+    assert math.isinf(read_free_disk_space(tmp_path))
 
 
 @needs_compiler

@@ -16,7 +16,7 @@ import pytest
 
 from gudgeon.errors import CacheError
 from gudgeon.files import trust
-from gudgeon.files.trust import Untrusted, check_path
+from gudgeon.files.trust import UntrustedPathError, check_trusted_path
 from gudgeon.loading.cache import LIST, Cache, get_private_cache, is_complete
 from tests.loading.test_cache import Writer
 
@@ -100,18 +100,18 @@ def test_entries_that_were_swapped_are_noticed(root: Path) -> None:
 def test_a_folder_above_that_others_may_write_lets_them_swap_it(tmp_path: Path, give: Callable[[Path], None]) -> None:
     above = tmp_path / "above"
     (above / "mine").mkdir(parents=True, mode=0o700)
-    check_path(above / "mine")
+    check_trusted_path(above / "mine")
     above.chmod(0o777)
-    with pytest.raises(Untrusted, match="everybody may write"):
-        check_path(above / "mine")
-    with pytest.raises(Untrusted, match="everybody may write"):
-        check_path(above / "not yet there")
+    with pytest.raises(UntrustedPathError, match="everybody may write"):
+        check_trusted_path(above / "mine")
+    with pytest.raises(UntrustedPathError, match="everybody may write"):
+        check_trusted_path(above / "not yet there")
     above.chmod(0o1777)  # as /tmp: names stay their owners'
-    check_path(above / "mine")
+    check_trusted_path(above / "mine")
     above.chmod(0o755)
     give(above)
-    with pytest.raises(Untrusted, match=f"uid {OTHER}"):
-        check_path(above / "mine")
+    with pytest.raises(UntrustedPathError, match=f"uid {OTHER}"):
+        check_trusted_path(above / "mine")
 
 
 def test_links_on_the_way_are_followed_as_the_kernel_does(tmp_path: Path, give: Callable[[Path], None]) -> None:
@@ -122,16 +122,16 @@ def test_links_on_the_way_are_followed_as_the_kernel_does(tmp_path: Path, give: 
     (tmp_path / "in").symlink_to("safe/../open/mine")
     (tmp_path / "good").symlink_to(tmp_path / "safe")
     (tmp_path / "open" / "out").symlink_to("../safe")
-    check_path(tmp_path / "good" / "cache")
+    check_trusted_path(tmp_path / "good" / "cache")
     for way in ("in", "open/out/cache", "good/../open/mine"):
-        with pytest.raises(Untrusted, match="open"):
-            check_path(tmp_path / way)
+        with pytest.raises(UntrustedPathError, match="open"):
+            check_trusted_path(tmp_path / way)
     (tmp_path / "circle").symlink_to("circle")
     with pytest.raises(OSError):
-        check_path(tmp_path / "circle")
+        check_trusted_path(tmp_path / "circle")
     give(tmp_path / "good")
-    with pytest.raises(Untrusted, match="good"):
-        check_path(tmp_path / "good" / "cache")
+    with pytest.raises(UntrustedPathError, match="good"):
+        check_trusted_path(tmp_path / "good" / "cache")
 
 
 def test_a_group_of_the_user_alone_may_write_above(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -139,12 +139,12 @@ def test_a_group_of_the_user_alone_may_write_above(tmp_path: Path, monkeypatch: 
     (tmp_path / "home" / "cache").mkdir(parents=True, mode=0o700)
     (tmp_path / "home").chmod(0o775)
     monkeypatch.setattr(trust, "_is_own_group", lambda group: True)
-    check_path(tmp_path / "home" / "cache")
-    with pytest.raises(Untrusted):
-        check_path(tmp_path / "home")
+    check_trusted_path(tmp_path / "home" / "cache")
+    with pytest.raises(UntrustedPathError):
+        check_trusted_path(tmp_path / "home")
     monkeypatch.setattr(trust, "_is_own_group", lambda group: False)
-    with pytest.raises(Untrusted, match="the group"):
-        check_path(tmp_path / "home" / "cache")
+    with pytest.raises(UntrustedPathError, match="the group"):
+        check_trusted_path(tmp_path / "home" / "cache")
 
 
 def test_roots_folders_are_trusted_and_in_a_container_without_root_nobodys(
@@ -154,14 +154,14 @@ def test_roots_folders_are_trusted_and_in_a_container_without_root_nobodys(
     owner = root.stat().st_uid
     if owner == 0:
         monkeypatch.setattr(os, "geteuid", lambda: 1000)
-        check_path(root)
+        check_trusted_path(root)
         assert is_complete(root / "models" / "one")
     give(root.parent)
     monkeypatch.setattr(trust, "_read_overflow_user", lambda: OTHER)
-    with pytest.raises(Untrusted):
-        check_path(root)
+    with pytest.raises(UntrustedPathError):
+        check_trusted_path(root)
     monkeypatch.setattr(trust, "_is_root_unmapped", lambda: True)
-    check_path(root)
+    check_trusted_path(root)
 
 
 def test_what_we_make_is_ours_alone_whatever_the_umask(tmp_path: Path) -> None:

@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 from gudgeon.errors import OutputError
-from gudgeon.files.writing import PART, AtomicFiles, check_target, open_atomic, write_bytes, write_text
+from gudgeon.files.writing import PART, AtomicFiles, check_output_path, open_atomic, write_bytes, write_text
 
 
 def test_a_file_is_made_with_its_folders(tmp_path: Path) -> None:
@@ -161,10 +161,10 @@ def make(path: Path, what: str) -> Path:
 def test_what_cannot_be_replaced_is_refused(tmp_path: Path, what: str, message: str) -> None:
     path = make(tmp_path / "x", what)
     before = [(p.name, p.lstat().st_mode) for p in tmp_path.iterdir()], os.lstat("/dev/null")[:2]
-    for refuse in (check_target, lambda path: write_bytes(path, b"new")):
-        if refuse is check_target and what == "below a file":
+    for refuse in (check_output_path, lambda path: write_bytes(path, b"new")):
+        if refuse is check_output_path and what == "below a file":
             continue  # folders are another question
-        if refuse is not check_target and path.is_relative_to("/dev"):
+        if refuse is not check_output_path and path.is_relative_to("/dev"):
             continue  # a test that fails must not harm the machine
         with pytest.raises(OutputError, match=message) as caught:
             refuse(path)
@@ -187,7 +187,7 @@ def test_a_folder_or_no_name_is_reported_as_such(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, path: str | Path, message: str
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    for refuse in (check_target, lambda path: write_bytes(path, b"new")):
+    for refuse in (check_output_path, lambda path: write_bytes(path, b"new")):
         with pytest.raises(OutputError, match=message) as caught:
             refuse(path)
         assert caught.value.exit_code == 2

@@ -60,7 +60,7 @@ double lane(int k, const double *x, int n, int at)
 {
     Lanes all[4];
     for (int i = 0; i < n; i++)
-        all[i] = all_of(x[i]) + 0.01, all[i][at % LANES] = x[i];
+        all[i] = broadcast(x[i]) + 0.01, all[i][at % LANES] = x[i];
     return of_Lanes[k](all)[at % LANES];
 }
 void bounds(int k, const double *from, const double *way, int n, double *out)

@@ -14,8 +14,9 @@ NAMES = (
     "a_K",
     "k",
     "rare",
-    "all_of",
+    "broadcast",
     "pick",
+    "select_value",
     "angles_0",
     "sines_1",
     "sine_0",
@@ -65,7 +66,7 @@ class Linkage:
     """Sections of a file, what may be driven, where play may be."""
 
     bodies: list[str]
-    points: list[str]
+    iterate_points: list[str]
     ground: str
     joints: list[str]
     drives: list[tuple[str, Dimension]] = field(default_factory=list)  # "angle: a"
@@ -127,7 +128,7 @@ def _shaker(rng: random.Random) -> Linkage:
     made = _slider_crank(rng)
     made.drives = [("angle: a", DIMENSIONLESS)]
     made.bodies.append(_bar("arm"))
-    made.points.append("arm.head")
+    made.iterate_points.append("arm.head")
     made.joints.append("pivot: {revolute: [s.origin, arm.tail]}")
     made.play = ["pivot"]
     return made
@@ -143,7 +144,7 @@ def _block(rng: random.Random) -> Linkage:
     if rng.random() < 0.4:
         made.bodies.append(_bar("a"))
         made.joints.append("H: {revolute: [s.origin, a.tail]}")
-        made.points.append("a.head")
+        made.iterate_points.append("a.head")
         made.drives, made.play = [("angle: a", DIMENSIONLESS)], ["H"]
     return made
 
@@ -172,7 +173,7 @@ def _gears(rng: random.Random) -> Linkage:
     if rng.random() < 0.5:
         made.bodies.append(_bar("b"))
         made.joints.append("J: {revolute: [a.head, b.tail]}")
-        made.points.append("b.head")
+        made.iterate_points.append("b.head")
         made.play = ["J"]
     return made
 
@@ -206,7 +207,7 @@ def random_file(seed: int) -> RandomFile:
     alone: dict[str, Dimension] = {"t": TIME}
     names = [body.partition(":")[0] for body in made.bodies]
     moving = {f"{body}.{part}": of for body in names for part, of in _BODY.items()}
-    moving |= {f"{point}.{part}": of for point in made.points for part, of in _POINT.items()}
+    moving |= {f"{point}.{part}": of for point in made.iterate_points for part, of in _POINT.items()}
     driving, watching = (
         Writer(rng, alone | parameters, alone, jumps=False),
         Writer(rng, alone | moving | parameters, alone | moving),
@@ -221,7 +222,7 @@ def random_file(seed: int) -> RandomFile:
     lines += ["drives:"] if driven else []
     for k, (what, of) in enumerate(driven):
         lines.append(f"  d{k}: {{{what}, value: {_quoted(driving.write(of, rng.choice((1, 1, 2, 3))))}}}")
-    lines += ["forces:", *(f"  {force}" for force in made.forces), *_forces(rng, watching, names, made.points)]
+    lines += ["forces:", *(f"  {force}" for force in made.forces), *_forces(rng, watching, names, made.iterate_points)]
     lines += [f"start: {{{made.start}}}"] if made.start else []
     lines += ["events:"]
     for k in range(rng.choice((1, 2, 3))):

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 import sympy as sp
 
-from gudgeon.generator.pipeline import generate
+from gudgeon.generator.pipeline import generate_kernel_source
 from gudgeon.generator.symbols.switches import Magnitude, Switches
 from tests.fuzz.through_c import check_syntax, library, try_files
 from tests.slow import slow_but
@@ -23,7 +23,7 @@ def test_hundreds_of_files(files: int) -> None:
     assert tally.counts["runs"] > 0
 
 
-HEAD = "format: gudgeon/1\nname: fuzz\nparameters: {rare: 1.3, Lanes: 0.2 m, all_of: 2, sine_0: 1}\n"
+HEAD = "format: gudgeon/1\nname: fuzz\nparameters: {rare: 1.3, Lanes: 0.2 m, broadcast: 2, sine_0: 1}\n"
 BAR = (
     HEAD
     + """bodies: {a: {length: 0.2 m, mass: 0.3 kg, inertia: 2e-3 kg*m^2}}
@@ -39,7 +39,7 @@ events: {e: {zero: "rare + a.head.y * 2 1/m"}}
 """,
     "names of the C of lanes": BAR
     + """events:
-  e: {zero: cos(a.theta) + rare * all_of * sin(sine_0 * t) + a.x / Lanes}
+  e: {zero: cos(a.theta) + rare * broadcast * sin(sine_0 * t) + a.x / Lanes}
 """,
     "a corner that only the event has": MASS
     + """joints: {G: {translational: [ground.O, s.origin], axis: [1, 0]}}
@@ -70,7 +70,7 @@ APART = "names of the C of lanes", "no rows at all, a force with a corner", "a f
 @pytest.mark.parametrize("name", slow_but(APART, FAILED))
 def test_files_that_failed_once(name: str, tmp_path: Path) -> None:
     for formulation in ("reduced", "full"):
-        source = generate(FAILED[name].encode(), "f", "ideal", None, formulation)
+        source = generate_kernel_source(FAILED[name].encode(), "f", "ideal", None, formulation)
         check_syntax(source, tmp_path)
         if formulation == "reduced":
             library(source, tmp_path, "failed")

@@ -22,7 +22,7 @@ import numpy as np
 from gudgeon.assembly.start import assemble_start
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import AssemblyError, GudgeonError, InputError, InputErrors
-from gudgeon.generator.pipeline import generate
+from gudgeon.generator.pipeline import generate_kernel_source
 from gudgeon.generator.reader.read import read_mechanism
 from gudgeon.language.tree import Expr, evaluate
 from gudgeon.loading.compiler import find_compiler
@@ -103,7 +103,7 @@ def _try(seed: int, reduced: bool, compared: bool, ran: bool, folder: Path, coun
     sources = {}
     for formulation in formulations:
         try:
-            sources[formulation] = generate(file.text.encode(), "f", file.scene, None, formulation)
+            sources[formulation] = generate_kernel_source(file.text.encode(), "f", file.scene, None, formulation)
         except InputError as error:
             check_refusal(error)
             counts["refused"] += 1

@@ -15,7 +15,7 @@ from typer.testing import CliRunner
 import gudgeon
 from gudgeon.cli import app
 from gudgeon.errors import BadValueError, InputError, SolverError
-from gudgeon.generator.pipeline import generate
+from gudgeon.generator.pipeline import generate_kernel_source
 from gudgeon.loading.compiler import find_compiler
 from gudgeon.loading.engine import build_include_flags
 from tests.equations.subjects import make
@@ -243,7 +243,7 @@ def test_numpy_and_the_complex_step_agree_with_c() -> None:
 
 @pytest.mark.parametrize("text", [CAM, slug("-pull(slug.x) + thrust(t)")])
 def test_c_has_no_warnings(text: str, tmp_path: Path) -> None:
-    source = generate(("format: gudgeon/1\nname: n\n" + text).encode(), "n.yaml", "ideal")
+    source = generate_kernel_source(("format: gudgeon/1\nname: n\n" + text).encode(), "n.yaml", "ideal")
     for file, content in source.files.items():
         (tmp_path / file).write_text(content, encoding="utf-8")
     flags = ["-std=c11", "-Wall", "-Wextra", "-Werror", "-fsyntax-only", *build_include_flags()]

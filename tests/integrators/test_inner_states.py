@@ -12,7 +12,7 @@ import pytest
 
 import gudgeon
 from gudgeon.errors import BadValueError
-from gudgeon.generator.targets.latex import equations_tex
+from gudgeon.generator.targets.latex import render_equations_tex
 from gudgeon.integrators import lanes
 from gudgeon.loading.shipped import find_shipped_file
 from gudgeon.results.results import Result
@@ -209,7 +209,7 @@ def test_stiff_bristles_cost_rodas5p_little(tmp_path: Path) -> None:
 
 
 def test_a_class_reads_its_equation(two: Simulation) -> None:
-    text = equations_tex(two.model)
+    text = render_equations_tex(two.model)
     assert r"\eq{\dot{z}}{v_{t}" in text
     assert "is the deflection of the bristles, 0 at each onset" in text
 

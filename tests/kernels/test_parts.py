@@ -12,7 +12,7 @@ from gudgeon.generator.ir.kernels import Kernel, Section
 from gudgeon.generator.ir.signatures import Number, make_input_argument, make_output_argument
 from gudgeon.generator.ir.split import order_near_readers
 from gudgeon.generator.ir.statements import Call, Declare, Line, Statement
-from gudgeon.generator.pipeline import generate
+from gudgeon.generator.pipeline import generate_kernel_source
 from gudgeon.generator.symbols.storage import Place, PlaceSymbol
 from gudgeon.generator.targets.c import functions, printer
 from gudgeon.loading.build import compile_kernels
@@ -37,7 +37,7 @@ def simulation(name: str, scene: str, formulation: str, n: int = 0) -> Simulatio
     """Derived and compiled now."""
     file = find_shipped_file(name)
     data = text(n).encode() if n else file.read_bytes()
-    source = generate(data, str(file), scene, None, formulation)
+    source = generate_kernel_source(data, str(file), scene, None, formulation)
     return Simulation(CompiledModel(source, compile_kernels(source)), file)
 
 

@@ -13,7 +13,7 @@ from gudgeon.generator.equations.model import Model
 from gudgeon.generator.kernels.program import make_program
 from gudgeon.generator.pipeline import derive_scene, generate_c
 from gudgeon.generator.targets.c.emit import emit_scene
-from gudgeon.generator.targets.latex import equations_text
+from gudgeon.generator.targets.latex import render_equations_text
 from tests.slow import slow_but
 
 MECHANISMS = Path(__file__).parents[2] / "mechanisms"
@@ -54,7 +54,7 @@ def tables(model: Model) -> list[dict[str, Any]]:
 def printed(model: Model, what: str) -> Any:
     """Return what a target makes of the model, or why it does not."""
     if what == "equations":
-        return equations_text(model)
+        return render_equations_text(model)
     if what == "numpy":
         return model.numpy().source
     try:
@@ -90,7 +90,7 @@ def test_a_model_is_read_only() -> None:
     with pytest.raises(AssertionError, match="late: derived after the tables were frozen"):
         model.symbols.add_symbol("late")
     with pytest.raises(AssertionError, match="late"):
-        model.parameter_table.derive("late", 1 / (model.masses[0] + 17))
+        model.parameter_table.derive_parameter("late", 1 / (model.masses[0] + 17))
     with pytest.raises(AssertionError, match="a corner after the tables were frozen"):
         model.symbols.switches.get_or_add_switch("", model.q[0] - 17)
 
@@ -119,6 +119,6 @@ def test_what_is_derived_too_late_is_told() -> None:
         with pytest.raises(AssertionError, match="late: derived after the tables were frozen"):
             model.symbols.add_symbol("late")
         with pytest.raises(AssertionError, match="late"):
-            model.parameter_table.derive("late", 1 / (model.masses[0] + 17))
+            model.parameter_table.derive_parameter("late", 1 / (model.masses[0] + 17))
         with pytest.raises(AssertionError, match="a corner after the tables were frozen"):
             model.symbols.switches.get_or_add_switch("", model.q[0] - 17)

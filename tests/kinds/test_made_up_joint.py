@@ -23,7 +23,7 @@ from gudgeon.generator.kinds.joints.joint_type import joint_types
 from gudgeon.generator.pipeline import derive_scene
 from gudgeon.generator.targets.format_tables import print_format_tables
 from gudgeon.generator.targets.json_schema import make_schema
-from gudgeon.generator.targets.latex import equations_tex, equations_text
+from gudgeon.generator.targets.latex import render_equations_tex, render_equations_text
 from gudgeon.simulation.newton_euler import compute_newton_euler_residuals
 from tests.drawing.drawn import drawn
 
@@ -109,8 +109,8 @@ def test_its_gap_is_what_its_row_lacks() -> None:
 
 def test_documents_and_tables_have_it() -> None:
     model = derive_scene(MACHINE.encode(), "made_up.yaml", "ideal")
-    for text in (equations_text(model), equations_tex(model)):
+    for text in (render_equations_text(model), render_equations_tex(model)):
         assert "roller on a flat face" in text and "points at one height" in text
         assert "a point of the first body keeps a distance from a line of the second" in text
-    assert "=====---=====>" in equations_text(model)
+    assert "=====---=====>" in render_equations_text(model)
     assert "radius of the roller" in str(print_format_tables()) and "radius of the roller" in str(make_schema())

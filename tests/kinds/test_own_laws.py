@@ -20,9 +20,9 @@ from gudgeon.cli import app
 from gudgeon.errors import InputError, LawError, UnknownNameError
 from gudgeon.generator.kinds.laws import registered
 from gudgeon.generator.kinds.laws.law import Law, find_all_laws, find_laws_of_role
-from gudgeon.generator.pipeline import derive_scene, generate
+from gudgeon.generator.pipeline import derive_scene, generate_kernel_source
 from gudgeon.generator.targets.json_schema import make_schema
-from gudgeon.generator.targets.latex import equations_text
+from gudgeon.generator.targets.latex import render_equations_text
 from gudgeon.loading.shipped import find_shipped_file
 from gudgeon.studies.show.map import list_law_files
 from tests.kinds.own import example_text, forgotten
@@ -107,19 +107,19 @@ def test_among_the_laws_it_is_the_last(disc: Path) -> None:
 def test_everything_follows_from_it(disc: Path) -> None:
     law = gudgeon.register(law_file(disc.parent))
     assert find_all_laws()["dashpot"] is law
-    source = generate(disc.read_bytes(), str(disc), "wall")
+    source = generate_kernel_source(disc.read_bytes(), str(disc), "wall")
     text = "".join(source.files.values())
     assert "static inline void own_dashpot__(double delta, double ratio, double deltadot, double stiffness__" in text
     assert {slot.address for slot in source.slots} >= {"contacts.wall.normal.stiffness", "contacts.wall.normal.damping"}
     assert next(s for s in source.slots if s.address.endswith("damping")).unit == "kg/s"
-    shown = equations_text(derive_scene(disc.read_bytes(), str(disc), "wall"))
+    shown = render_equations_text(derive_scene(disc.read_bytes(), str(disc), "wall"))
     assert "any book on vibrations" in shown and "F_n = δ·K + δ̇·D" in shown
     assert "dashpot" in json.dumps(make_schema()) and list_law_files() == [str(disc.parent / "dashpot.py")]
 
 
 def test_a_number_without_a_symbol_is_called_by_its_name(disc: Path) -> None:
     gudgeon.register(law_file(disc.parent, ', symbol="K"'))
-    assert "F_n = δ·stiffness + δ̇·D" in equations_text(derive_scene(disc.read_bytes(), str(disc), "wall"))
+    assert "F_n = δ·stiffness + δ̇·D" in render_equations_text(derive_scene(disc.read_bytes(), str(disc), "wall"))
 
 
 WRONG = [
@@ -263,7 +263,7 @@ def test_scenes_without_it_are_as_they_were(tmp_path: Path) -> None:
     """Its states and keys are nobody's names elsewhere."""
     data = find_shipped_file("slider_crank").read_bytes().replace(b"parameters:\n", b"parameters:\n  spam: 1 m\n", 1)
     data += b"  more: spam\n"
-    before = generate(data, "f.yaml", "dry")
+    before = generate_kernel_source(data, "f.yaml", "dry")
     text = (
         example_text()
         .replace('"normal"', '"friction"')
@@ -275,7 +275,7 @@ def test_scenes_without_it_are_as_they_were(tmp_path: Path) -> None:
     )
     (tmp_path / "dashpot.py").write_text(text.replace("import Law\n", "import Law, State\n"), encoding="utf-8")
     gudgeon.register(tmp_path / "dashpot.py")
-    assert generate(data, "f.yaml", "dry") == before and before.laws == ()
+    assert generate_kernel_source(data, "f.yaml", "dry") == before and before.laws == ()
 
 
 def test_numbers_that_are_called_as_its_abbreviations(disc: Path) -> None:

@@ -9,7 +9,7 @@ import pytest
 
 import gudgeon
 from gudgeon.errors import BadValueError, InputError, LimitError
-from gudgeon.generator.pipeline import derive_scene, generate
+from gudgeon.generator.pipeline import derive_scene, generate_kernel_source
 from gudgeon.loading.compiler import find_compiler
 from gudgeon.loading.engine import build_include_flags
 
@@ -58,7 +58,7 @@ REFUSED: list[tuple[str, type[InputError]]] = [
 @pytest.mark.parametrize(("text", "kind"), REFUSED, ids=lambda value: str(value).replace(FILE, "").strip()[:60])
 def test_refused(text: str, kind: type[InputError]) -> None:
     with pytest.raises(kind) as caught:
-        generate(text.encode(), "f", "ideal")
+        generate_kernel_source(text.encode(), "f", "ideal")
     where = caught.value.where
     assert where is not None and where.line == 7  # the scene's, where it is the scene that divides by zero
 
@@ -91,7 +91,7 @@ DEEPER = [
 def test_compiled(texts: list[str], tmp_path: Path) -> None:
     flags = ["-std=c11", "-Wall", "-Wextra", "-Werror", "-fsyntax-only", build_include_flags()[-1]]
     for number, text in enumerate(texts):
-        source = generate(text.encode(), "f", "ideal")
+        source = generate_kernel_source(text.encode(), "f", "ideal")
         folder = tmp_path / str(number)
         folder.mkdir()
         for name, part in source.files.items():

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from gudgeon.language.names import find_near_names, find_nearest_name, make_unknown_error
+from gudgeon.language.names import find_near_names, find_nearest_name, make_missing_name_error
 
 ADDRESSES = (
     "omega",
@@ -40,4 +40,4 @@ def test_the_near_address_stands_first(name: str, first: str) -> None:
 
 def test_what_is_far_from_all_is_told_as_that() -> None:
     assert find_near_names("tappet.lift", ADDRESSES) == find_near_names("", ADDRESSES) == []
-    assert "there are: omega, c" in str(make_unknown_error("no number 'tappet.lift'", "tappet.lift", ADDRESSES))
+    assert "there are: omega, c" in str(make_missing_name_error("no number 'tappet.lift'", "tappet.lift", ADDRESSES))

@@ -100,7 +100,7 @@ def test_the_other_process_makes_it(cache: Cache) -> None:
     file.write_text(ROD)
     simulation = loaded(file)
     before = simulation.simulate(0.5, output=5)
-    simulation.compiled.lib.wait_for_optimized()
+    simulation.compiled.lib.wait_for_optimized_library()
     assert (made(cache, "quick"), made(cache, "libraries"), libraries(simulation)) == (1, 1, 2)
     again = loaded(file)
     assert libraries(again) == 1 and again.compiled.lib._pending_library is None
@@ -115,7 +115,7 @@ def test_where_the_other_process_is_killed_it_is_made_here(cache: Cache, monkeyp
     monkeypatch.setattr(optimized_library, "MAX_PROCESSES", 1)
     assert not may_compile_in_background(cache)  # a second one at the same time
     os.killpg(other._process.pid, signal.SIGKILL)
-    simulation.compiled.lib.wait_for_optimized()
+    simulation.compiled.lib.wait_for_optimized_library()
     assert libraries(simulation) == 2 and simulation.simulate(0.1, output=2)
 
 

@@ -32,7 +32,7 @@ def carries_the_pendulum(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Pat
     folder = tmp_path / "carried" / library.format_platform(sys.platform, os.uname().machine)
     folder.mkdir(parents=True)
     made = build.build_portable_library(tmp_path / "made", source, Cache(tmp_path / "cache"))
-    made.rename(folder / library.compute_file_name(source))
+    made.rename(folder / library.compute_library_file_name(source))
     monkeypatch.setattr(library, "CARRIED", tmp_path / "carried")
     monkeypatch.setenv("GUDGEON_CACHE", str(tmp_path / "empty"))
     monkeypatch.setenv("PATH", "")
@@ -73,7 +73,7 @@ def test_what_differs_is_not_taken(wheel: Path, monkeypatch: pytest.MonkeyPatch)
     with monkeypatch.context() as other:
         other.setattr(library, "compute_engine_digest", lambda: "another")
         assert library.open_bundled_library(source) is None
-    (wheel / library.compute_file_name(source)).write_bytes(b"of another C library")
+    (wheel / library.compute_library_file_name(source)).write_bytes(b"of another C library")
     assert library.open_bundled_library(source) is None
     assert not compiler.has_compiler()
 

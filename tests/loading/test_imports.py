@@ -67,7 +67,7 @@ def test_ctrl_c_is_raised_at_once_and_what_is_imported_comes_to_its_end(monkeypa
 
     monkeypatch.setattr(imports, "import_module", import_module)
     with pytest.raises(KeyboardInterrupt):
-        imports.import_completely("a", "b", "c")
+        imports.import_modules_completely("a", "b", "c")
     assert imported == ["a"]
     answered.set()
     for thread in threading.enumerate():
@@ -78,9 +78,9 @@ def test_ctrl_c_is_raised_at_once_and_what_is_imported_comes_to_its_end(monkeypa
 
 def test_what_fails_is_told_and_what_is_there_costs_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
     with pytest.raises(ModuleNotFoundError, match="no_such_package"):
-        imports.import_completely("json", "no_such_package")
+        imports.import_modules_completely("json", "no_such_package")
     monkeypatch.setattr(imports, "import_module", None)
-    imports.import_completely("json", "signal")
+    imports.import_modules_completely("json", "signal")
 
 
 COMMAND = """

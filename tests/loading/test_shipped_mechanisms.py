@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import gudgeon
-from gudgeon.loading.shipped import list_shipped
+from gudgeon.loading.shipped import list_shipped_mechanisms
 from tests.programs import needs_compiler
 
 pytestmark = needs_compiler
@@ -59,7 +59,7 @@ def test_four_bar_obeys_freudensteins_equation() -> None:
     assert (angle.min(), angle.max()) == (pytest.approx(extremes[0], abs=1e-3), pytest.approx(extremes[1], abs=1e-3))
 
 
-@pytest.mark.parametrize("name", list_shipped())
+@pytest.mark.parametrize("name", list_shipped_mechanisms())
 def test_every_shipped_mechanism_starts_closed(name: str) -> None:
     """Its ideal scene assembles, moves a little, and keeps its constraints."""
     scene = gudgeon.load(name)

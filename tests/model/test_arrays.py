@@ -61,7 +61,7 @@ def test_the_array_itself_where_it_is_as_c_reads_it() -> None:
 )
 def test_what_is_no_array_of_numbers(values: Any, message: str) -> None:
     with pytest.raises(ArrayError, match=message):
-        as_c_array(values, "x", (2,), finite=True)
+        as_c_array(values, "x", (2,), require_finite=True)
 
 
 def test_codes_and_flags_are_whole_numbers_that_fit() -> None:
@@ -111,7 +111,7 @@ def test_a_pointer_keeps_its_array_and_is_not_given_to_write_what_is_read_only(b
     fixed.flags.writeable = False
     assert list(ball.compiled.pointer(fixed)) == [0.0, 1.0, 2.0]
     with pytest.raises(ArrayError):
-        ball.compiled.pointer(fixed, written=True)
+        ball.compiled.pointer(fixed, is_written=True)
 
 
 def lengths(model: CompiledModel, p: Any) -> dict[str, tuple[int, Callable[[Any], Any]]]:

@@ -107,7 +107,10 @@ def test_runs_prepared_together_are_those_prepared_alone(scene: str) -> None:
     columns: dict[str, Any] = {"c": np.linspace(3e-4, 5e-4, RUNS_PER_CALL + 3), "omega": 3.0, GAINS[0]: "5 1/s"}
     given, is_given = read_given_parameters_of_runs(compiled.source, read_parameter_rows(columns)[0])
     before = given.tobytes(), is_given.tobytes()
-    together, free = compiled.prepare_each(given, is_given), prepare_without_baumgarte(compiled, given, is_given)
+    together, free = (
+        compiled.prepare_parameters_of_runs(given, is_given),
+        prepare_without_baumgarte(compiled, given, is_given),
+    )
     for i in (0, 1, RUNS_PER_CALL - 1, RUNS_PER_CALL, RUNS_PER_CALL + 2):
         assert together[i].tobytes() == compiled.prepare(given[i], is_given[i]).tobytes()
         assert free[i].tobytes() == prepare_without_baumgarte(compiled, given[i], is_given[i]).tobytes()

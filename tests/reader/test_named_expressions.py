@@ -21,12 +21,12 @@ from gudgeon.errors import (
     UnitError,
     UnknownNameError,
 )
-from gudgeon.generator.pipeline import generate
+from gudgeon.generator.pipeline import generate_kernel_source
 from gudgeon.generator.reader.expressions import MAX_LEVELS, MAX_PARTS
 from gudgeon.generator.reader.read import read_mechanism
 from gudgeon.language.tree import iterate_names
 from gudgeon.model.parameters import explain_address
-from gudgeon.model.written import explain_undefined_ahead
+from gudgeon.model.written import explain_undefined_value_after
 from tests.scenes import patched
 
 LED = """\
@@ -76,8 +76,8 @@ def written_out() -> str:
 
 def test_the_c_is_that_of_the_expressions_written_out() -> None:
     """Line by line, but for the two that tell which bytes it was made from."""
-    named = generate(LED.encode(), "led.yaml", "ideal")
-    plain = generate(written_out().encode(), "led.yaml", "ideal")
+    named = generate_kernel_source(LED.encode(), "led.yaml", "ideal")
+    plain = generate_kernel_source(written_out().encode(), "led.yaml", "ideal")
     assert named.files.keys() == plain.files.keys()
     different = [
         (name, a, b)
@@ -173,15 +173,15 @@ def test_nothing_in_a_line_of_its_own_is_told_in_that_line() -> None:
 
 def test_what_is_no_number_in_a_run_is_told_where_it_stands() -> None:
     bad = LED.replace("reach*sin(pace*t)", "sqrt(0.1 s - t)/sqrt(1 s)*reach*sin(pace*t)")
-    source = generate(bad.encode(), "led.yaml", "ideal")
+    source = generate_kernel_source(bad.encode(), "led.yaml", "ideal")
     p, n = np.array([slot.default for slot in source.slots]), np.zeros(len(source.coordinates))
     place = re.escape(f"(line {line_of(bad, 'target:')}, column 11)")
     message = f"forces.u.value .* is not finite at t = 0.2 s, nan: in expressions.target {place}, sqrt of -0.1$"
-    assert re.match(message, explain_undefined_ahead(source, p, 0.2, n, n))
+    assert re.match(message, explain_undefined_value_after(source, p, 0.2, n, n))
 
 
 def test_an_expression_is_no_number_that_can_be_set() -> None:
-    source = KernelSource.from_json(generate(LED.encode(), "led.yaml", "ideal").to_json())
+    source = KernelSource.from_json(generate_kernel_source(LED.encode(), "led.yaml", "ideal").to_json())
     for name in ("expressions.rate", "rate"):
         message, hint = explain_address(source, name)
         assert message == "expressions.rate is an expression, compiled as it stands: it is no number that can be set"
@@ -214,4 +214,4 @@ def test_the_deepest_and_the_largest_are_derived() -> None:
     text = chain(["sin({0})"] * (MAX_LEVELS - 3)).replace("value: -K*s", "value: -K*s*sin(last)")
     large = chain(["({0} + rod.theta)*{0}"] * 9).replace("value: -K*s", "value: -K*s*cos(last)")
     for one in (text, large):
-        generate(one.encode(), "led.yaml", "ideal")
+        generate_kernel_source(one.encode(), "led.yaml", "ideal")

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from gudgeon.contract.kernel_source import KernelSource
-from gudgeon.generator.pipeline import generate
+from gudgeon.generator.pipeline import generate_kernel_source
 from gudgeon.loading.build import compile_kernels
 from gudgeon.loading.compiler import find_compiler
 from gudgeon.loading.engine import build_include_flags
@@ -29,7 +29,7 @@ SCENES = [
 
 @cache
 def emitted(name: str, scene: str) -> KernelSource:
-    return generate((VALID / f"{name}.yaml").read_bytes(), name, scene)
+    return generate_kernel_source((VALID / f"{name}.yaml").read_bytes(), name, scene)
 
 
 @pytest.mark.parametrize("of", slow_but(SCENES[:3], SCENES), ids="-".join)

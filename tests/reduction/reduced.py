@@ -46,7 +46,7 @@ class Reduced:
         """Coordinates of the chains (c,) next to the guess in s, and three rates of each (3, c)."""
         c, rates = s[self.n :].copy(), np.empty((3, self.chained))
         if self.chained:
-            assert self.library.lib.gudgeon_chains(t, *map(self.library.pointer, (c, self.p, rates))) == 0
+            assert self.library.lib.gudgeon_driven_loops(t, *map(self.library.pointer, (c, self.p, rates))) == 0
         return c, rates
 
     def expand(self, t: float, s: Array, rate: Array) -> tuple[Array, Array]:

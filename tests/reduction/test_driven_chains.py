@@ -11,7 +11,7 @@ import pytest
 import gudgeon
 from gudgeon.errors import SingularError, SolverError
 from gudgeon.generator.pipeline import derive_scene, generate_c
-from gudgeon.generator.reduction.driven_chains import find_blocks
+from gudgeon.generator.reduction.driven_loops import find_blocks
 from gudgeon.generator.reduction.reduction import reduce_model
 from gudgeon.loading import compiler
 from gudgeon.loading.build import compile_kernels
@@ -130,7 +130,7 @@ APART = "a drive with corners", "friction on what is free", "play"
 @pytest.mark.parametrize("name", [name for name in VARIANTS if name not in APART])
 def test_what_is_evaluated_and_what_stays_solved(name: str) -> None:
     changed, chain = VARIANTS[name]
-    found = reduce_model(derive_scene(changed_four_bar(**changed).encode(), "f", "ideal").copy_mutable()).chain
+    found = reduce_model(derive_scene(changed_four_bar(**changed).encode(), "f", "ideal").copy_mutable()).driven_loops
     assert sorted(found.names if found else ()) == sorted(chain)
 
 

@@ -223,7 +223,7 @@ def test_a_chain_is_cut_where_that_is_cheaper() -> None:
     operations = {}
     for n in (16, 32):
         kernels, *_ = make_reduced_kernels(reduce_model(chain(n).copy_mutable()))
-        operations[n] = next(kernel.operations for kernel in kernels if kernel.name == DYNAMICS)
+        operations[n] = next(kernel.n_operations for kernel in kernels if kernel.name == DYNAMICS)
     assert operations[32] < 2.4 * operations[16]
 
 

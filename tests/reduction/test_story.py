@@ -9,9 +9,9 @@ from gudgeon.assembly.rank import compute_rank
 from gudgeon.contract import reduction_log as message
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.contract.reduction_log import ReductionLog
-from gudgeon.contract.reduction_words import describe_outcome
+from gudgeon.contract.reduction_words import describe_reduced_system
 from gudgeon.generator.pipeline import derive_scene, generate_c
-from gudgeon.generator.reduction.tree import Estimate, choose_tree
+from gudgeon.generator.reduction.tree import OperationEstimate, choose_tree
 from gudgeon.loading.shipped import find_shipped_file
 from gudgeon.simulation.simulation import Simulation
 from tests.oracles import numpy_linkage
@@ -191,7 +191,7 @@ def test_the_tree_taken_is_the_cheapest() -> None:
     """The estimate, made anew of the tree that was taken, is the least of the story's."""
     model, simulation = shipped("nine_bar_press", "ideal")
     tree = choose_tree(model)
-    estimate = Estimate(model, tree.angles, frozenset(tree.solved), tree.hubs)
+    estimate = OperationEstimate(model, tree.angles, frozenset(tree.solved), tree.shared_points)
     costs = simulation.source.story.costs
     assert estimate(tree.links) == min(costs) < costs[0]
 
@@ -250,7 +250,7 @@ def test_contradictory_drives_are_followed_in_absolute_coordinates() -> None:
     source = generate_c(derive_scene(text.encode(), "contrary.yaml", "ideal"))
     story = source.story
     assert not story.groups and story.after is not None and story.after.coordinates == len(source.coordinates)
-    lines = dict(describe_outcome(source))
+    lines = dict(describe_reduced_system(source))
     assert lines["operations"].endswith(f"in absolute coordinates, {source.operations['project']}")
 
 

@@ -12,7 +12,7 @@ import pytest
 
 import gudgeon
 from gudgeon.errors import UnknownNameError
-from gudgeon.model.evaluation import PARTS
+from gudgeon.model.evaluation import FIELD_NAMES
 from gudgeon.results.batch import Batch
 from gudgeon.results.results import EvaluatedSamples, Result
 from gudgeon.results.series import get_catalogue
@@ -64,12 +64,12 @@ def test_what_is_not_needed_is_not_evaluated(batch: Batch, monkeypatch: pytest.M
         return plain(run)
 
     monkeypatch.setattr(EvaluatedSamples, "evaluation", property(noted))
-    first = batch.result.evaluate_samples(0, PARTS)
+    first = batch.result.evaluate_samples(0, FIELD_NAMES)
     stored = set() if first is None or first.accelerations is None else {"a"}  # by a method that Python drives
     for name in known:
         requested.clear()
         found = batch[name]
-        assert set(requested) <= {known[name].parts} and known[name].parts <= PARTS, name
+        assert set(requested) <= {known[name].parts} and known[name].parts <= FIELD_NAMES, name
         assert bool(requested) == bool(known[name].parts - stored), name
         assert found.shape == (len(batch), batch.t.shape[-1])
 
@@ -78,9 +78,9 @@ def test_parts_that_nobody_wanted_have_no_row(batch: Batch) -> None:
     run = batch.partial(0)
     assert run is not None and run.compiled is not None
     for parts in (frozenset[str](), {"a"}, {"clearance", "drift"}, {"reactions"}):
-        found = run.compiled.evaluate(run.t, run.q, run.v, run.memory, run.p, parts=parts)
+        found = run.compiled.evaluate(run.t, run.q, run.v, run.memory, run.p, field_names=parts)
         whole = run.evaluation
-        for name in PARTS:
+        for name in FIELD_NAMES:
             values = getattr(found, name)
             assert len(values) in (0, len(run.t)) and (name not in parts or len(values))
             assert not len(values) or values.tobytes() == getattr(whole, name).tobytes()

@@ -10,7 +10,7 @@ import pytest
 
 import gudgeon
 from gudgeon.errors import BadValueError, SolverError
-from gudgeon.results.contact_check import check_samples, compute_penetrations
+from gudgeon.results.contact_check import check_contact_samples, compute_penetrations
 from tests.integrators.test_forces_within_steps import JOURNAL, MASS, G
 from tests.random_contacts import text_of
 
@@ -41,7 +41,7 @@ def test_a_contact_that_is_not_listed_is_reported(run: gudgeon.Result) -> None:
     largest = own[np.argmax(run.impacts["F_peak"][own])]
     gone = run.impacts[largest]
     broken = replace(run, impacts=np.delete(run.impacts, largest))
-    found = check_samples(broken)
+    found = check_contact_samples(broken)
     assert not found and {"penetration", "peak"} <= {one.kind for one in found.faults}
     first = next(one for one in found.faults if one.kind == "penetration")
     assert first.joint == "crankpin" and gone["t_on"] <= first.t <= gone["t_off"]
@@ -70,12 +70,12 @@ def test_a_rigid_contact_that_pulls_and_a_peak_that_is_not_listed_are_reported(t
     path.write_text(JOURNAL)
     given = {"A": 0.9 * MASS * G, "w": 20.0, "y0": -2e-4}
     run = gudgeon.load(path, "rigid").simulate(0.4, parameters=given, output=400, peaks=["pin.F"])
-    assert check_samples(run)
+    assert check_contact_samples(run)
     impacts = run.impacts.copy()
     impacts["F_peak"] /= 2.0
-    assert {one.kind for one in check_samples(replace(run, impacts=impacts)).faults} == {"peak"}
+    assert {one.kind for one in check_contact_samples(replace(run, impacts=impacts)).faults} == {"peak"}
     pulled = replace(run, stored={"pin.Fy": -run["pin.Fy"]})
-    assert {one.kind for one in check_samples(pulled).faults} == {"pull"}
+    assert {one.kind for one in check_contact_samples(pulled).faults} == {"pull"}
 
 
 def test_a_force_of_rounding_outside_a_contact_is_none(run: gudgeon.Result) -> None:
@@ -83,5 +83,5 @@ def test_a_force_of_rounding_outside_a_contact_is_none(run: gudgeon.Result) -> N
     free = int(np.flatnonzero(force == 0.0)[0])
     for size, kinds in ((1e-15, set()), (1e-9, {"force"})):
         force[free] = size * force.max()
-        found = check_samples(replace(run, stored={**run.stored, "crankpin.F": force}))
+        found = check_contact_samples(replace(run, stored={**run.stored, "crankpin.F": force}))
         assert {one.kind for one in found.faults} == kinds

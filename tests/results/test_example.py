@@ -1,4 +1,4 @@
-"""Example: a result without a compiler. `make` gives a Result of a slider whose motion has a closed form."""
+"""Example: a result without a compiler. `make_items` gives a Result of a slider whose motion has a closed form."""
 
 from __future__ import annotations
 

@@ -59,10 +59,10 @@ def test_no_equation_is_derived_for_a_table() -> None:
 
 def test_equations_have_the_letters_of_the_document() -> None:
     """Of Φ what prints is what the text says, row by row; what is computed of it is SymPy's as ever."""
-    from gudgeon.generator.targets.latex import equations_text
+    from gudgeon.generator.targets.latex import render_equations_text
 
     model = gudgeon.load("four_bar").model
-    document = "".join(equations_text(model).split())
+    document = "".join(render_equations_text(model).split())
     rows = str(model.Phi).splitlines()
     assert len(rows) == 9 and all("".join(row.strip("[]").split()) in document.replace("½", "1/2") for row in rows[6:8])
     assert "θ_crank" in rows[8] and r"\theta_{\text{crank}}" in sp.latex(model.Phi)

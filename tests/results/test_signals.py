@@ -15,7 +15,7 @@ import gudgeon  # noqa: E402
 from gudgeon.errors import BadValueError, UnknownNameError  # noqa: E402
 from gudgeon.loading.kernel_sources import find_mechanism  # noqa: E402
 from gudgeon.results.results import Result  # noqa: E402
-from gudgeon.results.series import WINDOWS, compute_spectrum, low_pass  # noqa: E402
+from gudgeon.results.series import WINDOWS, apply_low_pass, compute_spectrum  # noqa: E402
 from tests.programs import needs_compiler  # noqa: E402
 
 RATE, N = 1000.0, 2000
@@ -47,7 +47,7 @@ def test_a_low_pass_is_butterworths(order: int, causal: bool) -> None:
     cutoff, middle = 40.0, slice(N // 2, 3 * N // 4)
 
     def gain(f: float) -> float:
-        out = low_pass(T, np.sin(2 * np.pi * f * T), cutoff, order, causal)
+        out = apply_low_pass(T, np.sin(2 * np.pi * f * T), cutoff, order, causal)
         basis = np.column_stack([np.sin(2 * np.pi * f * T), np.cos(2 * np.pi * f * T)])[middle]
         return float(np.hypot(*np.linalg.lstsq(basis, out[middle], rcond=None)[0]))
 
@@ -61,15 +61,15 @@ def test_a_low_pass_is_butterworths(order: int, causal: bool) -> None:
 
 def test_zero_phase_is_not_late_and_a_constant_stays() -> None:
     pulse = np.exp(-(((T - 1.0) / 0.02) ** 2))
-    assert T[low_pass(T, pulse, 30.0, causal=False).argmax()] == pytest.approx(1.0, abs=1e-3)
-    assert T[low_pass(T, pulse, 30.0).argmax()] > 1.004
-    np.testing.assert_allclose(low_pass(T, np.full(N, 7.0), 30.0), 7.0, rtol=1e-9)
+    assert T[apply_low_pass(T, pulse, 30.0, causal=False).argmax()] == pytest.approx(1.0, abs=1e-3)
+    assert T[apply_low_pass(T, pulse, 30.0).argmax()] > 1.004
+    np.testing.assert_allclose(apply_low_pass(T, np.full(N, 7.0), 30.0), 7.0, rtol=1e-9)
 
 
 @pytest.mark.parametrize("cutoff", [0.0, -1.0, 500.0, np.nan, np.inf])
 def test_what_cannot_be_filtered_is_refused(cutoff: float) -> None:
     with pytest.raises(BadValueError, match="cutoff"):
-        low_pass(T, T, cutoff)
+        apply_low_pass(T, T, cutoff)
     with pytest.raises(BadValueError, match="even times"):
         compute_spectrum(T**2, T)
     with pytest.raises(BadValueError, match="no numbers"):
@@ -92,7 +92,7 @@ def test_a_run_is_drawn_in_its_units(run: Result) -> None:
     assert drawn.get_xlabel() == "f [Hz]" and "hann" in drawn.get_title()
     rate = 1.0 / (run.t[1] - run.t[0])
     left: Any = run.plot.low_pass("S9.y", rate / 10, order=4)
-    np.testing.assert_allclose(left.lines[1].get_ydata(), low_pass(run.t, run["S9.y"], rate / 10, 4) * 1e3)
+    np.testing.assert_allclose(left.lines[1].get_ydata(), apply_low_pass(run.t, run["S9.y"], rate / 10, 4) * 1e3)
     with pytest.raises(UnknownNameError):
         run.plot.phase("S9.z")
     with pytest.raises(BadValueError, match="no rate"):

@@ -20,7 +20,7 @@ import gudgeon
 from gudgeon.cli import app
 from gudgeon.errors import BadValueError
 from gudgeon.generator.kinds.laws.law import Limits, find_all_laws
-from gudgeon.generator.pipeline import generate
+from gudgeon.generator.pipeline import generate_kernel_source
 from gudgeon.loading.kernel_sources import find_mechanism
 from gudgeon.results.diagnostics import Diagnostics
 from gudgeon.results.reports.run_report import find_exceeded_limits, read_laws
@@ -249,7 +249,7 @@ scenes: {oil: {play: {A: {bearing: b, contact: oil}}}}
 
 def test_every_law_is_told_with_its_conventions() -> None:
     """However long its source and validity are, and that of mixed lubrication, which is no function of C, too."""
-    message = read_laws(generate(LAWS.encode(), "disc.yaml", "oil"))
+    message = read_laws(generate_kernel_source(LAWS.encode(), "disc.yaml", "oil"))
     assert [law["title"].split(":")[0] for law in message] == ["ESDU 78035", "Ocvirk", "Greenwood and Tripp"]
     for law, name in zip(message, ("esdu_78035", "ocvirk", "greenwood_tripp"), strict=True):
         own = find_all_laws()[name]

@@ -10,7 +10,7 @@ import pytest
 import gudgeon
 from gudgeon.contract.audit import CHECKS
 from gudgeon.errors import BadValueError
-from gudgeon.model.reference import check_reference
+from gudgeon.model.reference import check_reference_values
 from gudgeon.results.diagnostics import Diagnostics
 from gudgeon.simulation.simulation import Simulation
 from tests.audit_mutants import mutant
@@ -186,7 +186,7 @@ def test_torques_that_are_wrong(tmp_path: Path) -> None:
     text = next(line for line in spring.source.files["constraints.c"].splitlines() if "torques[0] =" in line)
     wrong = mutant(spring, tmp_path, ("constraints.c", text, text.replace("= ", "= 2.0*")))
     with pytest.raises(gudgeon.AuditError, match="torques"):
-        check_reference(wrong.compiled)
+        check_reference_values(wrong.compiled)
     assert "check torque" in reported(wrong, 0.1) or "check power" in reported(wrong, 0.1)
 
 
@@ -262,4 +262,4 @@ def test_a_symbol_of_the_file_in_place_of_another(tmp_path: Path) -> None:
     spring = loader(tmp_path)(SPRING.format(events="zero: {zero: b.x}"))
     wrong = mutant(spring, tmp_path, ("dynamics.c", "p->K", "p->b_mass"))
     with pytest.raises(gudgeon.AuditError, match="expected"):
-        check_reference(wrong.compiled)
+        check_reference_values(wrong.compiled)

@@ -16,7 +16,7 @@ import gudgeon
 from gudgeon.loading.shipped import find_shipped_file
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.evaluation import Evaluation
-from gudgeon.model.reference import check_reference
+from gudgeon.model.reference import check_reference_values
 from gudgeon.simulation.newton_euler import compute_newton_euler_residuals
 from tests.audit_mutants import mutant
 from tests.programs import needs_compiler
@@ -125,11 +125,11 @@ def test_a_parameter_that_is_taken_for_the_order_of_a_series(tmp_path: Path) -> 
 def test_a_parameter_that_is_taken_for_an_abbreviation_of_a_law(tmp_path: Path) -> None:
     """Fault 20: the friction of bristles reads the parameter g_v in place of its own g(v)."""
     right = loader(tmp_path)(BRISTLES, "m")
-    check_reference(right.compiled)
+    check_reference_values(right.compiled)
     own = part_of(right.source.files["clearance.c"], "", "    const double g_v = ", "\n")
     wrong = mutant(right, tmp_path, ("clearance.c", own, "    const double g_v = 8.0;"))
     with pytest.raises(gudgeon.AuditError, match="compiled library .* is wrong"):
-        check_reference(wrong.compiled)
+        check_reference_values(wrong.compiled)
 
 
 @pytest.mark.parametrize("first", [0, 1])
@@ -139,7 +139,7 @@ def test_a_parameter_that_is_not_taken_over(first: int, tmp_path: Path) -> None:
     line = next(x for x in right.source.files["parameters.c"].splitlines() if f"is_given[{first}]" in x)
     stale = line.replace(f"is_given[{first}]", f"is_given[{first + 1}]")
     with pytest.raises(gudgeon.AuditError, match=f"parameter {first}"):
-        check_reference(mutant(right, tmp_path, ("parameters.c", line, stale)).compiled)
+        check_reference_values(mutant(right, tmp_path, ("parameters.c", line, stale)).compiled)
 
 
 @pytest.mark.parametrize(
@@ -155,7 +155,7 @@ def test_a_branch_of_a_law_that_is_wrong(text: str, wrong: str, tmp_path: Path) 
     """Stored values have contacts that slip either way, fully and in the transition."""
     broken = mutant(gudgeon.load("slider_crank", "dry"), tmp_path, ("clearance.c", text, wrong))
     with pytest.raises(gudgeon.AuditError, match="compiled library .* is wrong"):
-        check_reference(broken.compiled)
+        check_reference_values(broken.compiled)
 
 
 def test_a_method_that_is_not_consistent(tmp_path: Path) -> None:

@@ -181,7 +181,7 @@ def test_ctrl_c_while_the_energy_is_balanced(look: int, monkeypatch: pytest.Monk
 
 def test_ctrl_c_while_rows_left_out_are_looked_at(monkeypatch: pytest.MonkeyPatch) -> None:
     """A contradiction is told of an interrupted run too."""
-    real = result_builder.find_contradiction
+    real = result_builder.find_constraint_violation
     calls: list[int] = []
 
     def contradiction(problem: Problem, trajectory: Trajectory) -> SolverError | None:
@@ -191,7 +191,7 @@ def test_ctrl_c_while_rows_left_out_are_looked_at(monkeypatch: pytest.MonkeyPatc
         problem.poll_cancellation()
         return real(problem, trajectory)
 
-    monkeypatch.setattr(result_builder, "find_contradiction", contradiction)
+    monkeypatch.setattr(result_builder, "find_constraint_violation", contradiction)
     run = press("dry").simulate(0.01, output=5)
     assert calls == [False, True] and run.diagnostics.interrupted and len(run.t) == 6
 

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 import gudgeon
-from gudgeon.files.writing import read_regular
+from gudgeon.files.writing import read_regular_file
 from gudgeon.model.compiled import CompiledModel
 from gudgeon.simulation.simulation import Simulation
 from tests.programs import needs_compiler
@@ -56,7 +56,7 @@ def test_a_small_file_takes_little_memory(tmp_path: Path) -> None:
     (tmp_path / "x").write_bytes(b"12345")
     tracemalloc.start()
     try:
-        assert read_regular(tmp_path / "x") == b"12345"
+        assert read_regular_file(tmp_path / "x") == b"12345"
         assert tracemalloc.get_traced_memory()[1] < 1 << 20
     finally:
         tracemalloc.stop()

@@ -45,7 +45,7 @@ def begun(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> list[subprocess.Po
             return process
 
     monkeypatch.setattr(libraries, "Programs", Noted)
-    monkeypatch.setattr(libraries, "available_threads", lambda: 2)
+    monkeypatch.setattr(libraries, "count_available_threads", lambda: 2)
     monkeypatch.setenv("GUDGEON_CACHE", str(tmp_path / "cache"))
     (tmp_path / "under_way").mkdir()
     return found
@@ -90,7 +90,7 @@ def test_the_same_dataset(begun: list[subprocess.Popen[str]], tmp_path: Path, mo
     check_nothing_is_left(begun, tmp_path)
     again = gudgeon.study(STUDY).dataset
     assert len(begun) == 1  # all are there
-    monkeypatch.setattr(libraries, "available_threads", lambda: 1)
+    monkeypatch.setattr(libraries, "count_available_threads", lambda: 1)
     monkeypatch.setenv("GUDGEON_CACHE", str(tmp_path / "another"))
     alone = gudgeon.study(STUDY).dataset
     assert len(begun) == 1

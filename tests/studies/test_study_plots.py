@@ -252,13 +252,13 @@ def test_spectra_have_the_amplitude_and_the_frequency(study: gudgeon.Study) -> N
 
 def test_a_low_pass_of_every_run(study: gudgeon.Study) -> None:
     """As scipy makes it of one run; Butterworth's gain 1/√(1 + (ω/ω_c)⁴) at twice its cutoff is 1/√17."""
-    from gudgeon.results.series import low_pass
+    from gudgeon.results.series import apply_low_pass
 
     own = study.dataset["load.x"].isel(k=2, way=0)
     cutoff = 30.0 / (4 * np.pi)
     ax: Any = plots(study).low_pass("load.x", cutoff, "k", at={"way": 0})
     assert len(ax.lines) == 27 and "low-pass 2.387" in ax.get_title()
     t = study.dataset["time"].values
-    np.testing.assert_allclose(ax.lines[-1].get_ydata(), low_pass(t, own[-1].values, cutoff))
+    np.testing.assert_allclose(ax.lines[-1].get_ydata(), apply_low_pass(t, own[-1].values, cutoff))
     late = ax.lines[-1].get_ydata()[t > 1.0]
     assert np.ptp(late) / 2 / float(study.dataset["x0"][-1]) == pytest.approx(1 / np.sqrt(17), rel=0.02)

@@ -245,9 +245,9 @@ def test_processes_draw_what_this_one_would(monkeypatch: pytest.MonkeyPatch) -> 
 
     shown = PageFigures()
     places = "".join(shown.add_placeholder(f"p-{k}", partial(drawn, k)) for k in range(pictures.MANY))
-    monkeypatch.setattr(pictures, "available_threads", lambda: 1)
+    monkeypatch.setattr(pictures, "count_available_threads", lambda: 1)
     here = shown.insert_figures(places)
-    monkeypatch.setattr(pictures, "available_threads", lambda: 2)
+    monkeypatch.setattr(pictures, "count_available_threads", lambda: 2)
     assert shown.insert_figures(places) == here
     monkeypatch.setattr(pictures, "_send_drawn_figures", lambda connection, figures: os._exit(1))  # a process that dies
     assert shown.insert_figures(places) == here

@@ -16,7 +16,7 @@ import gudgeon
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.contract.methods import STAGES
 from gudgeon.errors import GudgeonError
-from gudgeon.generator.pipeline import generate
+from gudgeon.generator.pipeline import generate_kernel_source
 from gudgeon.generator.reader.read import read_mechanism
 from tests.fuzz.scenes import random_file
 from tests.slow import slow_but
@@ -49,20 +49,20 @@ FILLED: Mapping[str, Mapping[str, str]] = {
     "dynamics": RIGHT_HAND_SIDE | {"rhs->lambda": "N_ROWS", "rhs->phi": "N_ROWS", "rhs->phi_dot": "N_ROWS"},
     "reduced_dynamics": RIGHT_HAND_SIDE | {"a": "N_X", "rhs->lambda": "N_LOOPS"},
     "expand": ABSOLUTE,
-    "reduce_state": {"s": "N_X + N_CHAIN", "s_rate": "N_X + N_CHAIN"},
+    "reduce_state": {"s": "N_X + N_DEPENDENT", "s_rate": "N_X + N_DEPENDENT"},
     "reduce_accelerations": {"a": "N_X"},
     "closures": {"out": "N_LOOPS"},
     "closure_rates": {"out": "N_LOOPS"},
     "reduced_project": {"x": "N_X"},
     "tree_multipliers": {"closing": "N_LOOPS"},
-    "chain_step": {"step": "N_CHAIN", "bend": "N_CHAIN"},
-    "chain_third": {"out": "N_CHAIN"},
+    "compute_loop_step": {"step": "N_DEPENDENT", "bend": "N_DEPENDENT"},
+    "compute_third_loop_rates": {"out": "N_DEPENDENT"},
     "linearize": {"lin->value": "N_VALUES"},
     "newton_factor": {"lin->lu": "N_FACTORS"},
     "newton_factor_complex": {"lin->lu": "2 * N_FACTORS"},
     "closing_step": {"dq": "N_X", "dv": "N_X"},
     "close_step": {"step": "N_X", "rates": "N_X"},
-    "arrive": ABSOLUTE | {"all_a": "N_Q", "a": "N_X"},
+    "compute_body_motion": ABSOLUTE | {"all_a": "N_Q", "a": "N_X"},
     "project": {"x": "N_Q"},
     "time_terms": {"out": "N_TERMS"},
     "watched_functions": {"rhs->event": "N_USER_EVENTS"},
@@ -128,7 +128,7 @@ class Emitted:
 
 
 def check(data: bytes, name: str, scene: str, formulation: str) -> None:
-    assert list(Emitted(generate(data, name, scene, formulation=formulation)).missing()) == []
+    assert list(Emitted(generate_kernel_source(data, name, scene, formulation=formulation)).missing()) == []
 
 
 @pytest.mark.parametrize("formulation", ["reduced", "full", STAGES])

@@ -14,7 +14,7 @@ from cffi import FFI
 
 import gudgeon
 from gudgeon.contract.kernel_source import KernelSource
-from gudgeon.generator.pipeline import generate
+from gudgeon.generator.pipeline import generate_kernel_source
 from gudgeon.generator.reader.read import read_mechanism
 from gudgeon.loading.engine import build_include_flags, parse_sizes, select_declarations
 from gudgeon.loading.shipped import find_shipped_file, list_generated
@@ -147,7 +147,7 @@ def test_no_warning_about_any_shipped_scene(name: str, scene: str, tmp_path: Pat
 def test_declarations_are_what_the_scene_defines(name: str, scene: str, formulation: str, tmp_path: Path) -> None:
     """Python sees only what cffi is told: prototypes and structs must be the library's."""
     file = find_shipped_file(name)
-    source = generate(file.read_bytes(), file.name, scene, None, formulation)
+    source = generate_kernel_source(file.read_bytes(), file.name, scene, None, formulation)
     write(source, tmp_path)
     ffi = FFI()
     calls = select_declarations(source)
@@ -174,7 +174,7 @@ OPTIONS: dict[str, dict[str, str | float | bool]] = {
 @pytest.mark.parametrize("option", slow_but(["as printed"], OPTIONS))  # test_whole_format compiles it as it is
 def test_no_warning_under_any_option(option: str, tmp_path: Path) -> None:
     file = VALID / "slider_crank.yaml"
-    source = generate(file.read_bytes(), file.name, "oiled", OPTIONS[option])
+    source = generate_kernel_source(file.read_bytes(), file.name, "oiled", OPTIONS[option])
     main = write(source, tmp_path)
     compile_c(COMPILERS[0], main, [*FLAGS, "-c", "-o", "scene.o"])
     assert source.lanes
@@ -185,7 +185,7 @@ def test_no_warning_under_any_option(option: str, tmp_path: Path) -> None:
 def test_no_warning_where_there_is_taylors_method(tmp_path: Path) -> None:
     """Which shipped scenes have only when it is asked for."""
     file = METHODS / "swing.yaml"
-    source = generate(file.read_bytes(), file.name, "ideal", None, "taylor")
+    source = generate_kernel_source(file.read_bytes(), file.name, "ideal", None, "taylor")
     compile_c(COMPILERS[0], write(source, tmp_path), [*FLAGS, "-c", "-o", "scene.o"])
     for width in WIDTHS:
         compile_c(COMPILERS[0], tmp_path / source.lanes, [*FLAGS, *width, "-c", "-o", "lanes.o"])

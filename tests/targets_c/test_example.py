@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from gudgeon.generator.pipeline import generate
+from gudgeon.generator.pipeline import generate_kernel_source
 from tests.fuzz.through_c import check_syntax
 from tests.programs import needs_compiler
 
@@ -20,4 +20,4 @@ joints: {pin: {revolute: [ground.O, disc.origin]}}
 
 @needs_compiler
 def test_a_parameter_may_have_the_name_of_a_type(tmp_path: Path) -> None:
-    check_syntax(generate(TEXT, "disc.yaml", "ideal"), tmp_path)
+    check_syntax(generate_kernel_source(TEXT, "disc.yaml", "ideal"), tmp_path)

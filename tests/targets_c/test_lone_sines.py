@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from gudgeon.generator.pipeline import generate
+from gudgeon.generator.pipeline import generate_kernel_source
 from tests.fuzz.through_c import check_syntax
 from tests.slow import slow_but
 
@@ -22,12 +22,12 @@ ZEROS = "sin(crank.theta)", "cos(crank.theta)", "sin(t*1 rad/s)"
 def test_an_event_of_one_sine_compiles(zero: str, formulation: str, tmp_path: Path) -> None:
     text = MECHANISMS.joinpath("four_bar.yaml").read_text(encoding="utf-8")
     text += f"\nevents: {{rev: {{zero: {zero}, direction: rising}}}}\n"
-    check_syntax(generate(text.encode(), "f", "ideal", None, formulation), tmp_path)
+    check_syntax(generate_kernel_source(text.encode(), "f", "ideal", None, formulation), tmp_path)
 
 
 def test_of_runs_side_by_side_too(tmp_path: Path) -> None:
     text = MECHANISMS.joinpath("nine_bar_press.yaml").read_text(encoding="utf-8")
     text += "\nevents: {rev: {zero: sin(L1.theta)}, other: {zero: cos(t*1 rad/s)}}\n"
-    source = generate(text.encode(), "f", "dry")
+    source = generate_kernel_source(text.encode(), "f", "dry")
     assert source.lanes
     check_syntax(source, tmp_path)

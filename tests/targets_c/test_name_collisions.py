@@ -17,7 +17,7 @@ import pytest
 import gudgeon
 from gudgeon.errors import BadNameError
 from gudgeon.generator.kernels.program import make_program
-from gudgeon.generator.pipeline import derive_scene, generate, generate_c
+from gudgeon.generator.pipeline import derive_scene, generate_c, generate_kernel_source
 from gudgeon.generator.symbols.symbols import make_identifier
 from gudgeon.generator.targets.javascript.module import print_equations_script
 from gudgeon.language.names import check_name
@@ -95,7 +95,7 @@ def vocabulary() -> tuple[str, ...]:
     """Every identifier of the C, JavaScript and Python of some scenes, of the engine and of the languages."""
     neutral = [f"n{k}" for k in range(ROLES + 10)]
     texts = [
-        *generate(smooth(neutral), "f", "swing", formulation="taylor").files.values(),
+        *generate_kernel_source(smooth(neutral), "f", "swing", formulation="taylor").files.values(),
         *read_engine_files().values(),
     ]
     for file, of in (("slider_crank", "oiled"), ("double_pendulum", "dry")):

@@ -21,7 +21,7 @@ from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import BadNameError
 from gudgeon.generator.equations import contact_steps as contact
 from gudgeon.generator.kinds.laws.law import RESULTS, VARIABLES
-from gudgeon.generator.pipeline import generate
+from gudgeon.generator.pipeline import generate_kernel_source
 from gudgeon.language.functions import FUNCTIONS
 from gudgeon.language.names import RESERVED, WORDS, YAML_NULL, check_name
 from gudgeon.loading.compiler import find_compiler
@@ -99,7 +99,7 @@ def check_c(source: KernelSource, folder: Path) -> None:
 def vocabulary() -> frozenset[str]:
     """Every identifier in the C of scenes that have everything."""
     scenes = [("slider_crank", "oiled"), ("slider_crank", "ideal"), ("double_pendulum", "dry"), ("every_kind", "ideal")]
-    sources = [generate((VALID / f"{f}.yaml").read_bytes(), "f", scene) for f, scene in scenes]
+    sources = [generate_kernel_source((VALID / f"{f}.yaml").read_bytes(), "f", scene) for f, scene in scenes]
     texts = [text for source in sources for name, text in source.files.items() if name.endswith((".c", ".h"))]
     texts += read_engine_files().values()
     words = re.findall(r"[A-Za-z]\w*", re.sub(r"/\*.*?\*/", " ", "\n".join(texts), flags=re.S))
@@ -163,14 +163,14 @@ def test_parameters_named_as_emitted_code_and_macros(of: tuple[str, int], tmp_pa
     names = vocabulary() | {name for name in TRIED if accepted(name)}
     assert {"rhs", "max_of", "Parameters", "N_ROWS", "TREE", "Real", "MAX_RUN_SCALE_S"} <= names
     message = {name for name in TRIED if accepted(name)} | {*sorted(names)[::every]}
-    check_c(generate(with_parameters(message), "f", scene), tmp_path)
+    check_c(generate_kernel_source(with_parameters(message), "f", scene), tmp_path)
 
 
 @pytest.mark.parametrize("every", slow_but([6], [6, 1]))
 def test_parameters_named_as_macros_of_the_headers(every: int, tmp_path: Path) -> None:
     known = {"DBL_MAX", "FP_NAN", "INT_MAX", "Py_None"}
     assert known <= macros()
-    check_c(generate(with_parameters(known | {*sorted(macros())[::every]}), "f", "ideal"), tmp_path)
+    check_c(generate_kernel_source(with_parameters(known | {*sorted(macros())[::every]}), "f", "ideal"), tmp_path)
 
 
 def test_parameters_named_as_symbols_of_the_equations_do_not_change_a_number(tmp_path: Path) -> None:
@@ -235,7 +235,7 @@ def test_names_that_meet_when_joined(examples: int, tmp_path: Path) -> None:
     @given(names=distinct, points=st.lists(names_of_pieces.filter(accepted), min_size=2, max_size=2, unique=True))
     def compiles(names: list[str], points: list[str]) -> None:
         points = [f"{point}_" if point in COORDINATES else point for point in points]
-        check_c(generate(clashing(names, points), "f", "ideal"), tmp_path)
+        check_c(generate_kernel_source(clashing(names, points), "f", "ideal"), tmp_path)
 
     compiles()
 
@@ -249,7 +249,7 @@ def test_things_named_as_what_c_has(first: int, tmp_path: Path) -> None:
     """C's keywords and library name bodies, joints, drives, forces, parameters and outputs, and the mechanism."""
     names = THINGS[first : first + 14]
     data = clashing(names, ["floor", "class"]).replace(b"name: clash", f"name: {names[0]}".encode())
-    check_c(generate(data, "f", "ideal"), tmp_path)
+    check_c(generate_kernel_source(data, "f", "ideal"), tmp_path)
 
 
 def test_things_named_as_what_c_has_do_not_change_a_number(tmp_path: Path) -> None:

@@ -14,7 +14,7 @@ import pytest
 import gudgeon
 from gudgeon.generator.pipeline import derive_scene
 from gudgeon.generator.targets.javascript.module import print_equations_script
-from gudgeon.generator.targets.latex.trace import make_trace
+from gudgeon.generator.targets.latex.trace import make_highlight_index
 from gudgeon.loading.kernel_sources import find_mechanism
 from gudgeon.model.evaluation import CLEARANCE_COLUMNS
 from tests.equations.models import random_state
@@ -53,7 +53,7 @@ def test_values_are_those_of_the_compiled_scene(case: tuple[str, str], tmp_path:
     program, (mechanism, scene) = node(), case
     assert program
     file = find_mechanism(mechanism)
-    found = make_trace(derive_scene(file.read_bytes(), str(file), scene))
+    found = make_highlight_index(derive_scene(file.read_bytes(), str(file), scene))
     compiled = gudgeon.load(mechanism, scene).compiled
     source = compiled.source
     p = compiled.prepare(np.zeros(len(source.slots)), np.zeros(len(source.slots), dtype=bool))

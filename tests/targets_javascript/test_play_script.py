@@ -16,7 +16,7 @@ import pytest
 import gudgeon
 from gudgeon.generator.pipeline import derive_scene
 from gudgeon.generator.targets.javascript.module import print_equations_script
-from gudgeon.generator.targets.latex.trace import Trace, make_trace
+from gudgeon.generator.targets.latex.trace import HighlightIndex, make_highlight_index
 from gudgeon.loading.kernel_sources import find_mechanism
 from gudgeon.model.evaluation import CLEARANCE_COLUMNS
 from gudgeon.simulation.simulation import Simulation
@@ -83,18 +83,20 @@ class Case:
     """States of a scene (rows), what C has of each joint there, and each line's value by joint that is lit."""
 
     simulation: Simulation
-    found: Trace
+    found: HighlightIndex
     memory: Any
     columns: dict[str, dict[str, Any]]
     message: list[dict[str, dict[str, float | None | str]]]
 
 
-def derived(scene: str, folder: Path) -> tuple[Simulation, Trace]:
+def derived(scene: str, folder: Path) -> tuple[Simulation, HighlightIndex]:
     if scene in OWN:
         simulation = loader(folder)(OWN[scene], scene)
-        return simulation, make_trace(simulation.model)
+        return simulation, make_highlight_index(simulation.model)
     file = find_mechanism("nine_bar_press")
-    return gudgeon.load("nine_bar_press", scene), make_trace(derive_scene(file.read_bytes(), str(file), scene))
+    return gudgeon.load("nine_bar_press", scene), make_highlight_index(
+        derive_scene(file.read_bytes(), str(file), scene)
+    )
 
 
 @pytest.fixture(scope="module", params=SCENES)

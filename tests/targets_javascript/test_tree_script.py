@@ -17,7 +17,7 @@ import pytest
 import gudgeon
 from gudgeon.generator.pipeline import derive_scene
 from gudgeon.generator.targets.javascript.module import print_equations_script
-from gudgeon.generator.targets.latex.trace import Trace, make_trace
+from gudgeon.generator.targets.latex.trace import HighlightIndex, make_highlight_index
 from gudgeon.loading.kernel_sources import find_mechanism
 from gudgeon.model.evaluation import Evaluation
 from gudgeon.results.results import Result
@@ -46,7 +46,7 @@ FUNCTIONS = (
     "reduced_dynamics",
     "reduced_project",
 )
-CHAINS = "chain_directions", "chain_step", "chain_rates", "chain_third"
+CHAINS = "evaluate_loop_directions", "compute_loop_step", "compute_loop_rates", "compute_third_loop_rates"
 METHODS = Path(__file__).parents[1] / "mechanisms/methods"
 CASES = [("nine_bar_press", "dry", 0.02), ("four_bar", None, 0.5), ("nine_bar_press", "lubricated", 0.2)]
 
@@ -55,7 +55,7 @@ CASES = [("nine_bar_press", "dry", 0.02), ("four_bar", None, 0.5), ("nine_bar_pr
 class Asked:
     """A run, and what a page says of the lines of reduced.c at its samples."""
 
-    found: Trace
+    found: HighlightIndex
     run: Result
     folder: Path
 
@@ -85,7 +85,7 @@ class Asked:
 
 def requested(mechanism: str, scene: str | None, t_end: float, folder: Path) -> Asked:
     simulation, file = gudgeon.load(mechanism, scene), find_mechanism(mechanism)
-    found = make_trace(derive_scene(file.read_bytes(), str(file), simulation.source.scene))
+    found = make_highlight_index(derive_scene(file.read_bytes(), str(file), simulation.source.scene))
     return Asked(found, simulation.simulate(t_end, output=40), folder)
 
 
@@ -156,19 +156,19 @@ def test_lines_of_driven_chains_at_samples_of_a_run(mechanism: str, tmp_path: Pa
     size = np.abs(run.v).max()
     np.testing.assert_allclose(array("expand.all_q", range(run.q.shape[1]), message), run.q, atol=1e-12)
     np.testing.assert_allclose(array("expand.all_v", range(run.q.shape[1]), message), run.v, atol=1e-11 * size)
-    np.testing.assert_allclose(array("chain_rates.v", rates, message), run.v[:, chain], atol=1e-11 * size)
-    bends = array("chain_rates.v", second, message)
+    np.testing.assert_allclose(array("compute_loop_rates.v", rates, message), run.v[:, chain], atol=1e-11 * size)
+    bends = array("compute_loop_rates.v", second, message)
     np.testing.assert_allclose(bends, there.a[:, chain], atol=1e-9 * np.abs(there.a).max())
     at = [k for k, name in enumerate(tree.system.unknowns) if name in of]
     np.testing.assert_allclose(
         array("reduced_dynamics.a", at, message), there.a[:, free], atol=1e-9 * np.abs(there.a).max()
     )
-    third = array("chain_third.out", range(len(chain)), message)
+    third = array("compute_third_loop_rates.out", range(len(chain)), message)
     np.testing.assert_allclose(third[2:-2], slopes(run.t, bends), atol=1e-2 * np.abs(third).max())
-    np.testing.assert_allclose(array("chain_step.step", range(len(chain)), message), 0.0, atol=1e-12)
+    np.testing.assert_allclose(array("compute_loop_step.step", range(len(chain)), message), 0.0, atol=1e-12)
     moved = run.q.copy()
     moved[:, chain] += 1e-3 * np.cos(np.arange(len(chain)))
-    moved[:, chain] -= array("chain_step.step", range(len(chain)), page.at(moved))
+    moved[:, chain] -= array("compute_loop_step.step", range(len(chain)), page.at(moved))
     np.testing.assert_allclose(moved[:, chain], run.q[:, chain], atol=2e-8)
     assert np.abs(third).max() > 1.0
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from gudgeon.generator.pipeline import derive_scene
-from gudgeon.generator.targets.latex import equations_html, equations_tex, equations_text
+from gudgeon.generator.targets.latex import render_equations_html, render_equations_tex, render_equations_text
 from tests.targets_latex.equations_reader import equations, sections, value
 
 TEXT = b"""format: gudgeon/1
@@ -20,7 +20,7 @@ drives: {d: {coordinate: a.y, value: lift_1(t)}}
 
 def test_a_curve_is_shown_by_name_with_its_derivatives_and_told() -> None:
     model = derive_scene(TEXT, "n.yaml", "ideal")
-    text, tex, html = equations_text(model), equations_tex(model), equations_html(model)
+    text, tex, html = render_equations_text(model), render_equations_tex(model), render_equations_html(model)
     assert "= lift_1'(t)" in text and "= lift_1''(t)" in text
     assert r"\mathrm{lift\_1}''\left(t\right)" in tex
     for shown in (text, tex, html):
@@ -31,7 +31,7 @@ def test_a_where_is_shown_as_cases_and_says_what_it_is() -> None:
     """It was a unit step times a difference."""
     law = b"1 mm*where(t < 0.3 s, t/(1 s), where(t >= 0.5 s, 1, 4*mod(t, 0.4 s)/(1 s)))**2"
     model = derive_scene(TEXT.replace(b"lift_1(t)", b'"' + law + b'"'), "n.yaml", "ideal")
-    text, tex, html = equations_text(model), equations_tex(model), equations_html(model)
+    text, tex, html = render_equations_text(model), render_equations_tex(model), render_equations_html(model)
     (shown,) = (right for lines in sections(text).values() for left, right in equations(lines) if left == "f_d")
     for t in (0.0, 0.2, 0.3, 0.35, 0.45, 0.5, 0.7):
         branch = t if t < 0.3 else 1.0 if t >= 0.5 else 4.0 * (t % 0.4)

@@ -14,8 +14,8 @@ import sympy as sp
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.kernels.program import make_program
 from gudgeon.generator.pipeline import derive_scene
-from gudgeon.generator.targets.latex import equations_text
-from gudgeon.generator.targets.latex.letters import Name, make_name
+from gudgeon.generator.targets.latex import render_equations_text
+from gudgeon.generator.targets.latex.letters import Name, make_name_from_latex
 from gudgeon.generator.targets.latex.notation import make_notation
 from gudgeon.generator.targets.latex.to_html import convert_to_mathml
 from tests.equations.models import numeric, random_model, random_state
@@ -85,7 +85,7 @@ WITH_ROWS = slow_but(["slider ideal", "slider oiled", "zoo", "random 1", "random
 
 @cache
 def read(which: str) -> dict[str, list[str]]:
-    return sections(equations_text(model_of(which)))
+    return sections(render_equations_text(model_of(which)))
 
 
 def given_numbers(which: str, t: float, q: np.ndarray, v: np.ndarray) -> dict[str, float]:
@@ -202,7 +202,7 @@ def test_masses_of_shapes_follow_from_what_the_tables_say() -> None:
     text = (VALID / "shapes.yaml").read_text(encoding="utf-8").replace("density: 2700 kg/m^3", "material: alloy")
     text += "materials: {alloy: {E: 70 GPa, nu: 0.3, density: 2700 kg/m^3}}\n"
     model = derive_scene(text.encode(), "shapes.yaml", "ideal")
-    lines = sections(equations_text(model))["Bodies"]
+    lines = sections(render_equations_text(model))["Bodies"]
     known = numbers(lines)
     of_rows = [cell.split(" = ") for row in rows(lines) for cell in row]
     follow = {parts[0]: parts[1] for parts in of_rows if len(parts) == 3 and parts[0][:2] in ("m_", "I_")}
@@ -234,7 +234,7 @@ def test_a_number_is_a_joints_own_by_what_it_is_and_not_by_its_name() -> None:
     ],
 )
 def test_letters_that_are_given_in_latex(latex: str, text: str) -> None:
-    assert make_name(latex) == Name(latex, text)
+    assert make_name_from_latex(latex) == Name(latex, text)
 
 
 def test_a_space_stands_between_a_function_and_what_it_is_of() -> None:

@@ -18,8 +18,14 @@ from hypothesis import strategies as st
 
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.pipeline import derive_scene
-from gudgeon.generator.targets.latex import equations_html, equations_tex, equations_text, pictures, plots
-from gudgeon.generator.targets.latex.letters import make_letter, make_name, make_word
+from gudgeon.generator.targets.latex import (
+    pictures,
+    plots,
+    render_equations_html,
+    render_equations_tex,
+    render_equations_text,
+)
+from gudgeon.generator.targets.latex.letters import make_name_from_latex, make_symbol_name, make_word_name
 from gudgeon.generator.targets.latex.notation import make_notation
 from gudgeon.generator.targets.latex.render import _MATH, _SPECIAL, escape_latex, escape_sketch_line
 from tests.slow import slow_but
@@ -50,13 +56,13 @@ def titled(model: Model, title: str) -> Model:
 
 def test_a_hostile_title_is_only_text() -> None:
     model = titled(derive_scene(PENDULUM, "pendulum.yaml", "ideal"), HOSTILE)
-    source = equations_tex(model)
+    source = render_equations_tex(model)
     assert r"\input" not in source and source.count(r"\end{document}") == 1
     (line,) = [line for line in source.splitlines() if line.startswith(r"{\Large")]
     assert SAFE.fullmatch(line.removeprefix(r"{\Large ").removesuffix(r"\par}"))
-    assert equations_text(model).splitlines()[0] == HOSTILE
+    assert render_equations_text(model).splitlines()[0] == HOSTILE
     pytest.importorskip("latex2mathml")
-    page = equations_html(model)
+    page = render_equations_html(model)
     assert "<!--" not in page and "<script>alert" not in page and "&lt;script&gt;" in page
 
 
@@ -112,12 +118,12 @@ def check_latex(source: str) -> None:
 
 @pytest.mark.parametrize("which", slow_but(["slider oiled", "random 5"], EVERY))
 def test_latex_is_well_formed(which: str) -> None:
-    check_latex(equations_tex(model_of(which)))
+    check_latex(render_equations_tex(model_of(which)))
 
 
 @pytest.mark.parametrize("which", PROSE)
 def test_prose_and_equations_stay_within_their_columns(which: str) -> None:
-    for line in equations_text(model_of(which)).splitlines():
+    for line in render_equations_text(model_of(which)).splitlines():
         if re.match(r" {8}\S|  (?!Φ )\S+ = |\S", line):
             assert width(line) <= 100
 
@@ -132,20 +138,23 @@ def test_every_symbol_has_a_name_of_its_own(which: str) -> None:
     assert len(set(latex)) == len(latex)
     for row in model.rows:
         for value in (row.phi, row.nu, row.gamma, *row.phi_q.values()):
-            assert notation.expand(value).free_symbols <= set(notation.names)
+            assert notation.expand_symbols(value).free_symbols <= set(notation.names)
 
 
 def test_letters() -> None:
-    assert make_letter("theta", "L7").latex == r"\theta_{\text{L7}}" and make_letter("theta", "L7").text == "θ_L7"
-    assert make_letter("x", "my_bar", dots=1).latex == r"\dot{x}_{\text{my\_bar}}"
-    assert [make_word(name).text for name in ("omega4", "l5", "v_max", "speed", "omega_in_2")] == [
+    assert (
+        make_symbol_name("theta", "L7").latex == r"\theta_{\text{L7}}"
+        and make_symbol_name("theta", "L7").text == "θ_L7"
+    )
+    assert make_symbol_name("x", "my_bar", dots=1).latex == r"\dot{x}_{\text{my\_bar}}"
+    assert [make_word_name(name).text for name in ("omega4", "l5", "v_max", "speed", "omega_in_2")] == [
         "ω_4",
         "l_5",
         "v_max",
         "speed",
         "ω_in_2",
     ]
-    assert [make_name(sign).text for sign in ("c_e", r"\mu", r"\sigma_{0}", r"v_{\mathrm{s}}")] == [
+    assert [make_name_from_latex(sign).text for sign in ("c_e", r"\mu", r"\sigma_{0}", r"v_{\mathrm{s}}")] == [
         "c_e",
         "μ",
         "σ_0",
@@ -164,13 +173,16 @@ def test_the_same_bytes_under_another_hash_seed() -> None:
     env = {**os.environ, "PYTHONHASHSEED": "1"}
     other = subprocess.run([sys.executable, "-c", code], env=env, check=True, capture_output=True, text=True).stdout
     model = derive_scene(BOB.encode(), "bob.yaml", "lubricated")
-    assert other.strip() == hashlib.sha256((equations_tex(model) + equations_text(model)).encode()).hexdigest()
+    assert (
+        other.strip()
+        == hashlib.sha256((render_equations_tex(model) + render_equations_text(model)).encode()).hexdigest()
+    )
 
 
 @pytest.mark.parametrize("which", slow_but(["slider oiled"], ["slider oiled", "press lubricated", "zoo"]))
 def test_html_is_self_contained_mathml(which: str) -> None:
     pytest.importorskip("latex2mathml")
-    page = equations_html(model_of(which))
+    page = render_equations_html(model_of(which))
     formulas = re.findall(r"<math.*?</math>", page, re.S)
     assert len(formulas) > 100
     for formula in formulas:
@@ -184,7 +196,7 @@ def test_html_tells_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
 
     monkeypatch.setitem(sys.modules, "latex2mathml.converter", None)
     with pytest.raises(GudgeonError, match=r"gudgeon\[docs\]"):
-        equations_html(derive_scene(PENDULUM, "pendulum.yaml", "ideal"))
+        render_equations_html(derive_scene(PENDULUM, "pendulum.yaml", "ideal"))
 
 
 def test_a_free_body_without_gravity() -> None:
@@ -192,16 +204,18 @@ def test_a_free_body_without_gravity() -> None:
     model = derive_scene(
         b"format: gudgeon/1\nname: stone\nbodies: {b: {mass: 1 kg, inertia: 1 kg*m^2}}\n", "s.yaml", "ideal"
     )
-    document = sections(equations_text(model))
-    text = equations_text(model)
+    document = sections(render_equations_text(model))
+    text = render_equations_text(model)
     assert "Constraints" not in document and "Jacobian" not in document and "Drives" not in document
     assert "g is zero" in " ".join(document["Generalized forces"]) and "3 - 0 = 3" in text
     assert "No gravity" in " ".join(document["Left out of this scene"])
-    assert r"M \ddot{q}" in equations_tex(model)
+    assert r"M \ddot{q}" in render_equations_tex(model)
 
 
 def test_without_gravity_nothing_of_it_is_shown() -> None:
-    text = equations_text(derive_scene(SLIDER.replace("gravity: [0, -9.81 m/s^2]\n", "").encode(), "s.yaml", "ideal"))
+    text = render_equations_text(
+        derive_scene(SLIDER.replace("gravity: [0, -9.81 m/s^2]\n", "").encode(), "s.yaml", "ideal")
+    )
     assert "g_y" not in text and "9.81" not in text and "No gravity" in text
 
 
@@ -211,8 +225,8 @@ def test_every_shipped_mechanism_and_scene(name: str) -> None:
     first = derive_scene(data, name, "ideal")
     for scene in first.scene.mechanism.scenes:
         model = derive_scene(data, name, scene)
-        assert equations_text(model).count("Φ_1 = ") == bool(model.rows)
-        check_latex(equations_tex(model))
+        assert render_equations_text(model).count("Φ_1 = ") == bool(model.rows)
+        check_latex(render_equations_tex(model))
 
 
 def test_what_keeps_numbers_finite_is_not_shown() -> None:
@@ -226,7 +240,7 @@ drives: {d: {coordinate: a.x, value: 1 m/(1 + exp(5000 - 10000*t/(1 s)))}}
 forces: {f: {force: a.origin, value: ["1 N*(0.01*a.x/(1 m))**161", 0]}}
 """
     model = derive_scene(text.encode(), "f", "ideal")
-    source, plain = equations_tex(model), equations_text(model)
+    source, plain = render_equations_tex(model), render_equations_text(model)
     assert r"\left(0.01 \, x_{\text{a}}\right)^{161}" in source and "= (0.01·x_a)^161" in plain
     assert "10000·exp(5000 - 10000·t)/(exp(5000 - 10000·t) + 1)^2" in plain
     assert not any(word in source + plain for word in ("Whole", "Slope", "Just"))

@@ -12,7 +12,7 @@ from gudgeon.generator.equations.model import Model
 from gudgeon.generator.field import NUMBER, Field
 from gudgeon.generator.kinds.laws.law import RESULTS, Law, find_all_laws, find_laws_of_role
 from gudgeon.generator.pipeline import derive_scene, generate_c
-from gudgeon.generator.targets.latex import equations_tex, equations_text
+from gudgeon.generator.targets.latex import render_equations_tex, render_equations_text
 from gudgeon.loading.build import compile_kernels
 from gudgeon.model.compiled import CompiledModel
 from tests.equations.models import numeric
@@ -70,7 +70,7 @@ def model_of(variant: str, scene: str) -> Model:
 
 @cache
 def text_of(variant: str, scene: str) -> str:
-    return equations_text(model_of(variant, scene))
+    return render_equations_text(model_of(variant, scene))
 
 
 @cache
@@ -153,7 +153,7 @@ def test_what_is_read_is_what_is_computed(case: tuple[str, str]) -> None:
 def test_the_printed_sign_is_shown() -> None:
     """Parting surfaces: the paper's sign pushes where the film pulls; approaching ones do not differ."""
     right, printed = (
-        sections(equations_text(derive_scene(BOB.replace(FILM, film).encode(), "bob.yaml", "lubricated")))
+        sections(render_equations_text(derive_scene(BOB.replace(FILM, film).encode(), "bob.yaml", "lubricated")))
         for film in (FILM, FILM[:-1] + ", as_printed: true}")
     )
     text = [" ".join(document["Joint A: film"]) for document in (right, printed)]
@@ -186,7 +186,7 @@ def test_a_dry_scene_shows_no_film() -> None:
 
 def test_every_number_of_a_law_is_in_its_table() -> None:
     model = derive_scene(BOB.encode(), "bob.yaml", "lubricated")
-    lines = sections(equations_text(model))["Joint A: numbers"]
+    lines = sections(render_equations_text(model))["Joint A: numbers"]
     shown = {cells[2]: cells for cells in rows(lines) if len(cells) == 5}
     play = model.scene.play["A"]
     for use in (play.contact.normal, play.contact.friction, play.contact.film):
@@ -201,7 +201,7 @@ def test_every_number_of_a_law_is_in_its_table() -> None:
 
 def uses() -> list[tuple[str, bool]]:
     """Every law by every name that it has; those with a number that they can do without, with it and without."""
-    found = [(name, law.fields_as(name)) for role in RESULTS for name, law in find_laws_of_role(role).items()]
+    found = [(name, law.list_fields_of_name(name)) for role in RESULTS for name, law in find_laws_of_role(role).items()]
     return [(name, left) for name, fields in found for left in sorted({False, any(map(may_lack, fields))})]
 
 
@@ -211,7 +211,7 @@ def may_lack(own: Field) -> bool:
 
 def bob_with(name: str, left_out: bool) -> tuple[Law, Model]:
     law = next(some[name] for role in RESULTS if name in (some := find_laws_of_role(role)))
-    needed = [own for own in law.fields_as(name) if own.kind == NUMBER and own.default is None]
+    needed = [own for own in law.list_fields_of_name(name) if own.kind == NUMBER and own.default is None]
     kept = [(k, own) for k, own in enumerate(needed) if not (left_out and may_lack(own))]
     given = [f"{own.name}: {'1 N/m * delta' if own.varies else f'{(k + 1) * 0.1:.1f}'}" for k, own in kept]
     own = f"{{{', '.join([f'law: {name}', *given])}}}"
@@ -228,7 +228,7 @@ def bob_with(name: str, left_out: bool) -> tuple[Law, Model]:
 def test_every_law_is_printed(name: str, left_out: bool) -> None:
     """A new law needs nothing here: its steps, numbers, source and validity are in the document."""
     law, model = bob_with(name, left_out)
-    written = equations_text(model)
+    written = render_equations_text(model)
     shown = " ".join(written.split())
     assert (law.reference or law.source) in shown and law.validity in shown
     clearance = model.clearances[0]
@@ -248,4 +248,4 @@ ONE_OF_EACH = [(name, False) for name in ("liu", "brown_mcphee", "ocvirk", "gree
 
 @pytest.mark.parametrize("use", slow_but(ONE_OF_EACH, uses()))
 def test_every_law_is_plain_latex(use: tuple[str, bool]) -> None:
-    assert equations_tex(bob_with(*use)[1]).isascii()
+    assert render_equations_tex(bob_with(*use)[1]).isascii()

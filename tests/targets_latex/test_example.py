@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from gudgeon.generator.pipeline import derive_scene
-from gudgeon.generator.targets.latex import equations_tex, equations_text
+from gudgeon.generator.targets.latex import render_equations_tex, render_equations_text
 
 TEXT = b"""
 format: gudgeon/1
@@ -17,5 +17,5 @@ joints: {pin: {revolute: [ground.O, disc.origin]}}
 
 def test_a_document_has_its_title() -> None:
     model = derive_scene(TEXT, "disc.yaml", "ideal")
-    for document in (equations_text(model), equations_tex(model)):
+    for document in (render_equations_text(model), render_equations_tex(model)):
         assert "A disc on a pin" in document

@@ -9,7 +9,7 @@ import pytest
 
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.pipeline import derive_scene
-from gudgeon.generator.targets.latex import equations_html, equations_tex, equations_text
+from gudgeon.generator.targets.latex import render_equations_html, render_equations_tex, render_equations_text
 from gudgeon.generator.targets.latex.theory import find_letters
 from gudgeon.teaching.notebook import write_notebook
 from tests.slow import slow_but
@@ -81,10 +81,10 @@ def clash(scene: str, twin: bool = False) -> Model:
 
 @pytest.mark.parametrize("scene", slow_but(["ideal", "oiled"], PRIMED))
 def test_no_parameter_has_a_letter_of_the_document(scene: str) -> None:
-    found = sections(equations_text(clash(scene)))
+    found = sections(render_equations_text(clash(scene)))
     letters = [cells[1] for cells in rows(found["Parameters"]) if cells[0] in NAMES]
     assert len(set(letters)) == len(letters) == len(NAMES)
-    text = re.sub(r"\b[A-Z]\.(?= )", "", equations_text(clash(scene, twin=True)))  # initials of people
+    text = re.sub(r"\b[A-Z]\.(?= )", "", render_equations_text(clash(scene, twin=True)))  # initials of people
     others = set(NAME.findall(text))
     assert others & set(letters) == set()
     message = [cells for cells in rows(found["Letters"]) if len(cells) == 4 and cells[1].startswith("parameters.")]
@@ -95,18 +95,18 @@ def test_no_parameter_has_a_letter_of_the_document(scene: str) -> None:
 def test_every_target_tells_of_its_primes() -> None:
     model, message = clash("dry"), "tells apart what would have the letter of something else"
     pytest.importorskip("latex2mathml")
-    for text in (equations_tex(model), equations_html(model), write_notebook(model, "clash.yaml")):
+    for text in (render_equations_tex(model), render_equations_html(model), write_notebook(model, "clash.yaml")):
         assert " ".join(text.split()).count(message) == 1
     assert "{\\\\gamma}'" in write_notebook(model, "clash.yaml")
-    assert r"${\Phi_{1}}'$ & parameters.Phi\_1" in equations_tex(model)
+    assert r"${\Phi_{1}}'$ & parameters.Phi\_1" in render_equations_tex(model)
 
 
 def test_a_file_whose_letters_are_its_own_is_told_of_none() -> None:
     """A clearance c and a bearing's c are two things; where no joint has play, c is free."""
-    assert "Letters" not in sections(equations_text(model_of("press ideal")))
-    dry = sections(equations_text(model_of("press dry")))
+    assert "Letters" not in sections(render_equations_text(model_of("press ideal")))
+    dry = sections(render_equations_text(model_of("press dry")))
     assert [cells[:3] for cells in rows(dry["Letters"])][2:] == [["c'", "parameters.c", "c"]]
-    assert "Letters" not in sections(equations_text(derive_scene(SLIDER.encode(), "slider.yaml", "ideal")))
+    assert "Letters" not in sections(render_equations_text(derive_scene(SLIDER.encode(), "slider.yaml", "ideal")))
 
 
 def test_letters_of_a_sketch() -> None:

@@ -23,8 +23,8 @@ import pytest
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.pipeline import derive_scene, generate_c
-from gudgeon.generator.targets.latex import equations_html
-from gudgeon.generator.targets.latex.trace import Trace, list_yaml_tokens, make_trace
+from gudgeon.generator.targets.latex import render_equations_html
+from gudgeon.generator.targets.latex.trace import HighlightIndex, list_yaml_tokens, make_highlight_index
 from tests.equations.models import random_state
 from tests.slow import slow_but
 from tests.web.node import browser
@@ -49,14 +49,14 @@ def model_of(scene: str) -> Model:
 
 
 @cache
-def traced(scene: str) -> Trace:
-    return make_trace(model_of(scene))
+def traced(scene: str) -> HighlightIndex:
+    return make_highlight_index(model_of(scene))
 
 
 @cache
 def page(scene: str) -> str:
     pytest.importorskip("latex2mathml")
-    return equations_html(model_of(scene))
+    return render_equations_html(model_of(scene))
 
 
 class Numbers(dict[str, float]):
@@ -67,7 +67,7 @@ class Numbers(dict[str, float]):
         return self[name]
 
 
-def statements(found: Trace, file: str, function: str) -> Iterator[tuple[range, str, str]]:
+def statements(found: HighlightIndex, file: str, function: str) -> Iterator[tuple[range, str, str]]:
     """Lines, target and value of each assignment of a function of the C, read as text."""
     lines = found.source.files[file].split("\n")
     first = next(k for k, text in enumerate(lines, 1) if re.search(rf"\b{function}\(.*[^;]$", text) and text[0] != " ")
@@ -102,7 +102,7 @@ def run(
     return found
 
 
-def state_of(found: Trace) -> dict[str, Any]:
+def state_of(found: HighlightIndex) -> dict[str, Any]:
     t, q, v = random_state(found.model, 5)
     return {"t": t + 0.37, "q": q, "v": v + 0.7, "p": Numbers()}
 

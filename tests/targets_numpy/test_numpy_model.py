@@ -15,7 +15,7 @@ from gudgeon.errors import ArrayError, BadValueError, UnitError, UnknownNameErro
 from gudgeon.generator.kernels.closed_linkage import make_row_kernels
 from gudgeon.generator.pipeline import derive_scene
 from gudgeon.generator.reader.read import read_mechanism
-from gudgeon.generator.targets.latex.write import equations_text
+from gudgeon.generator.targets.latex.write import render_equations_text
 from gudgeon.generator.targets.numpy import printer
 from gudgeon.loading.shipped import find_shipped_file, list_generated
 from gudgeon.simulation.simulation import Simulation
@@ -210,7 +210,7 @@ def test_the_equations_can_still_be_read() -> None:
     data = find_shipped_file("slider_crank").read_bytes()
     first, second = (derive_scene(data, "slider_crank.yaml", "dry") for _ in range(2))
     assert first.numpy() is first.numpy()
-    assert equations_text(first) == equations_text(second)
+    assert render_equations_text(first) == render_equations_text(second)
     assert len(make_row_kernels(second)) == 4
 
 

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from gudgeon.generator.pipeline import derive_scene
-from gudgeon.generator.targets.latex import equations_tex
+from gudgeon.generator.targets.latex import render_equations_tex
 from gudgeon.loading.shipped import find_shipped_file
 from gudgeon.teaching.notebook import write_notebook
 from tests.programs import missing, needs_compiler
@@ -41,7 +41,9 @@ SCENES = [LONG_TABLE, SMOOTH_STEP, ("four_bar", "ideal"), ("andrews_squeezer", "
 def test_equations(of: tuple[str, str], tmp_path: Path) -> None:
     """Neither a long table of numbers nor the second derivative of a smooth step runs off the page."""
     (name, scene), file = of, tmp_path / "equations.tex"
-    file.write_text(equations_tex(derive_scene(find_shipped_file(name).read_bytes(), name, scene)), encoding="utf-8")
+    file.write_text(
+        render_equations_tex(derive_scene(find_shipped_file(name).read_bytes(), name, scene)), encoding="utf-8"
+    )
     assert compiled(file) == ""
 
 

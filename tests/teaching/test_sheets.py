@@ -15,7 +15,7 @@ import gudgeon
 from gudgeon.commands.exercise import make_exercise
 from gudgeon.errors import BadValueError, Location, OutputError
 from gudgeon.generator.pipeline import derive_scene
-from gudgeon.generator.targets.latex import equations_tex, equations_text
+from gudgeon.generator.targets.latex import render_equations_tex, render_equations_text
 from gudgeon.generator.targets.latex.document import Document
 from gudgeon.generator.targets.latex.printers import format_number
 from gudgeon.generator.targets.latex.render import render_document
@@ -317,7 +317,7 @@ drives: {motor: {angle: plate, value: phase + t * 1 rad/s}}
 def test_a_triangle_of_sides_fits_on_a_line() -> None:
     """What stands under a root that is too long for a line has a letter; names are upright; zeros have theirs."""
     model = derive_scene(SIDES.encode(), "sides.yaml", "ideal")
-    text, latex = equations_text(model), equations_tex(model)
+    text, latex = render_equations_text(model), render_equations_tex(model)
     known = {"l_plate.PQ": 0.08, "l_plate.QR": 0.06, "l_plate.PR": 0.09}
     for name in ("D_plate.R", "η_plate.R"):
         known[name] = value(" ".join(re.search(rf"  {name} = ([^=]*?)\n(?:  \S+ =|\n)", text)[1].split()), known)  # type: ignore[index]

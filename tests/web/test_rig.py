@@ -15,12 +15,12 @@ import pytest
 pytest.importorskip("matplotlib")
 
 import gudgeon  # noqa: E402
-from gudgeon.drawing.plan import Plan, make_plan  # noqa: E402
+from gudgeon.drawing.layout import Layout, make_layout  # noqa: E402
 from gudgeon.drawing.posture import Posture  # noqa: E402
 from gudgeon.drawing.rig import EXACT, Rig, make_rig  # noqa: E402
 from gudgeon.drawing.shapes import Disc, Shape, Sketch  # noqa: E402
 from gudgeon.drawing.sketch import compute_common_box, make_sketch  # noqa: E402
-from gudgeon.loading.shipped import list_shipped  # noqa: E402
+from gudgeon.loading.shipped import list_shipped_mechanisms  # noqa: E402
 from gudgeon.model.parameters import prepare_values  # noqa: E402
 from gudgeon.results.figures.postures import compute_posture, select_postures  # noqa: E402
 from gudgeon.results.results import Result  # noqa: E402
@@ -50,14 +50,14 @@ Box = tuple[Any, Any]
 KINDS = ["andrews_squeezer", "belt_block", "car_axis", "nine_bar_press", "scotch_yoke", "slider_crank_spring"]
 
 
-def ran(name: str, scene: str = "ideal") -> tuple[Result, Rig, Plan, Box]:
+def ran(name: str, scene: str = "ideal") -> tuple[Result, Rig, Layout, Box]:
     run = gudgeon.load(name, scene).simulate(SHORT.get(name, 1.0), output=120)
     motion = select_postures(run, 13)
-    plan = make_plan(motion)
+    plan = make_layout(motion)
     return run, make_rig(motion, plan), plan, compute_common_box(motion, [plan])
 
 
-def off(rig: Rig, posture: Posture, plan: Plan, box: Box) -> float:
+def off(rig: Rig, posture: Posture, plan: Layout, box: Box) -> float:
     """How far the worst point is from where it is drawn, a share of the size."""
     drawn = dict(keyed(make_sketch(posture, plan, box=box, shows_insets=False)))
     carried = {id(one.shape): one for one in rig.shapes}
@@ -70,7 +70,7 @@ def off(rig: Rig, posture: Posture, plan: Plan, box: Box) -> float:
     return worst / rig.size
 
 
-@pytest.mark.parametrize("name", slow_but(KINDS, list_shipped()))
+@pytest.mark.parametrize("name", slow_but(KINDS, list_shipped_mechanisms()))
 def test_points_are_where_they_are_drawn(name: str) -> None:
     """At samples that the rig was not made from, arrows of drives in the sense that they had."""
     run, rig, plan, box = ran(name)

@@ -148,36 +148,31 @@ void prepare(const double *given, const unsigned char *is_given, Parameters *p)
     p->inverse_mass_HE_HE_ = 1.0/p->mass_HE_HE_;  /* 1/M */
     p->inverse_mass_EG_EG_ = 1.0/p->mass_EG_EG_;  /* 1/M */
     /* of projections */
-    p->tree_metric_OF_theta_ = max_of(((p->OF_points_F_x_ * p->OF_points_F_x_)
-        + (p->OF_points_O_x_ * p->OF_points_O_x_))*(0.0001*p->AG_mass_ + 0.0001*p->AH_mass_ + 0.0001*p->BDE_mass_
-        + 0.0001*p->EG_mass_ + 0.0001*p->FE_mass_ + 0.0001*p->HE_mass_ + 0.0001*p->OF_mass_), p->mass_OF_OF_);
+    p->mass_of_all_ = p->AG_mass_ + p->AH_mass_ + p->BDE_mass_ + p->EG_mass_ + p->FE_mass_ + p->HE_mass_ + p->OF_mass_;
     /* of projections */
-    p->tree_metric_BDE_theta_ = max_of(((p->BDE_points_B_x_ * p->BDE_points_B_x_)
+    p->tree_metric_OF_theta_ = max_of(0.0001*p->mass_of_all_*((p->OF_points_F_x_ * p->OF_points_F_x_)
+        + (p->OF_points_O_x_ * p->OF_points_O_x_)), p->mass_OF_OF_);
+    /* of projections */
+    p->tree_metric_BDE_theta_ = max_of(0.0001*p->mass_of_all_*((p->BDE_points_B_x_ * p->BDE_points_B_x_)
         + (p->BDE_points_B_y_ * p->BDE_points_B_y_) + (p->BDE_points_E_x_ * p->BDE_points_E_x_)
-        + (p->BDE_points_E_y_ * p->BDE_points_E_y_))*(0.0001*p->AG_mass_ + 0.0001*p->AH_mass_ + 0.0001*p->BDE_mass_
-        + 0.0001*p->EG_mass_ + 0.0001*p->FE_mass_ + 0.0001*p->HE_mass_ + 0.0001*p->OF_mass_), p->mass_BDE_BDE_);
+        + (p->BDE_points_E_y_ * p->BDE_points_E_y_)), p->mass_BDE_BDE_);
     /* of projections */
-    p->tree_metric_AG_theta_ = max_of(((p->AG_points_A_x_ * p->AG_points_A_x_)
+    p->tree_metric_AG_theta_ = max_of(0.0001*p->mass_of_all_*((p->AG_points_A_x_ * p->AG_points_A_x_)
         + (p->AG_points_A_y_ * p->AG_points_A_y_) + (p->AG_points_G_x_ * p->AG_points_G_x_)
-        + (p->AG_points_G_y_ * p->AG_points_G_y_))*(0.0001*p->AG_mass_ + 0.0001*p->AH_mass_ + 0.0001*p->BDE_mass_
-        + 0.0001*p->EG_mass_ + 0.0001*p->FE_mass_ + 0.0001*p->HE_mass_ + 0.0001*p->OF_mass_), p->mass_AG_AG_);
+        + (p->AG_points_G_y_ * p->AG_points_G_y_)), p->mass_AG_AG_);
     /* of projections */
-    p->tree_metric_AH_theta_ = max_of(((p->AH_points_A_x_ * p->AH_points_A_x_)
+    p->tree_metric_AH_theta_ = max_of(0.0001*p->mass_of_all_*((p->AH_points_A_x_ * p->AH_points_A_x_)
         + (p->AH_points_A_y_ * p->AH_points_A_y_) + (p->AH_points_H_x_ * p->AH_points_H_x_)
-        + (p->AH_points_H_y_ * p->AH_points_H_y_))*(0.0001*p->AG_mass_ + 0.0001*p->AH_mass_ + 0.0001*p->BDE_mass_
-        + 0.0001*p->EG_mass_ + 0.0001*p->FE_mass_ + 0.0001*p->HE_mass_ + 0.0001*p->OF_mass_), p->mass_AH_AH_);
+        + (p->AH_points_H_y_ * p->AH_points_H_y_)), p->mass_AH_AH_);
     /* of projections */
-    p->tree_metric_FE_theta_ = max_of(((p->FE_points_E_x_ * p->FE_points_E_x_)
-        + (p->FE_points_F_x_ * p->FE_points_F_x_))*(0.0001*p->AG_mass_ + 0.0001*p->AH_mass_ + 0.0001*p->BDE_mass_
-        + 0.0001*p->EG_mass_ + 0.0001*p->FE_mass_ + 0.0001*p->HE_mass_ + 0.0001*p->OF_mass_), p->mass_FE_FE_);
+    p->tree_metric_FE_theta_ = max_of(0.0001*p->mass_of_all_*((p->FE_points_E_x_ * p->FE_points_E_x_)
+        + (p->FE_points_F_x_ * p->FE_points_F_x_)), p->mass_FE_FE_);
     /* of projections */
-    p->tree_metric_HE_theta_ = max_of(((p->HE_points_E_x_ * p->HE_points_E_x_)
-        + (p->HE_points_H_x_ * p->HE_points_H_x_))*(0.0001*p->AG_mass_ + 0.0001*p->AH_mass_ + 0.0001*p->BDE_mass_
-        + 0.0001*p->EG_mass_ + 0.0001*p->FE_mass_ + 0.0001*p->HE_mass_ + 0.0001*p->OF_mass_), p->mass_HE_HE_);
+    p->tree_metric_HE_theta_ = max_of(0.0001*p->mass_of_all_*((p->HE_points_E_x_ * p->HE_points_E_x_)
+        + (p->HE_points_H_x_ * p->HE_points_H_x_)), p->mass_HE_HE_);
     /* of projections */
-    p->tree_metric_EG_theta_ = max_of(((p->EG_points_E_y_ * p->EG_points_E_y_)
-        + (p->EG_points_G_y_ * p->EG_points_G_y_))*(0.0001*p->AG_mass_ + 0.0001*p->AH_mass_ + 0.0001*p->BDE_mass_
-        + 0.0001*p->EG_mass_ + 0.0001*p->FE_mass_ + 0.0001*p->HE_mass_ + 0.0001*p->OF_mass_), p->mass_EG_EG_);
+    p->tree_metric_EG_theta_ = max_of(0.0001*p->mass_of_all_*((p->EG_points_E_y_ * p->EG_points_E_y_)
+        + (p->EG_points_G_y_ * p->EG_points_G_y_)), p->mass_EG_EG_);
     p->inverse_tree_metric_AG_theta_ = 1.0/p->tree_metric_AG_theta_;  /* 1/M */
     p->inverse_tree_metric_AH_theta_ = 1.0/p->tree_metric_AH_theta_;  /* 1/M */
     p->inverse_tree_metric_HE_theta_ = 1.0/p->tree_metric_HE_theta_;  /* 1/M */

@@ -43,10 +43,11 @@ void prepare(const double *given, const unsigned char *is_given, Parameters *p)
     p->mass_bump_bump_ = p->inertia_road_road_ + p->road_inertia_;  /* constant of M */
     p->weight_road_across_ = p->road_head_s_x_*p->road_mass_*p->gravity_y_;  /* weight */
     p->inverse_axle_inertia_ = 1.0/p->axle_inertia_;  /* 1/M */
-    p->tree_metric_axle_x_ = max_of(0.0001*p->axle_mass_ + 0.0001*p->road_mass_, p->axle_mass_);  /* of projections */
+    p->mass_of_all_ = p->axle_mass_ + p->road_mass_;  /* of projections */
+    p->tree_metric_axle_x_ = max_of(0.0001*p->mass_of_all_, p->axle_mass_);  /* of projections */
     /* of projections */
-    p->tree_metric_axle_theta_ = max_of((p->axle_head_s_x_ * p->axle_head_s_x_)*(0.0001*p->axle_mass_
-        + 0.0001*p->road_mass_), p->axle_inertia_);
+    p->tree_metric_axle_theta_ = max_of(0.0001*(p->axle_head_s_x_ * p->axle_head_s_x_)*p->mass_of_all_,
+        p->axle_inertia_);
     p->inverse_tree_metric_axle_x_ = 1.0/p->tree_metric_axle_x_;  /* 1/M */
     p->inverse_tree_metric_axle_theta_ = 1.0/p->tree_metric_axle_theta_;  /* 1/M */
 }

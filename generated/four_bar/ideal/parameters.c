@@ -57,12 +57,13 @@ void prepare(const double *given, const unsigned char *is_given, Parameters *p)
     p->weight_rocker_across_ = p->rocker_head_s_x_*p->rocker_mass_*p->gravity_y_;  /* weight */
     p->inverse_mass_rocker_rocker_ = 1.0/p->mass_rocker_rocker_;  /* 1/M */
     p->inverse_mass_coupler_coupler_ = 1.0/p->mass_coupler_coupler_;  /* 1/M */
+    p->mass_of_all_ = p->coupler_mass_ + p->crank_mass_ + p->rocker_mass_;  /* of projections */
     /* of projections */
-    p->tree_metric_rocker_theta_ = max_of(2.0*(p->rocker_head_s_x_ * p->rocker_head_s_x_)*(0.0001*p->coupler_mass_
-        + 0.0001*p->crank_mass_ + 0.0001*p->rocker_mass_), p->mass_rocker_rocker_);
+    p->tree_metric_rocker_theta_ = max_of(0.0002*p->mass_of_all_*(p->rocker_head_s_x_ * p->rocker_head_s_x_),
+        p->mass_rocker_rocker_);
     /* of projections */
-    p->tree_metric_coupler_theta_ = max_of(2.0*(p->coupler_head_s_x_ * p->coupler_head_s_x_)*(0.0001*p->coupler_mass_
-        + 0.0001*p->crank_mass_ + 0.0001*p->rocker_mass_), p->mass_coupler_coupler_);
+    p->tree_metric_coupler_theta_ = max_of(0.0002*(p->coupler_head_s_x_ * p->coupler_head_s_x_)*p->mass_of_all_,
+        p->mass_coupler_coupler_);
     p->inverse_tree_metric_rocker_theta_ = 1.0/p->tree_metric_rocker_theta_;  /* 1/M */
     p->inverse_tree_metric_coupler_theta_ = 1.0/p->tree_metric_coupler_theta_;  /* 1/M */
 }

@@ -95,25 +95,22 @@ void prepare(const double *given, const unsigned char *is_given, Parameters *p)
     p->inverse_mass_coupler2_coupler2_ = 1.0/p->mass_coupler2_coupler2_;  /* 1/M */
     p->inverse_mass_crank0_crank0_ = 1.0/p->mass_crank0_crank0_;  /* 1/M */
     /* of projections */
-    p->tree_metric_crank0_theta_ = max_of(2.0*(p->crank0_head_s_x_ * p->crank0_head_s_x_)*(0.0001*p->coupler1_mass_
-        + 0.0001*p->coupler2_mass_ + 0.0001*p->crank0_mass_ + 0.0001*p->crank1_mass_ + 0.0001*p->crank2_mass_),
+    p->mass_of_all_ = p->coupler1_mass_ + p->coupler2_mass_ + p->crank0_mass_ + p->crank1_mass_ + p->crank2_mass_;
+    /* of projections */
+    p->tree_metric_crank0_theta_ = max_of(0.0002*(p->crank0_head_s_x_ * p->crank0_head_s_x_)*p->mass_of_all_,
         p->mass_crank0_crank0_);
     /* of projections */
-    p->tree_metric_crank1_theta_ = max_of(2.0*(p->crank1_head_s_x_ * p->crank1_head_s_x_)*(0.0001*p->coupler1_mass_
-        + 0.0001*p->coupler2_mass_ + 0.0001*p->crank0_mass_ + 0.0001*p->crank1_mass_ + 0.0001*p->crank2_mass_),
+    p->tree_metric_crank1_theta_ = max_of(0.0002*(p->crank1_head_s_x_ * p->crank1_head_s_x_)*p->mass_of_all_,
         p->mass_crank1_crank1_);
     /* of projections */
-    p->tree_metric_crank2_theta_ = max_of(2.0*(p->crank2_head_s_x_ * p->crank2_head_s_x_)*(0.0001*p->coupler1_mass_
-        + 0.0001*p->coupler2_mass_ + 0.0001*p->crank0_mass_ + 0.0001*p->crank1_mass_ + 0.0001*p->crank2_mass_),
+    p->tree_metric_crank2_theta_ = max_of(0.0002*(p->crank2_head_s_x_ * p->crank2_head_s_x_)*p->mass_of_all_,
         p->mass_crank2_crank2_);
     /* of projections */
-    p->tree_metric_coupler1_theta_ = max_of(2.0*(p->coupler1_head_s_x_
-        * p->coupler1_head_s_x_)*(0.0001*p->coupler1_mass_ + 0.0001*p->coupler2_mass_ + 0.0001*p->crank0_mass_
-        + 0.0001*p->crank1_mass_ + 0.0001*p->crank2_mass_), p->mass_coupler1_coupler1_);
+    p->tree_metric_coupler1_theta_ = max_of(0.0002*(p->coupler1_head_s_x_ * p->coupler1_head_s_x_)*p->mass_of_all_,
+        p->mass_coupler1_coupler1_);
     /* of projections */
-    p->tree_metric_coupler2_theta_ = max_of(2.0*(p->coupler2_head_s_x_
-        * p->coupler2_head_s_x_)*(0.0001*p->coupler1_mass_ + 0.0001*p->coupler2_mass_ + 0.0001*p->crank0_mass_
-        + 0.0001*p->crank1_mass_ + 0.0001*p->crank2_mass_), p->mass_coupler2_coupler2_);
+    p->tree_metric_coupler2_theta_ = max_of(0.0002*(p->coupler2_head_s_x_ * p->coupler2_head_s_x_)*p->mass_of_all_,
+        p->mass_coupler2_coupler2_);
     p->inverse_tree_metric_crank2_theta_ = 1.0/p->tree_metric_crank2_theta_;  /* 1/M */
     p->inverse_tree_metric_crank0_theta_ = 1.0/p->tree_metric_crank0_theta_;  /* 1/M */
     p->inverse_tree_metric_coupler2_theta_ = 1.0/p->tree_metric_coupler2_theta_;  /* 1/M */

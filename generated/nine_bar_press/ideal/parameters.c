@@ -128,25 +128,18 @@ void prepare(const double *given, const unsigned char *is_given, Parameters *p)
     p->inverse_mass_L7_L7_ = 1.0/p->mass_L7_L7_;  /* 1/M */
     p->inverse_mass_L2_L2_ = 1.0/p->mass_L2_L2_;  /* 1/M */
     /* of projections */
-    p->tree_metric_L6_theta_ = max_of(2.0*(p->L6_head_s_x_ * p->L6_head_s_x_)*(0.0001*p->L1_mass_ + 0.0001*p->L2_mass_
-        + 0.0001*p->L3_mass_ + 0.0001*p->L4_mass_ + 0.0001*p->L6_mass_ + 0.0001*p->L7_mass_ + 0.0001*p->L8_mass_
-        + 0.0001*p->S9_mass_), p->mass_L6_L6_);
+    p->mass_of_all_ = p->L1_mass_ + p->L2_mass_ + p->L3_mass_ + p->L4_mass_ + p->L6_mass_ + p->L7_mass_ + p->L8_mass_
+        + p->S9_mass_;
     /* of projections */
-    p->tree_metric_L2_theta_ = max_of(2.0*(p->L2_head_s_x_ * p->L2_head_s_x_)*(0.0001*p->L1_mass_ + 0.0001*p->L2_mass_
-        + 0.0001*p->L3_mass_ + 0.0001*p->L4_mass_ + 0.0001*p->L6_mass_ + 0.0001*p->L7_mass_ + 0.0001*p->L8_mass_
-        + 0.0001*p->S9_mass_), p->mass_L2_L2_);
+    p->tree_metric_L6_theta_ = max_of(0.0002*(p->L6_head_s_x_ * p->L6_head_s_x_)*p->mass_of_all_, p->mass_L6_L6_);
     /* of projections */
-    p->tree_metric_L3_theta_ = max_of(2.0*(p->L3_head_s_x_ * p->L3_head_s_x_)*(0.0001*p->L1_mass_ + 0.0001*p->L2_mass_
-        + 0.0001*p->L3_mass_ + 0.0001*p->L4_mass_ + 0.0001*p->L6_mass_ + 0.0001*p->L7_mass_ + 0.0001*p->L8_mass_
-        + 0.0001*p->S9_mass_), p->mass_L3_L3_);
+    p->tree_metric_L2_theta_ = max_of(0.0002*(p->L2_head_s_x_ * p->L2_head_s_x_)*p->mass_of_all_, p->mass_L2_L2_);
     /* of projections */
-    p->tree_metric_L7_theta_ = max_of(2.0*(p->L7_head_s_x_ * p->L7_head_s_x_)*(0.0001*p->L1_mass_ + 0.0001*p->L2_mass_
-        + 0.0001*p->L3_mass_ + 0.0001*p->L4_mass_ + 0.0001*p->L6_mass_ + 0.0001*p->L7_mass_ + 0.0001*p->L8_mass_
-        + 0.0001*p->S9_mass_), p->mass_L7_L7_);
+    p->tree_metric_L3_theta_ = max_of(0.0002*(p->L3_head_s_x_ * p->L3_head_s_x_)*p->mass_of_all_, p->mass_L3_L3_);
     /* of projections */
-    p->tree_metric_L8_theta_ = max_of(2.0*(p->L8_head_s_x_ * p->L8_head_s_x_)*(0.0001*p->L1_mass_ + 0.0001*p->L2_mass_
-        + 0.0001*p->L3_mass_ + 0.0001*p->L4_mass_ + 0.0001*p->L6_mass_ + 0.0001*p->L7_mass_ + 0.0001*p->L8_mass_
-        + 0.0001*p->S9_mass_), p->mass_L8_L8_);
+    p->tree_metric_L7_theta_ = max_of(0.0002*(p->L7_head_s_x_ * p->L7_head_s_x_)*p->mass_of_all_, p->mass_L7_L7_);
+    /* of projections */
+    p->tree_metric_L8_theta_ = max_of(0.0002*(p->L8_head_s_x_ * p->L8_head_s_x_)*p->mass_of_all_, p->mass_L8_L8_);
     p->inverse_tree_metric_L3_theta_ = 1.0/p->tree_metric_L3_theta_;  /* 1/M */
     p->inverse_tree_metric_L8_theta_ = 1.0/p->tree_metric_L8_theta_;  /* 1/M */
     p->inverse_tree_metric_L7_theta_ = 1.0/p->tree_metric_L7_theta_;  /* 1/M */

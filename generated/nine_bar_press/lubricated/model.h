@@ -8,43 +8,43 @@
 #ifndef GUDGEON_MODEL_H
 #define GUDGEON_MODEL_H
 
-#define N_Q 24              /* coordinates of all bodies */
-#define N_ROWS 20           /* constraint rows of the motion */
-#define N_ALL_ROWS 24       /* rows of the closed linkage */
-#define N_JOINTS 9          /* joints without play */
-#define N_DRIVES 2          /* drives */
-#define N_CLEARANCES 2      /* joints with play */
-#define LAW_STATES 0        /* inner states of the laws of a joint with play, at most */
-#define N_FRICTIONS 0       /* slips that friction may hold */
-#define N_SWITCHES 16       /* corners of min, max, abs and sign */
-#define N_USER_EVENTS 0     /* expressions whose zeros are watched */
-#define N_SERIES 0          /* results of force elements */
-#define INTEGRATES 1        /* 1; 0: no freedom is left, positions follow from the drives */
-#define TREE 1              /* 1: in coordinates of a tree of bodies; 0: in those of all bodies */
-#define POSITIONS_IN_TREE 0 /* the same, where they follow */
-#define N_X 5               /* coordinates that are integrated */
-#define N_LOOPS 1           /* constraint rows of these */
-#define N_CHAIN 0           /* coordinates that drives determine through loops */
-#define N_LED 0             /* these, cosines and sines of angles */
-#define SMOOTH_CHAINS 0     /* their drives have no corners */
-#define TREE_PIVOTS 0       /* statuses of chains follow these */
-#define RESCUED 1           /* pivots may vanish: all bodies' equations help */
-#define LARGEST_BLOCK 0     /* rows that are solved together */
-#define N_VALUES 67         /* of the linearized equations */
-#define N_FACTORS 21        /* of their factors L and U */
-#define IMPLICIT_STAGES 1   /* 1: there are methods that find their stages together */
-#define HAS_LANES 1         /* runs go side by side */
-#define DRIVE_IMPULSES 0    /* drives' rates may jump, and something is free to move */
-#define RATE_JUMPS 0        /* the rate of some drive may jump */
-#define N_WATCHED 0         /* corners of expressions, and events */
-#define KNOWN_BOUNDS 0      /* bounds of what is watched are known over ranges of the state */
-#define WATCHES_STATE 0     /* they hang on more than time */
-#define N_TERMS 0           /* terms of time alone, which may hide within a step */
-#define N_PULSES 0          /* of these, the first: those that may in a step of any motion */
-#define N_GUESS 5           /* coordinates that the start guesses */
-#define GUESSED_POINTS 0    /* some of them are those of points */
-#define N_SET 0             /* those that it sets */
-#define N_RATES 0           /* velocities that it sets */
+#define N_Q 24                /* coordinates of all bodies */
+#define N_ROWS 20             /* constraint rows of the motion */
+#define N_ALL_ROWS 24         /* rows of the closed linkage */
+#define N_JOINTS 9            /* joints without play */
+#define N_DRIVES 2            /* drives */
+#define N_CLEARANCES 2        /* joints with play */
+#define LAW_STATES 0          /* inner states of the laws of a joint with play, at most */
+#define N_FRICTIONS 0         /* slips that friction may hold */
+#define N_SWITCHES 16         /* corners of min, max, abs and sign */
+#define N_USER_EVENTS 0       /* expressions whose zeros are watched */
+#define N_SERIES 0            /* results of force elements */
+#define INTEGRATES 1          /* 1; 0: no freedom is left, positions follow from the drives */
+#define TREE 1                /* 1: in coordinates of a tree of bodies; 0: in those of all bodies */
+#define POSITIONS_IN_TREE 0   /* the same, where they follow */
+#define N_X 5                 /* coordinates that are integrated */
+#define N_LOOPS 1             /* constraint rows of these */
+#define N_DEPENDENT 0         /* coordinates that drives determine through loops */
+#define N_LED 0               /* these, cosines and sines of angles */
+#define SMOOTH_DRIVEN_LOOPS 0 /* their drives have no corners */
+#define TREE_PIVOTS 0         /* statuses of driven loops follow these */
+#define RESCUED 1             /* pivots may vanish: all bodies' equations help */
+#define LARGEST_BLOCK 0       /* rows that are solved together */
+#define N_VALUES 67           /* of the linearized equations */
+#define N_FACTORS 21          /* of their factors L and U */
+#define IMPLICIT_STAGES 1     /* 1: there are methods that find their stages together */
+#define HAS_LANES 1           /* runs go side by side */
+#define DRIVE_IMPULSES 0      /* drives' rates may jump, and something is free to move */
+#define RATE_JUMPS 0          /* the rate of some drive may jump */
+#define N_WATCHED 0           /* corners of expressions, and events */
+#define KNOWN_BOUNDS 0        /* bounds of what is watched are known over ranges of the state */
+#define WATCHES_STATE 0       /* they hang on more than time */
+#define N_TERMS 0             /* terms of time alone, which may hide within a step */
+#define N_PULSES 0            /* of these, the first: those that may in a step of any motion */
+#define N_GUESS 5             /* coordinates that the start guesses */
+#define GUESSED_POINTS 0      /* some of them are those of points */
+#define N_SET 0               /* those that it sets */
+#define N_RATES 0             /* velocities that it sets */
 
 /* Thresholds of pivots: a constraint equation is dependent if less than this fraction of its pivot is left: */
 #define SINGULAR 1e-13                        /* where it depends on others */
@@ -211,6 +211,7 @@ struct Parameters {
     double weight_L8_across_;  /* weight, N*m */
     double inverse_mass_L8_L8_;  /* 1/M, 1/(kg*m^2) */
     double inverse_mass_L2_L2_;  /* 1/M, 1/(kg*m^2) */
+    double mass_of_all_;  /* of projections, kg */
     double tree_metric_L6_theta_;  /* of projections, kg*m^2 */
     double tree_metric_L7_theta_;  /* of projections, kg*m^2 */
     double tree_metric_L8_theta_;  /* of projections, kg*m^2 */

@@ -70,8 +70,8 @@ void prepare(const double *given, const unsigned char *is_given, Parameters *p)
         + p->rod_head_span_x_*p->table_mass_*p->gravity_y_ + p->rod_head_s_x_*p->rod_mass_*p->gravity_y_;
     p->weight_arm_across_ = p->arm_head_s_x_*p->arm_mass_*p->gravity_y_;  /* weight */
     p->inverse_mass_arm_arm_ = 1.0/p->mass_arm_arm_;  /* 1/M */
+    p->mass_of_all_ = p->arm_mass_ + p->crank_mass_ + p->rod_mass_ + p->table_mass_;  /* of projections */
     /* of projections */
-    p->tree_metric_arm_theta_ = max_of((p->arm_head_s_x_ * p->arm_head_s_x_)*(0.0001*p->arm_mass_
-        + 0.0001*p->crank_mass_ + 0.0001*p->rod_mass_ + 0.0001*p->table_mass_), p->mass_arm_arm_);
+    p->tree_metric_arm_theta_ = max_of(0.0001*(p->arm_head_s_x_ * p->arm_head_s_x_)*p->mass_of_all_, p->mass_arm_arm_);
     p->inverse_tree_metric_arm_theta_ = 1.0/p->tree_metric_arm_theta_;  /* 1/M */
 }

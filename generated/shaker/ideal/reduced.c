@@ -216,7 +216,8 @@ int reduced_project(const double t, const double *q, const double *r, const Para
 /*
  * Cosines and sines of all angles in the closures of dependent loops, stored in q after coordinates.
  */
-void chain_directions(const double t, const double *q, const DiscreteState *discrete, const Parameters *p, double *out)
+void evaluate_loop_directions(const double t, const double *q, const DiscreteState *discrete, const Parameters *p,
+    double *out)
 {
     (void)discrete;
     /* coordinates, velocities, time */
@@ -240,7 +241,7 @@ void chain_directions(const double t, const double *q, const DiscreteState *disc
  * step = newton + bend, Phi_c bend = Phi_cc[newton, newton]/2. `row`: the number, from 1, of the row with
  * the largest |Phi|. Returns 0, or the number of a row that depends on others here.
  */
-int chain_step(const double t, const double *q, const DiscreteState *discrete, const Parameters *p, double *step,
+int compute_loop_step(const double t, const double *q, const DiscreteState *discrete, const Parameters *p, double *step,
     double *bend, int *row)
 {
     (void)t, (void)discrete;
@@ -282,7 +283,7 @@ int chain_step(const double t, const double *q, const DiscreteState *discrete, c
  * Phi_c c'' = gamma. They are stored after those of the other coordinates in v.
  * Returns 0, or the number of a row that depends on others here.
  */
-int chain_rates(const double t, const double *q, const DiscreteState *discrete, const Parameters *p, double *v)
+int compute_loop_rates(const double t, const double *q, const DiscreteState *discrete, const Parameters *p, double *v)
 {
     (void)t, (void)discrete;
     /* coordinates, velocities, time */
@@ -324,8 +325,8 @@ int chain_rates(const double t, const double *q, const DiscreteState *discrete, 
  * Third rates of the dependent coordinates: Phi_c c''' = d/dt (gamma - Phi_c c'') at the same c''.
  * Returns 0, or the number of a row that depends on others here.
  */
-int chain_third(const double t, const double *q, const double *v, const DiscreteState *discrete, const Parameters *p,
-    double *out)
+int compute_third_loop_rates(const double t, const double *q, const double *v, const DiscreteState *discrete,
+    const Parameters *p, double *out)
 {
     (void)t, (void)discrete;
     /* coordinates, velocities, time */
@@ -365,7 +366,7 @@ int chain_third(const double t, const double *q, const double *v, const Discrete
 }
 
 /* Return the factor that makes a step of dependent coordinate k dimensionless: 1 for angles, 1/extent for slides. */
-double chain_share(const Parameters *p, int k)
+double get_loop_step_scale(const Parameters *p, int k)
 {
     (void)p;
     switch (k) {

@@ -56,12 +56,10 @@ void prepare(const double *given, const unsigned char *is_given, Parameters *p)
     p->mass_motor_motor_ = p->crank_inertia_ + p->inertia_crank_crank_;  /* constant of M */
     p->mass_rod_rod_ = p->inertia_rod_rod_ + p->rod_inertia_;  /* constant of M */
     p->inverse_mass_rod_rod_ = 1.0/p->mass_rod_rod_;  /* 1/M */
+    p->mass_of_all_ = p->crank_mass_ + p->rod_mass_ + p->slider_mass_;  /* of projections */
+    p->tree_metric_cylinder_slide_ = max_of(0.0001*p->mass_of_all_, p->slider_mass_);  /* of projections */
     /* of projections */
-    p->tree_metric_cylinder_slide_ = max_of(0.0001*p->crank_mass_ + 0.0001*p->rod_mass_ + 0.0001*p->slider_mass_,
-        p->slider_mass_);
-    /* of projections */
-    p->tree_metric_rod_theta_ = max_of(2.0*(p->rod_head_s_x_ * p->rod_head_s_x_)*(0.0001*p->crank_mass_
-        + 0.0001*p->rod_mass_ + 0.0001*p->slider_mass_), p->mass_rod_rod_);
+    p->tree_metric_rod_theta_ = max_of(0.0002*p->mass_of_all_*(p->rod_head_s_x_ * p->rod_head_s_x_), p->mass_rod_rod_);
     p->inverse_tree_metric_cylinder_slide_ = 1.0/p->tree_metric_cylinder_slide_;  /* 1/M */
     p->inverse_tree_metric_rod_theta_ = 1.0/p->tree_metric_rod_theta_;  /* 1/M */
 }

@@ -50,7 +50,7 @@ int close_step(const double t, const double *q, const Parameters *p, double *ste
  * all_q, all_v, all_a (N_Q). `worst`: the largest |Phi_q v - nu|.
  * Returns 0, or the number of a row that depends on others here; all_q and all_v are written also then.
  */
-int arrive(const double t, const double *q, const double *v, const Parameters *p, double *a, double *all_q,
+int compute_body_motion(const double t, const double *q, const double *v, const Parameters *p, double *a, double *all_q,
     double *all_v, double *all_a, double *worst)
 {
     /* coordinates, velocities, time */

@@ -8,43 +8,43 @@
 #ifndef GUDGEON_MODEL_H
 #define GUDGEON_MODEL_H
 
-#define N_Q 6               /* coordinates of all bodies */
-#define N_ROWS 5            /* constraint rows of the motion */
-#define N_ALL_ROWS 5        /* rows of the closed linkage */
-#define N_JOINTS 3          /* joints without play */
-#define N_DRIVES 0          /* drives */
-#define N_CLEARANCES 0      /* joints with play */
-#define LAW_STATES 0        /* inner states of the laws of a joint with play, at most */
-#define N_FRICTIONS 0       /* slips that friction may hold */
-#define N_SWITCHES 0        /* corners of min, max, abs and sign */
-#define N_USER_EVENTS 0     /* expressions whose zeros are watched */
-#define N_SERIES 5          /* results of force elements */
-#define INTEGRATES 1        /* 1; 0: no freedom is left, positions follow from the drives */
-#define TREE 1              /* 1: in coordinates of a tree of bodies; 0: in those of all bodies */
-#define POSITIONS_IN_TREE 0 /* the same, where they follow */
-#define N_X 2               /* coordinates that are integrated */
-#define N_LOOPS 1           /* constraint rows of these */
-#define N_CHAIN 0           /* coordinates that drives determine through loops */
-#define N_LED 0             /* these, cosines and sines of angles */
-#define SMOOTH_CHAINS 0     /* their drives have no corners */
-#define TREE_PIVOTS 0       /* statuses of chains follow these */
-#define RESCUED 1           /* pivots may vanish: all bodies' equations help */
-#define LARGEST_BLOCK 0     /* rows that are solved together */
-#define N_VALUES 19         /* of the linearized equations */
-#define N_FACTORS 8         /* of their factors L and U */
-#define IMPLICIT_STAGES 0   /* 1: there are methods that find their stages together */
-#define HAS_LANES 1         /* runs go side by side */
-#define DRIVE_IMPULSES 0    /* drives' rates may jump, and something is free to move */
-#define RATE_JUMPS 0        /* the rate of some drive may jump */
-#define N_WATCHED 0         /* corners of expressions, and events */
-#define KNOWN_BOUNDS 0      /* bounds of what is watched are known over ranges of the state */
-#define WATCHES_STATE 0     /* they hang on more than time */
-#define N_TERMS 0           /* terms of time alone, which may hide within a step */
-#define N_PULSES 0          /* of these, the first: those that may in a step of any motion */
-#define N_GUESS 2           /* coordinates that the start guesses */
-#define GUESSED_POINTS 0    /* some of them are those of points */
-#define N_SET 1             /* those that it sets */
-#define N_RATES 1           /* velocities that it sets */
+#define N_Q 6                 /* coordinates of all bodies */
+#define N_ROWS 5              /* constraint rows of the motion */
+#define N_ALL_ROWS 5          /* rows of the closed linkage */
+#define N_JOINTS 3            /* joints without play */
+#define N_DRIVES 0            /* drives */
+#define N_CLEARANCES 0        /* joints with play */
+#define LAW_STATES 0          /* inner states of the laws of a joint with play, at most */
+#define N_FRICTIONS 0         /* slips that friction may hold */
+#define N_SWITCHES 0          /* corners of min, max, abs and sign */
+#define N_USER_EVENTS 0       /* expressions whose zeros are watched */
+#define N_SERIES 5            /* results of force elements */
+#define INTEGRATES 1          /* 1; 0: no freedom is left, positions follow from the drives */
+#define TREE 1                /* 1: in coordinates of a tree of bodies; 0: in those of all bodies */
+#define POSITIONS_IN_TREE 0   /* the same, where they follow */
+#define N_X 2                 /* coordinates that are integrated */
+#define N_LOOPS 1             /* constraint rows of these */
+#define N_DEPENDENT 0         /* coordinates that drives determine through loops */
+#define N_LED 0               /* these, cosines and sines of angles */
+#define SMOOTH_DRIVEN_LOOPS 0 /* their drives have no corners */
+#define TREE_PIVOTS 0         /* statuses of driven loops follow these */
+#define RESCUED 1             /* pivots may vanish: all bodies' equations help */
+#define LARGEST_BLOCK 0       /* rows that are solved together */
+#define N_VALUES 19           /* of the linearized equations */
+#define N_FACTORS 8           /* of their factors L and U */
+#define IMPLICIT_STAGES 0     /* 1: there are methods that find their stages together */
+#define HAS_LANES 1           /* runs go side by side */
+#define DRIVE_IMPULSES 0      /* drives' rates may jump, and something is free to move */
+#define RATE_JUMPS 0          /* the rate of some drive may jump */
+#define N_WATCHED 0           /* corners of expressions, and events */
+#define KNOWN_BOUNDS 0        /* bounds of what is watched are known over ranges of the state */
+#define WATCHES_STATE 0       /* they hang on more than time */
+#define N_TERMS 0             /* terms of time alone, which may hide within a step */
+#define N_PULSES 0            /* of these, the first: those that may in a step of any motion */
+#define N_GUESS 2             /* coordinates that the start guesses */
+#define GUESSED_POINTS 0      /* some of them are those of points */
+#define N_SET 1               /* those that it sets */
+#define N_RATES 1             /* velocities that it sets */
 
 /* Thresholds of pivots: a constraint equation is dependent if less than this fraction of its pivot is left: */
 #define SINGULAR 1e-13                        /* where it depends on others */
@@ -114,6 +114,7 @@ struct Parameters {
     double mass_crank_crank_;  /* constant of M, kg*m^2 */
     double mass_rod_rod_;  /* constant of M, kg*m^2 */
     double inverse_mass_crank_crank_;  /* 1/M, 1/(kg*m^2) */
+    double mass_of_all_;  /* of projections, kg */
     double tree_metric_crank_theta_;  /* of projections, kg*m^2 */
     double tree_metric_rod_theta_;  /* of projections, kg*m^2 */
     double inverse_tree_metric_crank_theta_;  /* 1/M, 1/(kg*m^2) */

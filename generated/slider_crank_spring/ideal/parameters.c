@@ -42,11 +42,12 @@ void prepare(const double *given, const unsigned char *is_given, Parameters *p)
     p->mass_crank_crank_ = p->crank_inertia_ + p->inertia_crank_crank_;  /* constant of M */
     p->mass_rod_rod_ = p->inertia_rod_rod_ + p->rod_inertia_;  /* constant of M */
     p->inverse_mass_crank_crank_ = 1.0/p->mass_crank_crank_;  /* 1/M */
+    p->mass_of_all_ = p->crank_mass_ + p->rod_mass_;  /* of projections */
     /* of projections */
-    p->tree_metric_crank_theta_ = max_of((p->crank_length_ * p->crank_length_)*(0.0001*p->crank_mass_
-        + 0.0001*p->rod_mass_), p->mass_crank_crank_);
+    p->tree_metric_crank_theta_ = max_of(0.0001*(p->crank_length_ * p->crank_length_)*p->mass_of_all_,
+        p->mass_crank_crank_);
     /* of projections */
-    p->tree_metric_rod_theta_ = max_of(p->mass_rod_rod_, (p->rod_points_crankpin_x_
-        * p->rod_points_crankpin_x_)*(0.0001*p->crank_mass_ + 0.0001*p->rod_mass_));
+    p->tree_metric_rod_theta_ = max_of(0.0001*p->mass_of_all_*(p->rod_points_crankpin_x_ * p->rod_points_crankpin_x_),
+        p->mass_rod_rod_);
     p->inverse_tree_metric_crank_theta_ = 1.0/p->tree_metric_crank_theta_;  /* 1/M */
 }

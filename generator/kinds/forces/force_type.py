@@ -40,7 +40,7 @@ class Slip:
     kinetic: Any
     stribeck_velocity: Any = 0
 
-    def kinetic_at(self, v: Any) -> Any:
+    def evaluate_kinetic_force(self, v: Any) -> Any:
         """Return the friction force (N) at a slip v (m/s) of either sign, which is positive.
 
         It falls from static to kinetic with the slip; it is constant if `stribeck_velocity` is 0.

@@ -26,9 +26,9 @@ def derive_constraint_equations(first_frame: Any, second_frame: Any, joint_field
     first_frame, second_frame: frames of the cam's and the follower's point (PointFrame).
     joint_fields: the joint's values (JointFields).
     """
-    u_x, u_y = joint_fields.direction_on("axis", "carrier")
+    u_x, u_y = joint_fields.rotate_direction("axis", "carrier")
     along = u_x * (second_frame.x - first_frame.x) + u_y * (second_frame.y - first_frame.y)
-    return [along - joint_fields.profile("profile", first_frame.theta, joint_fields.body_angle("carrier"))]
+    return [along - joint_fields.define_profile("profile", first_frame.theta, joint_fields.body_angle("carrier"))]
 
 
 def find_gap_points(joint: Any, residuals: Any) -> Any:

@@ -27,7 +27,7 @@ def derive_constraint_equations(first_frame: Any, second_frame: Any, joint_field
 
 def draw_symbol(pen: Any) -> None:
     """Draw the rod between two pins, with a stand at a point of the ground."""
-    pen.stand()
+    pen.add_stand()
     pen.line("rod", [pen.first, pen.second])
     for point in (pen.first, pen.second):
         pen.pin(point, 0.8)

@@ -54,8 +54,8 @@ def find_pitch_point(joint: Any) -> Any:
 def draw_symbol(pen: Any) -> None:
     """Draw pitch circles, a spoke fixed in each wheel, a ring with its rim, and the point of contact."""
     for k, (centre, radius) in enumerate(find_wheels(pen)):
-        pen.wheel(k, centre, radius, is_ring=k == 1 and pen.option("internal") == "true")
-    pen.disc("mark", find_pitch_point(pen), 0.25 * pen.unit)
+        pen.add_wheel(k, centre, radius, is_ring=k == 1 and pen.option("internal") == "true")
+    pen.add_disc("mark", find_pitch_point(pen), 0.25 * pen.unit)
 
 
 def find_gap_points(joint: Any, residuals: Any) -> Any:

@@ -53,12 +53,12 @@ def find_gap_to_line(joint: Any, residuals: Any) -> Any:
 class Symbol:
     """Declare how drawings show a joint. Positions are arrays (2,) in ground axes, m.
 
-    The functions get the joint at a posture, a JointAt (runtime/drawing/joint_at.py); `draw` gets a Pen
+    The functions get the joint at a posture, a JointAt (runtime/drawing/joint_geometry.py); `draw` gets a Pen
     (runtime/drawing/pen.py), which is a JointAt with primitives to draw by.
     """
 
     draw: Callable[[Any], None] = draw_squares
-    place: Callable[[Any], Any] = find_second_point  # where the joint's name stands
+    find_name_position: Callable[[Any], Any] = find_second_point  # where the joint's name stands
     clear: float = 0.8  # how far from there its name keeps, in units of half a bar's width
     # gap(joint, residuals): the two points between which it is open where a start does not close; their
     # distance is the number next to it. None: no line shows the gap, and the numbers are the residuals of its rows

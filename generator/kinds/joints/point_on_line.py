@@ -27,12 +27,12 @@ def derive_constraint_equations(first_frame: Any, second_frame: Any, joint_field
 def draw_symbol(pen: Any) -> None:
     """Draw a roller on the ground's rail, or a pin with its block in a slot of the body that guides."""
     if pen.ground_guides:
-        pen.rail(pen.ROLLER * pen.unit)
-        pen.disc("roller", pen.slider, pen.ROLLER * pen.unit)
+        pen.add_rail(pen.ROLLER * pen.unit)
+        pen.add_disc("roller", pen.slider, pen.ROLLER * pen.unit)
     else:
         pen.slot()
         pen.box("block", pen.slider, pen.along, 1.25, 0.8)
-        pen.stand()
+        pen.add_stand()
     pen.pin(pen.slider)
 
 

@@ -19,7 +19,7 @@ from gudgeon.language.units import DIMENSIONLESS
 def derive_constraint_equations(first_frame: Any, second_frame: Any, joint_fields: Any) -> list[Any]:
     """Return one constraint equation: by how much the rocker's angle differs from its profile (rad)."""
     carrier = joint_fields.body_angle("carrier")
-    return [second_frame.theta - carrier - joint_fields.profile("profile", first_frame.theta, carrier)]
+    return [second_frame.theta - carrier - joint_fields.define_profile("profile", first_frame.theta, carrier)]
 
 
 JOINT = JointType(

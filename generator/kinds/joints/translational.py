@@ -26,7 +26,9 @@ def derive_constraint_equations(first_frame: Any, second_frame: Any, joint_field
     offset = axis_x * (second_frame.y - first_frame.y) - axis_y * (second_frame.x - first_frame.x)
     return [
         offset,
-        second_frame.theta - first_frame.theta - joint_fields.quantity("angle", joint_fields.angle_of("axis")),
+        second_frame.theta
+        - first_frame.theta
+        - joint_fields.quantity("angle", joint_fields.derive_vector_angle("axis")),
     ]
 
 

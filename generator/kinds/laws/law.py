@@ -152,7 +152,7 @@ class Law:
         """Return the law's structural options: words, and flags with the values False and True."""
         return tuple(law_field for law_field in self.fields if law_field.kind != NUMBER)
 
-    def check(self, numbers: Mapping[str, float]) -> None:
+    def check_bounds(self, numbers: Mapping[str, float]) -> None:
         """Raise BadValueError for a number that violates the law's bounds; `numbers` maps keys of the law to values.
 
         Bounds whose other key is missing are not checked.
@@ -164,7 +164,7 @@ class Law:
                     hint = f"expected {bound.relation} {bound.limit} ({field_of_law.meaning})"
                     raise BadValueError(f"{field_of_law.name} is {value:g}: {hint}")
 
-    def fields_as(self, name: str) -> tuple[Field, ...]:
+    def list_fields_of_name(self, name: str) -> tuple[Field, ...]:
         """Return the keys of the law under one of its names.
 
         Another name fixes some options, which are left out, and requires the restitution. Raises KeyError for an

@@ -25,13 +25,13 @@ from gudgeon.contract.kernel_source import (
 )
 from gudgeon.contract.reduction_log import ReductionLog
 from gudgeon.contract.stored import format_base_units
-from gudgeon.generator.equations.constraints import Row, rate_jumps
-from gudgeon.generator.equations.model import Model, eccentricity_rows
+from gudgeon.generator.equations.constraints import Row, has_jumping_rate
+from gudgeon.generator.equations.model import Model, find_eccentricity_rows
 from gudgeon.generator.equations.notes import write_scene_notes
 from gudgeon.generator.kernels.outputs import find_constraining_joints, find_element_series
 from gudgeon.generator.kinds.joints.joint_type import joint_types
 from gudgeon.generator.mechanism import GROUND, Mechanism, PointRef, Quantity, iterate_quantities
-from gudgeon.generator.reduction.driven_chains import Chain
+from gudgeon.generator.reduction.driven_loops import DrivenLoops
 from gudgeon.language.tree import Expr, iterate_names, to_json
 from gudgeon.language.undefined_parts import is_total_expression
 from gudgeon.language.units import Dimension
@@ -54,7 +54,7 @@ def describe_scene(
     formulation: str = "full",
     story: ReductionLog = EMPTY_STORY,
     lanes: str = "",
-    chain: Chain | None = None,
+    chain: DrivenLoops | None = None,
     stages: bool = False,
 ) -> KernelSource:
     """Return the KernelSource of a scene: everything that the runtime must know of the model and of its emitted C.
@@ -93,7 +93,7 @@ def describe_scene(
         pivots=pivots,
         start_pivots=start_pivots,
         indeterminate=model.redundancy.indeterminate,
-        rate_jumps=tuple(drive.name for drive in model.scene.mechanism.drives.values() if rate_jumps(drive)),
+        rate_jumps=tuple(drive.name for drive in model.scene.mechanism.drives.values() if has_jumping_rate(drive)),
         slots=tuple(_describe_parameters(model)),
         derived=tuple(symbol.name.removesuffix("_") for symbol in model.parameter_table.derived),
         conditions=_select_conditions(model),
@@ -113,7 +113,7 @@ def describe_scene(
         massless=tuple(body.name for body in mechanism.bodies.values() if body.missing_keys),
         tables=tuple(mechanism.tables.items()),
         laws=tuple(sorted(mechanism.laws.items())),
-        start_apart=tuple(model.all_rows[k].name for k, _, _ in eccentricity_rows(model)),
+        start_apart=tuple(model.all_rows[k].name for k, _, _ in find_eccentricity_rows(model)),
         peaks=tuple(map(str, model.scene.peaks)),
         written=tuple(_describe_file_expressions(model)),
         expressions=tuple(
@@ -290,7 +290,7 @@ def _describe_points(
     A point of the ground is left out if one of its coordinates is neither zero nor a parameter.
     """
     points = []
-    for (body, name), (x, y) in model.geometry.local.items():
+    for (body, name), (x, y) in model.geometry.local_vectors.items():
         (ix, sx), (iy, sy) = _find_parameter_index(parameter_index, x), _find_parameter_index(parameter_index, y)
         points.append(PointInfo(f"{body}.{name}", body_index[body], ix, iy, sx, sy))
     for name, vector in model.scene.mechanism.ground.items():

@@ -15,7 +15,7 @@ from gudgeon.contract.kernel_source import ENGINE_PART, HEADER, MAIN, KernelSour
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.ir.kernels import Kernel
 from gudgeon.generator.ir.statements import Line, Statement
-from gudgeon.generator.kernels.driven_chains import ChainKernels
+from gudgeon.generator.kernels.driven_loops import DrivenLoopKernels
 from gudgeon.generator.kernels.program import Program, TreeFunctions
 from gudgeon.generator.kernels.reduction_log import build_reduction_log
 from gudgeon.generator.reduction.reduction import TreeSystem
@@ -268,7 +268,7 @@ def _count_operations(program: Program) -> dict[str, int]:
     calls = [(pin.clearance.name, *call) for pin in program.joints for call in pin.laws.items()]
     laws = {f"{role}_{joint}_force": call.kernel for joint, role, call in calls}
     counted = {kernel.name: kernel for kernel in _list_kernels(program) if kernel not in program.laws}
-    return {name: kernel.operations for name, kernel in (counted | laws).items()}
+    return {name: kernel.n_operations for name, kernel in (counted | laws).items()}
 
 
 def print_start_comparison(kernels: Iterable[Kernel]) -> str:
@@ -326,7 +326,7 @@ def print_reduced_file(model: Model, tree: TreeFunctions, render: Render, print_
     return "\n".join(texts)
 
 
-def _print_step_scales(loop_kernels: ChainKernels) -> list[str]:
+def _print_step_scales(loop_kernels: DrivenLoopKernels) -> list[str]:
     """Return the C factors that make Newton's step of each dependent coordinate of the driven loops dimensionless.
 
     Driven loops are closed loops whose coordinates the drives determine. The factor is "1.0" for an angle and the
@@ -337,7 +337,7 @@ def _print_step_scales(loop_kernels: ChainKernels) -> list[str]:
     return ["1.0" if "." not in name else inverse_size for name in loop_kernels.chain.names]
 
 
-def _list_direction_rotations(loop_kernels: ChainKernels) -> list[tuple[int, str]]:
+def _list_direction_rotations(loop_kernels: DrivenLoopKernels) -> list[tuple[int, str]]:
     """Return (index in q, C expression of the angle) of each direction that a step of the driven loops turns.
 
     Each direction has two entries in q, cosine and sine; the index is that of the cosine.

@@ -15,9 +15,9 @@ from gudgeon.generator.ir.signatures import Access, Argument, Number, Type
 from gudgeon.generator.ir.split import split_kernel
 from gudgeon.generator.ir.statements import (
     AssignStatus,
-    Branches,
     Call,
     Declare,
+    DeclareBranches,
     DeclareParameters,
     Guard,
     Jump,
@@ -33,7 +33,7 @@ from gudgeon.generator.ir.statements import (
     Status,
     When,
 )
-from gudgeon.generator.ir.values import NONE
+from gudgeon.generator.ir.values import NO_NAMES
 from gudgeon.generator.kernels.shared import FIRST_SWITCH, SharedFunctionCall
 from gudgeon.generator.symbols.derivatives import find_symbols
 from gudgeon.generator.symbols.storage import Place, find_key
@@ -72,13 +72,13 @@ CALLED_BY_ENGINE = frozenset(
         "newton_solve",
         "newton_factor_complex",
         "newton_solve_complex",
-        "chain_directions",
-        "chain_step",
-        "chain_rates",
-        "chain_third",
+        "evaluate_loop_directions",
+        "compute_loop_step",
+        "compute_loop_rates",
+        "compute_third_loop_rates",
         "loop_switches",
         "close_step",
-        "arrive",
+        "compute_body_motion",
         "project",
         "watched_functions",
         "watched_ranges",
@@ -133,7 +133,7 @@ class LinePrinter(ValuePrinter):
                 ]
             case ReturnIfFailed():
                 return [f"if ({line.status})", f"    {'goto dependent' if line.jumps else f'return {line.status}'};"]
-            case Branches():
+            case DeclareBranches():
                 return _print_branch_arrays(line)
             case Sines():
                 return self._print_sines(line)
@@ -265,7 +265,7 @@ class LinePrinter(ValuePrinter):
         return "\n".join([f"    {comment}", *code])
 
 
-def _print_branch_arrays(branches: Branches) -> list[str]:
+def _print_branch_arrays(branches: DeclareBranches) -> list[str]:
     """Return the declarations of `branch` (the active branches) and of `g` (values of switching functions).
 
     `branch` is NULL if no branch is held. `g` is omitted, a local array, or part of the results, as `branches` says.
@@ -304,13 +304,15 @@ def print_shared_call(call: SharedFunctionCall, arguments: Sequence[str], result
     return f"{call.kernel.name}({', '.join([*arguments, *parameters, *branch_arguments, *results])});"
 
 
-def find_unread_branches(calls: Iterable[SharedFunctionCall], statements: Iterable[Statement] = ()) -> list[str]:
+def find_unused_branch_arguments(
+    calls: Iterable[SharedFunctionCall], statements: Iterable[Statement] = ()
+) -> list[str]:
     """Return which of the arguments `branch` and `g` are unused, so that the C function must cast them to void.
 
     An argument is unused if no statement reads it. The list is empty if any of the called functions has switching
     functions, since such a call passes both.
     """
-    names_read = NONE.union(*(line.reads for line in statements))
+    names_read = NO_NAMES.union(*(line.reads for line in statements))
     has_switches = any(call.first_switch is not None for call in calls)
     return [] if has_switches else [name for name in ("branch", "g") if name not in names_read]
 
@@ -340,10 +342,10 @@ def print_kernel(kernel: Kernel) -> str:
 def _find_names_used(kernel: Kernel) -> frozenset[str]:
     """Return the C names of all arguments and locals that a function's lines read or write."""
     lines = [line for section in kernel.sections for line in section.statements]
-    names = NONE.union(*(line.reads | line.writes for line in lines))
+    names = NO_NAMES.union(*(line.reads | line.writes for line in lines))
     keys = names | {find_key(s) for line in lines for x in line.expressions for s in find_symbols(x)}
     called = (kernel.names.get(key, key) for key in keys)
-    corner_argument = NONE if kernel.first_switch is None else {FIRST_SWITCH.name}
+    corner_argument = NO_NAMES if kernel.first_switch is None else {FIRST_SWITCH.name}
     return names | corner_argument | {key.base if isinstance(key, Place) else key for key in called}
 
 
@@ -357,7 +359,7 @@ def print_function(
     kernel: Kernel,
     line_printer: LinePrinter,
     readable_sections: Readable,
-    names_used: frozenset[str] = NONE,
+    names_used: frozenset[str] = NO_NAMES,
     *,
     is_called_by_engine: bool = False,
 ) -> str:
@@ -378,7 +380,7 @@ def print_function_lines(
     kernel: Kernel,
     line_printer: LinePrinter,
     readable_sections: Readable,
-    names_used: frozenset[str] = NONE,
+    names_used: frozenset[str] = NO_NAMES,
     *,
     is_called_by_engine: bool = False,
 ) -> Iterator[tuple[str, Line | None]]:

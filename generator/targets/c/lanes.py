@@ -13,7 +13,7 @@ from gudgeon.generator.solvers.contact_slopes import read_parameters_at_places
 from gudgeon.generator.targets.c import functions, lanes_printer, taylor
 from gudgeon.generator.targets.c.curves import print_curve_tables
 from gudgeon.generator.targets.c.newton import STATE, print_shared_slopes
-from gudgeon.generator.targets.c.play import print_dry_calls, print_film_calls, print_rates
+from gudgeon.generator.targets.c.play import print_dry_calls, print_film_calls, print_state_rates
 
 MAIN = "lanes.c"
 _KERNELS = ("closures", "closure_rates", "reduced_dynamics", "closing_step")
@@ -22,9 +22,9 @@ _PICK_SLOPES = """
 static inline void pick_slopes(LaneSlopes *a, LaneBits mask, const LaneSlopes *b)
 {
     for (int i = 0; i < 4; i++) {
-        a->value[i] = pick(mask, b->value[i], a->value[i]);
+        a->value[i] = select_value(mask, b->value[i], a->value[i]);
         for (int k = 0; k < 5; k++)
-            a->slope[i][k] = pick(mask, b->slope[i][k], a->slope[i][k]);
+            a->slope[i][k] = select_value(mask, b->slope[i][k], a->slope[i][k]);
     }
 }
 """
@@ -73,7 +73,7 @@ def _print_joint_function(joint: JointFunctions, render: Render, n_states: int) 
     step_names = ("gap", "before_dry", "after_dry", "before_film", "after_film", "share")
     substitutions = {name: lanes_printer.print_statements(getattr(joint, name)) for name in step_names}
     if clearance.normal is not None:
-        substitutions["dry_law"] = print_dry_calls(joint, "lanes_max_of(delta, all_of(0.0))", "Lanes")
+        substitutions["dry_law"] = print_dry_calls(joint, "lanes_max_of(delta, broadcast(0.0))", "Lanes")
     if clearance.film is not None:
         substitutions["film_law"] = print_film_calls(joint, "Lanes")
     return render(
@@ -83,8 +83,8 @@ def _print_joint_function(joint: JointFunctions, render: Render, n_states: int) 
         dry=clearance.normal is not None,
         film=clearance.film is not None,
         ratio_name="unclipped" if clearance.clip_ratio else "ratio",
-        rates=print_rates("rate", clearance, n_states, "all_of(0.0)"),
-        still=print_rates("", clearance, n_states, "all_of(0.0)"),
+        rates=print_state_rates("rate", clearance, n_states, "broadcast(0.0)"),
+        still=print_state_rates("", clearance, n_states, "broadcast(0.0)"),
         first=joint.switch_indices.start,
         last=joint.switch_indices.stop,
         states=n_states,
@@ -110,9 +110,12 @@ def _print_linearized_equations(
                 newton.system.model, clearance, methods.derivative_calls[clearance.name], render, n_states
             )
         )
-    state_kernels = map(lanes_printer.print_kernel_with_rare, (newton.linearize_kernel, newton.factor_kernel))
+    state_kernels = map(lanes_printer.print_kernel_with_fallback_mask, (newton.linearize_kernel, newton.factor_kernel))
     factor, solve_kernels = methods.complex_kernels[:1], methods.complex_kernels[1:]
-    complex_ = [*map(lanes_printer.print_kernel_with_rare, factor), *map(lanes_printer.print_kernel, solve_kernels)]
+    complex_ = [
+        *map(lanes_printer.print_kernel_with_fallback_mask, factor),
+        *map(lanes_printer.print_kernel, solve_kernels),
+    ]
     return "\n".join(
         [
             *slopes,

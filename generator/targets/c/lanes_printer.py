@@ -18,9 +18,9 @@ from gudgeon.generator.ir.series_rules import WIDE, StoreRow
 from gudgeon.generator.ir.signatures import Number, Type, make_output_argument
 from gudgeon.generator.ir.sine_pairs import call_sines_by_lane
 from gudgeon.generator.ir.statements import (
-    Branches,
     Call,
     Declare,
+    DeclareBranches,
     DeclareParameters,
     Guard,
     Jump,
@@ -60,7 +60,7 @@ class LanesPrinter(printer.CPrinter):
     def _print_vector(self, expr: sp.Expr) -> str:
         """Print an expression as a vector: a constant fills all lanes."""
         text: str = self._print(expr)
-        return text if expr.free_symbols else f"all_of({text})"
+        return text if expr.free_symbols else f"broadcast({text})"
 
     def _print_call(self, function_name: str, *arguments: sp.Expr) -> str:
         """Print a call of a function of vectors; with constant arguments only, the call of the function of numbers."""
@@ -80,7 +80,7 @@ class LanesPrinter(printer.CPrinter):
 
     def _print_Heaviside(self, expr: sp.Expr) -> str:
         """Print the step function of a vector."""
-        return f"pick({self._print_vector(expr.args[0])} >= 0.0, all_of(1.0), all_of(0.0))"
+        return f"select_value({self._print_vector(expr.args[0])} >= 0.0, broadcast(1.0), broadcast(0.0))"
 
     def _print_BranchOf(self, expr: sp.Expr) -> str:
         """Print the active branch of a switching function of vectors."""
@@ -111,7 +111,7 @@ class LanesPrinter(printer.CPrinter):
         if expr in self.of.branches:
             return self.of.branches[expr]
         branch, a, b = map(self._print_vector, expr.args)
-        return f"pick({branch} < 0.0, {b}, {a})"
+        return f"select_value({branch} < 0.0, {b}, {a})"
 
 
 class LaneLines(functions.LinePrinter):
@@ -129,7 +129,7 @@ class LaneLines(functions.LinePrinter):
                 return self.printer._print_vector(value)
             case Conditional():
                 then, otherwise = self.print_expression(value.then), self.print_expression(value.otherwise)
-                return f"pick({self.print_test(value.test)}, {then}, {otherwise})"
+                return f"select_value({self.print_test(value.test)}, {then}, {otherwise})"
             case _:
                 return super().print_expression(value)
 
@@ -158,7 +158,7 @@ class LaneLines(functions.LinePrinter):
             case Branch():
                 declaration = f"{'const Lanes ' * bool(line.declared_local)}{self.printer.get_name(line.target)}"
                 branch, then, otherwise = map(self.print_expression, (line.branch, line.value_above, line.value_below))
-                return [f"{declaration} = pick({branch} < 0.0, {otherwise}, {then});"]
+                return [f"{declaration} = select_value({branch} < 0.0, {otherwise}, {then});"]
             case Guard(test=Test() as test, condition=None):
                 return [f"*rare |= ~({self.print_test(test)});"]
             case Call():
@@ -171,7 +171,7 @@ class LaneLines(functions.LinePrinter):
                 return super()._print_line(replace(line, type="Lanes"))
             case DeclareParameters():
                 return ["const LaneParameters *const p = lin->p;"]
-            case Branches():
+            case DeclareBranches():
                 stored_branches, local_array = (
                     "held_branches(discrete)" if line.held else "NULL",
                     "Lanes g[N_SWITCHES + 1];",
@@ -184,12 +184,12 @@ class LaneLines(functions.LinePrinter):
                 return [f"const Lanes *const branch = {stored_branches};", *declarations_of_target[line.output_target]]
             case Largest():
                 name = f"*{line.target}"
-                before = ["all_of(0.0)", *[name] * len(line.values)]
+                before = ["broadcast(0.0)", *[name] * len(line.values)]
                 largest = [
                     f"{name} = lanes_max_of({old}, lanes_fabs({self.print_expression(x)}));"
                     for old, x in zip(before, line.values, strict=False)
                 ]
-                return largest or [f"{name} = all_of(0.0);"]
+                return largest or [f"{name} = broadcast(0.0);"]
             case StoreRow():
                 return [
                     f"{line.array}[{WIDE * line.row + i}] = {self.print_expression(x)};"
@@ -242,10 +242,10 @@ def print_motion_kernel(kernel: Kernel) -> str:
 
     The function has the further argument `rare`. Kernels of the motion are printed so.
     """
-    return print_kernel_with_rare(call_sines_by_lane(kernel))
+    return print_kernel_with_fallback_mask(call_sines_by_lane(kernel))
 
 
-def print_kernel_with_rare(kernel: Kernel) -> str:
+def print_kernel_with_fallback_mask(kernel: Kernel) -> str:
     """Return a kernel as a C function for vectors with the further argument `rare`, a mask of lanes.
 
     The C function marks the lanes in which it is not valid; the engine computes them as single runs.

@@ -33,7 +33,7 @@ class LocatedFunction:
 
     file: str
     name: str
-    own: Readable
+    readable_part: Readable
     first: int
     last: int
     lines: tuple[StoredLines, ...]

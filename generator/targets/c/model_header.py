@@ -10,7 +10,7 @@ from typing import Any
 import sympy as sp
 
 from gudgeon.contract.kernel_source import ENGINE_ENDS
-from gudgeon.generator.equations.model import SIGNS, Model, eccentricity_rows
+from gudgeon.generator.equations.model import SIGNS, Model, find_eccentricity_rows
 from gudgeon.generator.equations.notes import find_drives_with_jumps, has_jumps
 from gudgeon.generator.equations.play import Clearance
 from gudgeon.generator.field import Field
@@ -211,16 +211,16 @@ def _list_motion_sizes(program: Program) -> Sizes:
         "POSITIONS_IN_TREE": (int(course is not None and course.rows is not None), "the same, where they follow"),
         "N_X": (len(system.q), "coordinates that are integrated"),
         "N_LOOPS": (len(system.rows), "constraint rows of these"),
-        "N_CHAIN": (len(system.dependent), "coordinates that drives determine through loops"),
+        "N_DEPENDENT": (len(system.dependent), "coordinates that drives determine through loops"),
         "N_LED": (
             len(system.dependent) + 2 * len(chain.directions) if chain else 0,
             "these, cosines and sines of angles",
         ),
-        "SMOOTH_CHAINS": (
+        "SMOOTH_DRIVEN_LOOPS": (
             int(bool(tree and tree.chains and not tree.chains.switch_kernel)),
             "their drives have no corners",
         ),
-        "TREE_PIVOTS": (len(integrated.pivots) - len(chain.rows) if chain else 0, "statuses of chains follow these"),
+        "TREE_PIVOTS": (len(integrated.pivots) - len(chain.rows) if chain else 0, "statuses of driven loops follow these"),
         "RESCUED": (int(tree is not None and tree.has_fallback), "pivots may vanish: all bodies' equations help"),
         "LARGEST_BLOCK": (_find_largest_block_size(program), "rows that are solved together"),
         "N_VALUES": (newton.values.size if newton else 0, "of the linearized equations"),
@@ -274,7 +274,7 @@ def _list_start_sizes(program: Program) -> Sizes:
     N_APART, the number of specified eccentricities of journals, exists only if there are any.
     """
     start_indices, guess = _find_start_indices(program.model), program.model.scene.mechanism.start.guess
-    eccentricity_constraints = eccentricity_rows(program.model)
+    eccentricity_constraints = find_eccentricity_rows(program.model)
     sizes: Sizes = {
         "N_GUESS": (len(start_indices["guess_place"]), "coordinates that the start guesses"),
         "GUESSED_POINTS": (int(any(name.count(".") > 1 for name in guess)), "some of them are those of points"),
@@ -378,7 +378,7 @@ def _print_tables(program: Program, scene_sizes: Sizes) -> list[str]:
         ("unsigned char", "is_angle"): program.integrated.angles,
         ("unsigned char", "film_joint"): [int(c.film is not None) for c in model.clearances],
     }
-    if eccentricity_constraints := [k for k, _, _ in eccentricity_rows(model)]:
+    if eccentricity_constraints := [k for k, _, _ in find_eccentricity_rows(model)]:
         tables |= {("int", "apart_row"): eccentricity_constraints}
     if model.rigid:
         tables |= {("unsigned char", "rigid_joint"): [int(c.rigid) for c in model.clearances]}

@@ -97,7 +97,7 @@ def _print_contour_tangent(
         joint=clearance.label,
         c=f"p->{clearance.pair.c}",
         worn=[print_expression(contour.compute_depth(beta_i, order)) for order in range(3)],
-        unread="g" in functions.find_unread_branches([dry_slopes_call]),
+        unread="g" in functions.find_unused_branch_arguments([dry_slopes_call]),
         call=functions.print_shared_call(dry_slopes_call, (*arguments, "contact"), ("&F",)),
     )
 
@@ -137,7 +137,7 @@ def _print_slope_selection(
         """Return the call of the derivatives of one part, `dry`, `film` or `share`."""
         return functions.print_shared_call(calls[part_name], arguments or STATE, (result,))
 
-    unread = functions.find_unread_branches(calls.values())
+    unread = functions.find_unused_branch_arguments(calls.values())
     if clearance.normal is None:
         return "\n".join(f"    {line}" for line in (*(f"(void){name};" for name in unread), print_call("film", "out")))
     lines = [*["(void)g;"] * ("g" in unread), f"const double delta = e - {clearance_parameter};"]

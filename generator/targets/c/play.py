@@ -133,8 +133,8 @@ def _print_dry_function(joint: JointFunctions, render: Render, n_states: int) ->
     substitutions["along"] = "-F_N" if clearance.contour else "-F_n"
     substitutions["further"] = "".join(f", double {name}" for name in _list_further_arguments(joint))
     laws = [joint.laws[role] for role in ("normal", "friction") if role in joint.laws]
-    substitutions["unread"] = functions.find_unread_branches(laws, (*joint.before_dry, *joint.after_dry))
-    substitutions |= {"law": _join_calls(calls), "rates": print_rates("rate", clearance, n_states)}
+    substitutions["unread"] = functions.find_unused_branch_arguments(laws, (*joint.before_dry, *joint.after_dry))
+    substitutions |= {"law": _join_calls(calls), "rates": print_state_rates("rate", clearance, n_states)}
     text = render(
         "play/dry.c.jinja", joint=label, kind=clearance.kind, ratio=_RATIO, ratio_name=ratio_name, **substitutions
     )
@@ -159,10 +159,12 @@ def _print_film_function(joint: JointFunctions, render: Render, n_states: int) -
         "after": _print_statements(joint.after_film),
         "law": _join_calls(calls),
     }
-    substitutions["unread"] = functions.find_unread_branches(
+    substitutions["unread"] = functions.find_unused_branch_arguments(
         [joint.laws["film"]], (*joint.before_film, *joint.after_film)
     )
-    text = render("play/film.c.jinja", joint=label, rates=print_rates("", joint.clearance, n_states), **substitutions)
+    text = render(
+        "play/film.c.jinja", joint=label, rates=print_state_rates("", joint.clearance, n_states), **substitutions
+    )
     stores: Stores = [
         *functions.print_each_statement(joint.before_film),
         *((code, local) for code, local in calls if local),
@@ -177,14 +179,14 @@ def _print_result_store(clearance: Clearance, n_states: int) -> str:
 
     Rates of inner states and the position at a guide's wall are added if the joint has them.
     """
-    rates = print_rates("F.state_rate", clearance, n_states)
+    rates = print_state_rates("F.state_rate", clearance, n_states)
     position = _AT_WALL if clearance.wall else _JOURNAL
     further_members = f", .state_rate = {rates}" if rates else ""
     further_members += ",\n        .from_x = e_x, .from_y = e_y" * bool(clearance.wall)
     return _STORE % (*position, further_members + ", .at_wall = 1" * bool(clearance.wall and clearance.rigid))
 
 
-def print_rates(array_name: str, clearance: Clearance, n_states: int, fill_value: str = "0.0") -> str:
+def print_state_rates(array_name: str, clearance: Clearance, n_states: int, fill_value: str = "0.0") -> str:
     """Return the initializer in C of the `n_states` rates of a joint's inner states; "" if no law has states.
 
     array_name: the array with the joint's rates, "" for none. fill_value: the rate of states that the joint does not
@@ -226,7 +228,7 @@ def _list_dry_calls(joint: JointFunctions, penetration: str, number_type: str) -
         if joint.clearance.rigid:
             calls.append((_IN_BLOW, ""))
     else:
-        zero = "0.0" if number_type == "double" else "all_of(0.0)"
+        zero = "0.0" if number_type == "double" else "broadcast(0.0)"
         calls.append((f"const {number_type} F_along_t_dry = {zero}; /* no friction */", "F_along_t_dry"))
     return [(_break_line(code), local) for code, local in calls]
 

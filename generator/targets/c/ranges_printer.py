@@ -148,7 +148,7 @@ def print_kernel(kernel: Kernel) -> str:
         replace(a, name=_NAMES.get(a.name, a.name), type=_TYPES.get(a.type, a.type)) for a in kernel.arguments
     )
     range_kernel = replace(kernel, arguments=arguments)
-    readable_lines = make_readable(range_kernel, branching=False)
+    readable_lines = make_readable(range_kernel, name_branches=False)
     return functions.print_function(
         range_kernel, _RangeLines(RangesPrinter(readable_lines), "Range"), readable_lines, is_called_by_engine=True
     )

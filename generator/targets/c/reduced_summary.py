@@ -22,8 +22,8 @@ def describe_reduced_file(system: TreeSystem) -> list[str]:
     tree, unknowns = system.tree, list(map(format_coordinate_name, system.unknowns))
     links = [f"{link.body}: {_describe_position(link)}; {_describe_angle(system, link.body)}" for link in tree.links]
     stored_coordinates = [f"q[{k}] = {name} ({_get_unit(name)})" for k, name in enumerate(unknowns)]
-    if system.chain:
-        names = map(format_coordinate_name, system.chain.names)
+    if system.driven_loops:
+        names = map(format_coordinate_name, system.driven_loops.names)
         stored_coordinates += [f"q[{k}] = {name}, dependent" for k, name in enumerate(names, len(unknowns))]
     closures = [f"rhs->lambda[{r}] of {row.name}" for r, row in enumerate(system.rows)]
     joints = [f"rhs->clearance[{i}] of {c.name}" for i, c in enumerate(system.model.clearances)]
@@ -57,7 +57,7 @@ def _describe_angle(system: TreeSystem, body: str) -> str:
     """Return in words what the angle of a body is: unknown, prescribed, constant or dependent."""
     terms = [name for name in system.tree.angles[body] if name != CONSTANT]
     if terms == [body]:
-        chain = system.chain.names if system.chain else ()
+        chain = system.driven_loops.names if system.driven_loops else ()
         return "its angle is dependent" if body in chain else "its angle is an unknown"
     if not terms:
         return "its angle is constant"

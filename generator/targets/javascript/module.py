@@ -16,7 +16,7 @@ from gudgeon.generator.ir.readable import make_readable
 from gudgeon.generator.ir.signatures import PARAMETERS, STATE
 from gudgeon.generator.ir.statements import Statement
 from gudgeon.generator.kernels import closed_linkage
-from gudgeon.generator.kernels.driven_chains import DIRECTIONS, RATES, STEP, THIRD
+from gudgeon.generator.kernels.driven_loops import DIRECTIONS, RATES, STEP, THIRD
 from gudgeon.generator.kernels.program import Program
 from gudgeon.generator.kernels.reduced import DYNAMICS
 from gudgeon.generator.symbols.symbols import make_identifier

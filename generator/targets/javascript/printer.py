@@ -14,8 +14,8 @@ from gudgeon.generator.ir.kernels import Kernel
 from gudgeon.generator.ir.readable import Readable, make_readable
 from gudgeon.generator.ir.signatures import BRANCHES, RHS, Access, Number
 from gudgeon.generator.ir.statements import (
-    Branches,
     Call,
+    DeclareBranches,
     Guard,
     Jump,
     LargestRow,
@@ -182,7 +182,9 @@ class LinePrinter:
         A new local is declared and added to `locals`. A test of a pivot that fails leaves the block `solved`; the call
         of a joint stores the force of its function. Raises ValueError for a line without a counterpart.
         """
-        if isinstance(line, (Branches, Status, ReturnIfOnlyJoints, Jump, SolveDependentRows, Return, LargestRow)):
+        if isinstance(
+            line, (DeclareBranches, Status, ReturnIfOnlyJoints, Jump, SolveDependentRows, Return, LargestRow)
+        ):
             return []
         if isinstance(line, Sines):
             return self._print_sines(line)

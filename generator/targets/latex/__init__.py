@@ -1,5 +1,5 @@
 """Writes the equations of a scene for people: LaTeX, plain text, HTML."""
 
-from gudgeon.generator.targets.latex.write import equations_html, equations_tex, equations_text
+from gudgeon.generator.targets.latex.write import render_equations_html, render_equations_tex, render_equations_text
 
-__all__ = ["equations_html", "equations_tex", "equations_text"]
+__all__ = ["render_equations_html", "render_equations_tex", "render_equations_text"]

@@ -168,7 +168,7 @@ def make_tables(
     rows: list[tuple[Text, ...]],
     text_columns: tuple[int, ...] = (),
     tokens: Sequence[Sequence[str]] = (),
-    upright: bool = False,
+    transposes_on_phone: bool = False,
 ) -> list[Block]:
     """Return rows as tables of at most MOST_ROWS rows, since a table does not break over pages; [] for no rows.
 
@@ -177,7 +177,9 @@ def make_tables(
     """
     starts = range(0, len(rows), MOST_ROWS)
     return [
-        Table(header, tuple(rows[k : k + MOST_ROWS]), text_columns, tuple(tokens[k : k + MOST_ROWS]), upright)
+        Table(
+            header, tuple(rows[k : k + MOST_ROWS]), text_columns, tuple(tokens[k : k + MOST_ROWS]), transposes_on_phone
+        )
         for k in starts
     ]
 

@@ -48,7 +48,7 @@ def make_equation(
 ) -> Equation:
     """Return an equation that may break between the terms of the right side; tokens and value as in document.py."""
     left_name = left if isinstance(left, Name) else notation.format_expression(left)
-    return Equation(left_name, notation.terms(right), tokens, selection_token, value_name)
+    return Equation(left_name, notation.format_terms(right), tokens, selection_token, value_name)
 
 
 def make_equation_block(
@@ -115,16 +115,16 @@ def _describe_abbreviations(model: Model, notation: Notation) -> Iterator[Block]
     laws = {value for clearance in model.clearances for value in clearance.constants.values()}
     others = laws | set(list_temporaries(model))
     equations = [
-        make_equation(symbol, notation.expand(definition), notation)
+        make_equation(symbol, notation.expand_symbols(definition), notation)
         for symbol, definition in model.symbols.definitions.items()
         if symbol in notation.shown_symbols and symbol not in others
     ]
     yield from equations
     if any("where(" in term.text for equation_ in equations for term in equation_.terms):
         yield make_paragraph("where(…) is its second part while the comparison in front holds, else its third.")
-    if any(notation.expand(value).has(sp.Heaviside) for row in model.rows for value in (row.nu, row.gamma)) or any(
-        definition.has(sp.Heaviside) for definition in model.symbols.definitions.values()
-    ):
+    if any(
+        notation.expand_symbols(value).has(sp.Heaviside) for row in model.rows for value in (row.nu, row.gamma)
+    ) or any(definition.has(sp.Heaviside) for definition in model.symbols.definitions.values()):
         yield make_paragraph("H is the unit step.")
 
 
@@ -158,7 +158,7 @@ def _describe_constraints(model: Model, notation: Notation) -> list[Block]:
         )
         blocks += [_make_row_equation(k, row, model, notation) for k, row in rows]
         blocks += _describe_jacobian_entries(rows, model, notation)
-        nu = [notation.expand(row.nu) for _, row in rows]
+        nu = [notation.expand_symbols(row.nu) for _, row in rows]
         gamma = [format_gamma(row, model, notation) for _, row in rows]
         for vector, values in ((NU, nu), (GAMMA, gamma)):
             blocks += _make_component_equations(vector, [k for k, _ in rows], values, first_row, notation)
@@ -171,7 +171,7 @@ def _make_row_equation(row_number: int, row: Row, model: Model, notation: Notati
     term_tokens: dict[sp.Expr, list[str]] = {}
     for part in sp.Add.make_args(row.phi):
         name_tokens = [f"name-{name}" for name in sorted(find_symbol_names(part))]
-        for term in sp.Add.make_args(notation.expand(part)):
+        for term in sp.Add.make_args(notation.expand_symbols(part)):
             term_tokens[term] = term_tokens[-term] = name_tokens
 
     def list_tokens(term: sp.Expr) -> list[str]:
@@ -180,7 +180,7 @@ def _make_row_equation(row_number: int, row: Row, model: Model, notation: Notati
         return [*(make_entry_token(row_number, i) for i in columns), *term_tokens.get(term, ())]
 
     left = name_component(PHI, row_number)
-    terms = notation.terms(notation.expand(row.phi), list_tokens)
+    terms = notation.format_terms(notation.expand_symbols(row.phi), list_tokens)
     return Equation(
         left,
         terms,
@@ -241,7 +241,7 @@ def _describe_jacobian_entries(rows: Sequence[tuple[int, Row]], model: Model, no
 
     def make_jacobian_entry(row_number: int, row: Row, q: sp.Symbol) -> Name:
         """Return one entry of Φ_q as a formula, with its token and value if it is not zero."""
-        name = notation.format_expression(notation.expand(row.phi_q.get(q, sp.Integer(0))))
+        name = notation.format_expression(notation.expand_symbols(row.phi_q.get(q, sp.Integer(0))))
         if q not in row.phi_q:
             return name
         constant = row.phi_q[q].is_number
@@ -263,7 +263,9 @@ def _describe_jacobian_entries(rows: Sequence[tuple[int, Row]], model: Model, no
         make_row(name_component(PHI, k), *row_entries) for (k, _), row_entries in zip(rows, entries, strict=True)
     ]
     tokens = [[make_row_token(k), make_owner_token(row)] for k, row in rows]
-    return make_tables(make_row("", *map(notation.format_expression, columns)), table_rows, tokens=tokens, upright=True)
+    return make_tables(
+        make_row("", *map(notation.format_expression, columns)), table_rows, tokens=tokens, transposes_on_phone=True
+    )
 
 
 def _make_entry_equation(row_number: int, q: sp.Symbol, row: Row, column: int, notation: Notation) -> Block:
@@ -272,7 +274,7 @@ def _make_entry_equation(row_number: int, q: sp.Symbol, row: Row, column: int, n
     left = Name(rf"\partial \Phi_{{{row_number}}} / \partial {coordinate.latex}", f"∂Φ_{row_number}/∂{coordinate.text}")
     tokens = [make_entry_token(row_number, column + 1)]
     return make_equation_block(
-        left, notation.expand(row.phi_q[q]), notation, tokens, value_name=f"phi_q.{row_number}.{column + 1}"
+        left, notation.expand_symbols(row.phi_q[q]), notation, tokens, value_name=f"phi_q.{row_number}.{column + 1}"
     )
 
 
@@ -303,11 +305,11 @@ MOST = 1000  # operations of what is sorted
 
 def format_gamma(row: Row, model: Model, notation: Notation) -> sp.Expr:
     """Return γ of a row as documents write it: sorted by angular velocities for a joint, as derived for a drive."""
-    value = notation.expand(row.gamma)
-    return sort_by_rates(value, model) if row.kind == "joint" else value
+    value = notation.expand_symbols(row.gamma)
+    return sort_terms_by_rates(value, model) if row.kind == "joint" else value
 
 
-def sort_by_rates(value: sp.Expr, model: Model) -> sp.Expr:
+def sort_terms_by_rates(value: sp.Expr, model: Model) -> sp.Expr:
     """Return an equal expression sorted by products of angular velocities.
 
     It is returned unchanged if it contains none, has too many operations, is not a polynomial in the velocities, or

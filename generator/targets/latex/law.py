@@ -23,9 +23,15 @@ from gudgeon.generator.targets.latex.document import (
     make_tables,
 )
 from gudgeon.generator.targets.latex.kinematics import make_equation
-from gudgeon.generator.targets.latex.letters import Name, assign_unique_names, make_letter, make_name, make_word
+from gudgeon.generator.targets.latex.letters import (
+    Name,
+    assign_unique_names,
+    make_name_from_latex,
+    make_symbol_name,
+    make_word_name,
+)
 from gudgeon.generator.targets.latex.notation import Notation
-from gudgeon.generator.targets.latex.play import describe_states, format_option
+from gudgeon.generator.targets.latex.play import describe_inner_states, format_option
 from gudgeon.generator.targets.latex.play_letters import LAW_LETTERS, NAMES, RATIO, get_latex_symbol, name_law_step
 from gudgeon.generator.targets.latex.render import render_document
 from gudgeon.language.plot_units import format_unit
@@ -138,7 +144,7 @@ def _make_document(law: Law, name: str) -> Document:
     ]
     if law.also and not alias_options:
         facts.append((f"also as {', '.join(law.also)}",))
-    fields = law.fields_as(name)
+    fields = law.list_fields_of_name(name)
     blocks: Mapping[str, Iterable[Block]] = {
         "Equations": _describe_equations(law, first, others),
         "Other choices": _describe_choices(others),
@@ -169,7 +175,7 @@ def _describe_equations(law: Law, default_form: Form, other_forms: Sequence[Form
     }
     rows = [make_row(letters[name], *_MEANINGS[name]) for name in _MEANINGS if name in letters]
     yield from make_tables(make_row("letter", "meaning", "unit"), rows)
-    yield from describe_states(law)
+    yield from describe_inner_states(law)
     if default_form.constants:
         yield make_paragraph("Once a run:")
         yield from default_form.constants
@@ -193,7 +199,7 @@ def _list_parameter_cells(parameter: Field) -> tuple[tuple[str | Name, ...], ...
     meaning = f"{parameter.meaning}; without it {parameter.otherwise}" if parameter.otherwise else parameter.meaning
     return make_row(
         parameter.name,
-        make_name(get_latex_symbol(parameter)),
+        make_name_from_latex(get_latex_symbol(parameter)),
         unit,
         describe_condition(parameter).replace("`", "") or "-",
         default,
@@ -296,18 +302,18 @@ def _propose_symbol_names(
     parameters = {parameter.name: parameter for parameter in law.parameters}
     for name in law.variables:
         symbol = sp.Symbol(name, real=True)
-        yield symbol, RATIO if name == "ratio" else NAMES.get(symbol) or make_letter(name)
+        yield symbol, RATIO if name == "ratio" else NAMES.get(symbol) or make_symbol_name(name)
     for name in law.results:
         symbol = sp.Symbol(name, real=True)
         if name in ("F_n", "F_r", "F_t"):
-            yield symbol, NAMES.get(symbol) or make_letter("F", "t")
+            yield symbol, NAMES.get(symbol) or make_symbol_name("F", "t")
     for name in number_names:
-        yield _make_probe_symbol(name), make_name(get_latex_symbol(parameters[name]))
+        yield _make_probe_symbol(name), make_name_from_latex(get_latex_symbol(parameters[name]))
     for name in PAIR:
         base, _, index = name.partition("_")
-        yield _make_probe_symbol(name), make_letter(base, index) if index else make_letter(base)
+        yield _make_probe_symbol(name), make_symbol_name(base, index) if index else make_symbol_name(base)
     for name in constants:
-        yield _make_probe_symbol(name), LAW_LETTERS.get(name) or make_word(name)
+        yield _make_probe_symbol(name), LAW_LETTERS.get(name) or make_word_name(name)
     for name in steps:
         yield sp.Symbol(name, real=True), name_law_step(law, name)
 
@@ -317,8 +323,8 @@ def _restore_law_names(names: Mapping[sp.Symbol, Name]) -> dict[sp.Symbol, Name]
     used_texts = {name.text for name in names.values()}
     restored = dict(names)
     for symbol, name in names.items():
-        plain_name_ = make_letter(symbol.name.removeprefix(_make_probe_symbol("").name))
-        if name == make_letter(symbol.name) and plain_name_.text not in used_texts:
+        plain_name_ = make_symbol_name(symbol.name.removeprefix(_make_probe_symbol("").name))
+        if name == make_symbol_name(symbol.name) and plain_name_.text not in used_texts:
             restored[symbol] = plain_name_
     return restored
 

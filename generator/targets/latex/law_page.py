@@ -10,7 +10,7 @@ from gudgeon.generator.kinds.laws.law import RESULTS, Law, find_bundled_laws
 from gudgeon.generator.targets.format_tables import describe_condition
 from gudgeon.generator.targets.latex.document import Equation, make_sentence
 from gudgeon.generator.targets.latex.law import GIVEN, Form, derive_forms, print_equation
-from gudgeon.generator.targets.latex.letters import make_name
+from gudgeon.generator.targets.latex.letters import make_name_from_latex
 from gudgeon.generator.targets.latex.play import format_option
 from gudgeon.generator.targets.latex.play_letters import get_latex_symbol
 from gudgeon.language.plot_units import format_unit
@@ -103,7 +103,8 @@ def _describe_law(law: Law) -> Iterator[str]:
         )
     if law.states:
         states_text = "; ".join(
-            f"{make_name(state.name).text} is the {state.meaning}, 0 at each onset of a contact" for state in law.states
+            f"{make_name_from_latex(state.name).text} is the {state.meaning}, 0 at each onset of a contact"
+            for state in law.states
         )
         yield from (f"{states_text}.", "")
     yield from _print_keys_table(law.fields)
@@ -159,7 +160,7 @@ def _list_parameter_cells(parameter: Field) -> tuple[str, ...]:
         if parameter.default is None
         else f"{parameter.default:g}"
     )
-    return make_name(get_latex_symbol(parameter)).text, unit, describe_condition(parameter), default
+    return make_name_from_latex(get_latex_symbol(parameter)).text, unit, describe_condition(parameter), default
 
 
 def _list_option_cells(option: Field) -> tuple[str, ...]:

@@ -66,7 +66,7 @@ class Name:
         return 2 + sum(c.isascii() and (c.isalnum() or c == "_") for c in self.text) // 2
 
 
-def make_letter(base: str, *subscripts: str, dots: int = 0, hat: bool = False, superscript: str = "") -> Name:
+def make_symbol_name(base: str, *subscripts: str, dots: int = 0, hat: bool = False, superscript: str = "") -> Name:
     """Return the name of a symbol in LaTeX and plain text: a letter or word with accents, subscripts and superscript.
 
     base: a letter, a word, or a Greek letter's English name. dots: number of time derivatives. superscript: "" or "0".
@@ -93,18 +93,18 @@ def get_greek_command(word: str) -> str:
     return _VARIANT.get(word, f"\\{word}")
 
 
-def make_word(name: str) -> Name:
+def make_word_name(name: str) -> Name:
     """Return the name of a user-defined word: omega4 is ω with subscript 4, v_max is v with max, speed is a word."""
     base, _, subscript = name.partition("_")
     numbered = re.fullmatch(r"([A-Za-z]+?)(\d+)", base)
     if numbered and (len(numbered[1]) == 1 or numbered[1] in GREEK):
         base, subscript = numbered[1], f"{numbered[2]}_{subscript}" if subscript else numbered[2]
     if subscript and (len(base) == 1 or base in GREEK):
-        return make_letter(base, subscript)
-    return make_letter(name)
+        return make_symbol_name(base, subscript)
+    return make_symbol_name(name)
 
 
-def make_name(latex: str) -> Name:
+def make_name_from_latex(latex: str) -> Name:
     r"""Return a name that is given in LaTeX ("c_e", "\mu", "\sigma_{0}") with its plain text."""
     unicode_by_command = {
         **{f"\\{name}": sign for name, sign in GREEK.items()},
@@ -128,7 +128,7 @@ def assign_unique_names(proposed: Iterable[tuple[sp.Expr, Name]]) -> dict[sp.Sym
         if not isinstance(symbol, sp.Symbol) or symbol in names:
             continue
         is_taken = name.text in used_names and "_" not in strip_identifier(symbol)
-        name = add_primes(make_letter(strip_identifier(symbol)) if is_taken else name, used_names)
+        name = add_primes(make_symbol_name(strip_identifier(symbol)) if is_taken else name, used_names)
         used_names.add(name.text)
         names[symbol] = name
     return names

@@ -13,7 +13,7 @@ from pathlib import Path
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.targets.javascript.module import compress_script, print_equations_script
 from gudgeon.generator.targets.latex.document import Block, EmbeddedHtml, Listing, Section, make_paragraph
-from gudgeon.generator.targets.latex.trace import Trace, list_yaml_tokens
+from gudgeon.generator.targets.latex.trace import HighlightIndex, list_yaml_tokens
 
 SHOWN = ("parameters.c", "constraints.c", "clearance.c", "dynamics.c", "reduced.c", "positions.c")
 MOST_C = 600_000  # characters of C that a page carries
@@ -21,7 +21,7 @@ LARGEST_FILE = 1_000_000  # bytes of a mechanism's file
 _CARRIED = "gudgeon-c"  # id of what is not shown
 
 
-def make_listing_sections(model: Model, highlights: Trace) -> list[Section]:
+def make_listing_sections(model: Model, highlights: HighlightIndex) -> list[Section]:
     """Return the section with the listing of the mechanism's file and that of its C.
 
     The file is left out if it is missing or has changed.
@@ -50,7 +50,7 @@ def _read_mechanism_file(model: Model) -> str | None:
     return data.decode("utf-8", "replace") if hashlib.sha256(data).hexdigest() == mechanism.sha256 else None
 
 
-def _print_c_listing(highlights: Trace) -> str:
+def _print_c_listing(highlights: HighlightIndex) -> str:
     """Return the HTML of the C listing, compressed in a script element that light.js unfolds.
 
     The files in SHOWN are included while they fit into MOST_C characters; all others are only named.
@@ -120,7 +120,7 @@ def _load_script(name: str) -> str:
     return compress_script(Path(__file__).with_name(name).read_text(encoding="utf-8"))
 
 
-def _print_equations_script(highlights: Trace) -> str:
+def _print_equations_script(highlights: HighlightIndex) -> str:
     """Return the script that computes values; "" for scenes with curves, whose pages show only their state."""
     try:
         return print_equations_script(highlights.program)

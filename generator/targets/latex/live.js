@@ -40,8 +40,8 @@ const gudgeonValues = (() => {
         const {s, s_rate: rates} = called("reduce_state", state);
         if (known.tree || !s) return known.tree ?? {};
         const q = [...s], v = [...rates];
-        Object.assign(q, called("chain_directions", {q}).out);
-        Object.assign(v, called("chain_rates", {q}).v);
+        Object.assign(q, called("evaluate_loop_directions", {q}).out);
+        Object.assign(v, called("compute_loop_rates", {q}).v);
         return known.tree = {q, v};
     }
 

@@ -9,16 +9,16 @@ from gudgeon.generator.targets.latex.document import Block, Section, Sketch, Tex
 from gudgeon.generator.targets.latex.letters import Name
 from gudgeon.generator.targets.latex.notation import Notation
 from gudgeon.generator.targets.latex.theory import read_sketch
-from gudgeon.generator.targets.latex.values import LONGEST, Values, format_as_written, get_si_unit
+from gudgeon.generator.targets.latex.values import LONGEST, ValueFormatter, format_expression_as_written, get_si_unit
 from gudgeon.language.plot_units import format_unit
 
 
-def make_part_sections(model: Model, notation: Notation) -> list[Section]:
+def make_mechanism_sections(model: Model, notation: Notation) -> list[Section]:
     """Return the sections on bodies, ground, joints, drives, expressions, curves and parameters of the file.
 
     Sections for parts that the file does not have are left out.
     """
-    values = Values(model, notation)
+    values = ValueFormatter(model, notation)
     return [
         Section("Bodies", tuple(_describe_bodies(model, values))),
         *([Section("Ground", tuple(_describe_ground(model, values)))] if model.scene.mechanism.ground else []),
@@ -34,14 +34,21 @@ def make_part_sections(model: Model, notation: Notation) -> list[Section]:
     ]
 
 
-def _describe_bodies(model: Model, values: Values) -> list[Block]:
+def _describe_bodies(model: Model, values: ValueFormatter) -> list[Block]:
     """Return the tables of bodies, their sides, shapes, materials and points."""
     rows, points = [], []
     tokens = [[f"body-{name}"] for name in model.scene.mechanism.bodies]
     for body in model.scene.mechanism.bodies.values():
-        rows.append(make_row(body.name, values.cell(body.mass), values.cell(body.inertia), values.cell(body.length)))
+        rows.append(
+            make_row(
+                body.name,
+                values.format_cell(body.mass),
+                values.format_cell(body.inertia),
+                values.format_cell(body.length),
+            )
+        )
         vectors = {"com": body.com, **body.points} if body.com is not None else body.points
-        points += [make_row(f"{body.name}.{name}", values.vector(vector)) for name, vector in vectors.items()]
+        points += [make_row(f"{body.name}.{name}", values.format_vector(vector)) for name, vector in vectors.items()]
     lead = (
         "The x axis of a body with a length runs from its tail (the origin) to its head. The centre of mass (com) is "
         "at mid-length, or at the origin of a body without length, unless it is given below; inertias are about it."
@@ -53,17 +60,17 @@ def _describe_bodies(model: Model, values: Values) -> list[Block]:
         *make_tables(make_row("number of a shape", "value"), values.list_body_numbers("shape")),
         *make_tables(make_row("material", "density"), values.list_densities()),
         *make_tables(make_row("point", "in the frame of its body"), points),
-        *values.below(),
+        *values.take_long_expressions(),
     ]
 
 
-def _describe_ground(model: Model, values: Values) -> list[Block]:
+def _describe_ground(model: Model, values: ValueFormatter) -> list[Block]:
     """Return the table of the ground's points."""
-    rows = [make_row(name, values.vector(vector)) for name, vector in model.scene.mechanism.ground.items()]
-    return [*make_tables(make_row("point", "position"), rows), *values.below()]
+    rows = [make_row(name, values.format_vector(vector)) for name, vector in model.scene.mechanism.ground.items()]
+    return [*make_tables(make_row("point", "position"), rows), *values.take_long_expressions()]
 
 
-def _describe_joints(model: Model, values: Values) -> list[Block]:
+def _describe_joints(model: Model, values: ValueFormatter) -> list[Block]:
     """Return the tables of joints, of their fields and of angles at the start, then a sketch of each joint type."""
     rows = []
     for joint in model.scene.mechanism.joints.values():
@@ -82,20 +89,20 @@ def _describe_joints(model: Model, values: Values) -> list[Block]:
         e for e in model.parameter_table.entries.values() if e.symbol in used_symbols and e.address.startswith("start.")
     ]
     blocks += make_tables(
-        make_row("angle at the start", "value"), [make_row(e.address, values.slot(e)) for e in start_angles]
+        make_row("angle at the start", "value"), [make_row(e.address, values.format_parameter(e)) for e in start_angles]
     )
-    blocks += values.below()
+    blocks += values.take_long_expressions()
     for kind in dict.fromkeys(joint.kind for joint in model.scene.mechanism.joints.values()):
         summary, *lines = read_sketch(joint_types()[kind])
         blocks += [make_paragraph(summary), Sketch(tuple(lines))]
     return blocks
 
 
-def list_field_rows(part: Joint | ForceElement, values: Values) -> list[tuple[Text, ...]]:
+def list_field_rows(part: Joint | ForceElement, values: ValueFormatter) -> list[tuple[Text, ...]]:
     """Return table rows (name of the part, name of the field, value) of a joint's or force element's fields."""
     fields = [
-        *((name, values.vector(vector)) for name, vector in part.vectors.items()),
-        *((name, values.cell(quantity)) for name, quantity in part.quantities.items()),
+        *((name, values.format_vector(vector)) for name, vector in part.vectors.items()),
+        *((name, values.format_cell(quantity)) for name, quantity in part.quantities.items()),
         *((name, (word,)) for name, word in part.options.items()),
     ]
     return [make_row(part.name, name, text) for name, text in fields]
@@ -134,11 +141,11 @@ def format_drive_value(model: Model, notation: Notation, drive: str) -> str | Na
         model.constraints.drive_angles.get(drive),
     )
     if angle_symbols is None:
-        return format_as_written(expression, 0, expressions)
+        return format_expression_as_written(expression, 0, expressions)
     formula = notation.format_expression(
-        notation.expand(model.symbols.expand_definitions(model.symbols.definitions[angle_symbols[0]]))
+        notation.expand_symbols(model.symbols.expand_definitions(model.symbols.definitions[angle_symbols[0]]))
     )
-    return formula if len(formula.text) <= 2 * LONGEST else format_as_written(expression, 0, expressions)
+    return formula if len(formula.text) <= 2 * LONGEST else format_expression_as_written(expression, 0, expressions)
 
 
 def _describe_curves(model: Model) -> list[Block]:
@@ -150,13 +157,13 @@ def _describe_curves(model: Model) -> list[Block]:
 def _describe_expressions(model: Model) -> list[Block]:
     """Return the table of named expressions."""
     rows = [
-        make_row(name, format_as_written(quantity.source_tree or quantity.value))
+        make_row(name, format_expression_as_written(quantity.source_tree or quantity.value))
         for name, quantity in model.scene.mechanism.expressions.items()
     ]
     return make_tables(make_row("expression", "stands for"), rows, (1,))
 
 
-def _describe_parameters(model: Model, notation: Notation, values: Values) -> list[Block]:
+def _describe_parameters(model: Model, notation: Notation, values: ValueFormatter) -> list[Block]:
     """Return the table of parameters, as in the file and in SI units."""
     rows = []
     for name in model.scene.parameters:
@@ -170,4 +177,7 @@ def _describe_parameters(model: Model, notation: Notation, values: Values) -> li
                 format_unit(unit) or Name("-", "-"),
             )
         )
-    return [*make_tables(make_row("parameter", "letter", "value in the file", "unit"), rows), *values.below()]
+    return [
+        *make_tables(make_row("parameter", "letter", "value in the file", "unit"), rows),
+        *values.take_long_expressions(),
+    ]

@@ -17,12 +17,12 @@ from gudgeon.generator.targets.latex.document import (
     make_tables,
 )
 from gudgeon.generator.targets.latex.kinematics import make_equation
-from gudgeon.generator.targets.latex.letters import Name, make_letter
+from gudgeon.generator.targets.latex.letters import Name, make_symbol_name
 from gudgeon.generator.targets.latex.mechanism import format_point, list_field_rows
 from gudgeon.generator.targets.latex.notation import Notation, list_temporaries
 from gudgeon.generator.targets.latex.pictures import draw_assembled_matrix
 from gudgeon.generator.targets.latex.theory import PHI_Q, name_component, read_sketch
-from gudgeon.generator.targets.latex.values import Values
+from gudgeon.generator.targets.latex.values import ValueFormatter
 
 KKT = Equation(
     Name(
@@ -75,23 +75,25 @@ def _describe_elements(model: Model, notation: Notation) -> list[Block]:
 
     Their contribution to g is in the next section.
     """
-    values, temporary_symbols = Values(model, notation), list_temporaries(model)
+    values, temporary_symbols = ValueFormatter(model, notation), list_temporaries(model)
     frictions = {friction.name: friction for friction in model.frictions}
     fields = [row for applied in model.elements.values() for row in list_field_rows(applied.element, values)]
-    blocks: list[Block] = [*make_tables(make_row("element", "field", "value"), fields), *values.below()]
+    blocks: list[Block] = [*make_tables(make_row("element", "field", "value"), fields), *values.take_long_expressions()]
     for name, applied in model.elements.items():
         element_type = element_types()[applied.element.kind]
         targets = " and ".join(format_point(target, element_type.targets) for target in applied.element.targets)
         blocks.append(make_paragraph(f"{name}: {element_type.title} ({targets})."))
         blocks += [
-            make_equation(symbol, notation.expand(model.symbols.definitions[symbol]), notation)
+            make_equation(symbol, notation.expand_symbols(model.symbols.definitions[symbol]), notation)
             for symbol in temporary_symbols
             if model.symbols.info[symbol].meaning.endswith(f" of {name}")
         ]
         if name in frictions:
             blocks += _describe_friction(model, frictions[name], notation)
         if applied.loads.potential != 0:
-            blocks.append(make_equation(make_letter("V", name), notation.expand(applied.loads.potential), notation))
+            blocks.append(
+                make_equation(make_symbol_name("V", name), notation.expand_symbols(applied.loads.potential), notation)
+            )
     for kind in dict.fromkeys(applied.element.kind for applied in model.elements.values()):
         summary, *lines = read_sketch(element_types()[kind])
         blocks += [make_paragraph(summary), Sketch(tuple(lines))]
@@ -101,28 +103,28 @@ def _describe_elements(model: Model, notation: Notation) -> list[Block]:
 def _describe_friction(model: Model, friction: Friction, notation: Notation) -> list[Block]:
     """Return slip velocity, constraint equation at stick and force at slip of a friction element."""
     name, slip, v = friction.name, friction.slip, sp.Symbol("v", real=True)
-    slip_notation = notation.rename_symbols({v: make_letter("v", name)})
+    slip_notation = notation.rename_symbols({v: make_symbol_name("v", name)})
     coordinate_number = {q: k for k, q in enumerate(model.q, 1)}
     jacobian_row = [
-        make_equation(make_letter("J", name, str(coordinate_number[q])), notation.expand(entry), notation)
+        make_equation(make_symbol_name("J", name, str(coordinate_number[q])), notation.expand_symbols(entry), notation)
         for q, entry in friction.jacobian.items()
     ]
     force = [
         make_equation(
             Name(rf"\Delta g_{{{coordinate_number[q]}}}", f"Δg_{coordinate_number[q]}"),
-            notation.expand(-entry * slip.kinetic_at(v) * sp.sign(v)),
+            notation.expand_symbols(-entry * slip.evaluate_kinetic_force(v) * sp.sign(v)),
             slip_notation,
         )
         for q, entry in friction.jacobian.items()
     ]
-    limit = notation.format_expression(notation.expand(slip.static))
+    limit = notation.format_expression(notation.expand_symbols(slip.static))
     return [
-        make_equation(slip_notation.names[v], notation.expand(slip.v), notation),
+        make_equation(slip_notation.names[v], notation.expand_symbols(slip.v), notation),
         make_paragraph(
             "In stick ", slip_notation.names[v], " = 0 holds as a row of the equation of motion, with the entries"
         ),
         *jacobian_row,
-        make_equation(make_letter("gamma", name), notation.expand(friction.gamma), notation),
+        make_equation(make_symbol_name("gamma", name), notation.expand_symbols(friction.gamma), notation),
         make_paragraph("as long as the size of its multiplier is at most ", limit, "; in slip the force adds to g"),
         *force,
     ]
@@ -136,13 +138,13 @@ def _describe_generalized_forces(model: Model, notation: Notation) -> list[Block
         element.add_generalized_forces(forces)
     g = Name("g", "g")
     blocks: list[Block] = [
-        make_equation(name_component(g, k), notation.expand(force), notation)
+        make_equation(name_component(g, k), notation.expand_symbols(force), notation)
         for k, force in enumerate(forces, 1)
         if force != 0
     ]
     introduction: list[Block] = []
     if model.scene.mechanism.gravity is not None:
-        gravity = Values(model, notation).vector(model.scene.mechanism.gravity)
+        gravity = ValueFormatter(model, notation).format_vector(model.scene.mechanism.gravity)
         introduction += make_tables(make_row("gravity"), [make_row(gravity)])
     if blocks:
         introduction.append(make_paragraph("Gravity and force elements, by the numbers of the coordinates:"))
@@ -160,7 +162,9 @@ def _describe_events(model: Model, notation: Notation) -> list[Block]:
     blocks: list[Block] = []
     for event in model.events:
         blocks.append(make_paragraph(f"{event.name}: where it {directions[event.direction]} {actions[event.action]}:"))
-        blocks.append(make_equation(make_letter("z", event.name), notation.expand(event.expression), notation))
+        blocks.append(
+            make_equation(make_symbol_name("z", event.name), notation.expand_symbols(event.expression), notation)
+        )
     return blocks
 
 

@@ -11,7 +11,7 @@ import sympy as sp
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.ir.finite_slopes import remove_numerical_forms
 from gudgeon.generator.symbols.symbols import Symbols, strip_identifier
-from gudgeon.generator.targets.latex.letters import Name, add_primes, make_letter, make_word
+from gudgeon.generator.targets.latex.letters import Name, add_primes, make_symbol_name, make_word_name
 from gudgeon.generator.targets.latex.printers import TexPrinter, TextPrinter
 from gudgeon.generator.targets.latex.theory import collect_theory_letters
 
@@ -76,7 +76,7 @@ class Notation:
         """Return a copy of the notation with other names for some symbols, as in the section of a joint."""
         return replace(self, names={**self.names, **names})
 
-    def expand(self, expression: sp.Expr) -> sp.Expr:
+    def expand_symbols(self, expression: sp.Expr) -> sp.Expr:
         """Return an expression with derived symbols written out, except those in `shown_symbols`."""
         definitions = self.symbols.definitions
         while replacements := {
@@ -90,7 +90,7 @@ class Notation:
         expression = remove_numerical_forms(sp.sympify(expression))
         return Name(self._latex.doprint(expression), self._text.doprint(expression))
 
-    def terms(
+    def format_terms(
         self, expression: sp.Expr, list_tokens: Callable[[sp.Expr], Sequence[str]] = lambda _: ()
     ) -> tuple[Name, ...]:
         """Return the terms of a sum with their signs as formulas; a line may break between them.
@@ -160,14 +160,14 @@ def _propose_names(model: Model) -> Iterator[tuple[sp.Symbol, Name]]:
 
     Names may repeat. The order is: time, coordinates, drives, parameters of the file, derived ones, temporaries.
     """
-    yield model.t, make_letter("t")
+    yield model.t, make_symbol_name("t")
     for body in model.bodies:
         for quantity, symbol in zip(("x", "y", "theta", "vx", "vy", "omega"), (*body.q, *body.v), strict=True):
             base, dots = _RATES.get(quantity, (quantity, 0))
-            yield symbol, make_letter(base, body.name, dots=dots)
+            yield symbol, make_symbol_name(base, body.name, dots=dots)
     for drive, symbols in model.constraints.drive_angles.items():
         for dots, symbol in enumerate(symbols):
-            yield symbol, make_letter("f", drive, dots=dots)
+            yield symbol, make_symbol_name("f", drive, dots=dots)
     entries = [*model.parameter_table.entries.values()]
     for entry in sorted(entries, key=lambda e: e.address.startswith("parameters.")):
         yield entry.symbol, name_parameter(entry.address)
@@ -180,13 +180,13 @@ def _propose_names(model: Model) -> Iterator[tuple[sp.Symbol, Name]]:
     for symbol in list_rotated_components(model):
         turned_vector = model.geometry.turned_components.get(symbol)
         if turned_vector is None:
-            yield symbol, make_letter(strip_identifier(symbol))
+            yield symbol, make_symbol_name(strip_identifier(symbol))
         elif turned_vector.point:
-            yield symbol, make_letter("s", turned_vector.axis, turned_vector.body, turned_vector.point)
+            yield symbol, make_symbol_name("s", turned_vector.axis, turned_vector.body, turned_vector.point)
         else:  # numbered from a body's second one on
             yield (
                 symbol,
-                make_letter(
+                make_symbol_name(
                     "u",
                     turned_vector.axis,
                     turned_vector.body,
@@ -202,48 +202,48 @@ def name_parameter(address: str) -> Name:
     """
     match address.split("."):
         case ["parameters", name]:
-            return make_word(name)
+            return make_word_name(name)
         case ["baumgarte", gain]:
-            return make_letter(gain)
+            return make_symbol_name(gain)
         case ["gravity", axis]:
-            return make_letter("g", axis)
+            return make_symbol_name("g", axis)
         case ["ground", point, axis]:
-            return make_letter(axis, point)
+            return make_symbol_name(axis, point)
         case ["bodies", body, "com", axis]:
-            return make_letter({"x": "xi", "y": "eta"}[axis], body, "com")
+            return make_symbol_name({"x": "xi", "y": "eta"}[axis], body, "com")
         case ["bodies", body, "points", point, axis]:
-            return make_letter({"x": "xi", "y": "eta"}[axis], body, point)
+            return make_symbol_name({"x": "xi", "y": "eta"}[axis], body, point)
         case ["bodies", body, "sides", sides]:
-            return make_letter("l", body, sides)
+            return make_symbol_name("l", body, sides)
         case ["bodies", body, "sides", point, axis]:
-            return make_letter({"x": "xi", "y": "eta"}[axis], body, point)
+            return make_symbol_name({"x": "xi", "y": "eta"}[axis], body, point)
         case ["materials", material, constant]:
-            return make_letter(get_field_letter(constant), material)
+            return make_symbol_name(get_field_letter(constant), material)
         case ["bearings", bearing, "length"]:
-            return make_letter("L", bearing)
+            return make_symbol_name("L", bearing)
         case ["bearings", bearing, "bearing_material" | "journal_material" as role, constant]:
-            return make_letter(constant, "j" if role == "journal_material" else "i", bearing)
+            return make_symbol_name(constant, "j" if role == "journal_material" else "i", bearing)
         case ["guides", guide, "guide_material" | "slider_material" as role, constant]:
-            return make_letter(constant, "j" if role == "slider_material" else "i", guide)
+            return make_symbol_name(constant, "j" if role == "slider_material" else "i", guide)
         case ["bodies", body, "shape", "rectangle", axis]:
-            return make_letter({"x": "a", "y": "b"}[axis], body)
+            return make_symbol_name({"x": "a", "y": "b"}[axis], body)
         case ["bodies", body, "shape", *_, field]:
-            return make_letter(get_field_letter(field), body)
+            return make_symbol_name(get_field_letter(field), body)
         case ["contacts", contact, *rest]:
-            return make_letter(rest[-1], contact)
+            return make_symbol_name(rest[-1], contact)
         case ["start", _, body, coordinate]:
             base, dots = _RATES.get(coordinate, (coordinate, 0))
-            return make_letter(base, body, dots=dots, superscript="0")
+            return make_symbol_name(base, body, dots=dots, superscript="0")
         case [_, owner, field]:
             return (
-                make_letter(_FREE[field], owner, superscript="0")
+                make_symbol_name(_FREE[field], owner, superscript="0")
                 if field in _FREE
-                else make_letter(get_field_letter(field), owner)
+                else make_symbol_name(get_field_letter(field), owner)
             )
         case [_, owner, field, axis]:
             axis = {"x": "1", "y": "2"}[axis] if field == "radii" else axis
-            return make_letter(get_field_letter(field), axis, owner)
-    return make_letter(address.replace(".", "_"))
+            return make_symbol_name(get_field_letter(field), axis, owner)
+    return make_symbol_name(address.replace(".", "_"))
 
 
 def get_field_letter(field: str) -> str:
@@ -255,8 +255,8 @@ def _name_derived_parameter(model: Model, symbol: sp.Symbol) -> Name:
     """Return the name of a derived parameter, by the joint or element to which it belongs, else by its own name."""
     owner_info = model.parameter_table.roles.get(symbol)
     if owner_info is None:
-        return make_letter(strip_identifier(symbol))
-    return make_letter(
+        return make_symbol_name(strip_identifier(symbol))
+    return make_symbol_name(
         get_field_letter(owner_info.what),
         *([owner_info.axis] if owner_info.axis else []),
         owner_info.owner,
@@ -271,7 +271,7 @@ def _name_temporary(meaning: str) -> Name:
     if axis not in ("x", "y"):
         base, axis = quantity, ""
     base_letter, dots = _TEMPORARY.get(base, (base, 0))
-    return make_letter(base_letter, *([axis] if axis else []), owner, dots=dots)
+    return make_symbol_name(base_letter, *([axis] if axis else []), owner, dots=dots)
 
 
 def _name_drive_distance(name: str) -> Name:
@@ -282,8 +282,8 @@ def _name_drive_distance(name: str) -> Name:
     for marker, base, hat in (("_span_", "Delta", False), ("_along_", "e", True)):
         owner, is_found, axis = name.rpartition(marker)
         if is_found:
-            return make_letter(base, axis, owner, hat=hat)
-    return make_letter("l", name.removesuffix("_length"))
+            return make_symbol_name(base, axis, owner, hat=hat)
+    return make_symbol_name("l", name.removesuffix("_length"))
 
 
 def list_drive_distances(model: Model) -> list[sp.Symbol]:
@@ -296,7 +296,7 @@ def list_temporaries(model: Model) -> list[sp.Symbol]:
     """Return the symbols of intermediate quantities of force elements: neither angles, arms nor drives."""
     excluded = {symbol for symbols in model.constraints.drive_angles.values() for symbol in symbols}
     excluded.update(list_drive_distances(model), model.symbols.rules)
-    return [s for s in model.symbols.definitions if not model.symbols.info[s].home and s not in excluded]
+    return [s for s in model.symbols.definitions if not model.symbols.info[s].place and s not in excluded]
 
 
 def list_rotated_components(model: Model) -> list[sp.Symbol]:

@@ -26,11 +26,11 @@ from gudgeon.generator.targets.latex.document import (
     make_tables,
 )
 from gudgeon.generator.targets.latex.kinematics import make_equation
-from gudgeon.generator.targets.latex.letters import Name, make_letter, make_name
+from gudgeon.generator.targets.latex.letters import Name, make_name_from_latex, make_symbol_name
 from gudgeon.generator.targets.latex.notation import Notation
 from gudgeon.generator.targets.latex.plots import plot_law
-from gudgeon.generator.targets.latex.trace import Functions, Trace
-from gudgeon.generator.targets.latex.values import LONGEST, Values, format_as_written
+from gudgeon.generator.targets.latex.trace import Functions, HighlightIndex
+from gudgeon.generator.targets.latex.values import LONGEST, ValueFormatter, format_expression_as_written
 from gudgeon.language.plot_units import format_quantity, format_unit
 from gudgeon.language.units import find_si_unit
 
@@ -42,7 +42,7 @@ def describe_contour(joint: JointWithPlay) -> Iterator[Block]:
     """
     clearance = joint.clearance
     assert clearance.contour
-    yield make_equation(contact.theta_i, joint.notation.expand(clearance.first.theta), joint.notation, joint.of)
+    yield make_equation(contact.theta_i, joint.notation.expand_symbols(clearance.first.theta), joint.notation, joint.of)
     yield make_paragraph(
         f"The bearing is no circle: w is how much deeper it is, {clearance.contour.count} depths at equal angles from "
         f"the x axis of {clearance.joint.first.body} on, between them polynomials of degree five with two continuous "
@@ -109,11 +109,11 @@ def describe_onset(joint: JointWithPlay, approach_speed: Name) -> Block:
     )
 
 
-def describe_states(law: Law) -> Iterator[Block]:
+def describe_inner_states(law: Law) -> Iterator[Block]:
     """Yield the paragraphs on inner states of laws."""
     for state in law.states:
         message = f" is the {state.meaning}, 0 at each onset, and integrated with the motion while in contact."
-        yield make_paragraph(make_letter(state.name), message)
+        yield make_paragraph(make_symbol_name(state.name), message)
 
 
 def format_option(value: str | bool) -> str:
@@ -184,7 +184,9 @@ class JointWithPlay:
     def make_equations(self, steps: list[Step]) -> list[Block]:
         """Return an equation symbol = value for each step, in this joint's letters and with the law's tokens."""
         return [
-            make_equation(step.symbol, self.notation.expand(step.value), self.notation, self.of_law, self.of_law[0])
+            make_equation(
+                step.symbol, self.notation.expand_symbols(step.value), self.notation, self.of_law, self.of_law[0]
+            )
             for step in steps
         ]
 
@@ -229,7 +231,7 @@ def _describe_geometry(joint: JointWithPlay, is_first: bool) -> list[Block]:
 
     The contact steps that follow from them are added if `is_first`, for the first joint with this play.
     """
-    clearance, expand, notation = joint.clearance, joint.notation.expand, joint.notation
+    clearance, expand, notation = joint.clearance, joint.notation.expand_symbols, joint.notation
     joint_ref = clearance.joint
     steps = [
         *zip((contact.e_x, contact.e_y), clearance.eccentricity, strict=True),
@@ -329,8 +331,8 @@ def _describe_law(joint: JointWithPlay, role: str) -> list[Block]:
         if (value := equations.options.get(option.name)) is not None  # one may say nothing beside a number
         and not (joint.clearance.wall and option is GEOMETRY)  # R_i → ∞
     ]
-    blocks += describe_states(law)
-    plot = plot_law(joint.functions, joint.alike, role, law) if isinstance(joint.functions, Trace) else []
+    blocks += describe_inner_states(law)
+    plot = plot_law(joint.functions, joint.alike, role, law) if isinstance(joint.functions, HighlightIndex) else []
     return [*blocks, *joint.make_equations(joint.list_law_steps(equations)), *plot]
 
 
@@ -357,31 +359,33 @@ def _describe_generalized_force(joint: JointWithPlay) -> list[Block]:
         )
         for k, component in enumerate(components, point.body.index + 1):
             left = Name(rf"\Delta g_{{{k}}}", f"Δg_{k}")
-            blocks.append(make_equation(left, sp.expand(notation.expand(component)), notation, joint.of))
+            blocks.append(make_equation(left, sp.expand(notation.expand_symbols(component)), notation, joint.of))
     return blocks
 
 
 def list_number_blocks(joint: JointWithPlay) -> list[Block]:
     """Return the table of the joint's numbers, then the equations of its derived constants."""
-    slots, values, rows = joint.model.parameter_table, Values(joint.model, joint.notation), []
+    slots, values, rows = joint.model.parameter_table, ValueFormatter(joint.model, joint.notation), []
     for quantity, letter_, meaning in joint.numbers:
         entry = slots.entries.get(quantity.address)
         value: Text = (_format_fixed_value(quantity),) if entry is None else values.format_in_si(entry)
         if entry is not None and entry.depends_on_parameters:
             value = (*values.format_dependency(entry), joint.notation.format_expression(sp.Float(entry.default, 17)))
-        name = make_name(letter_) if entry is None else joint.notation.format_expression(entry.symbol)
+        name = make_name_from_latex(letter_) if entry is None else joint.notation.format_expression(entry.symbol)
         rows.append(
             make_row(name, meaning, quantity.address, value, format_unit(find_si_unit(quantity.dimension)) or "-")
         )
     definitions = joint.model.symbols.definitions
     constants = dict.fromkeys([joint.clearance.pair.R_j, *joint.clearance.constants.values()])
     constant_equations = [
-        make_equation(s, joint.notation.expand(definitions[s]), joint.notation) for s in constants if s in definitions
+        make_equation(s, joint.notation.expand_symbols(definitions[s]), joint.notation)
+        for s in constants
+        if s in definitions
     ]
     header = make_row("letter", "meaning", "address", "value in the file", "unit")
     return [
         *make_tables(header, rows, (1,)),
-        *values.below(),
+        *values.take_long_expressions(),
         make_paragraph("From these follow once a run:"),
         *constant_equations,
     ]
@@ -389,5 +393,5 @@ def list_number_blocks(joint: JointWithPlay) -> list[Block]:
 
 def _format_fixed_value(quantity: Quantity) -> str:
     """Return a value that is not a run-time parameter as text: 0, an expression, or "below" if it is too long."""
-    text = "0" if quantity.is_zero else format_as_written(quantity.value)
+    text = "0" if quantity.is_zero else format_expression_as_written(quantity.value)
     return text if len(text) <= LONGEST else "below"

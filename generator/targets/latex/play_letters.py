@@ -53,70 +53,76 @@ from gudgeon.generator.field import Field
 from gudgeon.generator.kinds.laws.law import CONSTRAINT_VARIABLES, RESULTS, Law
 from gudgeon.generator.mechanism import LawUse, Quantity
 from gudgeon.generator.symbols.parameter_table import ParameterEntry
-from gudgeon.generator.targets.latex.letters import Name, assign_unique_names, make_letter, make_name, make_word
+from gudgeon.generator.targets.latex.letters import (
+    Name,
+    assign_unique_names,
+    make_name_from_latex,
+    make_symbol_name,
+    make_word_name,
+)
 
 # Parts of a joint with film and dry contact are told apart by d and f.
 _PARTS = {"dry": "d", "film": "f"}
 
 NAMES: Mapping[sp.Symbol, Name] = {
-    e_x: make_letter("e", "x"),
-    e_y: make_letter("e", "y"),
-    de_x: make_letter("e", "x", dots=1),
-    de_y: make_letter("e", "y", dots=1),
-    omega_i: make_letter("omega", "i"),
-    omega_j: make_letter("omega", "j"),
-    e: make_letter("e"),
-    n_x: make_letter("n", "x"),
-    n_y: make_letter("n", "y"),
-    delta: make_letter("delta"),
-    deltadot: make_letter("delta", dots=1),
-    de_t: make_letter("e", "t", dots=1),
+    e_x: make_symbol_name("e", "x"),
+    e_y: make_symbol_name("e", "y"),
+    de_x: make_symbol_name("e", "x", dots=1),
+    de_y: make_symbol_name("e", "y", dots=1),
+    omega_i: make_symbol_name("omega", "i"),
+    omega_j: make_symbol_name("omega", "j"),
+    e: make_symbol_name("e"),
+    n_x: make_symbol_name("n", "x"),
+    n_y: make_symbol_name("n", "y"),
+    delta: make_symbol_name("delta"),
+    deltadot: make_symbol_name("delta", dots=1),
+    de_t: make_symbol_name("e", "t", dots=1),
     stored: Name(r"\dot{\delta}^{-}", "δ̇⁻"),
-    a_i: make_letter("a", "i"),
-    a_j: make_letter("a", "j"),
-    v_t: make_letter("v", "t"),
-    epsilon: make_letter("epsilon"),
-    w_n: make_letter("w", "n"),
-    w_t: make_letter("w", "t"),
-    share: make_letter("b"),
-    F_along_n: make_letter("F", "e"),
-    along: make_letter("e", "t"),
-    F_x: make_letter("F", "x"),
-    F_y: make_letter("F", "y"),
-    theta_i: make_letter("theta", "i"),
-    beta_i: make_letter("beta", "i"),
-    u_x: make_letter("u", "x"),
-    u_y: make_letter("u", "y"),
-    worn: make_letter("w"),
+    a_i: make_symbol_name("a", "i"),
+    a_j: make_symbol_name("a", "j"),
+    v_t: make_symbol_name("v", "t"),
+    epsilon: make_symbol_name("epsilon"),
+    w_n: make_symbol_name("w", "n"),
+    w_t: make_symbol_name("w", "t"),
+    share: make_symbol_name("b"),
+    F_along_n: make_symbol_name("F", "e"),
+    along: make_symbol_name("e", "t"),
+    F_x: make_symbol_name("F", "x"),
+    F_y: make_symbol_name("F", "y"),
+    theta_i: make_symbol_name("theta", "i"),
+    beta_i: make_symbol_name("beta", "i"),
+    u_x: make_symbol_name("u", "x"),
+    u_y: make_symbol_name("u", "y"),
+    worn: make_symbol_name("w"),
     worn_slope: Name("w'", "w'"),
-    beta_rate: make_letter("beta", "i", dots=1),
-    slant: make_letter("r"),
-    steep: make_letter("zeta"),
-    F_N: make_letter("F", "N"),
-    sp.Symbol("F_n", real=True): make_letter("F", "n"),
-    sp.Symbol("F_r", real=True): make_letter("F", "r"),
-    sp.Symbol(CONSTRAINT_VARIABLES[0], real=True): make_letter("lambda"),
+    beta_rate: make_symbol_name("beta", "i", dots=1),
+    slant: make_symbol_name("r"),
+    steep: make_symbol_name("zeta"),
+    F_N: make_symbol_name("F", "N"),
+    sp.Symbol("F_n", real=True): make_symbol_name("F", "n"),
+    sp.Symbol("F_r", real=True): make_symbol_name("F", "r"),
+    sp.Symbol(CONSTRAINT_VARIABLES[0], real=True): make_symbol_name("lambda"),
 }
 # What the laws call their abbreviations and constants, in the paper's letters.
 LAW_LETTERS = {
-    "root": make_letter("s"),
-    "factor": make_letter("f"),
-    "hysteresis": make_letter("a"),
-    "film_clearance": make_letter("c", "film"),
-    "friction_slope": make_letter("kappa"),
-    "shear": make_letter("D", "0"),
-    "T0": make_letter("D"),
-    "spring": make_letter("K"),
-    "damper": make_letter("D"),
-    "mean_clearance": make_letter("c", "mean"),
-    "share": make_letter("b"),
-    "overlap": make_letter("l"),
-    "deepest": make_letter("delta", "max"),
-    "scale": make_letter("l"),
-    "part": make_letter("y"),
-    "gone": make_letter("x"),
-    "left": make_letter("y"),
-    "F_e": make_letter("F", "el"),
+    "root": make_symbol_name("s"),
+    "factor": make_symbol_name("f"),
+    "hysteresis": make_symbol_name("a"),
+    "film_clearance": make_symbol_name("c", "film"),
+    "friction_slope": make_symbol_name("kappa"),
+    "shear": make_symbol_name("D", "0"),
+    "T0": make_symbol_name("D"),
+    "spring": make_symbol_name("K"),
+    "damper": make_symbol_name("D"),
+    "mean_clearance": make_symbol_name("c", "mean"),
+    "share": make_symbol_name("b"),
+    "overlap": make_symbol_name("l"),
+    "deepest": make_symbol_name("delta", "max"),
+    "scale": make_symbol_name("l"),
+    "part": make_symbol_name("y"),
+    "gone": make_symbol_name("x"),
+    "left": make_symbol_name("y"),
+    "F_e": make_symbol_name("F", "el"),
 }
 _LETTERS_AT_WALL = (("c", "c"), ("R_i", "h_i"))  # lengths of the slider, which points of bodies have too, keep theirs
 GUIDE = (
@@ -125,7 +131,7 @@ GUIDE = (
     ("half_height", "b", "half the slider's height"),
     ("corner_radius", r"\rho", "radius of the slider's corners"),
 )
-RATIO, CLIPPED = Name(r"\frac{\dot{\delta}}{\dot{\delta}^{-}}", "(δ̇/δ̇⁻)"), make_letter("r")
+RATIO, CLIPPED = Name(r"\frac{\dot{\delta}}{\dot{\delta}^{-}}", "(δ̇/δ̇⁻)"), make_symbol_name("r")
 
 
 def name_contact_steps(clearance: Clearance) -> dict[sp.Symbol, Name]:
@@ -138,15 +144,15 @@ def name_contact_steps(clearance: Clearance) -> dict[sp.Symbol, Name]:
     parts = [part for part in _PARTS if getattr(clearance, "film" if part == "film" else "normal") is not None]
     for symbol, base, index in ((F_along_t, "F", "t"), (M_i, "M", "i"), (M_j, "M", "j")):
         for part in parts:
-            step_names[make_part_symbol(symbol, part)] = make_letter(
+            step_names[make_part_symbol(symbol, part)] = make_symbol_name(
                 base, index + _PARTS[part] if len(parts) > 1 else index
             )
         if len(parts) > 1:
-            step_names[symbol] = make_letter(base, index)
+            step_names[symbol] = make_symbol_name(base, index)
     if len(parts) < 2:
         del step_names[share]
     if clearance.wall:
-        step_names |= {M_i: make_letter("M", "i"), make_part_symbol(M_i, "dry"): make_letter("M", "i", "t")}
+        step_names |= {M_i: make_symbol_name("M", "i"), make_part_symbol(M_i, "dry"): make_symbol_name("M", "i", "t")}
     return step_names
 
 
@@ -166,23 +172,23 @@ def _propose_letters(model: Model, clearance: Clearance) -> Iterator[tuple[sp.Ex
     pairs = [(getattr(pair, attribute), latex) for attribute, latex in lengths]
     for symbol, latex in pairs:
         if symbol.is_Symbol:
-            yield symbol, make_name(latex)
+            yield symbol, make_name_from_latex(latex)
     for constant in ("E", "nu"):
         i, j = getattr(pair, f"{constant}_i"), getattr(pair, f"{constant}_j")
         yield from (
-            [(i, make_letter(constant))]
+            [(i, make_symbol_name(constant))]
             if i == j
-            else [(i, make_letter(constant, "i")), (j, make_letter(constant, "j"))]
+            else [(i, make_symbol_name(constant, "i")), (j, make_symbol_name(constant, "j"))]
         )
     if clearance.transition is not None:
-        yield clearance.transition, make_letter("e", "0")
+        yield clearance.transition, make_symbol_name("e", "0")
     for equations, use in laws:
         for parameter, quantity in list_given_parameters(equations, use):
             if entry := _find_parameter(model, quantity):
-                yield entry.symbol, make_name(get_latex_symbol(parameter))
+                yield entry.symbol, make_name_from_latex(get_latex_symbol(parameter))
     for name, value in clearance.constants.items():
         if not (wall and value == pair.R_j):
-            yield value, LAW_LETTERS.get(name) or make_word(name)
+            yield value, LAW_LETTERS.get(name) or make_word_name(name)
     for equations, _ in laws:
         for name in equations.steps:
             yield get_result_symbol(equations, name), name_law_step(equations.law, name)
@@ -217,10 +223,10 @@ def get_result_symbol(equations: LawEquations, name: str) -> sp.Symbol:
 def name_law_step(law: Law, name: str) -> Name:
     """Return the name of an abbreviation or result of a law; the rate of an inner state has a dot."""
     name = name.removesuffix("__")  # of a user-defined law
-    rate_names = {f"{state.name}_rate": make_letter(state.name, dots=1) for state in law.states}
-    return (LAW_LETTERS | rate_names).get(name) or make_word(name)
+    rate_names = {f"{state.name}_rate": make_symbol_name(state.name, dots=1) for state in law.states}
+    return (LAW_LETTERS | rate_names).get(name) or make_word_name(name)
 
 
 def get_latex_symbol(parameter: Field) -> str:
     """Return the letter of a law's parameter in LaTeX: its symbol, or else its name."""
-    return parameter.symbol or make_word(parameter.name).latex
+    return parameter.symbol or make_word_name(parameter.name).latex

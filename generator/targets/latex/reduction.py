@@ -6,7 +6,7 @@ from collections.abc import Collection
 
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.contract.reduction_log import Solve
-from gudgeon.contract.reduction_words import describe_outcome, describe_steps
+from gudgeon.contract.reduction_words import describe_reduced_system, describe_reduction_steps
 from gudgeon.generator.targets.c.readme import list_file_purposes
 from gudgeon.generator.targets.latex.document import (
     Block,
@@ -37,8 +37,8 @@ def _describe_reduction(source: KernelSource, joints: Collection[str]) -> list[B
 
     joints: the names of the file's joints.
     """
-    step_rows = [make_row(f"{n:,}", f"{m:,}", f"{text}.") for n, m, text in describe_steps(source)]
-    outcome_rows = [make_row(name, f"{text}.") for name, text in describe_outcome(source)]
+    step_rows = [make_row(f"{n:,}", f"{m:,}", f"{text}.") for n, m, text in describe_reduction_steps(source)]
+    outcome_rows = [make_row(name, f"{text}.") for name, text in describe_reduced_system(source)]
     return [
         make_paragraph("Coordinates and rows that are left, step by step, and what took the others:"),
         *make_tables(make_row("coordinates", "rows", "step"), step_rows, (2,)),
@@ -51,7 +51,7 @@ def _compare_formulations(functions: Functions) -> list[Block]:
     """Return a table of sizes and operations of both formulations, and one of operations of each C function."""
     source, log = functions.source, functions.source.story
     counts = source.operations
-    reduced_function = "arrive" if "arrive" in counts else "reduced_dynamics"
+    reduced_function = "compute_body_motion" if "compute_body_motion" in counts else "reduced_dynamics"
     rows = [
         ("coordinates", len(source.coordinates), len(source.tree)),
         ("rows of constraints", len(source.rows), len(source.closures)),

@@ -18,7 +18,7 @@ from gudgeon.generator.equations.model import Model
 from gudgeon.generator.equations.play import Clearance
 from gudgeon.generator.kinds.forces.force_type import ElementType, element_types
 from gudgeon.generator.kinds.joints.joint_type import JointType, joint_types
-from gudgeon.generator.targets.latex.letters import Name, make_letter, make_name
+from gudgeon.generator.targets.latex.letters import Name, make_name_from_latex, make_symbol_name
 from gudgeon.generator.targets.latex.play_letters import (
     get_latex_symbol,
     get_result_symbol,
@@ -88,7 +88,7 @@ def _list_letters(model: Model) -> Iterator[tuple[str, str]]:
         meaning = f"a letter of {clearance.kind} {clearance.name} with play"
         yield from ((text, meaning) for text in _list_play_letters(model, clearance))
     yield from _list_force_letters(model)
-    yield from ((make_letter("z", event.name).text, f"event {event.name}") for event in model.events)
+    yield from ((make_symbol_name("z", event.name).text, f"event {event.name}") for event in model.events)
     for kind in dict.fromkeys(joint.kind for joint in model.scene.mechanism.joints.values()):
         yield from _list_sketch_letters(joint_types()[kind])
 
@@ -110,11 +110,11 @@ def _list_force_letters(model: Model) -> Iterator[tuple[str, str]]:
     """Yield (letter, meaning) of potential energies, of friction elements, and of the sketches of force elements."""
     for name, applied in model.elements.items():
         if applied.loads.potential != 0:
-            yield make_letter("V", name).text, f"potential energy of {name}"
+            yield make_symbol_name("V", name).text, f"potential energy of {name}"
     for friction in model.frictions:
         for base in ("v", "gamma"):
-            yield make_letter(base, friction.name).text, f"slip of {friction.name}"
-        jacobian_entries = (make_letter("J", friction.name, str(k)) for k in range(1, 1 + len(model.q)))
+            yield make_symbol_name(base, friction.name).text, f"slip of {friction.name}"
+        jacobian_entries = (make_symbol_name("J", friction.name, str(k)) for k in range(1, 1 + len(model.q)))
         yield from ((name.text, f"slip of {friction.name}") for name in jacobian_entries)
     for kind in dict.fromkeys(applied.element.kind for applied in model.elements.values()):
         yield from _list_sketch_letters(element_types()[kind])
@@ -136,7 +136,8 @@ def _list_play_letters(model: Model, clearance: Clearance) -> Iterator[str]:
     )
     for equations, use in list_laws(model, clearance):
         yield from (
-            make_name(get_latex_symbol(parameter)).text for parameter, _ in list_given_parameters(equations, use)
+            make_name_from_latex(get_latex_symbol(parameter)).text
+            for parameter, _ in list_given_parameters(equations, use)
         )
     yield from ("i", "j", "n")
     if clearance.normal is not None and clearance.film is not None:

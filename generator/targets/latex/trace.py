@@ -19,7 +19,7 @@ from gudgeon.generator.ir.kernels import Kernel
 from gudgeon.generator.ir.readable import make_readable
 from gudgeon.generator.ir.signatures import RHS
 from gudgeon.generator.ir.statements import Statement
-from gudgeon.generator.kernels.driven_chains import STEP
+from gudgeon.generator.kernels.driven_loops import STEP
 from gudgeon.generator.kernels.program import Program, make_program
 from gudgeon.generator.mechanism import iterate_quantities
 from gudgeon.generator.symbols.storage import PARAMETERS, Key, Place
@@ -53,7 +53,7 @@ class Functions:
 
 
 @dataclass(frozen=True)
-class Trace(Functions):
+class HighlightIndex(Functions):
     """Contain `lines`, tokens by file and line of C, and `values`, what a line stores: "phi.arm_x", "p.3", "lambda.2".
 
     `numbers`: tokens by address of everything that depends on a number of the file.
@@ -70,7 +70,7 @@ def make_functions(model: Model) -> Functions:
     return Functions(program.model, program, describe_program(program, {}), list_file_names(program))
 
 
-def make_trace(model: Model, source: KernelSource | None = None) -> Trace:
+def make_highlight_index(model: Model, source: KernelSource | None = None) -> HighlightIndex:
     """Return the scene's functions, its C, and the highlighting tokens of each line of C in the document of `model`.
 
     source: the emitted C of the scene, if it is known. It is printed anew if it is missing or has another
@@ -82,7 +82,7 @@ def make_trace(model: Model, source: KernelSource | None = None) -> Trace:
     collector = _TokenCollector(program, source)
     collector.collect_tokens()
     lines = {file: {k: frozenset(v) for k, v in sorted(own.items())} for file, own in collector.lines.items()}
-    return Trace(
+    return HighlightIndex(
         program.model, program, source, source.files, lines, collector.values, collector.get_tokens_by_address()
     )
 
@@ -157,7 +157,9 @@ class _TokenCollector:
                 for number in stored_line.lines:
                     self.lines[function_lines.file][number] |= marks
                 self._add_value_name(
-                    function_lines.file, stored_line, partial(self._name_local, kernel.name, function_lines.own.names)
+                    function_lines.file,
+                    stored_line,
+                    partial(self._name_local, kernel.name, function_lines.readable_part.names),
                 )
 
     def _add_value_name(self, file: str, stored_line: StoredLines, get_value_name: Callable[[Key], str]) -> None:
@@ -309,7 +311,7 @@ def _find_stored_parameter(line: Statement | Branch, places: Mapping[str, Place]
     return next((name for name, place in places.items() if line.target in (name, place)), "")
 
 
-def list_yaml_tokens(model: Model, highlights: Trace) -> dict[int, Marks]:
+def list_yaml_tokens(model: Model, highlights: HighlightIndex) -> dict[int, Marks]:
     """Return the tokens of each line of the mechanism's file: of its entries, and of what depends on its numbers.
 
     Rows belong to the line of their joint or drive. Lines without any token are left out.

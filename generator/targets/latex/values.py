@@ -28,46 +28,49 @@ SMALL = 1e-3  # below it a number is written with a power of ten
 _STRENGTH = {"+": 1, "-": 1, "*": 2, "/": 2, "**": 4}
 
 
-class Values:
+class ValueFormatter:
     """Write the numbers of a scene as table cells: letter, value and expression.
 
-    Expressions that are too long for a cell are collected for `below`.
+    Expressions that are too long for a cell are collected for `take_long_expressions`.
     """
 
     def __init__(self, model: Model, notation: Notation) -> None:
         self._model, self._slots, self._notation = model, model.parameter_table, notation
         self._long: list[Block] = []  # what numbers follow, where it is longer than a cell is wide
 
-    def cell(self, quantity: Quantity | None) -> Text:
+    def format_cell(self, quantity: Quantity | None) -> Text:
         """Return the cell of a number: "l = 80 mm", "y = −l_5 = −0.3 m", "0", or a formula; empty for no number."""
         if quantity is None:
             return ("",)
         if quantity.address not in self._slots.entries:
             return ("0",) if quantity.is_zero else self._format_varying_quantity(quantity)
-        return self.slot(self._slots.entries[quantity.address])
+        return self.format_parameter(self._slots.entries[quantity.address])
 
     def _format_varying_quantity(self, quantity: Quantity) -> Text:
-        """Return an expression of time and motion; a long one is replaced by its letter and collected for `below`.
+        """Return an expression of time and motion; a long one is replaced by its letter and collected for
+        `take_long_expressions`.
 
         An expression of a cam's angle, or with named expressions, stays as the file writes it.
         """
         notation, model = self._notation, self._model
-        file_text = format_as_written(quantity.value, 0, model.scene.mechanism.expressions)
+        file_text = format_expression_as_written(quantity.value, 0, model.scene.mechanism.expressions)
         is_cam_angle = any(name.path == OF_CAM_ANGLE for name in iterate_names(quantity.value))
-        if is_cam_angle or file_text != format_as_written(quantity.value):
+        if is_cam_angle or file_text != format_expression_as_written(quantity.value):
             return (file_text,)
-        value = notation.expand(convert_quantity_to_sympy(quantity, MotionNameResolver(model.geometry, model.t)))
+        value = notation.expand_symbols(
+            convert_quantity_to_sympy(quantity, MotionNameResolver(model.geometry, model.t))
+        )
         if len((formula := notation.format_expression(value)).text) <= 2 * LONGEST:
             return (formula,)
         left = name_parameter(quantity.address)
-        self._long.append(Equation(left, notation.terms(value)))
+        self._long.append(Equation(left, notation.format_terms(value)))
         return (left,)
 
-    def slot(self, entry: ParameterEntry) -> Text:
+    def format_parameter(self, entry: ParameterEntry) -> Text:
         """Return the cell "letter = value" of a parameter."""
-        return self._notation.format_expression(entry.symbol), " = ", *self.value(entry)
+        return self._notation.format_expression(entry.symbol), " = ", *self.format_default(entry)
 
-    def value(self, entry: ParameterEntry) -> Text:
+    def format_default(self, entry: ParameterEntry) -> Text:
         """Return the default of a parameter in the unit of the file.
 
         A dependent number has its expression and the value in SI.
@@ -90,7 +93,7 @@ class Values:
         else:
             differs = angle_text is None
         return (
-            (f"{format_as_written(expression)} = ", angle_text or self._format_number(entry.default))
+            (f"{format_expression_as_written(expression)} = ", angle_text or self._format_number(entry.default))
             if differs
             else (number,)
         )
@@ -98,7 +101,7 @@ class Values:
     def format_dependency(self, entry: ParameterEntry) -> Text:
         """Return the expression of a dependent number and " = "; () for an independent one.
 
-        A long expression is collected for `below`, and () is returned.
+        A long expression is collected for `take_long_expressions`, and () is returned.
         """
         if not entry.depends_on_parameters:
             return ()
@@ -121,12 +124,12 @@ class Values:
                 primes = "'" * len(blocks)
                 inner_name = Name("".join(("D", *latex, primes)), "".join(("D", *text, primes)))
                 inner_symbol = sp.Symbol(inner_name.text)
-                blocks.append(Equation(inner_name, notation.terms(root.base)))
+                blocks.append(Equation(inner_name, notation.format_terms(root.base)))
                 notation, value = (
                     notation.rename_symbols({inner_symbol: inner_name}),
                     value.xreplace({root: sp.sqrt(inner_symbol)}),
                 )
-        return [*blocks, Equation(left_side, notation.terms(value))]
+        return [*blocks, Equation(left_side, notation.format_terms(value))]
 
     def _format_with_unit(self, value: float, unit: str, is_exact: bool = True) -> Text:
         """Return a number with its unit; an angle as a fraction of π or in degrees has none.
@@ -160,7 +163,7 @@ class Values:
             (e, e.address.split(".")) for e in self._slots.entries.values() if e.address.startswith("bodies.")
         ]
         return [
-            make_row(f"{path[1]}.{'.'.join(path[3:])}", self.slot(e))
+            make_row(f"{path[1]}.{'.'.join(path[3:])}", self.format_parameter(e))
             for e, path in entries_with_path
             if path[2] == part and not (e.choice_words or part == "sides" and len(path) > 4)
         ]
@@ -169,17 +172,17 @@ class Values:
         """Return the table rows of the densities of materials."""
         entries_with_path = [(e, e.address.split(".")) for e in self._slots.entries.values() if not e.choice_words]
         return [
-            make_row(path[1], self.slot(e))
+            make_row(path[1], self.format_parameter(e))
             for e, path in entries_with_path
             if path[0] == "materials" and path[2:] == ["density"]
         ]
 
-    def below(self) -> list[Block]:
+    def take_long_expressions(self) -> list[Block]:
         """Return the long expressions since the last call, to be placed below a table, and forget them; [] for none."""
         long_blocks, self._long = list(dict.fromkeys(self._long)), []
         return [make_paragraph("In full:"), *long_blocks] if long_blocks else []
 
-    def vector(self, vector: Vector) -> Text:
+    def format_vector(self, vector: Vector) -> Text:
         """Return the cell of a vector; a zero next to a parameter is written as "letter = 0"."""
         is_parameter = [component.address in self._slots.entries for component in vector]
         x, y = (
@@ -188,7 +191,7 @@ class Values:
             and any(is_parameter)
             and component.address.endswith(axis)
             and not component.address.startswith("gravity")
-            else self.cell(component)
+            else self.format_cell(component)
             for component, axis in zip(vector, (".x", ".y"), strict=True)
         )
         return (*x, ",  ", *y)
@@ -225,7 +228,7 @@ def get_si_unit(entry: ParameterEntry) -> str:
     return find_si_unit(entry.dimension)
 
 
-def format_as_written(
+def format_expression_as_written(
     expression: Expr, outer_strength: int = 0, expressions: Mapping[str, Quantity] = MappingProxyType({})
 ) -> str:
     """Return an expression as in the file, with its numbers, units and names, and brackets where they are needed.
@@ -241,12 +244,12 @@ def format_as_written(
         case Number(value=value, text=text):
             return text or repr(value)
         case Unary(operand=operand):
-            text, strength = f"-{format_as_written(operand, 3, expressions)}", 3
+            text, strength = f"-{format_expression_as_written(operand, 3, expressions)}", 3
         case Binary(operator=operator, left=left, right=right):
             strength = _STRENGTH[operator]
             operand_strengths = (strength + 1, strength) if operator == "**" else (strength, strength + 1)
             operand_texts = [
-                format_as_written(side, outer_strength, expressions)
+                format_expression_as_written(side, outer_strength, expressions)
                 for side, outer_strength in zip((left, right), operand_strengths, strict=True)
             ]
             for k, side in enumerate((left, right)):  # t / (1 s): a number and its unit are one
@@ -254,7 +257,7 @@ def format_as_written(
                     operand_texts[k] = f"({operand_texts[k]})"
             text = f" {operator} ".join(operand_texts)
         case Call(function=function, arguments=arguments):
-            operand_texts = [format_as_written(a, 0, expressions) for a in arguments]
+            operand_texts = [format_expression_as_written(a, 0, expressions) for a in arguments]
             call_arguments = (
                 [" < ".join(operand_texts[:2]), *operand_texts[2:]] if function == "where" else operand_texts
             )

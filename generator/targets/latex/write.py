@@ -26,13 +26,13 @@ from gudgeon.generator.targets.latex.document import (
 from gudgeon.generator.targets.latex.kinematics import make_kinematics_sections
 from gudgeon.generator.targets.latex.letters import Name
 from gudgeon.generator.targets.latex.listings import make_listing_sections, print_scripts
-from gudgeon.generator.targets.latex.mechanism import make_part_sections
+from gudgeon.generator.targets.latex.mechanism import make_mechanism_sections
 from gudgeon.generator.targets.latex.motion import make_motion_sections
 from gudgeon.generator.targets.latex.notation import Notation, make_notation
 from gudgeon.generator.targets.latex.play import make_play_sections
 from gudgeon.generator.targets.latex.reduction import make_reduction_sections
 from gudgeon.generator.targets.latex.render import render_document
-from gudgeon.generator.targets.latex.trace import Functions, make_functions, make_trace
+from gudgeon.generator.targets.latex.trace import Functions, make_functions, make_highlight_index
 from gudgeon.language.text_output import format_one_line
 
 # docs/physics.md
@@ -51,7 +51,7 @@ def make_document(model: Model, functions: Functions) -> Document:
     mechanism, notation = model.scene.mechanism, make_notation(model)
     scene_notes = write_scene_notes(model)
     sections = [
-        *make_part_sections(model, notation),
+        *make_mechanism_sections(model, notation),
         *make_kinematics_sections(model, notation),
         *make_motion_sections(model, notation),
         *make_play_sections(model, notation, functions),
@@ -120,17 +120,17 @@ def _mentions_paper(block: Block) -> bool:
     return any(isinstance(part, str) and "the paper" in part for text in _list_texts(block) for part in text)
 
 
-def equations_tex(model: Model) -> str:
+def render_equations_tex(model: Model) -> str:
     """Return the equations of a scene as a LaTeX file for pdflatex and amsmath, in ASCII."""
     return render_document(make_document(model, make_functions(model)), "tex")
 
 
-def equations_text(model: Model) -> str:
+def render_equations_text(model: Model) -> str:
     """Return the equations of a scene as plain Unicode text, 100 columns wide."""
     return render_document(make_document(model, make_functions(model)), "txt")
 
 
-def equations_html(
+def render_equations_html(
     model: Model, *, head: str = "", app: str = "", scripts: str = "", source: KernelSource | None = None
 ) -> str:
     """Return the equations of a scene as one HTML file with MathML, its file and its C, linked with each other.
@@ -138,7 +138,7 @@ def equations_html(
     head, app, scripts: further HTML in the page's head, below its title and at its end. source: the emitted C, if it
     is known. Raises GudgeonError without the extra `docs`.
     """
-    page_trace = make_trace(model, source)
+    page_trace = make_highlight_index(model, source)
     document = make_document(model, page_trace)
     document = replace(document, sections=(*document.sections, *make_listing_sections(model, page_trace)))
     return render_document(document, "html", head=head, app=app, scripts=print_scripts() + scripts)

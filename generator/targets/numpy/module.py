@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from gudgeon.contract.boundary import N_WORK
 from gudgeon.errors import ArrayError, BadValueError
-from gudgeon.generator.equations.model import Model, eccentricity_rows
+from gudgeon.generator.equations.model import Model, find_eccentricity_rows
 from gudgeon.generator.ir.kernels import Kernel
 from gudgeon.generator.ir.statements import Guard
 from gudgeon.generator.ir.values import Test, Threshold
@@ -34,7 +34,7 @@ from gudgeon.generator.targets.numpy.printer import (
 )
 from gudgeon.language.argument_checks import check_mapping, check_number
 from gudgeon.language.curves import MARGIN, Curve
-from gudgeon.language.names import make_unknown_error, make_unknown_name_error
+from gudgeon.language.names import make_missing_name_error, make_unknown_name_error
 from gudgeon.language.quantities import parse_quantity
 
 Array = NDArray[np.float64]
@@ -125,7 +125,7 @@ class ClosedLinkage:
             address = key if key in entries else f"parameters.{key}"
             if address not in entries:
                 known_names = (*(a.removeprefix("parameters.") for a in entries), *entries)
-                raise make_unknown_error(
+                raise make_missing_name_error(
                     f"no number of this scene has the address {key!r}", key, tuple(dict.fromkeys(known_names))
                 )
             if address in values:
@@ -173,7 +173,7 @@ class ClosedLinkage:
 
     def start_values(self, p: SimpleNamespace) -> tuple[Array, Array, Array]:
         """Return (guesses, exact values, rates) of the start as arrays; the last two end with those of journals."""
-        start, n_eccentricities = self.model.scene.mechanism.start, len(eccentricity_rows(self.model))
+        start, n_eccentricities = self.model.scene.mechanism.start, len(find_eccentricity_rows(self.model))
         sizes = (len(start.guess), len(start.set) + n_eccentricities, len(start.rates) + n_eccentricities)
         guess, exact_values, rates = (np.zeros(size) for size in sizes)
         with np.errstate(all="ignore"):

@@ -19,8 +19,8 @@ from gudgeon.generator.ir.kernels import Kernel
 from gudgeon.generator.ir.readable import Readable, convert_to_fraction_of_pi, make_readable, make_readable_statements
 from gudgeon.generator.ir.signatures import BRANCHES
 from gudgeon.generator.ir.statements import (
-    Branches,
     Call,
+    DeclareBranches,
     Guard,
     Jump,
     Largest,
@@ -43,7 +43,7 @@ _NOWHERE = (
     ReturnIfOnlyJoints,
     Jump,
     SolveDependentRows,
-    Branches,
+    DeclareBranches,
 )  # vanished pivots, held corners, what single runs ask for
 _HELD = tuple(Place(argument.name) for argument in BRANCHES)
 _SIDES = ("branch", "g", "corner")

@@ -39,7 +39,7 @@ MAX_STUCK = 200  # largest number of successive events at one time
 GROWN = 2.0  # growth of the speed after which the tolerances are set anew
 
 
-def explain_unfit(source: KernelSource) -> str:
+def explain_unsupported_scene(source: KernelSource) -> str:
     """Return the reason why the reference solvers cannot integrate a scene; "" if they can."""
     if source.degrees_of_freedom == 0:
         return "nothing is integrated"
@@ -57,7 +57,7 @@ def integrate_by_reference_solver(problem: Problem) -> Trajectory:
 
     Raises BadValueError for a scene that does not fit, for events that would end the run, and for a fixed step.
     """
-    if reason := explain_unfit(problem.compiled.source):
+    if reason := explain_unsupported_scene(problem.compiled.source):
         raise BadValueError(
             f"method {problem.method!r}: {reason}",
             hint="use auto, dop853 or rodas5p, or a smooth_step in place of a ramp",

@@ -16,13 +16,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gudgeon.drawing.labels import NameLabels
+from gudgeon.drawing.layout import make_layout
 from gudgeon.drawing.page import PIXELS, write_animation_page
 from gudgeon.drawing.picture import STYLE, compute_figure_size, draw_sketch
-from gudgeon.drawing.plan import make_plan
 from gudgeon.drawing.roles import EDGES, ROLES, TINTS
 from gudgeon.drawing.sketch import compute_common_box, make_sketch
 from gudgeon.errors import BadValueError, GudgeonError, OutputError
-from gudgeon.files.writing import check_target, convert_os_errors, write_bytes, write_text
+from gudgeon.files.writing import check_output_path, convert_os_errors, write_bytes, write_text
 from gudgeon.language.argument_checks import check_callable, check_flag, check_number, check_path, raise_bad_value
 from gudgeon.language.text_output import format_one_line
 from gudgeon.results.figures.mechanism_plots import (
@@ -119,7 +119,7 @@ def write_animation(run: Result, target: Any, options: AnimationOptions) -> Anim
     if suffix == ".mp4" and shutil.which("ffmpeg") is None:
         message = f"{file}: a film needs the program ffmpeg, which is not there"
         raise GudgeonError(f"{message}\n  install it, or name a .gif or .html")
-    check_target(file)
+    check_output_path(file)
     if suffix == ".html":
         animation = _build_animation(run, options)
         write_text(file, animation.html)
@@ -136,7 +136,7 @@ def write_animation(run: Result, target: Any, options: AnimationOptions) -> Anim
 def draw_sketches(run: Result, options: AnimationOptions) -> Iterator[Sketch]:
     """Yield the drawing of each picture of an animation, all in one box and to one scale, and report the progress."""
     motion = select_postures(run, 60)
-    layout = make_plan(motion)
+    layout = make_layout(motion)
     box, paths = compute_common_box(motion, [layout]), build_path_lines(run, options.points)
     previous_time = options.times[0]
     for k, t in enumerate(options.times):
@@ -149,8 +149,8 @@ def draw_sketches(run: Result, options: AnimationOptions) -> Iterator[Sketch]:
             scaled_layout,
             shapes_on_top=paths,
             arrows=arrows,
-            touching=find_contacts_at_posture(run, posture),
-            touched=find_contacts_between(run, previous_time, t),
+            contact_names=find_contacts_at_posture(run, posture),
+            earlier_contact_names=find_contacts_between(run, previous_time, t),
             box=box,
             shows_zero_loads=False,
         )

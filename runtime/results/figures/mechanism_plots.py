@@ -8,15 +8,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gudgeon.drawing.arrows import LONGEST, Arrows, compute_velocities, draw_arrows
+from gudgeon.drawing.arrows import MAX_ARROW_LENGTH, Arrows, compute_velocities, draw_arrows
 from gudgeon.drawing.insets import find_contacts
+from gudgeon.drawing.layout import Layout, make_layout
 from gudgeon.drawing.picture import build_figure, draw_sketch, encode_figure
-from gudgeon.drawing.plan import Plan, make_plan
 from gudgeon.drawing.posture import Posture, get_joint_type
 from gudgeon.drawing.shapes import Line, Sketch
 from gudgeon.drawing.sketch import compute_common_box, make_sketch
 from gudgeon.language.argument_checks import check_flag, check_names
-from gudgeon.language.names import make_unknown_error
+from gudgeon.language.names import make_missing_name_error
 from gudgeon.results.figures.plots import choose_colours
 from gudgeon.results.figures.postures import compute_posture, evaluate_loads, read_time, select_postures
 
@@ -37,9 +37,9 @@ def draw_sketch_at_time(run: Result, t: Any, velocities: bool = False, forces: b
     """
     velocities, forces = check_flag(velocities, "velocities"), check_flag(forces, "forces")
     posture, motion = compute_posture(run, read_time(run, t)), select_postures(run)
-    layout = make_plan(motion)
+    layout = make_layout(motion)
     layout, all_arrows = draw_requested_arrows(run, posture, motion, layout, velocities, forces)
-    return make_sketch(posture, layout, arrows=all_arrows, touching=find_contacts_at_posture(run, posture))
+    return make_sketch(posture, layout, arrows=all_arrows, contact_names=find_contacts_at_posture(run, posture))
 
 
 def find_contacts_at_posture(run: Result, posture: Posture) -> frozenset[str]:
@@ -55,8 +55,8 @@ def find_contacts_at_posture(run: Result, posture: Posture) -> frozenset[str]:
 
 
 def draw_requested_arrows(
-    run: Result, posture: Posture, motion: Sequence[Posture], layout: Plan, velocities: bool, forces: bool
-) -> tuple[Plan, list[Arrows]]:
+    run: Result, posture: Posture, motion: Sequence[Posture], layout: Layout, velocities: bool, forces: bool
+) -> tuple[Layout, list[Arrows]]:
     """Return the layout, and a list of the requested arrows of velocities and forces.
 
     `motion` has postures of the whole run, to which the scale of velocities belongs. With `forces` the returned layout
@@ -69,7 +69,7 @@ def draw_requested_arrows(
     return replace(layout, newton=force_scale), [*all_arrows, reactions]
 
 
-def draw_velocity_arrows(posture: Posture, motion: Sequence[Posture], layout: Plan) -> Arrows:
+def draw_velocity_arrows(posture: Posture, motion: Sequence[Posture], layout: Layout) -> Arrows:
     """Return the velocity arrows of all points at a posture, with the largest speed of the whole run as scale."""
     speeds = [
         float(np.hypot(*vector))
@@ -79,7 +79,7 @@ def draw_velocity_arrows(posture: Posture, motion: Sequence[Posture], layout: Pl
     return draw_arrows("velocity", dict(compute_velocities(posture)), "m/s", layout.unit, max(speeds, default=0.0))
 
 
-def draw_force_arrows(run: Result, posture: Posture, layout: Plan) -> tuple[Arrows, float]:
+def draw_force_arrows(run: Result, posture: Posture, layout: Layout) -> tuple[Arrows, float]:
     """Return the arrows of joint forces at a posture, and the length of 1 N (m of the drawing; 0 without forces).
 
     Forces act on the second body, for a joint with play on the journal, and are interpolated between samples. The
@@ -94,7 +94,7 @@ def draw_force_arrows(run: Result, posture: Posture, layout: Plan) -> tuple[Arro
     max_magnitude = max((magnitude for magnitude in magnitudes if np.isfinite(magnitude)), default=0.0)
     acting_on = " on the second body, applied force" if np.any(applied_forces) else " on the second body"
     reaction_arrows = replace(draw_arrows("reaction", reactions, "N", layout.unit, max_magnitude), on=acting_on)
-    return reaction_arrows, LONGEST * layout.unit / max_magnitude if max_magnitude > 0.0 else 0.0
+    return reaction_arrows, MAX_ARROW_LENGTH * layout.unit / max_magnitude if max_magnitude > 0.0 else 0.0
 
 
 def _iterate_joint_forces(run: Result, posture: Posture) -> Iterator[tuple[str, tuple[Array, Array]]]:
@@ -113,7 +113,7 @@ def draw_start_sketch(run: Result) -> Sketch:
     Names are left out if there are more than MAX_NAMES.
     """
     motion = select_postures(run)
-    sketch = make_sketch(motion[0], make_plan(motion), shows_insets=False)
+    sketch = make_sketch(motion[0], make_layout(motion), shows_insets=False)
     return sketch if len(sketch.labels) <= MAX_NAMES else replace(sketch, labels=())
 
 
@@ -129,7 +129,7 @@ def draw_start_picture(scene_or_run: Any) -> bytes:
         start = scene_or_run.start()
         loads = evaluate_loads(scene_or_run.source, scene_or_run.p, start.q, start.v)
         posture = Posture(scene_or_run.source, scene_or_run.p, start.q, 0.0, start.v, loads)
-        sketch = make_sketch(posture, make_plan([posture]))
+        sketch = make_sketch(posture, make_layout([posture]))
     return encode_figure(build_figure([sketch], [""], ""), ".png", dpi=90)
 
 
@@ -139,7 +139,7 @@ def draw_path_sketch(run: Result) -> Sketch:
     Its only label is that of the scale.
     """
     motion = select_postures(run)
-    layout = make_plan(motion)
+    layout = make_layout(motion)
     sketch = make_sketch(motion[0], layout, box=compute_common_box(motion, [layout]), shows_insets=False)
     return replace(sketch, labels=tuple(label for label in sketch.labels if label.role == "scale"))
 
@@ -183,6 +183,6 @@ def _check_point(run: Result, name: str) -> str:
     bodies = [body.name for body in run.source.bodies]
     if name in moving_points or name in bodies:
         return name
-    raise make_unknown_error(
+    raise make_missing_name_error(
         f"the scene {run.source.scene!r} has no point {name!r} that moves", name, (*moving_points, *bodies)
     )

@@ -210,10 +210,12 @@ class Plot:
         causal: as in an amplifier, with its delay; False: forwards and backwards, without phase. Raises BadValueError
         for uneven samples, or a cutoff above half their rate.
         """
-        from gudgeon.results.series import low_pass
+        from gudgeon.results.series import apply_low_pass
 
         run = self.run
-        smoothed = low_pass(run.t, run[name], check_positive(cutoff, "cutoff"), order, check_flag(causal, "causal"))
+        smoothed = apply_low_pass(
+            run.t, run[name], check_positive(cutoff, "cutoff"), order, check_flag(causal, "causal")
+        )
         kind = "causal" if causal else "zero phase"
         filter_text = f"low-pass {cutoff:g} Hz, Butterworth of order {order}, {kind}"
         with matplotlib.rc_context(STYLE):

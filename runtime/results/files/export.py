@@ -23,7 +23,7 @@ from gudgeon.results.batch import (
     check_series_names,
     collect_given_columns,
     collect_series,
-    iterate_rows,
+    iterate_run_series,
     name_series_column,
 )
 from gudgeon.results.files.netcdf import import_xarray
@@ -145,7 +145,7 @@ def _iterate_columns_by_run(batch: Batch, names: Iterable[str] | None) -> Iterat
     A run that did not begin has none.
     """
     columns = collect_given_columns(batch)
-    for i, t, series_by_name in iterate_rows(batch, _select_batch_series(batch, names)):
+    for i, t, series_by_name in iterate_run_series(batch, _select_batch_series(batch, names)):
         given_values = {name: values[i] for name, values in columns.items()}
         constant_columns = {"run": np.full(len(t), i)} | {
             name: np.full(len(t), value) for name, value in given_values.items()

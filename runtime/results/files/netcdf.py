@@ -22,7 +22,7 @@ from gudgeon.language.argument_checks import check_mapping, check_text, shorten_
 from gudgeon.model.choices import format_parameter
 from gudgeon.results.diagnostics import PROVENANCE, Diagnostics, Extremes
 from gudgeon.results.files.hdf5 import Table, Variable, write_tables
-from gudgeon.results.files.untrusted import OLD_FORMAT, File, check_typed, open_result_file
+from gudgeon.results.files.untrusted import OLD_FORMAT, File, check_type, open_result_file
 from gudgeon.results.results import Array, Result
 from gudgeon.results.series import DRIFT, MOTION, get_catalogue
 from gudgeon.results.state import State
@@ -247,7 +247,7 @@ def read(path: str | os.PathLike[str]) -> Result:
 def read_source(file: File) -> KernelSource:
     """Return the kernel source of a file. Raises ValueError or TypeError for wrong types and names."""
     source = KernelSource.from_json(file.read_text_attribute("source", "" if file.is_old else COMPILED))
-    check_typed(source, KernelSource, "source")
+    check_type(source, KernelSource, "source")
     _check_names_and_units(source)
     return source
 
@@ -263,7 +263,7 @@ def _read_result(file: File) -> Result:
 def read_result(file: File, source: KernelSource, names: tuple[str, ...]) -> Result:
     """Return the checked result of an open file. Raises ValueError, TypeError or KeyError for an invalid file."""
     diagnostics = Diagnostics.from_json(file.read_text_attribute("diagnostics"))
-    check_typed(diagnostics, Diagnostics, "diagnostics")
+    check_type(diagnostics, Diagnostics, "diagnostics")
     t = file.read_numbers("time")
     if not len(t):
         raise ValueError("it has no sample")

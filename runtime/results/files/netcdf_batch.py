@@ -40,7 +40,7 @@ from gudgeon.results.files.netcdf import (
     read_result,
     read_source,
 )
-from gudgeon.results.files.untrusted import File, check_typed, open_result_file
+from gudgeon.results.files.untrusted import File, check_type, open_result_file
 from gudgeon.results.peaks import PEAK_DTYPE, build_extreme_columns
 from gudgeon.results.results import Array, Result, make_empty_result
 from gudgeon.results.series import MOTION_UNITS, find_rate_names, get_catalogue
@@ -453,7 +453,7 @@ def _read_extremes(file: File, source: KernelSource, n_runs: int, runs: Mapping[
     if not file.has(f"{RUNS}/{EXTREMES}"):
         return ()
     extremes = tuple(map(extremes_from_json, file.read_texts(f"{RUNS}/{EXTREMES}", n_runs)))
-    check_typed(extremes, tuple[tuple[Extremes, ...], ...], EXTREMES)
+    check_type(extremes, tuple[tuple[Extremes, ...], ...], EXTREMES)
     return tuple(check_extremes(run_extremes, get_catalogue(source)) for run_extremes in extremes)
 
 

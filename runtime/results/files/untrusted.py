@@ -1,7 +1,7 @@
 """Read arrays and texts of NetCDF files from untrusted sources; a file that is not valid raises InputError.
 
 The checksum, types, lengths and names are checked before data is read. Links to other files are not followed, and no
-more is read than the size of the file allows. `check_typed` checks the types of objects from JSON.
+more is read than the size of the file allows. `check_type` checks the types of objects from JSON.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from typing import Any, TypeVar, get_args, get_origin, get_type_hints
 import numpy as np
 
 from gudgeon.errors import GudgeonError, InputError, escape_line_breaks
-from gudgeon.files.reading import check_regular
+from gudgeon.files.reading import check_regular_file
 from gudgeon.language.argument_checks import check_path
 from gudgeon.results.files.hdf5 import is_damaged
 from gudgeon.results.state import Array
@@ -46,7 +46,7 @@ def open_result_file(path: str | os.PathLike[str], read_content: Callable[[Any, 
         status = path.stat()
     except OSError:  # a name that is too long, too
         raise InputError(f"there is no file {path_text}") from None
-    check_regular(status, path_text)
+    check_regular_file(status, path_text)
     try:
         if is_damaged(path):
             raise InputError(f"{path_text} is not as it was written: it was damaged", hint="run the scene again")
@@ -169,7 +169,7 @@ def _get_hard_linked_entry(group: Any, name: str) -> Any:
     return group[name]
 
 
-def check_typed(value: Any, expected_type: Any, location: str) -> None:
+def check_type(value: Any, expected_type: Any, location: str) -> None:
     """Raise TypeError unless `value` has the expected type, at any depth; `location` names the value in the error.
 
     Types are dataclasses, tuples, mappings with texts as keys, unions, str and numbers; an int is allowed for float.
@@ -183,22 +183,22 @@ def check_typed(value: Any, expected_type: Any, location: str) -> None:
         _check_instance(value, Mapping, location)
         for key, item in value.items():
             _check_instance(key, str, location)
-            check_typed(item, get_args(expected_type)[1], f"{location}.{key}")
+            check_type(item, get_args(expected_type)[1], f"{location}.{key}")
     elif isinstance(expected_type, UnionType):
         if not any(_has_type(value, member_type) for member_type in get_args(expected_type)):
             raise TypeError(f"{location} is {type(value).__name__}, expected {expected_type}")
     elif isinstance(expected_type, type) and is_dataclass(expected_type):
         _check_instance(value, expected_type, location)
         for name, member_type in _get_field_types(expected_type).items():
-            check_typed(getattr(value, name), member_type, f"{location}.{name}")
+            check_type(getattr(value, name), member_type, f"{location}.{name}")
     else:
         _check_instance(value, {float: (float, int)}.get(expected_type, expected_type), location)
 
 
 def _has_type(value: Any, expected_type: Any) -> bool:
-    """Return whether a value has the expected type, by `check_typed`."""
+    """Return whether a value has the expected type, by `check_type`."""
     try:
-        check_typed(value, expected_type, "")
+        check_type(value, expected_type, "")
     except TypeError:
         return False
     return True
@@ -212,7 +212,7 @@ def _check_tuple(value: Any, item_types: tuple[Any, ...], location: str) -> None
     if len(item_types) != len(value):
         raise TypeError(f"{location} has {len(value)} entries, expected {len(item_types)}")
     for k, (item, item_type) in enumerate(zip(value, item_types, strict=True)):
-        check_typed(item, item_type, f"{location}[{k}]")
+        check_type(item, item_type, f"{location}[{k}]")
 
 
 def _check_instance(value: Any, expected_class: Any, location: str) -> None:

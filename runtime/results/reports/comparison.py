@@ -23,7 +23,7 @@ from gudgeon.results.series import MOTION_UNITS, find_rate_names, find_rigid_gui
 if TYPE_CHECKING:
     from rich.table import Table
 
-NOISE, ZERO = 1e-9, "≈ 0"  # a value below this fraction of the run's largest of its unit is shown as ≈ 0
+ROUNDING_TOL, ZERO = 1e-9, "≈ 0"  # a value below this fraction of the run's largest of its unit is shown as ≈ 0
 COLUMNS = 4  # scenes in one table
 # of a joint with play: name -> (unit that a table can scale, what it is); the rest is in --json
 CONSTANTS = {"c": ("m", "clearance c"), "K": ("", "contact stiffness K [N/mⁿ]"), "S": ("N*s", "film factor S")}
@@ -139,19 +139,19 @@ def convert_to_json_values(reports: Sequence[SceneReport]) -> dict[str, Any]:
             "events": {name: list(times) for name, times in report.events.items()},
             "diagnostics": asdict(report.diagnostics),
         }
-    json_values: dict[str, Any] = replace_non_finite(scenes)
+    json_values: dict[str, Any] = replace_non_finite_numbers(scenes)
     return json_values
 
 
-def replace_non_finite(value: Any) -> Any:
+def replace_non_finite_numbers(value: Any) -> Any:
     """Return a value with NaN and infinity, which JSON lacks, replaced by None at any depth of lists and dicts.
 
     Tuples become lists, NumPy scalars Python numbers.
     """
     if isinstance(value, dict):
-        return {key: replace_non_finite(item) for key, item in value.items()}
+        return {key: replace_non_finite_numbers(item) for key, item in value.items()}
     if isinstance(value, (list, tuple)):
-        return [replace_non_finite(item) for item in value]
+        return [replace_non_finite_numbers(item) for item in value]
     if hasattr(value, "item"):
         value = value.item()
     return None if isinstance(value, float) and not math.isfinite(value) else value
@@ -245,7 +245,7 @@ def _format_peak_cell(value: float, unit: str, t: float, max_magnitudes: Mapping
 
 def _is_rounding_error(magnitude: float, unit: str, max_magnitudes: Mapping[str, float]) -> bool:
     """Return whether a value is no larger than rounding errors."""
-    return 0.0 < magnitude < NOISE * max_magnitudes.get(unit, 0.0)
+    return 0.0 < magnitude < ROUNDING_TOL * max_magnitudes.get(unit, 0.0)
 
 
 def _format_error_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:

@@ -15,10 +15,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gudgeon.results.diagnostics import Examined
+from gudgeon.results.diagnostics import Examination
 from gudgeon.results.peaks import find_sample_extreme
-from gudgeon.results.reports.comparison import replace_non_finite
-from gudgeon.results.samples import join_start
+from gudgeon.results.reports.comparison import replace_non_finite_numbers
+from gudgeon.results.samples import prepend_start
 
 if TYPE_CHECKING:
     from gudgeon.contract.clearance_info import ClearanceInfo
@@ -45,7 +45,7 @@ class RunReport:
     @cached_property
     def _report_values(self) -> dict[str, Any]:
         """All values of the report by section, in SI, as a dictionary that `to_dict`, the page and the text share."""
-        run = join_start(self.run)
+        run = prepend_start(self.run)
         joints = {joint.name: _compute_joint_values(run, k, joint) for k, joint in enumerate(run.source.clearances)}
         return {
             "title": run.source.title,
@@ -64,7 +64,7 @@ class RunReport:
 
     def to_dict(self) -> dict[str, Any]:
         """Return plain values in SI for JSON, None where there is no value."""
-        json_values: dict[str, Any] = replace_non_finite(self._report_values)
+        json_values: dict[str, Any] = replace_non_finite_numbers(self._report_values)
         return json_values
 
     def to_html(self) -> str:
@@ -156,7 +156,7 @@ def _compute_guide_values(run: Result, name: str) -> dict[str, Any]:
 
 def _find_ideal_force(run: Result, joint: str) -> dict[str, float] | None:
     """Return peak and rms of the force at a joint of the ideal scene; None if they were not requested."""
-    for ideal in (run.diagnostics.examined or Examined()).ideal:
+    for ideal in (run.diagnostics.examined or Examination()).ideal:
         if ideal.joint == joint:
             return {"F": ideal.peak, "t": ideal.t_peak, "rms": ideal.rms}
     return None
@@ -228,7 +228,7 @@ def _find_joint_statistics(run: Result, joint: str) -> Any:
 
     Returns None if they were not requested.
     """
-    examined = run.diagnostics.examined or Examined()
+    examined = run.diagnostics.examined or Examination()
     return next((statistics for statistics in examined.joints if statistics.joint == joint), None)
 
 
@@ -311,7 +311,7 @@ def _compute_energy_balance(run: Result) -> dict[str, float] | None:
 
 def _collect_accuracy_values(run: Result) -> dict[str, Any]:
     """Return the values of a run's accuracy by the keys of the report: drift, horizon, steps, differences, notes."""
-    diagnostics, examined = run.diagnostics, run.diagnostics.examined or Examined()
+    diagnostics, examined = run.diagnostics, run.diagnostics.examined or Examination()
     horizon: Any = "to the end" if diagnostics.horizon == math.inf else diagnostics.horizon
     return {
         "phi_max": diagnostics.phi_max,

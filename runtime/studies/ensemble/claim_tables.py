@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from gudgeon.errors import GudgeonError
-from gudgeon.files.writing import open_atomic, read_regular
+from gudgeon.files.writing import open_atomic, read_regular_file
 from gudgeon.language.plot_units import format_quantity
 from gudgeon.language.text_output import escape_for_spreadsheet, format_count
 from gudgeon.results.batch import Array
@@ -128,7 +128,7 @@ def read_claims(folder: Path) -> Claimed:
 def read_claims_json(folder: Path) -> dict[str, Any] | None:
     """Return the contents of claims.json in a folder; None if the file is missing, damaged, or without both tables."""
     try:
-        data = read_regular(folder / FILE)
+        data = read_regular_file(folder / FILE)
         document = None if data is None else json.loads(data)
     except (OSError, ValueError, RecursionError):
         return None

@@ -13,7 +13,14 @@ import numpy as np
 
 from gudgeon.contract.kernel_source import KernelSource, RuntimeParameter
 from gudgeon.errors import BadValueError, InputError, UnknownKeyError, combine_errors
-from gudgeon.generator.study.spec import COUNTS, TRENDS_ALONG_DIMENSION, NumberClaim, Selection, TrendClaim, Trial
+from gudgeon.generator.study.spec import (
+    COUNTS,
+    TRENDS_ALONG_DIMENSION,
+    NumberClaim,
+    Selection,
+    TrendClaim,
+    TrendStatement,
+)
 from gudgeon.language.names import make_unknown_name_error
 from gudgeon.language.units import find_unit
 from gudgeon.results.batch import Array
@@ -135,7 +142,7 @@ def resolve_claims(plans: Plans) -> ResolvedClaims:
             errors.append(error)
     for trend in claims.trends:
         try:
-            every = (check for statement in trend.trials for check in _build_checks(plans, statement))
+            every = (check for statement in trend.statements for check in _build_checks(plans, statement))
             trends.append(ResolvedTrend(trend, limit_checks(every, trend.name)))
         except InputError as error:
             errors.append(error)
@@ -257,7 +264,7 @@ def _format_values_hint(coordinate: Coordinate) -> str:
     return f"expected one of: {', '.join(values[:MAX_LISTED])}{more}{shown}"
 
 
-def _build_checks(plans: Plans, statement: Trial) -> Iterator[Check]:
+def _build_checks(plans: Plans, statement: TrendStatement) -> Iterator[Check]:
     """Yield the checks of one statement of a trend.
 
     Its kind decides: counts of components, a trend along a dimension, a comparison of two selections, or single cells.
@@ -277,12 +284,12 @@ def _build_checks(plans: Plans, statement: Trial) -> Iterator[Check]:
         yield from _build_checks_of_cells(selection, statement)
 
 
-def _parse_fraction(statement: Trial, default: float) -> float:
+def _parse_fraction(statement: TrendStatement, default: float) -> float:
     """Return the fraction or factor `by` of a statement, or `default` if it has none."""
     return default if statement.by is None else _parse_value_with_unit(statement.by, "")
 
 
-def _build_checks_along_dimension(selection: ResolvedSelection, statement: Trial) -> Iterator[Check]:
+def _build_checks_along_dimension(selection: ResolvedSelection, statement: TrendStatement) -> Iterator[Check]:
     """Yield the checks of a statement along a dimension, for each combination of the other dimensions.
 
     Cells are sorted by the coordinate if its values are numbers. Raises BadValueError if only one value is selected.
@@ -300,7 +307,7 @@ def _build_checks_along_dimension(selection: ResolvedSelection, statement: Trial
         yield from _build_checks_of_ordered_cells([row[key] for row in cells_by_index], statement)
 
 
-def _build_checks_of_ordered_cells(cells: list[Cell], statement: Trial) -> Iterator[Check]:
+def _build_checks_of_ordered_cells(cells: list[Cell], statement: TrendStatement) -> Iterator[Check]:
     """Yield the checks of cells in order along a dimension: neighbours, all pairs, or all cells at once.
 
     `grows_along` compares neighbours, `alike_along` all pairs, and the remaining kind the ranges of two measures.
@@ -350,7 +357,7 @@ def _make_range_condition(measure: str, other_measure: str, n_cells: int) -> Cal
 
 
 def _build_comparison_checks(
-    first_selection: ResolvedSelection, second_selection: ResolvedSelection, statement: Trial
+    first_selection: ResolvedSelection, second_selection: ResolvedSelection, statement: TrendStatement
 ) -> Iterator[Check]:
     """Yield the checks that compare two selections cell by cell, for each measure of the statement.
 
@@ -385,7 +392,7 @@ def _make_decrease_condition(measure: str, other_measure: str) -> Callable[[Read
     )
 
 
-def _build_checks_of_cells(selection: ResolvedSelection, statement: Trial) -> Iterator[Check]:
+def _build_checks_of_cells(selection: ResolvedSelection, statement: TrendStatement) -> Iterator[Check]:
     """Yield the checks of each cell alone, against another measure of the same run or against a number.
 
     The kind of the statement is "above", "below" or "near" a number; `by` is the relative tolerance of "near".
@@ -429,7 +436,7 @@ def _make_interval_condition(
     return is_met
 
 
-def _build_count_check(selection: ResolvedSelection, statement: Trial) -> Check:
+def _build_count_check(selection: ResolvedSelection, statement: TrendStatement) -> Check:
     """Return the check that scenes have the claimed numbers of components, which is the same in every run."""
     structure = [coordinate.length for coordinate in selection.plan.structure]
     indices_by_dimension = [cell.index[: len(structure)] for _, cell in selection.iterate_cells({})]

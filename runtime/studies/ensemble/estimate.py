@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from gudgeon.files.free_space import check_disk, check_memory
-from gudgeon.integrators.threads import available_threads
+from gudgeon.integrators.threads import count_available_threads
 from gudgeon.model.evaluation import compute_evaluation_bytes, compute_sample_bytes
 from gudgeon.results.batch import find_evaluation_parts
 from gudgeon.simulation.simulation import Simulation
@@ -35,7 +35,7 @@ def check_disk_and_memory(plans: Plans, folder: Path, threads: int | None, in_pr
     then checked, too. Raises OutputError if blocks and datasets do not fit on the disk besides existing ones,
     MemoryError if notes or samples do not fit into memory.
     """
-    cores = threads or available_threads()
+    cores = threads or count_available_threads()
     for plan in plans.each.values():
         check_memory(OF_A_BLOCK * plan.count_of_blocks, f"a study of {plan.runs} runs in {plan.count_of_blocks} blocks")
         for part in plan.parts if in_process else ():
@@ -93,7 +93,7 @@ def estimate_study(plan: Plan, threads: int | None) -> Estimate:
     threads: None means the number of cores. A trial shorter than MIN_TRIAL_S seconds is repeated, since the first time
     includes the start-up.
     """
-    count = min(plan.each, TRIALS * (threads or available_threads()))
+    count = min(plan.each, TRIALS * (threads or count_available_threads()))
     runs = np.unique(np.linspace(0, plan.each - 1, count).astype(int))
     seconds, size, failures = 0.0, 0, list[str]()
     for k, part in enumerate(plan.parts):

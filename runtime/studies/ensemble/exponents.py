@@ -16,7 +16,7 @@ import numpy as np
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import BadValueError, GudgeonError, InputError
 from gudgeon.integrators.adaptive import RTOL
-from gudgeon.integrators.threads import available_threads
+from gudgeon.integrators.threads import count_available_threads
 from gudgeon.language.parser import parse
 from gudgeon.language.units import TIME
 from gudgeon.results.batch import Array
@@ -98,7 +98,7 @@ def compute_neighbour_measures(
         return values
     runs = [i for i in range(job.n) if not failures[i]]
     computation = _NeighbourComputation(simulation, job, table, t_last, progress)
-    with ThreadPoolExecutor(job.threads or available_threads(), thread_name_prefix="gudgeon") as pool:
+    with ThreadPoolExecutor(job.threads or count_available_threads(), thread_name_prefix="gudgeon") as pool:
         for i, values_or_reason in zip(runs, pool.map(lambda i: computation(i, measures), runs), strict=True):
             if isinstance(values_or_reason, str):
                 failures[i] = values_or_reason

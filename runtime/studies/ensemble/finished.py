@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 from gudgeon.errors import GudgeonError
 from gudgeon.files.writing import open_atomic
 from gudgeon.language.argument_checks import check_names, check_path
-from gudgeon.language.names import make_unknown_error
+from gudgeon.language.names import make_missing_name_error
 from gudgeon.studies.ensemble.claim_tables import Claimed, read_claims
 from gudgeon.studies.ensemble.folder import DATASET, convert_read_errors, import_h5py
 from gudgeon.studies.ensemble.names import Names, read_names
@@ -147,7 +147,7 @@ class Study:
         for name in requested:
             if name not in self.dataset.data_vars or name in (*self.measures, "t_last", "failure", "t"):
                 kept = tuple(str(variable) for variable in self.dataset.data_vars if "." in str(variable))
-                raise make_unknown_error(f"the study kept no series {name!r}", name, kept)
+                raise make_missing_name_error(f"the study kept no series {name!r}", name, kept)
         times = ["t"] if requested and "t" in self.dataset else []
         variables = (
             self.dataset[[*times, *requested]] if requested else self.dataset[[*self.measures, "t_last", "failure"]]

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gudgeon.errors import GudgeonError, InputError, escape_line_breaks, shorten_path
-from gudgeon.files.writing import PART, convert_os_errors, open_atomic, read_regular
+from gudgeon.files.writing import PART, convert_os_errors, open_atomic, read_regular_file
 from gudgeon.language.argument_checks import shorten_value
 from gudgeon.language.names import LABEL
 from gudgeon.studies.ensemble.block import Block
@@ -129,7 +129,7 @@ class StudyFolder:
         if number in self.recent and path.exists():
             return self.recent[number]
         with suppress(OSError, ValueError, KeyError, TypeError, RuntimeError):
-            if (data := read_regular(path)) is not None:
+            if (data := read_regular_file(path)) is not None:
                 return block_from_bytes(data, self.plan, number)
         return None
 
@@ -141,7 +141,7 @@ class StudyFolder:
 def read_manifest(folder: Path) -> dict[str, Any] | None:
     """Return the manifest study.json of a folder; None if it is missing or is not a JSON mapping."""
     try:
-        data = read_regular(folder / MANIFEST)
+        data = read_regular_file(folder / MANIFEST)
         manifest = None if data is None else json.loads(data)
     except (OSError, ValueError, RecursionError):
         return None

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from gudgeon.errors import GudgeonError, InputError
 from gudgeon.files.reading import MAX_BYTES, read_table_file
-from gudgeon.integrators.threads import available_threads
+from gudgeon.integrators.threads import count_available_threads
 from gudgeon.loading.kernel_sources import find_mechanism, is_source_cached
 from gudgeon.simulation.from_file import load
 from gudgeon.simulation.simulation import Simulation
@@ -109,7 +109,7 @@ def compile_libraries_in_second_process(structures: Sequence[Structure]) -> Iter
     ]
     with Programs() as programs:
         process = None
-        if len(missing) >= FEWEST and available_threads() > 1:
+        if len(missing) >= FEWEST and count_available_threads() > 1:
             arguments = json.dumps([list_law_files(), missing[: -MOST - 1 : -1]])
             try:
                 process = programs.start([sys.executable, "-c", COMPILE_CODE, arguments], None, dict(os.environ))

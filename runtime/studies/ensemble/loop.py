@@ -11,7 +11,7 @@ from threading import Event
 from typing import TYPE_CHECKING
 
 from gudgeon.errors import GudgeonError, InputError
-from gudgeon.integrators.threads import POLL_INTERVAL_S, available_threads
+from gudgeon.integrators.threads import POLL_INTERVAL_S, count_available_threads
 from gudgeon.studies.ensemble.block import Block, run_block
 from gudgeon.studies.ensemble.final import write_dataset
 from gudgeon.studies.ensemble.folder import DATASET, StudyFolder, check_dataset
@@ -95,7 +95,7 @@ def _run_blocks_in_threads(
     threads: in total, None for the number of cores. A block has few threads, since its lanes are partly empty at its
     end. Only the last blocks have all cores.
     """
-    cores, ended = threads or available_threads(), Event()
+    cores, ended = threads or count_available_threads(), Event()
     n_blocks = min(cores, MAX_CONCURRENT_BLOCKS)  # more threads than cores cost more than they save: they change places
     last_blocks = {block.number for block in missing_blocks[-n_blocks:]}
 

@@ -201,7 +201,11 @@ def _compute_bearing_wear(batch: Batch, measure: Measure) -> Array:
     out = np.full(len(batch), np.nan)
     for i, loads_of_run in enumerate(batch.rubbed):
         for rubbed in (loads for loads in loads_of_run if loads.requested.joint == measure.of):
-            out[i] = compute_shortest_arc(rubbed.load[0]) if measure.statistic == "wear_arc" else rubbed.depth(0).max()
+            out[i] = (
+                compute_shortest_arc(rubbed.load[0])
+                if measure.statistic == "wear_arc"
+                else rubbed.compute_depth(0).max()
+            )
     return out
 
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from gudgeon.files.writing import open_atomic, read_regular
+from gudgeon.files.writing import open_atomic, read_regular_file
 from gudgeon.language.plot_units import format_superscript, format_unit
 from gudgeon.studies.ensemble.parameter_values import GEOMETRIC
 
@@ -113,7 +113,7 @@ def write_names(folder: Path, plans: Plans) -> None:
 def read_names(folder: Path) -> Names:
     """Return the titles and value texts of a study's folder; all are empty if names.json is missing or damaged."""
     try:
-        data = read_regular(folder / FILE)
+        data = read_regular_file(folder / FILE)
         document = {} if data is None else json.loads(data)
         titles = {str(name): str(title) for name, title in document.get("titles", {}).items()}
         values = {

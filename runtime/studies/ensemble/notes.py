@@ -8,7 +8,12 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from gudgeon.assembly.guess_warnings import LISTED, NOTED, describe_missing_assembly, format_guess_difference
+from gudgeon.assembly.guess_warnings import (
+    LISTED,
+    UNFOLLOWED_GUESSES,
+    describe_missing_assembly,
+    format_guess_difference,
+)
 from gudgeon.model.choices import is_choice_note
 
 if TYPE_CHECKING:
@@ -69,11 +74,11 @@ def collect_guess_notes(source: KernelSource, first_run: int) -> Iterator[dict[s
     """
     noted: list[Mapping[str, float]] = []
     notes: dict[str, Note] = {}
-    token = NOTED.set(noted)
+    token = UNFOLLOWED_GUESSES.set(noted)
     try:
         yield notes
     finally:
-        NOTED.reset(token)
+        UNFOLLOWED_GUESSES.reset(token)
     for name in dict.fromkeys(name for off in noted for name in off):
         deviations = [off[name] for off in noted if name in off]
         text = (

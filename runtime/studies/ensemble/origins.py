@@ -15,7 +15,7 @@ import numpy as np
 from gudgeon.assembly.start import assemble_start
 from gudgeon.errors import GudgeonError, InputError
 from gudgeon.integrators.kinematic import compute_motion_at
-from gudgeon.integrators.threads import available_threads
+from gudgeon.integrators.threads import count_available_threads
 from gudgeon.language.tree import from_json, iterate_names
 from gudgeon.model.parameter_sets import prepare_values_of_runs, read_given_parameters_of_runs
 from gudgeon.results.batch import Array, find_evaluation_parts
@@ -242,7 +242,7 @@ def _compute_kinematic_series(
             else None
         )
 
-    with ThreadPoolExecutor(job.threads or available_threads(), thread_name_prefix="gudgeon") as pool:
+    with ThreadPoolExecutor(job.threads or count_available_threads(), thread_name_prefix="gudgeon") as pool:
         series_by_run = dict(zip(runs, pool.map(compute_series, runs), strict=True))
     return {i: series for i, series in series_by_run.items() if series is not None}
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from gudgeon.contract.kernel_source import KernelSource, RuntimeParameter
 from gudgeon.errors import BadValueError, ExpressionError, InputError, Location
-from gudgeon.language.dimension_check import find_names_over_units
+from gudgeon.language.dimension_check import find_unit_shadowing_names
 from gudgeon.language.names import make_unknown_name_error
 from gudgeon.language.parser import check_dimension, offset_location, parse
 from gudgeon.language.tree import Expr, evaluate, iterate_names
@@ -173,7 +173,7 @@ def _check_ambiguous_units(expression: ParsedExpression, known_names: Sequence[s
     s.
     """
     text, by_name = expression.text, parse(expression.text, expression.text.where, known_names)
-    for name in find_names_over_units(by_name) if by_name != expression.expr else ():
+    for name in find_unit_shadowing_names(by_name) if by_name != expression.expr else ():
         message = f"{str(text)!r} can mean two things: {name} is a unit, and a number of the scene"
         raise ExpressionError(message, text.where, f"write {name}^1 for the unit, ({name}) for the number")
 

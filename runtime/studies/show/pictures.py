@@ -14,7 +14,7 @@ from multiprocessing import get_context
 from typing import TYPE_CHECKING, Any
 
 from gudgeon.errors import GudgeonError
-from gudgeon.integrators.threads import available_threads
+from gudgeon.integrators.threads import count_available_threads
 from gudgeon.results.reports.html_page import build_paragraphs, escape_line
 
 if TYPE_CHECKING:
@@ -76,7 +76,7 @@ def _draw_in_processes(figures: list[tuple[str, Callable[[], Any]]]) -> list[str
     Many figures are distributed over forked processes, on Linux and only if this process has no other threads.
     """
     forks = sys.platform == "linux" and threading.active_count() == 1 and len(figures) >= MANY
-    count = min(available_threads(), len(figures) // FEW) if forks else 1
+    count = min(count_available_threads(), len(figures) // FEW) if forks else 1
     others = [_DrawingProcess(figures[k::count]) for k in range(1, count)]
     drawn = [""] * len(figures)
     try:

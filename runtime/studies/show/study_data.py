@@ -11,7 +11,7 @@ import numpy as np
 
 from gudgeon.errors import BadValueError, GudgeonError, UnknownNameError
 from gudgeon.language.argument_checks import check_flag, check_mapping, check_number, check_text, shorten_value
-from gudgeon.language.names import make_unknown_error
+from gudgeon.language.names import make_missing_name_error
 from gudgeon.language.plot_units import choose_plot_unit, choose_prefix, format_label
 from gudgeon.language.text_output import format_one_line
 from gudgeon.studies.show.study_signals import find_values_at_crossings, have_equal_times
@@ -60,7 +60,7 @@ class StudyData:
         Raises UnknownNameError.
         """
         if check_text(name, "a measure", "the name of a measure") not in self.study.measures:
-            raise make_unknown_error(f"the study has no measure {name!r}", name, self.study.measures)
+            raise make_missing_name_error(f"the study has no measure {name!r}", name, self.study.measures)
         return self._select_runs(self.dataset[name], coordinates)
 
     def find_claimed_numbers(
@@ -108,7 +108,7 @@ class StudyData:
         Times are (N,) if all runs share them, else (…, N). Raises UnknownNameError.
         """
         if check_text(name, "a series", "the name of a kept series") not in self.stored_series:
-            raise make_unknown_error(f"the study kept no series {name!r}", name, self.stored_series)
+            raise make_missing_name_error(f"the study kept no series {name!r}", name, self.stored_series)
         values = self._select_runs(self.dataset[name], coordinates)
         if OWN_TIMES not in self.dataset:
             return self.dataset["time"].values, values
@@ -149,7 +149,7 @@ class StudyData:
         if values.dtype.kind in "OU":
             words = [str(one) for one in values]
             if not isinstance(value, str) or value not in words:
-                raise make_unknown_error(f"{name} has no {shorten_value(value)}", str(value), tuple(words))
+                raise make_missing_name_error(f"{name} has no {shorten_value(value)}", str(value), tuple(words))
             return words.index(value)
         return int(np.abs(values - check_number(value, name)).argmin())
 
@@ -376,4 +376,4 @@ def describe_changes(columns: Mapping[tuple[str, ...], str]) -> list[str]:
 
 def _make_dimension_error(name: str, known_names: list[str]) -> UnknownNameError:
     """Return the error for an unknown dimension, with the nearest known name."""
-    return make_unknown_error(f"the runs that are shown have no dimension {name!r}", name, tuple(known_names))
+    return make_missing_name_error(f"the runs that are shown have no dimension {name!r}", name, tuple(known_names))

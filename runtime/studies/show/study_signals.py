@@ -11,7 +11,7 @@ import numpy as np
 
 from gudgeon.errors import BadValueError
 from gudgeon.language.text_output import format_one_line
-from gudgeon.results.series import compute_spectrum, low_pass
+from gudgeon.results.series import apply_low_pass, compute_spectrum
 
 TIME_TOL = 0.01  # of the time between two samples: so far apart, samples are of the same time
 SAME = 1e-9  # tolerance of fractions of a run that count as equal
@@ -100,7 +100,7 @@ def filter_low_pass(t: Any, series: Any, cutoff: float, order: int, causal: bool
     ):
         is_finite = np.isfinite(samples[0]) & np.isfinite(samples[1])
         if is_finite.any():
-            out[0][is_finite] = low_pass(samples[0][is_finite], samples[1][is_finite], cutoff, order, causal)
+            out[0][is_finite] = apply_low_pass(samples[0][is_finite], samples[1][is_finite], cutoff, order, causal)
     return series.copy(data=filtered)
 
 

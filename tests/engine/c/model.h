@@ -21,9 +21,9 @@
 #define POSITIONS_IN_TREE 0
 #define N_X 1
 #define N_LOOPS 0
-#define N_CHAIN 0
+#define N_DEPENDENT 0
 #define N_LED 0
-#define SMOOTH_CHAINS 0
+#define SMOOTH_DRIVEN_LOOPS 0
 #define TREE_PIVOTS 0
 #define RESCUED 0
 #define LARGEST_BLOCK 0

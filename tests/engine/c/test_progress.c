@@ -33,10 +33,10 @@ int main(void)
     run = (Integrator){.t = 0.0};
     int no_advance = 0;
     while (!is_chattering(&run) && no_advance < 10 * MAX_NO_ADVANCE)
-        record_step_end(&run, 0, ++no_advance);
+        count_step_end(&run, 0, ++no_advance);
     CHECK(no_advance == MAX_NO_ADVANCE + 1);
     CHECK(run.progress.ended[0] == no_advance);
-    record_step_end(&run, -1, 0);
+    count_step_end(&run, -1, 0);
     CHECK(run.progress.no_advance == 0 && run.progress.ended[N_EVENT_FUNCTIONS] == 1);
 
     /* steps that lead nowhere */

@@ -104,7 +104,7 @@ int main(void)
     check_grazes();
     CHECK(is_near_pole(1.0 / 1e-12, 1.0 / 64e-12) && is_near_pole(INFINITY, INFINITY));
     CHECK(!is_near_pole(1e-12, 64e-12) && !is_near_pole(1.0, 1.0));
-    CHECK(is_narrowing(-0.01, 0.0625, -1.0) && !is_narrowing(-0.5, 0.0625, -1.0));
-    CHECK(!is_narrowing(-0.01, 1.0, -1.0));
+    CHECK(is_bound_narrowing(-0.01, 0.0625, -1.0) && !is_bound_narrowing(-0.5, 0.0625, -1.0));
+    CHECK(!is_bound_narrowing(-0.01, 1.0, -1.0));
     return failures;
 }

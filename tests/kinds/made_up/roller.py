@@ -28,7 +28,7 @@ def draw(pen: Any) -> None:
     """Draw the roller with its pin, and as much of the face as is below it."""
     radius = pen.number("radius")
     foot, half = pen.first - radius * normal(pen), 1.5 * radius * pen.direction("direction", pen.bodies[1])
-    pen.disc("roller", pen.first, radius)
+    pen.add_disc("roller", pen.first, radius)
     pen.line("rail", [foot - half, foot + half])
     pen.pin(pen.first)
 

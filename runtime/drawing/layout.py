@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from gudgeon.contract.kernel_source import PartInfo
-from gudgeon.drawing.joint_at import JointAt, find_sliding_axis, has_rail, iterate_sliding_joints
+from gudgeon.drawing.joint_geometry import JointGeometry, find_sliding_axis, has_rail, iterate_sliding_joints
 from gudgeon.drawing.posture import (
     GROUND,
     Posture,
@@ -30,7 +30,7 @@ UNIT_FRACTION, MIN_UNIT_FRACTION, MAX_LINK_FRACTION = 0.017, 0.005, 0.16
 
 
 @dataclass(frozen=True, eq=False)
-class Plan:
+class Layout:
     """Layout of the drawings of a scene.
 
     `unit`: half a bar's width (m). `ground_directions`: for a joint, cylinder or spring on the ground the direction of
@@ -44,7 +44,7 @@ class Plan:
     newton: float = 0.0
 
 
-def make_plan(postures: Sequence[Posture], start_posture: Posture | None = None) -> Plan:
+def make_layout(postures: Sequence[Posture], start_posture: Posture | None = None) -> Layout:
     """Return the layout for the drawings of one posture, or of several postures of a motion.
 
     The side of the ground at a guide depends on the ground's points and on `start_posture`, by default the first
@@ -67,7 +67,7 @@ def make_plan(postures: Sequence[Posture], start_posture: Posture | None = None)
     ):
         if any(get_body_name(end) == GROUND for end in part.ends):
             ground_directions[part.name] = _find_element_ground_direction(postures, part)
-    return Plan(_compute_symbol_unit(first_posture, positions), ground_directions, travel)
+    return Layout(_compute_symbol_unit(first_posture, positions), ground_directions, travel)
 
 
 def _collect_drawn_points(posture: Posture) -> list[Array]:
@@ -80,7 +80,7 @@ def _collect_drawn_points(posture: Posture) -> list[Array]:
     points += [posture.get_position(end) for part in posture.source.parts for end in part.ends if end in posture.points]
     for part in posture.iterate_parts("joints"):
         radii = get_joint_type(part).symbol.reach
-        for end, radius in zip(part.ends, radii(JointAt(posture, part)), strict=True) if radii else ():
+        for end, radius in zip(part.ends, radii(JointGeometry(posture, part)), strict=True) if radii else ():
             if radius > 0.0:
                 points += [posture.get_position(end) + offset for offset in radius * np.array([[1, 1], [-1, -1]])]
     for joint in posture.source.clearances:

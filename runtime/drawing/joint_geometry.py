@@ -1,4 +1,4 @@
-"""Own `JointAt`, the geometry of a joint at one position of the mechanism, from which its symbol is drawn.
+"""Own `JointGeometry`, the geometry of a joint at one position of the mechanism, from which its symbol is drawn.
 
 Also a slider with play in its guide: the drawn distance of its walls, its tilt, and its corners.
 """
@@ -20,14 +20,14 @@ GAP = 0.5  # units: between a slider and each wall of its guide, if not more
 
 
 @dataclass(frozen=True, eq=False)
-class JointAt:
+class JointGeometry:
     """A joint at a posture. Positions are arrays (2,) in ground axes, m."""
 
     posture: Posture
     part: PartInfo
 
     unit_vector = staticmethod(unit_vector)
-    turned = staticmethod(rotate_quarter_turn)
+    rotate_quarter_turn = staticmethod(rotate_quarter_turn)
 
     @property
     def bodies(self) -> list[str]:
@@ -44,11 +44,11 @@ class JointAt:
         """Position of the second point."""
         return self.posture.get_position(self.part.ends[1])
 
-    def number(self, key: str) -> float:
+    def get_parameter(self, key: str) -> float:
         """Return a parameter of the joint, SI; of a vector by "axis.x"."""
         return self.posture.get_parameter(f"joints.{self.part.name}.{key}")
 
-    def option(self, key: str) -> str:
+    def get_option(self, key: str) -> str:
         """Return an option of the joint, or a body's name."""
         return self.part.options.get(key, "")
 

@@ -29,24 +29,29 @@ from gudgeon.generator.ir.kernels import (
 )
 from gudgeon.generator.ir.signatures import DISCRETE, PARAMETERS, STATE, Number, make_output_argument
 from gudgeon.generator.ir.sine_pairs import vectorize_sines
-from gudgeon.generator.ir.statements import Branches, LargestRow, MarkUnread, Return, Statement
-from gudgeon.generator.reduction.driven_chains import Chain
+from gudgeon.generator.ir.statements import DeclareBranches, LargestRow, MarkUnread, Return, Statement
+from gudgeon.generator.reduction.driven_loops import DrivenLoops
 from gudgeon.generator.solvers.square_rows import SquareRows
 from gudgeon.generator.symbols.storage import Place
 from gudgeon.generator.symbols.switches import BranchOf
 
 ZERO = sp.Integer(0)
-STEP, RATES, THIRD, DIRECTIONS = "chain_step", "chain_rates", "chain_third", "chain_directions"
-HELD_BRANCHES_SECTION = Section(HELD_BRANCHES_TITLE, (Branches(""),))
+STEP, RATES, THIRD, DIRECTIONS = (
+    "compute_loop_step",
+    "compute_loop_rates",
+    "compute_third_loop_rates",
+    "evaluate_loop_directions",
+)
+HELD_BRANCHES_SECTION = Section(HELD_BRANCHES_TITLE, (DeclareBranches(""),))
 
 
-class ChainKernels:
+class DrivenLoopKernels:
     """C functions of a system's kinematically determined loops: steps, rates, third rates, directions.
 
     `switch_kernel` evaluates the switching functions of their drives; None if they have none.
     """
 
-    def __init__(self, system: System, chain: Chain) -> None:
+    def __init__(self, system: System, chain: DrivenLoops) -> None:
         """Derive the functions of the loops in `chain`, whose coordinates follow those of `system` in q.
 
         The function of switching functions is made only if the drives have any; `size` scales steps of slides, 0
@@ -112,8 +117,8 @@ class ChainKernels:
         """
         geometry, parameter_table = self.system.model.geometry, self.system.model.parameter_table
         ground = map(geometry.ground_vector, self.system.model.scene.mechanism.ground.values())
-        squares = [x**2 for point in (*geometry.local.values(), *ground) for x in point]
-        return parameter_table.derive("extent", sp.sqrt(sp.Add(*squares)), "extent of all points")
+        squares = [x**2 for point in (*geometry.local_vectors.values(), *ground) for x in point]
+        return parameter_table.derive_parameter("extent", sp.sqrt(sp.Add(*squares)), "extent of all points")
 
     def _make_step_kernel(self) -> Kernel:
         """Return the C function of one step of Chebyshev's method onto the closures, at given coordinates.
@@ -234,7 +239,7 @@ class ChainKernels:
         varying = {k.rate for k in self.chain.known}
         system_symbols = {*self.system.v, *self.system.q}
         result = []
-        for symbol in [s for s in info if s in definitions and not info[s].home]:
+        for symbol in [s for s in info if s in definitions and not info[s].place]:
             read_symbols = definitions[symbol].free_symbols
             if read_symbols & system_symbols:
                 system_symbols.add(symbol)

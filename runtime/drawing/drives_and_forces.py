@@ -8,9 +8,9 @@ import numpy as np
 
 from gudgeon.contract.kernel_source import PartInfo
 from gudgeon.drawing.bodies import BLOCK
-from gudgeon.drawing.joint_at import find_pivot_joint, find_sliding_axis, has_rail, iterate_sliding_joints
+from gudgeon.drawing.joint_geometry import find_pivot_joint, find_sliding_axis, has_rail, iterate_sliding_joints
+from gudgeon.drawing.layout import Layout
 from gudgeon.drawing.pen import PIN, draw_ground_wall
-from gudgeon.drawing.plan import Plan
 from gudgeon.drawing.posture import GROUND, Posture, get_body_name
 from gudgeon.drawing.shapes import (
     Disc,
@@ -32,7 +32,7 @@ RADII = {"angle": DRIVEN, "coordinate": DRIVEN, "torque": LOADED, "rotational_sp
 ALONG = 0.5  # cosine above which a guide counts as parallel to a coordinate
 
 
-def draw_drives_and_forces(posture: Posture, layout: Plan) -> Iterator[Shape]:
+def draw_drives_and_forces(posture: Posture, layout: Layout) -> Iterator[Shape]:
     """Yield the shapes of drives, then of force elements."""
     for part in posture.iterate_parts("drives"):
         yield from _DRIVES[part.kind](posture, layout, part)
@@ -40,7 +40,7 @@ def draw_drives_and_forces(posture: Posture, layout: Plan) -> Iterator[Shape]:
         yield from _FORCES.get(part.kind, _draw_generic_element)(posture, layout, part)
 
 
-def label_drives_and_forces(posture: Posture, layout: Plan, shows_zero_loads: bool) -> Iterator[Label]:
+def label_drives_and_forces(posture: Posture, layout: Layout, shows_zero_loads: bool) -> Iterator[Label]:
     """Yield the label of each drive, then of each force element.
 
     With `shows_zero_loads`, a force or torque whose load is zero has the label "NAME = 0".
@@ -137,7 +137,7 @@ def _find_pivot_joint_and_body(posture: Posture, part: PartInfo) -> tuple[PartIn
     return find_pivot_joint(posture, turning_body, other_body), turning_body
 
 
-def _draw_angle_drive(posture: Posture, layout: Plan, part: PartInfo) -> Iterator[Shape]:
+def _draw_angle_drive(posture: Posture, layout: Layout, part: PartInfo) -> Iterator[Shape]:
     """Yield the arrow of a driven angle around its pivot, counterclockwise if the angle grows.
 
     The rate is that of the first body relative to the second; an unknown rate counts as growing.
@@ -148,7 +148,7 @@ def _draw_angle_drive(posture: Posture, layout: Plan, part: PartInfo) -> Iterato
     yield from draw_round_arrow(f"drive {part.name}", "drive", centre, DRIVEN * u, rate >= 0.0, HEAD * u)
 
 
-def _draw_coordinate_drive(posture: Posture, layout: Plan, part: PartInfo) -> Iterator[Shape]:
+def _draw_coordinate_drive(posture: Posture, layout: Layout, part: PartInfo) -> Iterator[Shape]:
     """Yield the arrow of a driven coordinate in the direction of its rate.
 
     An angle is drawn like an angle drive. An unknown rate counts as positive.
@@ -162,7 +162,7 @@ def _draw_coordinate_drive(posture: Posture, layout: Plan, part: PartInfo) -> It
     yield from draw_arrow(f"drive {part.name}", "drive", middle - half_arrow, middle + half_arrow, HEAD * layout.unit)
 
 
-def _find_arrow_position(posture: Posture, layout: Plan, part: PartInfo) -> tuple[Array, Array]:
+def _find_arrow_position(posture: Posture, layout: Layout, part: PartInfo) -> tuple[Array, Array]:
     """Return the middle of a driven coordinate's arrow (2,), in m, and its offset direction, a unit vector: above or to
     the left.
 
@@ -181,7 +181,7 @@ def _find_arrow_position(posture: Posture, layout: Plan, part: PartInfo) -> tupl
     return position + 2.0 * layout.unit * normal, normal
 
 
-def _draw_cylinder(posture: Posture, layout: Plan, part: PartInfo) -> Iterator[Shape]:
+def _draw_cylinder(posture: Posture, layout: Layout, part: PartInfo) -> Iterator[Shape]:
     """Yield the symbol of a driven distance: a hydraulic cylinder with barrel, piston, rod, and a pin at each end."""
     name, u = f"drive {part.name}", layout.unit
     begin, end = (posture.get_position(point) for point in part.ends)
@@ -199,7 +199,7 @@ def _draw_cylinder(posture: Posture, layout: Plan, part: PartInfo) -> Iterator[S
     yield from (Disc(name, "pin", position, 0.8 * PIN * u) for position in (begin, end))
 
 
-def _draw_ground_ends(posture: Posture, part: PartInfo, owner: str, layout: Plan) -> Iterator[Shape]:
+def _draw_ground_ends(posture: Posture, part: PartInfo, owner: str, layout: Layout) -> Iterator[Shape]:
     """Yield a hatched wall at each end of a drive or force element on the ground where no joint draws the ground.
 
     `owner` is the part to which the shapes belong, such as "force S1".
@@ -212,7 +212,7 @@ def _draw_ground_ends(posture: Posture, part: PartInfo, owner: str, layout: Plan
             )
 
 
-def _draw_spring_damper(posture: Posture, layout: Plan, part: PartInfo) -> Iterator[Shape]:
+def _draw_spring_damper(posture: Posture, layout: Layout, part: PartInfo) -> Iterator[Shape]:
     """Yield a spring, a damper, or both in parallel, between the two points of an element.
 
     An element without stiffness and damping is drawn as a spring. Between coincident points only dots are drawn. Next
@@ -251,7 +251,7 @@ def _draw_spring_damper(posture: Posture, layout: Plan, part: PartInfo) -> Itera
             yield Line(name, "spring", np.array([attachment, attachments[0] + fraction * (end - begin)]))
 
 
-def _find_ground_side(posture: Posture, layout: Plan, part: PartInfo, begin: Array, end: Array) -> Array | None:
+def _find_ground_side(posture: Posture, layout: Layout, part: PartInfo, begin: Array, end: Array) -> Array | None:
     """Return the direction of the ground, a unit vector, if an element lies along the rail of the joint between its
     bodies.
 
@@ -299,7 +299,7 @@ def _draw_damper(owner: str, begin: Array, end: Array, unit: float) -> Iterator[
     yield Line(owner, "piston", np.array([middle - 0.85 * half_width, middle + 0.85 * half_width]))
 
 
-def _draw_spiral_spring(posture: Posture, layout: Plan, part: PartInfo) -> Iterator[Shape]:
+def _draw_spiral_spring(posture: Posture, layout: Layout, part: PartInfo) -> Iterator[Shape]:
     """Yield a spiral spring of 2.25 turns around the pivot of a rotational spring or damper."""
     angle, centre = np.linspace(0.0, 4.5 * np.pi, 90), find_pivot(posture, part)
     radius = layout.unit * np.linspace(0.6, WOUND, len(angle))
@@ -308,14 +308,14 @@ def _draw_spiral_spring(posture: Posture, layout: Plan, part: PartInfo) -> Itera
     )
 
 
-def _draw_torque(posture: Posture, layout: Plan, part: PartInfo) -> Iterator[Shape]:
+def _draw_torque(posture: Posture, layout: Layout, part: PartInfo) -> Iterator[Shape]:
     """Yield the round arrow of a torque around its pivot; clockwise only if the torque is negative."""
     is_counterclockwise = posture.loads.get(part.name, (1.0, 0.0))[0] >= 0.0
     centre, unit = find_pivot(posture, part), layout.unit
     yield from draw_round_arrow(f"force {part.name}", "force", centre, LOADED * unit, is_counterclockwise, HEAD * unit)
 
 
-def _draw_force(posture: Posture, layout: Plan, part: PartInfo) -> Iterator[Shape]:
+def _draw_force(posture: Posture, layout: Layout, part: PartInfo) -> Iterator[Shape]:
     """Yield the arrow of a force that begins at its point; a ring if the force is zero or unknown."""
     name, unit, point = f"force {part.name}", layout.unit, posture.get_position(part.ends[0])
     arrow_vector = _compute_arrow_vector(posture, layout, part)
@@ -327,7 +327,7 @@ def _draw_force(posture: Posture, layout: Plan, part: PartInfo) -> Iterator[Shap
     )
 
 
-def _compute_arrow_vector(posture: Posture, layout: Plan, part: PartInfo) -> Array:
+def _compute_arrow_vector(posture: Posture, layout: Layout, part: PartInfo) -> Array:
     """Return the drawn vector of a force from tail to tip, (2,), in m of the drawing; 0 if the force is zero or
     unknown.
 
@@ -339,7 +339,7 @@ def _compute_arrow_vector(posture: Posture, layout: Plan, part: PartInfo) -> Arr
     return load * layout.newton if layout.newton > 0.0 else ARROW * layout.unit * unit_vector(load)
 
 
-def _draw_dry_friction(posture: Posture, layout: Plan, part: PartInfo) -> Iterator[Shape]:
+def _draw_dry_friction(posture: Posture, layout: Layout, part: PartInfo) -> Iterator[Shape]:
     """Yield a rough line under the second body's point, and for a moving surface the arrow of its speed."""
     name, u = f"force {part.name}", layout.unit
     line_direction = posture.compute_direction(part, "direction", get_body_name(part.ends[0]))
@@ -362,7 +362,7 @@ def _draw_dry_friction(posture: Posture, layout: Plan, part: PartInfo) -> Iterat
         )
 
 
-def _draw_generic_element(posture: Posture, layout: Plan, part: PartInfo) -> Iterator[Shape]:
+def _draw_generic_element(posture: Posture, layout: Layout, part: PartInfo) -> Iterator[Shape]:
     """Yield a line with a dot at each end, for a force element of a kind without a symbol."""
     positions = [posture.get_position(end) for end in part.ends]
     yield Line(f"force {part.name}", "spring", np.array(positions))

@@ -4,7 +4,7 @@ A driven crank moves the rest of its four-bar as well, whatever else is attached
 coordinates such parts are the square blocks of the decomposition of A. L. Dulmage and N. S. Mendelsohn (Canad. J.
 Math. 10:517, 1958): the coordinates that no free one reaches along a maximum matching. They are functions of t like a
 driven angle: positions by Newton's method on their own closures, rates by linear solves
-(generator/kernels/driven_chains.py). All other equations have them as prescribed, with
+(generator/kernels/driven_loops.py). All other equations have them as prescribed, with
     M_s s̈ + Φ_sᵀ λ = g_s − M_sc c̈,    Φ_s s̈ = γ − Φ_c c̈,
 and the effort of the drives is their own equation's M_cs s̈ + M_cc c̈ − g_c.
 The constraint equations of the model are independent (redundancy.py), and those of a block have entries in its
@@ -41,7 +41,7 @@ class Direction:
 
 
 @dataclass(frozen=True)
-class Chain:
+class DrivenLoops:
     """The dependent coordinates by name, with their rates, and the closures that determine them, by blocks."""
 
     names: tuple[str, ...]
@@ -50,7 +50,9 @@ class Chain:
     directions: tuple[Direction, ...] = ()  # once for all kernels
 
 
-def add_directions(driven_loops: Chain, system: System, frames: Iterable[Frame], prescribed_names: set[str]) -> Chain:
+def add_directions(
+    driven_loops: DrivenLoops, system: System, frames: Iterable[Frame], prescribed_names: set[str]
+) -> DrivenLoops:
     """Return the driven loops with the directions in their closures: C stores their cosines and sines after q.
 
     Directions that turn only with dependent and prescribed coordinates count, if the closures read them. The places of
@@ -66,7 +68,7 @@ def add_directions(driven_loops: Chain, system: System, frames: Iterable[Frame],
         if frame.turns and set(frame.turns) <= {*index_of, *prescribed_names} and {frame.cos, frame.sin} & read_symbols:
             first_index = len(system.q) + len(driven_loops.names) + 2 * len(directions)
             for k, symbol in enumerate((frame.cos, frame.sin)):
-                symbols.info[symbol] = replace(symbols.info[symbol], home=Place("q")[first_index + k])
+                symbols.info[symbol] = replace(symbols.info[symbol], place=Place("q")[first_index + k])
             turns = {index_of[name]: c for name, c in frame.turns.items() if name in index_of}
             directions.append(Direction(frame.cos, frame.sin, turns))
     return replace(driven_loops, directions=tuple(directions))
@@ -156,7 +158,7 @@ S = TypeVar("S", bound=System)
 
 def prescribe_coordinates(
     system: S, names: Sequence[str], columns: Sequence[int], rows: Sequence[int]
-) -> tuple[S, Chain]:
+) -> tuple[S, DrivenLoops]:
     """Return the system with these coordinates as functions of t and without these equations, and the driven loops.
 
     `names` are those of all coordinates; `columns` and `rows`: numbers of the dependent coordinates and of their
@@ -214,7 +216,7 @@ def prescribe_coordinates(
         frictions=frictions,
         dependent=dependent,
     )
-    return reduced, Chain(tuple(names[c] for c in columns), dependent, tuple(system.rows[r] for r in rows))
+    return reduced, DrivenLoops(tuple(names[c] for c in columns), dependent, tuple(system.rows[r] for r in rows))
 
 
 def _set_places(
@@ -230,7 +232,7 @@ def _set_places(
 
     def set_place(symbol: sp.Symbol, place: Place) -> None:
         """Set the place at which C reads a symbol."""
-        info[symbol] = replace(info[symbol], home=place)
+        info[symbol] = replace(info[symbol], place=place)
 
     for i, k in enumerate((*free_indices, *dependent_indices)):
         set_place(system.q[k], Place("q")[i])
