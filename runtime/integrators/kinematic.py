@@ -260,7 +260,7 @@ class _KinematicRun:
         from gudgeon.integrators.trajectory import IMPACT_DTYPE
 
         rows, first = slice(self.last_complete + 1), np.zeros(1)
-        passed = self.compiled.lib.gudgeon_kinematic_interpolated(
+        passed = self.compiled.lib.gudgeon_kinematic_count_interpolated(
             self.pointer(self.motion_struct, "void *"), self.pointer(first)
         )
         empty, t = np.zeros((self.last_complete + 1, 0)), self.t[rows].copy()

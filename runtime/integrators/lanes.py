@@ -52,7 +52,7 @@ class Lanes:
         library = compile_kernels(_build_lane_source(compiled), portable=compiled.portable)
         self.lib, self.ffi = library.lib, library.ffi
         self.count = int(self.lib.gudgeon_lane_count())
-        single = compiled.ffi.cast("uintptr_t", compiled.lib.gudgeon_single())
+        single = compiled.ffi.cast("uintptr_t", compiled.lib.gudgeon_single_run_functions())
         self.single = self.ffi.cast("void *", int(single))
 
     def integrate_runs(

@@ -127,7 +127,7 @@ class KinematicStepLog:
 
     def collect_steps(self, motion_struct: Any) -> None:
         """Copy and store the states that C has written since the last call, for the next call of `pass_steps`."""
-        count = int(self.compiled.lib.gudgeon_kinematic_recorded(motion_struct))
+        count = int(self.compiled.lib.gudgeon_kinematic_fetch_records(motion_struct))
         if count:
             self.waiting.append(self.rows[:count].copy())
 

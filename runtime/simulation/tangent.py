@@ -160,7 +160,7 @@ class Flow:
         if not self.n_dep:
             return q_dep
         q, rates = q_dep[0].copy(), np.zeros(3 * self.n_dep)
-        self.compiled.lib.gudgeon_chains(
+        self.compiled.lib.gudgeon_driven_loops(
             t,
             *self.make_pointers(q, is_written=True),
             *self.make_pointers(self.p),

@@ -220,7 +220,10 @@ def _list_motion_sizes(program: Program) -> Sizes:
             int(bool(tree and tree.chains and not tree.chains.switch_kernel)),
             "their drives have no corners",
         ),
-        "TREE_PIVOTS": (len(integrated.pivots) - len(chain.rows) if chain else 0, "statuses of driven loops follow these"),
+        "TREE_PIVOTS": (
+            len(integrated.pivots) - len(chain.rows) if chain else 0,
+            "statuses of driven loops follow these",
+        ),
         "RESCUED": (int(tree is not None and tree.has_fallback), "pivots may vanish: all bodies' equations help"),
         "LARGEST_BLOCK": (_find_largest_block_size(program), "rows that are solved together"),
         "N_VALUES": (newton.values.size if newton else 0, "of the linearized equations"),
