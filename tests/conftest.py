@@ -153,7 +153,7 @@ class FakeCompiled:
 
     source: KernelSource
     calls: list[int] = field(default_factory=list)
-    may_switch: bool = False
+    may_drive_acceleration_jump: bool = False
 
     def evaluate(self, t: Any, q: Any, v: Any, memory: Any, p: Any) -> FakeEvaluation:
         self.calls.append(len(t))

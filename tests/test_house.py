@@ -32,7 +32,7 @@ def test_no_regular_expression_looks_at_emitted_text() -> None:
     names = ("ir", "kernels", "solvers", "reduction", "targets", "targets/c", "targets/latex", "targets/numpy")
     rooms = [ROOT / "generator" / room for room in names]
     users = {(file.name, name) for room in rooms for file in room.glob("*.py") for name in _with_regexes(file)}
-    read = {("printer.py", "sanitize_comment"), ("readme.py", "_escape_markdown"), ("letters.py", "make_word")}
+    read = {("printer.py", "sanitize_comment"), ("readme.py", "_escape_markdown"), ("letters.py", "make_word_name")}
     read |= {("theory.py", "find_letters")}
     assert users == read
 

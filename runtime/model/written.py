@@ -61,10 +61,9 @@ def make_value_function(source: KernelSource, p: Array, t: float, q: Array, v: A
         """Return the value of a name at the state. Raises KeyError for an unknown name."""
         if path == "t":
             return t
-        if (address := f"parameters.{path}") in parameter_values:
-            return parameter_values[address]
-        if (address := f"{path.rpartition('.')[0]}.{path.rpartition('.')[2]}") in parameter_values:  # "ground.O.x"
-            return parameter_values[address]
+        for address in (f"parameters.{path}", path):  # path: "ground.O.x"
+            if address in parameter_values:
+                return parameter_values[address]
         owner, _, component = path.rpartition(".")
         state = v if component in ("vx", "vy", "omega") else q
         if owner.count(".") == 0:
@@ -104,9 +103,7 @@ def explain_undefined_value_after(
     """
     expressions = read_expression_trees(source, ("drives", "forces"))
     if not (np.isfinite(q).all() and np.isfinite(v).all()):
-        expressions = [
-            (info, tree) for info, tree in expressions if all("." not in name.path for name in iterate_names(tree))
-        ]
+        expressions = [x for x in expressions if all("." not in name.path for name in iterate_names(x[1]))]
     scale = max(1.0, abs(t))
     times_after = (*(scale * dt for dt in _REACH), *(duration * fraction for fraction in (0.01, 0.1, 0.5, 1.0)))
     for h in (0.0, *times_after):
@@ -215,8 +212,7 @@ def explain_undefined_value_between(source: KernelSource, p: Array, t0: float, t
         invalid_samples = np.flatnonzero(~np.isfinite(evaluate_at_times(source, p, tree, times)))
         if not len(invalid_samples):
             continue
-        high = float(times[invalid_samples[0]])
-        low = float(times[max(invalid_samples[0] - 1, 0)])
+        low, high = (float(times[k]) for k in (max(invalid_samples[0] - 1, 0), invalid_samples[0]))
         for _ in range(60):
             middle = 0.5 * (low + high)
             if np.isfinite(evaluate_at_times(source, p, tree, np.array([middle])))[0]:
@@ -265,19 +261,17 @@ def add_undefined_output_notes(run: Result, evaluation: Evaluation) -> Result:
     return replace(run, diagnostics=replace(run.diagnostics, notes=notes)) if messages else run
 
 
+@cache_by_values
 def _find_comparing_expressions(source: KernelSource) -> dict[str, Expr]:
-    """Return the drives and forces with a `where` that may compare undefined values, by address; cache them."""
-    cache = vars(source)
-    if "compared" not in cache:
-        trees = {info.address: tree for info, tree in read_expression_trees(source, ("drives", "forces"))}
-        cache["compared"] = {
-            address: tree
-            for address, tree in trees.items()
-            if not all(
-                is_total_expression(operand) for call in iterate_calls(tree, "where") for operand in call.arguments[:2]
-            )
-        }
-    return dict(cache["compared"])
+    """Return the drives and forces with a `where` that may compare undefined values, by address."""
+    trees = {info.address: tree for info, tree in read_expression_trees(source, ("drives", "forces"))}
+    return {
+        address: tree
+        for address, tree in trees.items()
+        if not all(
+            is_total_expression(operand) for call in iterate_calls(tree, "where") for operand in call.arguments[:2]
+        )
+    }
 
 
 def _explain_undefined_samples(run: Result, name: str, tree: Expr) -> str:

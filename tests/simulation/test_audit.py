@@ -227,13 +227,13 @@ def test_taylor_whose_steps_are_endless(rtol: float, tmp_path: Path) -> None:
         tmp_path / "mutant",
         (
             "engine/scalar_simd/taylor.h",
-            "return real_exp2(-real_max(real_log2(most) / n, real_log2(most_before) / (n - 1)));",
-            "(void)most, (void)most_before, (void)n;\n    return real_of(0.9);",
+            "return real_exp2(-real_max(real_log2(largest) / n, real_log2(largest_before) / (n - 1)));",
+            "(void)largest, (void)largest_before, (void)n;\n    return make_real(0.9);",
         ),
         (
             "engine/scalar_simd/taylor.h",
-            "status ? real_of(INFINITY) : taylor_compute_defect(run, step, rate)",
-            "real_of(0.0)",
+            "status ? make_real(INFINITY) : taylor_compute_defect(run, step, rate)",
+            "make_real(0.0)",
         ),
     )
     found = reported(wrong, 10.0, method="taylor", rtol=rtol)

@@ -166,9 +166,9 @@ def test_the_same_bytes_under_another_hash_seed() -> None:
     code = (
         "import hashlib\n"
         "from gudgeon.generator.pipeline import derive_scene\n"
-        "from gudgeon.generator.targets.latex import equations_tex, equations_text\n"
+        "from gudgeon.generator.targets.latex import render_equations_tex, render_equations_text\n"
         f"m = derive_scene({BOB!r}.encode(), 'bob.yaml', 'lubricated')\n"
-        "print(hashlib.sha256((equations_tex(m) + equations_text(m)).encode()).hexdigest())"
+        "print(hashlib.sha256((render_equations_tex(m) + render_equations_text(m)).encode()).hexdigest())"
     )
     env = {**os.environ, "PYTHONHASHSEED": "1"}
     other = subprocess.run([sys.executable, "-c", code], env=env, check=True, capture_output=True, text=True).stdout

@@ -36,7 +36,7 @@ def find_gap_points(joint: Any, residuals: Any) -> Any:
 
     joint: the joint at a posture; residuals: the values of its constraint equations (m).
     """
-    return joint.second, joint.second - residuals[0] * joint.direction("axis", joint.option("carrier"))
+    return joint.second, joint.second - residuals[0] * joint.direction("axis", joint.get_option("carrier"))
 
 
 JOINT = JointType(

@@ -28,9 +28,9 @@ def derive_constraint_equations(first_frame: Any, second_frame: Any, joint_field
 def draw_symbol(pen: Any) -> None:
     """Draw the rod between two pins, with a stand at a point of the ground."""
     pen.add_stand()
-    pen.line("rod", [pen.first, pen.second])
+    pen.add_line("rod", [pen.first, pen.second])
     for point in (pen.first, pen.second):
-        pen.pin(point, 0.8)
+        pen.add_pin(point, 0.8)
 
 
 def find_middle(joint: Any) -> Any:
@@ -43,7 +43,7 @@ def find_gap_points(joint: Any, residuals: Any) -> Any:
 
     joint: the joint at a posture; the residuals are not used.
     """
-    return joint.first + joint.number("length") * joint.unit_vector(joint.second - joint.first), joint.second
+    return joint.first + joint.get_parameter("length") * joint.unit_vector(joint.second - joint.first), joint.second
 
 
 JOINT = JointType(

@@ -32,12 +32,12 @@ def derive_constraint_equations(first_frame: Any, second_frame: Any, joint_field
 
 def find_wheels(joint: Any) -> list[tuple[Any, float]]:
     """Return for each wheel where it turns on the carrier (2,) and its pitch radius (m)."""
-    return [(joint.find_pivot(k, joint.option("carrier")), radius) for k, radius in enumerate(find_radii(joint))]
+    return [(joint.find_pivot(k, joint.get_option("carrier")), radius) for k, radius in enumerate(find_radii(joint))]
 
 
 def find_radii(joint: Any) -> tuple[float, float]:
     """Return both pitch radii (m)."""
-    return joint.number("radii.x"), joint.number("radii.y")
+    return joint.get_parameter("radii.x"), joint.get_parameter("radii.y")
 
 
 def find_pitch_point(joint: Any) -> Any:
@@ -46,7 +46,7 @@ def find_pitch_point(joint: Any) -> Any:
     Inside a ring, the wheels touch at the ring's pitch circle beyond the smaller wheel.
     """
     (centre_1, r_1), (centre_2, r_2) = find_wheels(joint)
-    is_internal = joint.option("internal") == "true"
+    is_internal = joint.get_option("internal") == "true"
     centre, radius = (centre_2, r_2) if r_2 > r_1 or not is_internal else (centre_1, r_1)
     return centre + radius * joint.unit_vector((centre_1 if centre is centre_2 else centre_2) - centre)
 
@@ -54,7 +54,7 @@ def find_pitch_point(joint: Any) -> Any:
 def draw_symbol(pen: Any) -> None:
     """Draw pitch circles, a spoke fixed in each wheel, a ring with its rim, and the point of contact."""
     for k, (centre, radius) in enumerate(find_wheels(pen)):
-        pen.add_wheel(k, centre, radius, is_ring=k == 1 and pen.option("internal") == "true")
+        pen.add_wheel(k, centre, radius, is_ring=k == 1 and pen.get_option("internal") == "true")
     pen.add_disc("mark", find_pitch_point(pen), 0.25 * pen.unit)
 
 
@@ -65,7 +65,7 @@ def find_gap_points(joint: Any, residuals: Any) -> Any:
     """
     (centre_1, _), (centre_2, _) = find_wheels(joint)
     midpoint = 0.5 * (centre_1 + centre_2)
-    return midpoint, midpoint + residuals[0] * joint.turned(joint.unit_vector(centre_2 - centre_1))
+    return midpoint, midpoint + residuals[0] * joint.rotate_quarter_turn(joint.unit_vector(centre_2 - centre_1))
 
 
 JOINT = JointType(

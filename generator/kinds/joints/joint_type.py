@@ -26,7 +26,7 @@ CORNERS: Mapping[str, tuple[int, int]] = {
 def draw_squares(pen: Any) -> None:
     """Draw a small square at each point: the symbol of a joint type that declares no other one."""
     for point in (pen.first, pen.second):
-        pen.box("block", point, pen.horizontal, 0.5, 0.5)
+        pen.add_box("block", point, pen.horizontal, 0.5, 0.5)
 
 
 def find_second_point(joint: Any) -> Any:

@@ -30,10 +30,10 @@ def draw_symbol(pen: Any) -> None:
         pen.add_rail(pen.ROLLER * pen.unit)
         pen.add_disc("roller", pen.slider, pen.ROLLER * pen.unit)
     else:
-        pen.slot()
-        pen.box("block", pen.slider, pen.along, 1.25, 0.8)
+        pen.add_slot()
+        pen.add_box("block", pen.slider, pen.along, 1.25, 0.8)
         pen.add_stand()
-    pen.pin(pen.slider)
+    pen.add_pin(pen.slider)
 
 
 JOINT = JointType(

@@ -21,8 +21,8 @@ def derive_constraint_equations(first_frame: Any, second_frame: Any, joint_field
 
 def draw_symbol(pen: Any) -> None:
     """Draw the pin, on the ground with its stand, with play in its hole."""
-    pen.bearing()
-    pen.pin(pen.second)
+    pen.add_bearing()
+    pen.add_pin(pen.second)
 
 
 JOINT = JointType(

@@ -20,8 +20,8 @@ def derive_constraint_equations(first_frame: Any, second_frame: Any, joint_field
 
 def draw_symbol(pen: Any) -> None:
     """Draw a black square, and what it is fixed to where that is the ground."""
-    pen.wall(pen.first)
-    pen.box("weld", pen.second, pen.compute_body_axis(0), 0.62, 0.62)
+    pen.add_wall(pen.first)
+    pen.add_box("weld", pen.second, pen.compute_body_axis(0), 0.62, 0.62)
 
 
 JOINT = JointType(

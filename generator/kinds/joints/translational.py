@@ -34,7 +34,7 @@ def derive_constraint_equations(first_frame: Any, second_frame: Any, joint_field
 
 def draw_symbol(pen: Any) -> None:
     """Draw the ground's rails, or the axis of the body that guides; bodies have their blocks and guides themselves."""
-    pen.guide()
+    pen.add_guide()
 
 
 JOINT = JointType(

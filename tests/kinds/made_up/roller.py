@@ -21,16 +21,16 @@ def rows(first: Any, second: Any, fields: Any) -> list[Any]:
 
 
 def normal(at: Any) -> Any:
-    return at.turned(at.direction("direction", at.bodies[1]))
+    return at.rotate_quarter_turn(at.direction("direction", at.bodies[1]))
 
 
 def draw(pen: Any) -> None:
     """Draw the roller with its pin, and as much of the face as is below it."""
-    radius = pen.number("radius")
+    radius = pen.get_parameter("radius")
     foot, half = pen.first - radius * normal(pen), 1.5 * radius * pen.direction("direction", pen.bodies[1])
     pen.add_disc("roller", pen.first, radius)
-    pen.line("rail", [foot - half, foot + half])
-    pen.pin(pen.first)
+    pen.add_line("rail", [foot - half, foot + half])
+    pen.add_pin(pen.first)
 
 
 def place(at: Any) -> Any:
@@ -43,7 +43,7 @@ def gap(at: Any, left: Any) -> Any:
 
 
 def reach(at: Any) -> tuple[float, float]:
-    return at.number("radius"), 0.0
+    return at.get_parameter("radius"), 0.0
 
 
 JOINT = JointType(
