@@ -44,7 +44,7 @@ def build_sections(run: Result, report: Mapping[str, Any]) -> Iterator[Section]:
     yield "Energy", build_table(("", ""), build_energy_rows(report))
     trust = report["trust"]
     yield (
-        "How far to believe it",
+        "Predictability and accuracy",
         build_table(("", ""), build_accuracy_rows(trust)) + build_paragraphs(trust["notes"], "g-quiet"),
     )
     yield (
@@ -72,7 +72,7 @@ def format_report(report: Mapping[str, Any]) -> str:
         (f"{'corner' if values['corner'] else 'joint'} {name}", build_joint_rows(values, has_examination))
         for name, values in report["joints"].items()
     ]
-    parts += [("energy", build_energy_rows(report)), ("how far to believe it", build_accuracy_rows(report["trust"]))]
+    parts += [("energy", build_energy_rows(report)), ("predictability and accuracy", build_accuracy_rows(report["trust"]))]
     lines_of_text = [_format_title(report)]
     for heading, rows in parts:
         lines_of_text += [heading] if heading and rows else []
@@ -241,7 +241,7 @@ def build_accuracy_rows(accuracy: Mapping[str, Any]) -> Rows:
         if math.isfinite(horizon)
         else "not sought"
     )
-    rows.append(("believed until (horizon)", horizon_text))
+    rows.append(("predictability horizon", horizon_text))
     for difference in accuracy["differences"]:
         text = (
             f"{format_quantity(difference['largest'], difference['unit'])} at {format_quantity(difference['t'], 's')}"
