@@ -82,8 +82,14 @@ enum Count {
     COUNT_rejected, COUNT_jacobians, COUNT_stiff_steps, N_COUNTS
 };
 
-/* Columns of the largest residuals of a run, and of the extremes of deltadot/deltadot_minus. */
-enum Residual { RESIDUAL_phi_max, RESIDUAL_phi_dot_max, RESIDUAL_ratio_min, RESIDUAL_ratio_max, N_RESIDUALS };
+/*
+ * Columns of the largest residuals of a run, of the extremes of deltadot/deltadot_minus, and of the largest rates of
+ * integrated lengths (m/s) and angles (rad/s) at the ends of steps.
+ */
+enum Residual {
+    RESIDUAL_phi_max, RESIDUAL_phi_dot_max, RESIDUAL_ratio_min, RESIDUAL_ratio_max, RESIDUAL_speed_max,
+    RESIDUAL_omega_max, N_RESIDUALS
+};
 
 /* Columns of the peak of a joint with play: largest force (N), its time (s), largest eccentricity (m). */
 enum Peak { PEAK_F, PEAK_t, PEAK_e_max, N_PEAK };

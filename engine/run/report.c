@@ -65,6 +65,8 @@ void gudgeon_run_report(const void *integrator, double *t, long *counts, double 
     residuals[RESIDUAL_phi_dot_max] = run->residuals.phi_dot_max;
     residuals[RESIDUAL_ratio_min] = run->contacts.ratio_min;
     residuals[RESIDUAL_ratio_max] = run->contacts.ratio_max;
+    residuals[RESIDUAL_speed_max] = run->norm.speed[0];
+    residuals[RESIDUAL_omega_max] = run->norm.speed[1];
     for (int i = 0; i < N_CLEARANCES; i++, peaks += N_PEAK) {
         peaks[PEAK_F] = run->contacts.F_peak[i];
         peaks[PEAK_t] = run->contacts.t_peak[i];

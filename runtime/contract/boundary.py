@@ -104,8 +104,10 @@ RESIDUAL_phi_max: Final = 0
 RESIDUAL_phi_dot_max: Final = 1
 RESIDUAL_ratio_min: Final = 2
 RESIDUAL_ratio_max: Final = 3
-N_RESIDUALS: Final = 4
-RESIDUAL_NAMES = ("phi_max", "phi_dot_max", "ratio_min", "ratio_max")
+RESIDUAL_speed_max: Final = 4
+RESIDUAL_omega_max: Final = 5
+N_RESIDUALS: Final = 6
+RESIDUAL_NAMES = ("phi_max", "phi_dot_max", "ratio_min", "ratio_max", "speed_max", "omega_max")
 
 # enum Peak
 PEAK_F: Final = 0

@@ -115,6 +115,8 @@ class Counts:
     rejected: int = 0
     jacobians: int = 0
     stiff_steps: int = 0
+    speed_max: float = float("nan")  # m/s, of the integrated lengths at the ends of steps; NaN: not recorded
+    omega_max: float = float("nan")  # rad/s, of the integrated angles
 
 
 def convert_counts(counts: NDArray[Any], residual_values: Array) -> Counts:

@@ -14,7 +14,7 @@ const Boundary = {
     MAX_LISTED: 256,
     N_COUNTS: 8,
     COUNT_NAMES: ["steps", "right_hand_sides", "onsets", "ratio_outside", "switches", "rejected", "jacobians", "stiff_steps"],
-    N_RESIDUALS: 4,
+    N_RESIDUALS: 6,
     N_PEAK: 3,
     PEAK_NAMES: ["F", "t", "e_max"],
     N_IMPACT_COLUMNS: 5,

@@ -279,3 +279,14 @@ def test_a_film_that_has_come_to_rest(share: float, vx: float, tmp_path: Path) -
     """What is left of a film's force, 1e-9 of its largest one, is rounding of the gap."""
     run = loader(tmp_path)(BALL, "oil").simulate(2e-3, output=20, parameters={"x0": share * 2e-4, "vx": vx})
     assert not audit_notes(run) and abs(run["ball.vx"][-1]) < 1e-9
+
+
+@pytest.mark.parametrize(("method", "rtol", "t_end"), [("auto", 1e-12, 200.0), ("taylor", 1e-14, 2e4)])
+def test_samples_that_are_all_at_rest_between_fast_steps(method: str, rtol: float, t_end: float) -> None:
+    """Samples at multiples of the period have no energy; that of the steps between them measures the residual."""
+    pendulum = gudgeon.load("pendulum", scene="two_seconds")
+    run = pendulum.simulate(t_end, output=100, method=method, rtol=rtol)
+    energy = run.evaluation.energy.sum(axis=1)
+    assert np.abs(run.v[:, :2]).max() < 1e-4 and np.abs(energy).max() < 1e-9
+    findings = {finding.check: finding.worst for finding in run.diagnostics.audit}
+    assert 0.0 < findings["energy"] <= 1.0

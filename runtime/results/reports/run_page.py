@@ -72,7 +72,10 @@ def format_report(report: Mapping[str, Any]) -> str:
         (f"{'corner' if values['corner'] else 'joint'} {name}", build_joint_rows(values, has_examination))
         for name, values in report["joints"].items()
     ]
-    parts += [("energy", build_energy_rows(report)), ("predictability and accuracy", build_accuracy_rows(report["trust"]))]
+    parts += [
+        ("energy", build_energy_rows(report)),
+        ("predictability and accuracy", build_accuracy_rows(report["trust"])),
+    ]
     lines_of_text = [_format_title(report)]
     for heading, rows in parts:
         lines_of_text += [heading] if heading and rows else []
