@@ -4,9 +4,7 @@ Only the works of drives and force elements are integrated, for the energy balan
 their power over the steps (engine/kinematic/kinematic.c). `Trajectory.seconds` is the time of the motion, without works
 and events.
 
-engine/kinematic/events.c searches sign changes of event functions on intervals in which they are monotone. It locates
-zeros to 4 ulp of t or 1e-13 of the interval (engine/watch/zeros.h). A zero at the end of the run counts: the search
-extends a little beyond it.
+kinematic_events.py searches the user events.
 """
 
 from __future__ import annotations
@@ -20,7 +18,7 @@ from numpy.typing import NDArray
 
 from gudgeon.assembly.linkage import compute_mechanism_size
 from gudgeon.assembly.rank import describe_branches
-from gudgeon.contract.boundary import EVENT_STOPS, EVENTS_FULL, MAX_LISTED, N_PEAK, N_WORK, NOT_FINITE, STALLED, STOPPED
+from gudgeon.contract.boundary import EVENTS_FULL, N_PEAK, N_WORK, NOT_FINITE, STALLED, STOPPED
 from gudgeon.errors import NonFiniteError, SingularError, SolverError
 from gudgeon.integrators.failure import (
     NO_NUMBER,
@@ -30,16 +28,15 @@ from gudgeon.integrators.failure import (
     build_too_slow_error,
     format_drive_states,
 )
+from gudgeon.integrators.kinematic_events import KinematicEvents
 from gudgeon.integrators.steps import KinematicStepLog, StepCallback, Steps
 from gudgeon.integrators.trajectory import (
-    EVENT_DTYPE,
     IMPACT_DTYPE,
     Counts,
     Problem,
     Trajectory,
     compute_time_resolution,
     make_empty_events,
-    split_undefined_events,
 )
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.written import explain_undefined_rate, explain_undefined_value_after, explain_undefined_value_between
@@ -52,7 +49,7 @@ SHORT = 2_000  # samples: up to that a run is computed at once, without polls
 CHUNK, TURN = 10_000, 0.02  # largest number of samples that are computed together, and their time limit in s
 
 
-class _KinematicRun:
+class KinematicRun:
     """Hold a kinematic run as far as it is complete: positions, velocities, accelerations, works and events.
 
     Rows up to `last_complete` are complete.
@@ -66,7 +63,7 @@ class _KinematicRun:
         self.q[0], self.v[0], self.a[0] = problem.q, problem.v, np.nan
         self.maxima, self.call_counts = np.zeros(2), np.zeros(2, dtype=np.int_)  # |Φ|, |Φ̇|; and steps, rows of a call
         self.last_complete, self.seconds = 0, 0.0
-        self.events = Events(problem) if self.compiled.source.events else None
+        self.events = KinematicEvents(problem) if self.compiled.source.events else None
         self.cancellation_poll = CancellationPoll(self.compiled, self.poll_and_report_progress)
         self.motion_struct = self._allocate_motion_struct()
         self.steps = self._make_step_log(problem.observer) if problem.observer else None
@@ -319,7 +316,7 @@ def integrate_kinematic(problem: Problem) -> Trajectory:
     """
     if (trajectory := _integrate_short_run(problem)) is not None:
         return trajectory
-    run_state = _KinematicRun(problem)
+    run_state = KinematicRun(problem)
     interrupted, stopped = False, None
     try:
         run_state.integrate()
@@ -333,9 +330,9 @@ def integrate_kinematic(problem: Problem) -> Trajectory:
 
 
 def _integrate_short_run(problem: Problem) -> Trajectory | None:
-    """Return the Trajectory of a run of few samples by three calls of C, the numbers of `_KinematicRun` to the bit.
+    """Return the Trajectory of a run of few samples by three calls of C, the numbers of `KinematicRun` to the bit.
 
-    None for longer runs, with events, an observer or a progress report, and if anything fails: `_KinematicRun` then
+    None for longer runs, with events, an observer or a progress report, and if anything fails: `KinematicRun` then
     repeats the run and finds the cause.
     """
     compiled, t = problem.compiled, problem.t
@@ -438,75 +435,3 @@ def _build_motion_error(problem: Problem, status: int, t: float, q: Array) -> So
         t,
         row,
     )
-
-
-class Events:
-    """Collect the user events of a kinematic run in `found_events` (EVENT_DTYPE), in the order of the search."""
-
-    def __init__(self, problem: Problem) -> None:
-        self.problem, self.end = problem, float(problem.t[-1])
-        self.signs = np.zeros(len(problem.compiled.source.events), dtype=np.int8)  # of zero, seen last
-        self.found_events, self.capacity = make_empty_events(), MAX_LISTED
-
-    def find_events(self, run_state: _KinematicRun, first: int, last: int) -> bool:
-        """Search the intervals between samples `first` to `last`; return whether an event ends the run there.
-
-        Events are appended to `found_events`. The last interval is searched slightly beyond the end. Raises SolverError
-        where the motion cannot be followed between its samples.
-        """
-        times, n_done = run_state.t[first : last + 1], 0
-        if last == len(self.problem.t) - 1:  # a little more, for what is zero at the end
-            more = max(4.0 * float(np.spacing(abs(self.end))), 1e-12 * (self.end - float(times[-2])))
-            times = np.append(times, self.end + more)
-        while n_done < len(times) - 1:
-            status, count = self._search_intervals(run_state, first + n_done, times[n_done:])
-            n_done += count
-            if status == EVENT_STOPS:
-                return True
-            if status == EVENTS_FULL:
-                self.capacity *= 4  # one interval may have more than there was room for
-            elif status and times[n_done] < self.end:
-                t = float(times[n_done])
-                message = f"events cannot be looked for beyond t = {t:.9g} s: no position was found there"
-                raise SolverError(message, t)
-            elif status:
-                break  # beyond the end
-        return False
-
-    def _search_intervals(self, run_state: _KinematicRun, first: int, times: Array) -> tuple[int, int]:
-        """Search the intervals between these times from sample `first` on, and append the events to `found_events`.
-
-        Return the status of C and the number of complete intervals. Raises KeyboardInterrupt.
-        """
-        pointer, counts = self.problem.compiled.pointer, np.zeros(2, dtype=np.int_)
-        event_times, which = np.zeros(self.capacity), np.zeros(self.capacity, dtype=np.intc)
-        status = self.problem.compiled.lib.gudgeon_kinematic_events(
-            pointer(run_state.motion_struct, "void *"),
-            len(times) - 1,
-            pointer(times),
-            pointer(self.problem.p),
-            pointer(run_state.q[first:]),
-            pointer(run_state.v[first:]),
-            float(run_state.t[0]),
-            int(self.problem.stop),
-            pointer(self.signs, "signed char *"),
-            self.capacity,
-            pointer(event_times),
-            pointer(which, "int *"),
-            pointer(counts, "long *"),
-            pointer(counts[1:], "long *"),
-        )
-        run_state.cancellation_poll.raise_stored(status == STOPPED)
-        new_events = np.zeros(int(counts[0]), dtype=EVENT_DTYPE)
-        new_events["event"], new_events["t"] = which[: len(new_events)], event_times[: len(new_events)]
-        self.found_events = np.concatenate([self.found_events, new_events])
-        return int(status), int(counts[1])
-
-    def sort_events(self) -> tuple[NDArray[Any], NDArray[Any]]:
-        """Return the events sorted by time, not beyond the end, and for each undefined event the first time of that.
-
-        Both are arrays (EVENT_DTYPE).
-        """
-        events, lost = split_undefined_events(self.problem.compiled, self.found_events)
-        events["t"] = np.minimum(events["t"], self.end)
-        return events, lost[np.unique(lost["event"], return_index=True)[1]]
