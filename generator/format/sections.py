@@ -51,7 +51,7 @@ from gudgeon.language.units import (
 
 BEARING = record(
     "bearing",
-    "a pin in a hole",
+    "dimensions of a revolute joint with play: a pin in a hole",
     number(
         "radius",
         "radius of the hole",
@@ -82,31 +82,31 @@ BEARING = record(
 
 GUIDE = record(
     "guide",
-    "a block in a slot with parallel walls: what a translational joint with play is",
+    "dimensions of a translational joint with play: a block in a slot with parallel walls",
     number(
         "gap",
-        "half the difference of the widths of slot and slider",
+        "gap on each side: half the difference of the widths of slot and slider",
         LENGTH,
         required=True,
         bounds=(Bound(">", 0.0, "a gap is positive"),),
     ),
     number(
         "half_length",
-        "half the slider's length, along the axis",
+        "half the length of the slider, along the axis",
         LENGTH,
         required=True,
         bounds=(Bound(">", 0.0, "half a length is positive"),),
     ),
     number(
         "half_height",
-        "half the slider's height, across the axis",
+        "half the height of the slider, across the axis",
         LENGTH,
         required=True,
         bounds=(Bound(">", 0.0, "half a height is positive"),),
     ),
     number(
         "corner_radius",
-        "radius of the slider's corners, within its length and height",
+        "radius of the corners of the slider, within its length and height",
         LENGTH,
         otherwise="0 (sharp corners)",
         bounds=(
@@ -149,7 +149,7 @@ def _format_law_title(law: Law, name: str) -> str:
     """Return a law's title, or for another name of the law the options that this name implies."""
     implied_options = law.also.get(name, {})
     options = ", ".join(f"{key}: {value}" for key, value in implied_options.items())
-    return f"{law.name} with {options}" if implied_options else law.title
+    return f"`{law.name}` with `{options}`" if implied_options else law.title
 
 
 def _make_law_field(role: str, meaning: str) -> Field:
@@ -199,7 +199,8 @@ POINT_OF_GROUND = vector("point", "position, in ground axes", LENGTH)
 
 SHAPE = record(
     "shape",
-    "plate of constant thickness, which gives inertia and, by the density, mass: exactly one of the first four keys",
+    "plate of constant thickness, from which the inertia and, by the density, the mass follow;"
+    " exactly one of the first four keys is needed",
     number(
         "bar",
         "width of a rectangle that is as long as the bar; about the centre of mass",
@@ -247,7 +248,7 @@ SIDES = record(
 _WITHOUT = "from `shape`; otherwise allowed only if drives determine the motion and no joint has play"
 BODY = record(
     "body",
-    "a rigid body with its own frame; with a length a bar: its origin is the tail, its x points to the head",
+    "a rigid body with its own frame; a body with a length is a bar: origin at the tail, x axis to the head",
     number("mass", "mass", MASS, otherwise=_WITHOUT, bounds=(Bound(">", 0.0, "a mass is positive"),)),
     number(
         "inertia",
@@ -266,19 +267,19 @@ BODY = record(
     ),
     vector(
         "com",
-        "centre of mass, in the body's frame: of a bar from its tail, x to its head",
+        "centre of mass, in the frame of the body; for a bar: from the tail, x to the head",
         LENGTH,
         otherwise="mid-length of a bar, else the origin",
     ),
-    mapping("points", "points by name, in the body's frame: of a bar from its tail, x to its head", POINT),
+    mapping("points", "points by name, in the frame of the body; for a bar: from the tail, x to the head", POINT),
     SIDES,
     SHAPE,
 )
 
 CONTACT = record(
     "contact",
-    "what happens between journal and bearing: a normal law, a film, or both",
-    declare_entry_name("contacts", "extends", "contact from which missing keys are taken", required=False),
+    "laws of the forces between journal and bearing: a normal law, a film, or both",
+    declare_entry_name("contacts", "extends", "contact whose keys apply where this contact has none", required=False),
     _make_law_field("normal", "law of the normal force"),
     _make_law_field("friction", "law of dry friction"),
     _make_law_field("film", "law of the oil film"),
@@ -303,7 +304,7 @@ CONTACT = record(
 
 EVENT = record(
     "event",
-    "a run is watched for an expression that crosses zero",
+    "zero crossing of an expression, which a run locates",
     number("zero", "event function: the event is its zero", None, required=True, varies=OF_MOTION),
     word("direction", "direction of the zero crossings that count", ("both", "rising", "falling"), "both"),
     word("action", "whether an event is only recorded or also ends the run", ("record", "stop"), "record"),
@@ -312,18 +313,28 @@ EVENT = record(
 CURVE = record(
     "curve",
     "a cubic spline or monotone cubic through points, which expressions call as NAME(argument)",
-    Field("points", POINTS, "points, x rising; this or a table", otherwise="the table's"),
-    Field("table", TEXT, "CSV file with two columns, in the mechanism's folder or below", otherwise="the points"),
+    Field("points", POINTS, "points with rising x, instead of a table", otherwise="the points of the table"),
+    Field(
+        "table",
+        TEXT,
+        "CSV file with two columns, in the folder of the mechanism or below, instead of points",
+        otherwise="the points",
+    ),
     Field("x", TEXT, "unit of x: mm, deg, s", otherwise="SI, of any dimension"),
     Field("y", TEXT, "unit of y", otherwise="SI, of any dimension"),
     word("ends", "end conditions; periodic: the curve repeats, and the last y equals the first", ENDS, NATURAL),
     word(
         "interpolation",
-        "spline: a continuous second derivative; monotone: no overshoot, dwells stay dwells",
+        "spline: continuous second derivative; monotone: no overshoot, so a dwell remains constant",
         INTERPOLATIONS,
         SPLINE,
     ),
-    word("extrapolate", "values outside the points: an error, the last value, or the tangent", EXTRAPOLATE, STOP),
+    word(
+        "extrapolate",
+        "values outside the points: `none`, an error; `hold`, the last value; `line`, the tangent",
+        EXTRAPOLATE,
+        STOP,
+    ),
 )
 
 SIMULATE = record(
@@ -355,19 +366,24 @@ SIMULATE = record(
 
 PLAY = record(
     "play",
-    "the play in a joint",
+    "play in a joint",
     declare_entry_name(
-        "bearings", "bearing", "bearing of a revolute joint: its dimensions", False, either="guide", otherwise="a guide"
+        "bearings",
+        "bearing",
+        "bearing with the dimensions of a revolute joint",
+        False,
+        either="guide",
+        otherwise="a guide",
     ),
     declare_entry_name(
-        "guides", "guide", "guide of a translational joint: its dimensions", False, otherwise="a bearing"
+        "guides", "guide", "guide with the dimensions of a translational joint", False, otherwise="a bearing"
     ),
     declare_entry_name("contacts", "contact", "contact whose laws apply"),
     Field(
         "contour",
         DEPTHS,
         "wear depths of the bearing at equal angles, beginning at its body's x axis;"
-        " a number: that many depths, all 0, which a run can set",
+        " a single number: the number of depths, which are 0 until a run sets them",
         LENGTH,
         otherwise="a circle",
     ),
@@ -382,15 +398,17 @@ _OF_MATERIAL = (
 )
 SCENE = record(
     "scene",
-    "which joints have play, and what goes with that",
-    declare_entry_name("scenes", "extends", "scene whose entries are added to its own", required=False),
+    "joints with play, and the parameters, materials, events, peaks and run settings of this scene",
+    declare_entry_name("scenes", "extends", "scene whose entries this scene inherits", required=False),
     mapping("play", "joints with play", PLAY),
-    mapping("parameters", "other values of parameters in this scene", number("value", "the value here", None)),
+    mapping(
+        "parameters", "values that replace those of the file in this scene", number("value", "the value here", None)
+    ),
     mapping("events", "events of this scene, in addition to the file's", EVENT),
     Field("peaks", RESULTS, "results whose largest and smallest values over all steps are reported", otherwise="none"),
     mapping(
         "materials",
-        "other materials in this scene: bearings.NAME.journal_material, bodies.NAME.shape.material",
+        "materials that replace those of the file in this scene",
         declare_entry_name("materials", "value", "the material here"),
         addresses=_OF_MATERIAL,
     ),
@@ -399,7 +417,7 @@ SCENE = record(
 
 PLAY_START = record(
     "apart",
-    "initial position in a joint with play: of a journal in ground axes, of a slider in its guide",
+    "initial position in a joint with play: for a journal in ground axes, for a slider in its guide",
     vector("e", "eccentricity vector from the bearing's centre to the journal's", LENGTH, otherwise="none"),
     vector("rate", "rate of the eccentricity", VELOCITY, otherwise="none"),
     number(
@@ -426,16 +444,16 @@ START = record(
     mapping("play", "initial eccentricities and rates of joints with play", PLAY_START),
 )
 
-EXPRESSION = number("value", "what the name stands for", None, varies=OF_MOTION)
-OUTPUT = number("value", "what it is at each time", None, varies=OF_RESULTS)
+EXPRESSION = number("value", "expression that the name stands for", None, varies=OF_MOTION)
+OUTPUT = number("value", "value at each time, an expression", None, varies=OF_RESULTS)
 
 FILE = record(
     "file",
     "a mechanism",
-    Field("format", WORD, "the version of this format", values=(FORMAT,), required=True),
-    declare_entry_name("", "name", "the mechanism's name"),
+    Field("format", WORD, "version of this format", values=(FORMAT,), required=True),
+    declare_entry_name("", "name", "name of the mechanism"),
     Field("title", TEXT, "title of the mechanism, one line", otherwise="the name"),
-    vector("gravity", "acceleration, in ground axes", ACCELERATION, otherwise="none"),
+    vector("gravity", "acceleration of gravity, in ground axes", ACCELERATION, otherwise="none"),
     mapping("parameters", "parameters by name, which every expression may use", number("value", "the number", None)),
     mapping("curves", "curves by name", CURVE),
     mapping("expressions", "expressions by name, which drives, forces, events and outputs may use", EXPRESSION),
@@ -450,10 +468,14 @@ FILE = record(
         whole=True,
         bounds=(Bound(">=", 0.0, "a count is not negative"),),
     ),
-    mapping("joints", "joints by name", Field("joint", KINDS, "one kind and its keys", kinds=_list_joint_kinds)),
-    mapping("drives", "drives by name", Field("drive", KINDS, "one kind and its keys", kinds=lambda: DRIVES)),
     mapping(
-        "forces", "force elements by name", Field("force", KINDS, "one kind and its keys", kinds=_list_force_kinds)
+        "joints", "joints by name", Field("joint", KINDS, "one type of joint and its keys", kinds=_list_joint_kinds)
+    ),
+    mapping("drives", "drives by name", Field("drive", KINDS, "one type of drive and its keys", kinds=lambda: DRIVES)),
+    mapping(
+        "forces",
+        "force elements by name",
+        Field("force", KINDS, "one type of force element and its keys", kinds=_list_force_kinds),
     ),
     START,
     mapping("bearings", "bearings by name", BEARING),

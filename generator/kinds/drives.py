@@ -9,7 +9,7 @@ from gudgeon.language.units import DIMENSIONLESS, LENGTH, Dimension
 
 
 def _make_value_field(
-    dimension: Dimension | None, meaning: str = "where it is at each time, without jumps"
+    dimension: Dimension | None, meaning: str = "prescribed value as a continuous expression of t"
 ) -> tuple[Field, ...]:
     """Return the field of the prescribed value, an expression of t, as a tuple."""
     return (number("value", meaning, dimension, required=True, varies=OF_TIME),)
@@ -17,7 +17,7 @@ def _make_value_field(
 
 DRIVES: Mapping[str, Kind] = {
     "angle": Kind(
-        "angle of a body, or of one relative to another",
+        "angle of a body, or of a body relative to another body",
         _make_value_field(DIMENSIONLESS),
         "bodies",
         (1, 2),
@@ -25,7 +25,9 @@ DRIVES: Mapping[str, Kind] = {
     ),
     "coordinate": Kind(
         "x or y of a body's centre of mass, in ground axes, or theta",
-        _make_value_field(None, "where it is at each time, without jumps: a length, of theta an angle"),
+        _make_value_field(
+            None, "prescribed value as a continuous expression of t: a length for x and y, an angle for theta"
+        ),
         "coordinates",
         (1,),
         ("position", "translation", "displacement", "x", "y"),

@@ -43,7 +43,7 @@ def _print_functions_table() -> Iterator[str]:
         (f"`{f.format_call(*f.arguments)}`", f.meaning, f.units.value, _format_domain(f)) for f in FUNCTIONS.values()
     ]
     head = ("function", "value", "dimensions", "defined for")
-    yield from _print_table("Functions", "what expressions may call", head, rows)
+    yield from _print_table("Functions", "functions that expressions may call", head, rows)
 
 
 def _format_domain(function: Function) -> str:
@@ -87,7 +87,7 @@ def _print_kinds_table(heading: str, entry: Field) -> Iterator[str]:
                     *key_and_values,
                     "needed",
                     "",
-                    f"{kind.title}: has its other keys, {required_keys} is needed",
+                    f"the law {kind.title}; the other keys of `{kind.like}` apply, and {required_keys} is required",
                 )
             )
             continue

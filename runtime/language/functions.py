@@ -334,7 +334,7 @@ _TABLE = (
     ),
     Function(
         "mod",
-        "what is left of a after the last whole multiple of b",
+        "remainder of a divided by b, from 0 to b",
         ("a", "b"),
         Units.SAME,
         sympy=None,

@@ -39,8 +39,8 @@ ELEMENT = ElementType(
     "points",
     (1,),
     (
-        vector("value", "the force: its components", FORCE, required=True, varies=OF_MOTION),
-        word("axes", "in which axes the components are", ("ground", "body"), "ground"),
+        vector("value", "components of the force", FORCE, required=True, varies=OF_MOTION),
+        word("axes", "axes of the components", ("ground", "body"), "ground"),
     ),
     (("Fx", FORCE), ("Fy", FORCE), ("F", FORCE)),
     build_loads,

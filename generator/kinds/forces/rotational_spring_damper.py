@@ -35,11 +35,11 @@ ELEMENT = ElementType(
     "bodies",
     (2,),
     (
-        number("stiffness", "k: moment by angle", TORQUE, bounds=NOT_NEGATIVE, otherwise="0"),
-        number("free_angle", "θ_0: angle without moment", DIMENSIONLESS, otherwise="0"),
+        number("stiffness", "stiffness k: moment divided by angle", TORQUE, bounds=NOT_NEGATIVE, otherwise="0"),
+        number("free_angle", "angle θ_0 without moment", DIMENSIONLESS, otherwise="0"),
         number(
             "damping",
-            "d: moment by angular velocity",
+            "damping d: moment divided by angular velocity",
             make_dimension(mass=1, length=2, time=-1),
             bounds=NOT_NEGATIVE,
             otherwise="0",

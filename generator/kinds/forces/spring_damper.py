@@ -56,9 +56,11 @@ ELEMENT = ElementType(
     "points",
     (2,),
     (
-        number("stiffness", "k: force by elongation", STIFFNESS, bounds=NOT_NEGATIVE, otherwise="0"),
-        number("free_length", "l_0: length without force", LENGTH, bounds=NOT_NEGATIVE, otherwise="0"),
-        number("damping", "d: force by the rate of elongation", DAMPING, bounds=NOT_NEGATIVE, otherwise="0"),
+        number("stiffness", "stiffness k: force divided by elongation", STIFFNESS, bounds=NOT_NEGATIVE, otherwise="0"),
+        number("free_length", "length l_0 without force", LENGTH, bounds=NOT_NEGATIVE, otherwise="0"),
+        number(
+            "damping", "damping d: force divided by the rate of elongation", DAMPING, bounds=NOT_NEGATIVE, otherwise="0"
+        ),
     ),
     (("F", FORCE), ("length", LENGTH)),
     build_loads,

@@ -36,7 +36,7 @@ ELEMENT = ElementType(
     "torque on a body or between two",
     "bodies",
     (1, 2),
-    (number("value", "the torque on the first body", TORQUE, required=True, varies=OF_MOTION),),
+    (number("value", "torque on the first body", TORQUE, required=True, varies=OF_MOTION),),
     (("M", TORQUE),),
     build_loads,
     __doc__,

@@ -51,7 +51,9 @@ JOINT = JointType(
             varies=OF_CAM_ANGLE,
         ),
         vector("axis", "direction of the lift in the carrier's frame", DIMENSIONLESS, required=True, nonzero=True),
-        body_or_ground("carrier", "what the cam turns on: phi is the cam's angle less its"),
+        body_or_ground(
+            "carrier", "body on which the cam turns; phi is the angle of the cam minus the angle of this body"
+        ),
     ),
     "",
     ("lift",),

@@ -72,9 +72,9 @@ JOINT = JointType(
     "gear",
     "rolling gear pair",
     (
-        vector("radii", "pitch radii of first and second", LENGTH, required=True, bounds=POSITIVE),
-        body_or_ground("carrier", "what both wheels turn on"),
-        flag("internal", "the second is a ring around the first"),
+        vector("radii", "pitch radii of the first and the second gear", LENGTH, required=True, bounds=POSITIVE),
+        body_or_ground("carrier", "body on which both wheels turn"),
+        flag("internal", "whether the second gear is a ring around the first"),
     ),
     "",
     ("mesh",),

@@ -27,7 +27,7 @@ def draw_symbol(pen: Any) -> None:
 JOINT = JointType(
     "rigid",
     "rigid joint",
-    (number("angle", "θ_second − θ_first", DIMENSIONLESS, otherwise="0"),),
+    (number("angle", "angle of the second body minus angle of the first body", DIMENSIONLESS, otherwise="0"),),
     "",
     ("x", "y", "angle"),
     ("m", "m", "rad"),

@@ -33,7 +33,9 @@ JOINT = JointType(
             required=True,
             varies=OF_CAM_ANGLE,
         ),
-        body_or_ground("carrier", "what both turn on: phi is the cam's angle less its"),
+        body_or_ground(
+            "carrier", "body on which cam and rocker turn; phi is the angle of the cam minus the angle of this body"
+        ),
     ),
     "",
     ("swing",),

@@ -42,7 +42,12 @@ JOINT = JointType(
     "translational joint",
     (
         vector("axis", "direction of sliding in the first body's frame", DIMENSIONLESS, required=True, nonzero=True),
-        number("angle", "θ_second − θ_first", DIMENSIONLESS, otherwise="the axis' direction"),
+        number(
+            "angle",
+            "angle of the second body minus angle of the first body",
+            DIMENSIONLESS,
+            otherwise="the direction of the axis",
+        ),
     ),
     "guide",
     ("offset", "angle"),

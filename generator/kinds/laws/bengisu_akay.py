@@ -45,7 +45,7 @@ LAW = Law(
     "Journal of Sound and Vibration 171 (1994) 557-570, as in E. Pennestri et al., Nonlinear Dynamics 83 "
     "(2016) 1785-1801, doi 10.1007/s11071-015-2485-3",
     validity="sliding; below the slip v0 the contact creeps where Coulomb's law would stick; the sources write"
-    " the key decay as 1/xi",
+    " 1/xi for the key `decay`",
     fields=(
         MU,
         MU_S,

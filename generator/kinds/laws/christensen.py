@@ -34,7 +34,7 @@ LAW = Law(
     equation=(
         r"F = b F_\mathrm{dry} + (1 - b) F_\mathrm{film}",
         r"b = \int_\Lambda^3 \frac{35}{96} \left[1 - \left(\frac{u}{3}\right)^2\right]^3 du, \quad \Lambda"
-        r" = 3 - \frac{\delta}{\sigma}",
+        r" = 3 - \frac{\delta}{\sigma_r}",
     ),
     source="H. Christensen, Proc. Instn Mech. Engrs 184 (1969) 1013-1026 and 186 (1972) 421-430",
     reference="H. Christensen, Stochastic models for hydrodynamic lubrication of rough surfaces, Proceedings of the "

@@ -41,10 +41,10 @@ LAW = Law(
     source="the file; the damping as K. H. Hunt, F. R. E. Crossley, J. Appl. Mech. 42 (1975) 440-445",
     reference="The file specifies the elastic force; the damping has the form of K. H. Hunt, F. R. E. Crossley, "
     "Journal of Applied Mechanics 42 (1975) 440-445, doi 10.1115/1.3423596",
-    validity="the range for which the user knows the elastic force; the elastic force must be 0 at zero "
+    validity="penetrations for which the user knows the elastic force; the elastic force must be 0 at zero "
     "penetration, which every run checks with its parameter values; the elastic force must not be "
-    "negative up to the clearance, or up to `deepest` where the file gives it; that is checked with "
-    f"the parameter values of the file and of its scenes; {SEPARATION}",
+    "negative up to the clearance, or up to `deepest` where the file gives it; gudgeon checks the sign with the "
+    f"parameter values of the file and of its scenes when it loads the file; {SEPARATION}",
     fields=(
         number(
             "force",

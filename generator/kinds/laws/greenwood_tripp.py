@@ -34,8 +34,8 @@ LAW = Law(
     title="Greenwood and Tripp: the asperities' share of the load, by the film thickness ratio",
     equation=(
         r"F = b F_\mathrm{dry} + (1 - b) F_\mathrm{film}",
-        r"b = \frac{F_{5/2}(\Lambda)}{F_{5/2}(0)} \approx \left(\frac{\delta}{4 \sigma}\right)^{6.804},"
-        r" \quad \Lambda = 4 - \frac{\delta}{\sigma}",
+        r"b = \frac{F_{5/2}(\Lambda)}{F_{5/2}(0)} \approx \left(\frac{\delta}{4 \sigma_r}\right)^{6.804},"
+        r" \quad \Lambda = 4 - \frac{\delta}{\sigma_r}",
     ),
     source="J. A. Greenwood, J. H. Tripp, Proc. Instn Mech. Engrs 185 (1970) 625-633; fit of N. Patir, H. S. Cheng "
     "(1978)",

@@ -99,7 +99,7 @@ ROUGHNESS = number(
     "roughness",
     "combined roughness of both surfaces: the root of the sum of the squares of their rms roughness",
     LENGTH,
-    symbol=r"\sigma",
+    symbol=r"\sigma_r",
     required=True,
     bounds=(Bound(">", 0.0),),
 )

@@ -17,6 +17,17 @@ from gudgeon.language.plot_units import format_unit
 from gudgeon.language.units import find_si_unit
 
 ASKED = (0.9, 0.7, 0.5)  # coefficients of restitution
+_GREEK = {"omega_": "ω_", "epsilon": "ε", "sigma_1": "σ_1", "sigma": "σ_r", "Sigma": "σ_r"}
+# What a choice of an option changes, and the options whose sentence needs no equations.
+_CHOICES = {
+    "geometry": "R_i + R_j in the equation of K becomes R_i − R_j.",
+    "pulls": "the equation of F_n applies without max(0, …).",
+    "shear": "the film also transmits the [shear torque](physics.md#line-of-action-and-shear-torque)"
+    " T_0 = D_s (ω_j − ω_i), with D_s in N·m·s and the clearance c_film = c + e_t of the film.",
+    "cavitation": "the whole film contributes, with S = μ R_j L³/c_film²:",
+    "as_printed": "the radial force has the sign that Chen, Gao and Wang (2022) print:",
+}
+_WITHOUT_EQUATIONS = {"geometry", "pulls"}
 _HEADS = {"normal": "The normal force", "friction": "Friction", "film": "Oil films", "mixed": "Mixed lubrication"}
 
 
@@ -94,7 +105,7 @@ def _describe_law(law: Law) -> Iterator[str]:
     yield from _print_display_equations(law) if law.equation else _print_text_block(default_form.equations)
     for form in other_forms:
         if DISSIPATION.name not in form.selected:
-            yield from _describe_choice(form, law.name)
+            yield from _describe_choice(form, law)
     if DISSIPATION in law.fields:
         yield from (
             "[The dissipation of a normal force](#the-dissipation-of-a-normal-force) lists the factor a for each"
@@ -108,23 +119,46 @@ def _describe_law(law: Law) -> Iterator[str]:
         )
         yield from (f"{states_text}.", "")
     yield from _print_keys_table(law.fields)
-    yield from (f"**Valid**: {make_sentence(law.validity)}", "", f"**Source**: {law.reference or law.source}.", "")
+    yield from _print_validity(law)
+    yield from (f"**Source**: {law.reference or law.source}.", "")
 
 
-def _describe_choice(form: Form, law_name: str) -> Iterator[str]:
-    """Yield the equations that a choice changes: one in a line, several as a block, none for no change."""
-    symbols_text = f"`gudgeon laws {law_name}` defines every symbol."
+def _print_validity(law: Law) -> Iterator[str]:
+    """Yield the range of validity of a law: one sentence, or a list with an item for each of its clauses."""
+    first, *others = law.validity.split("; ")
+    if not first.startswith(("the law ", "the force ", "for ")):
+        article = "a " if first.startswith(("long bearing", "short bearing")) else ""
+        first = f"the law is valid for {article}{first}"
+    clauses = [_replace_greek_names(make_sentence(clause)) for clause in (first, *others)]
+    if len(clauses) == 1:
+        yield from (f"**Validity**: {clauses[0]}", "")
+    else:
+        yield from ("**Validity**:", "", *(f"- {clause}" for clause in clauses), "")
+
+
+def _replace_greek_names(text: str) -> str:
+    """Return a text of a declaration, which is ASCII for comments in C, with Greek letters for their names."""
+    for name, letter in _GREEK.items():
+        text = text.replace(name, letter)
+    return text
+
+
+def _describe_choice(form: Form, law: Law) -> Iterator[str]:
+    """Yield what a choice of an option changes: a sentence, or its equations; none for no change."""
     choice = ", ".join(
         key if value == GIVEN else f"{key}: {format_option(value)}" for key, value in form.selected.items()
     )
-    if len(form.equations) == 1:
-        yield from (f"With `{choice}`, an equation becomes `{print_equation(form.equations[0])}`. {symbols_text}", "")
-    elif form.equations:
-        yield from (
-            f"With `{choice}`, these equations are added or replaced. {symbols_text}",
-            "",
-            *_print_text_block(form.equations),
-        )
+    explanation = " ".join(_CHOICES[key] for key in form.selected if key in _CHOICES)
+    if explanation:
+        yield from (f"With `{choice}`, {explanation}", "")
+    if not form.equations or _WITHOUT_EQUATIONS & form.selected.keys():
+        return
+    if explanation:
+        yield from _print_text_block(form.equations)
+    elif len(form.equations) == 1:
+        yield from (f"With `{choice}`, an equation becomes `{print_equation(form.equations[0])}`.", "")
+    else:
+        yield from (f"With `{choice}`, these equations apply:", "", *_print_text_block(form.equations))
 
 
 def _print_display_equations(law: Law) -> Iterator[str]:
@@ -139,12 +173,15 @@ def _print_text_block(equations: Iterable[Equation]) -> Iterator[str]:
 
 def _print_keys_table(fields: Sequence[Field]) -> Iterator[str]:
     """Yield the Markdown table of a law's keys."""
-    yield from ("| key | letter | unit | condition | without it | meaning |", "|" + "---|" * 6)
+    yield from ("| key | symbol | unit | condition | without it | meaning |", "|" + "---|" * 6)
     for parameter in fields:
         cells = _list_parameter_cells(parameter) if parameter.kind == NUMBER else _list_option_cells(parameter)
         yield (
             "| "
-            + " | ".join(cell.replace("|", "\\|") for cell in (f"`{parameter.name}`", *cells, parameter.meaning))
+            + " | ".join(
+                cell.replace("|", "\\|")
+                for cell in (f"`{parameter.name}`", *cells, _replace_greek_names(parameter.meaning))
+            )
             + " |"
         )
     yield ""

@@ -111,7 +111,7 @@ LAW_LETTERS = {
     "film_clearance": make_symbol_name("c", "film"),
     "friction_slope": make_symbol_name("kappa"),
     "shear": make_symbol_name("D", "0"),
-    "T0": make_symbol_name("D"),
+    "T0": make_symbol_name("D", "s"),
     "spring": make_symbol_name("K"),
     "damper": make_symbol_name("D"),
     "mean_clearance": make_symbol_name("c", "mean"),
