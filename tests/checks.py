@@ -1,8 +1,8 @@
-"""Prints the table of docs/checks.md, what is checked against what, measured anew: `make checks`, a minute.
+"""Measure the differences of gudgeon from independent results and print the table of docs/checks.md: `make checks`.
 
-    python -m tests.checks                   # from the repository's root: the oracles live with the tests
+    python -m tests.checks                   # in the root of the repository, about a minute
 
-Each row is a test too, with the limit that is asserted; here one sees how far below the limit it stays.
+Each row is also a test, which asserts the limit. The table also shows how far below the limit the difference is.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ from tests.reduction.reduced import Reduced
 
 PRESS = "nine_bar_press"
 GOLDEN = golden.load()
-Row = tuple[str, str, float, str, str]  # what, against what, found, asked, test
+Row = tuple[str, str, float, str, str]  # quantity, reference, difference, limit, test
 
 
 def worst(got: np.ndarray, want: np.ndarray) -> float:
@@ -58,7 +58,7 @@ def lubricated() -> Iterable[Row]:
         ("forces", (("A.F", "F_A"), ("B.F", "F_B")), "1e-4"),
     ):
         found = max(float(abs(run[name][1:] / np.array(want[key]) - 1.0).max()) for name, key in pairs)
-        yield f"lubricated press, {what} (relative)", "golden figures of two independent codes", found, requested, test
+        yield f"lubricated press, {what} (relative)", "golden values", found, requested, test
 
 
 def first_contacts() -> Iterable[Row]:
@@ -68,8 +68,8 @@ def first_contacts() -> Iterable[Row]:
     test = "test_golden.py::test_dry_press_reaches_the_golden_first_contacts"
     times = max(abs(peak.first_contact - want["first_contact"][joint]) for peak, joint in peaks)
     forces = max(abs(peak.first_peak / want["first_peak"][joint] - 1.0) for peak, joint in peaks)
-    yield "dry press, first contacts (s)", "golden figures", times, "2e-6", test
-    yield "dry press, first peaks (relative)", "golden figures", forces, "2e-3", test
+    yield "dry press, first contacts (s)", "golden values", times, "2e-6", test
+    yield "dry press, first peaks (relative)", "golden values", forces, "2e-3", test
 
 
 def energy() -> Iterable[Row]:
@@ -77,14 +77,14 @@ def energy() -> Iterable[Row]:
     want = GOLDEN["lubricated"]
     numbers = {"omega": want["omega"], "c": want["c"], "contacts.oil.transition": want["transition"]}
     runs = {
-        "dry press, .03 s of rk4": gudgeon.load(PRESS, scene="dry").simulate(0.03, step=1e-6),
-        "lubricated press, .4 s of rk4": gudgeon.load(PRESS, scene="lubricated").simulate(
+        "dry press, rk4, 0.03 s": gudgeon.load(PRESS, scene="dry").simulate(0.03, step=1e-6),
+        "lubricated press, rk4, 0.4 s": gudgeon.load(PRESS, scene="lubricated").simulate(
             output=[0.0, *want["t"]], step=want["step"], parameters=numbers
         ),
     }
     for what, run in runs.items():
         yield (
-            f"{what}: energy unaccounted for (of what was turned over)",
+            f"{what}: energy residual (relative to the energy throughput)",
             "work of drives, contacts and films",
             run.diagnostics.energy_residual / run.diagnostics.energy_turned_over,
             "1e-8",
@@ -93,7 +93,7 @@ def energy() -> Iterable[Row]:
     runs = {method: test_methods.race(method, 1e-8) for method in test_methods.ADAPTIVE}
     worst_of = max(-run.diagnostics.energy_residual / run.work[-1, 2] for run in runs.values())
     yield (
-        "dry press, .05 s at rtol 1e-8: energy unaccounted for (of what was dissipated)",
+        "dry press, 0.05 s at rtol 1e-8: energy residual (relative to the dissipated energy)",
         "work of drives and contacts",
         worst_of,
         "1e-5",
@@ -105,23 +105,23 @@ def order() -> Iterable[Row]:
     """Slopes of error over step; an interpolant of order p errs by O(h^(p + 1)) between the ends of steps."""
     rodas, dop = "test_rodas5p_has_order_5_and_its_interpolant_4", "test_dop853_has_order_8_and_its_interpolant_7"
     for method, scene, steps, inside, requested, test in (
-        ("rk4", "swing", (60, 4000, 12), False, "4 ± .15", "test_rk4_has_order_4"),
-        ("rk4", "swing", (60, 4000, 12), True, "4 ± .15", "test_rk4_has_order_4"),
-        ("rodas5p", "swing", (12, 1600, 14), False, "5 ± .15", rodas),
-        ("rodas5p", "swing", (12, 1600, 14), True, "5 ± .15", rodas),
-        ("dop853", "car_axis", (40, 400, 14), False, "8 ± .4", dop),
-        ("dop853", "car_axis", (40, 400, 14), True, "8 ± .4", dop),
+        ("rk4", "swing", (60, 4000, 12), False, "4 ± 0.15", "test_rk4_has_order_4"),
+        ("rk4", "swing", (60, 4000, 12), True, "4 ± 0.15", "test_rk4_has_order_4"),
+        ("rodas5p", "swing", (12, 1600, 14), False, "5 ± 0.15", rodas),
+        ("rodas5p", "swing", (12, 1600, 14), True, "5 ± 0.15", rodas),
+        ("dop853", "car_axis", (40, 400, 14), False, "8 ± 0.4", dop),
+        ("dop853", "car_axis", (40, 400, 14), True, "8 ± 0.4", dop),
     ):
         found = test_methods.observed_order(scene, method, 1.0, steps, inside)
-        what = f"observed order of {method}{', between its steps' * inside}"
-        yield what, "the run at rtol 1e-14", found, requested, f"test_methods.py::{test}"
+        what = f"observed order of {method}{', dense output' * inside}"
+        yield what, "a run at rtol 1e-14", found, requested, f"test_methods.py::{test}"
 
 
 def onsets() -> Iterable[Row]:
     exact = np.array([t for _, t, _ in test_methods.ONSETS["onsets"]])
     runs = [test_methods.race(*setting) for setting in (("dop853", 1e-13), ("rodas5p", 1e-14), ("auto", 1e-13))]
     yield (
-        f"dry press, {len(exact)} onsets in .05 s, worst of dop853, rodas5p, auto (s)",
+        f"dry press, {len(exact)} onsets in 0.05 s: times, largest of dop853, rodas5p, auto (s)",
         "hand-written equations in long double",
         max(float(abs(run.impacts["t_on"] - exact).max()) for run in runs),
         "1e-10",
@@ -134,7 +134,7 @@ def long_runs() -> Iterable[Row]:
     andrews, known = test_methods.scene_of("andrews_squeezer"), "the same equations in 25 digits"
     runs = [andrews.simulate(0.03, output=1, method=m, rtol=r) for m, r in (("dop853", 1e-14), ("rodas5p", 1e-13))]
     yield (
-        "Andrews' squeezer, seven angles, worse of dop853, rodas5p (relative)",
+        "Andrews' squeezer, seven angles, larger of dop853, rodas5p (relative)",
         known,
         10.0 ** -min(map(test_methods.digits, runs)),
         "1e-12",
@@ -142,14 +142,14 @@ def long_runs() -> Iterable[Row]:
     )
     run = andrews.simulate(0.03, output=1, method="dop853", rtol=1e-10)
     yield (
-        f"the same: right-hand sides of dop853 for {test_methods.digits(run):.1f} digits",
+        f"Andrews' squeezer, right-hand sides that dop853 evaluates for {test_methods.digits(run):.1f} digits (count)",
         known,
         run.diagnostics.right_hand_sides,
         "1600",
         "test_methods.py::test_andrews_in_ten_digits_with_few_right_hand_sides",
     )
     yield (
-        "pendulum after 2000 s: angle (rad)",
+        "pendulum, angle after 2000 s (rad)",
         "elliptic functions",
         float(abs(phase()).max()),
         "1e-6",
@@ -164,7 +164,7 @@ def long_runs() -> Iterable[Row]:
         rate = max(rate, float(abs(press.compiled.phi_q(t, q, run.p) @ v - nu).max()))
     test = "test_methods.py::test_constraints_hold_to_rounding"
     yield "lubricated press, 100 s: constraints Φ (m, rad)", "0", phi, "1e-15", test
-    yield "lubricated press, 100 s: their rates Φ̇ (m/s, rad/s)", "0", rate, "1e-13", test
+    yield "lubricated press, 100 s: rates of the constraints Φ̇ (m/s, rad/s)", "0", rate, "1e-13", test
 
 
 def phase() -> np.ndarray:
@@ -195,14 +195,14 @@ def derivation() -> Iterable[Row]:
         emitted = max(emitted, float(abs(got - a).max() / abs(a).max()))
     yield (
         "Φ_q in C (relative)",
-        "differences of Φ",
+        "finite differences of Φ",
         jacobian,
         "1e-7",
         "test_derivation.py::test_jacobian_against_finite_differences",
     )
     yield (
         "γ in C (relative)",
-        "d/dt of Φ_q q̇ − ν by complex steps",
+        "d/dt of Φ_q q̇ − ν by complex-step derivatives",
         gamma,
         "1e-9",
         "test_derivation.py::test_right_hand_sides_against_complex_steps",
@@ -231,8 +231,8 @@ def slopes() -> Iterable[Row]:
             scale = np.maximum(size.max(axis=0), max(1e-4 * size.max(), 1e-2))
             found = max(found, float((abs(J[block, : 2 * n] - want[block]).max(axis=0) / scale).max()))
     yield (
-        "∂ẏ/∂y in C, friction and film included (relative)",
-        "complex steps of the model's equations",
+        "∂ẏ/∂y in C, with friction and film (relative)",
+        "complex-step derivatives of the model's equations",
         found,
         "1e-10",
         "test_jacobian.py::test_every_shipped_scene",
@@ -246,8 +246,8 @@ def slopes() -> Iterable[Row]:
             exact = np.linalg.solve(np.eye(len(tree.y)) / eta - J, r + 0.3 * f_t)
             found = max(found, float(abs(tree.solve(eta, 0.3, r) - exact).max() / abs(exact).max()))
     yield (
-        "Newton's solve in tree coordinates (relative)",
-        "NumPy's with the whole matrix",
+        "linear systems of Newton's method in tree coordinates: solution (relative)",
+        "solution by NumPy with the full matrix",
         found,
         "1e-8",
         "test_tree_jacobian.py::test_newton_solves_with_it",
@@ -284,10 +284,10 @@ def reduction() -> Iterable[Row]:
 def restitution() -> Iterable[Row]:
     found = dry.delivered(dry.dissipation_factor(0.9))
     yield (
-        "restitution that Lankarani–Nikravesh delivers at c_e = .9",
+        "coefficient of restitution that results from the law of Lankarani and Nikravesh at c_e = 0.9",
         "a(1+e) = ln[(1+a)/(1−a e)]",
         found,
-        ".91318",
+        "0.91318",
         "test_forces.py::test_restitution_of_the_normal_law",
     )
 
@@ -308,7 +308,7 @@ GROUPS: tuple[Callable[[], Iterable[Row]], ...] = (
 
 
 def main() -> None:
-    print("| what | against | found | asked | test |\n|---|---|---|---|---|")
+    print("| quantity | reference | difference | limit | test |\n|---|---|---|---|---|")
     for group in GROUPS:
         for what, against, found, requested, test in group():
             number = f"{found:.1e}" if abs(found) < 0.1 else f"{found:.5g}"

@@ -87,7 +87,11 @@ def machine_facts() -> dict[str, str]:
 
 
 def work_facts(work: str) -> dict[str, str]:
-    """Return facts on a problem: time of the peers' right-hand side, confirmation of the reference, large batches."""
+    """Return facts on a problem.
+
+    They are the times of right-hand sides of other solvers, the confirmation of the reference, and times of large
+    batches.
+    """
     if work == "andrews":
         found = {}
         if find_spec("jitcode") is not None:
@@ -97,19 +101,21 @@ def work_facts(work: str) -> dict[str, str]:
         return found
     if work == "sweep":
         return {
-            f"100,000 {scene} presses of {t_end} s in a batch, two threads": f"{large(scene):.1f} s (asked: {most:g})"
+            f"100,000 {scene} presses of {t_end} s in a batch, two threads": (
+                f"{large(scene):.1f} s (goal: at most {most:g} s)"
+            )
             for scene, (t_end, most) in LARGE.items()
         }
     if work not in ("dry", "lubricated"):
         return {}
     gap, rhs = press.reference_gap(work), press.Kernel(press.work(work)).seconds_per_rhs * 1e6
     found = {
-        "right-hand side of the peers' dense C": f"{rhs:.2f} µs (asked: at most 5.5)",
-        "a second method differs from the reference by": f"slider {gap.slider:.0e}, path {gap.path:.0e}",
+        "right-hand side of the reference solvers in dense C": f"{rhs:.2f} µs (goal: at most 5.5 µs)",
+        "difference of a second method from the reference": f"slider {gap.slider:.0e}, path {gap.path:.0e}",
     }
     if work == "dry":
-        found["a second method differs from the reference by"] += f", onset {gap.onset:.0e} s"
-        found["onsets at A and B"] = " and ".join(str(len(times)) for times in press.reference(work).onsets)
+        found["difference of a second method from the reference"] += f", onset {gap.onset:.0e} s"
+        found["onsets of contact at A and B"] = " and ".join(str(len(times)) for times in press.reference(work).onsets)
     return found
 
 
@@ -141,14 +147,14 @@ def race(works: list[str]) -> Record:
 def main() -> None:
     """Run the race from the command line."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
-    parser.add_argument("--work", nargs="+", action="extend", choices=WORKS, help="only these")
-    parser.add_argument("--write", action="store_true", help="keep CSV, figures and the page; all works")
+    parser.add_argument("--work", nargs="+", action="extend", choices=WORKS, help="measure only these problems")
+    parser.add_argument("--write", action="store_true", help="store CSV, figures and the page; needs all problems")
     options = parser.parse_args()
     options.work = options.work or list(WORKS)
     if options.write and set(options.work) != set(WORKS):
-        parser.error("--write keeps whole races: leave out --work")
+        parser.error("--write stores all problems: leave out --work")
     record = race(options.work)
-    print("\nfound, and in brackets over what is asked: 1 or more meets it\n")
+    print("\nmeasured values; in brackets the ratio to the goal: 1 or more meets the goal\n")
     print("\n".join(race_page.bars(record)))
     if options.write:
         race_record.write(race_page.CSV, record)

@@ -84,7 +84,7 @@ def bars(record: Record) -> list[str]:
         one, two = (record.time_to("sweep", f"{DEFAULT}, {k}", "worst", 1e-6) for k in ("1 thread", "2 threads"))
         cell = f"{number(one / two)} ({number(one / two / THREADS)})"
         rows.append(["sweep", f"2 threads {THREADS} × one", "", cell, ""])
-    return grid(["work", "asked", *(f"{level:.0e}" for level in LEVELS)], rows)
+    return grid(["problem", "goal", *(f"{level:.0e}" for level in LEVELS)], rows)
 
 
 def table(record: Record, work: str, measure: str) -> list[str]:
@@ -121,7 +121,7 @@ def blocks(record: Record) -> dict[str, str]:
     for work, measures in MEASURES.items():
         lines = facts(record, work)
         if not record.entries(work):
-            lines += ["Not in the run that this page tells of: `make race` fills it in."]
+            lines += ["This problem was not measured: `make race` measures all problems."]
         for measure in measures if record.entries(work) else ():
             lines += ["", *table(record, work, measure)]
         found[work] = lines
@@ -135,7 +135,7 @@ def filled(page: str, record: Record) -> str:
     def put(found: re.Match[str]) -> str:
         """Return the text of a mark."""
         if found[1] not in texts:
-            raise ValueError(f"the page asks for {found[1]!r}; there are: {', '.join(texts)}")
+            raise ValueError(f"unknown mark {found[1]!r}; expected one of {', '.join(texts)}")
         return f"<!-- race: {found[1]} -->\n{texts[found[1]]}\n<!-- end -->"
 
     return re.sub(r"<!-- race: (\w+) -->\n.*?<!-- end -->", put, page, flags=re.S)

@@ -273,7 +273,7 @@ def test_a_rate_that_a_joint_with_play_forbids_at_the_start_is_told(tmp_path: Pa
 def test_the_table_has_the_drives_and_no_rows_that_need_a_legend(call: Gudgeon, pump: str) -> None:
     plain, verbose = call("run", pump), call("run", pump, "-v")
     assert plain.exit_code == verbose.exit_code == 0, verbose.output
-    assert "while latched" not in plain.stdout and "while latched" in verbose.stdout
+    assert "during contact" not in plain.stdout and "during contact" in verbose.stdout
     assert "Peak of drives" in plain.stdout and "motor.torque" in plain.stdout
     found = json.loads(call("run", pump, "--json").stdout)["scenes"]["worn"]["drives"]["motor.torque"]
     torque = gudgeon.Result.load("out/pump_worn.nc")["motor.torque"]

@@ -28,7 +28,7 @@ COLUMNS = 4  # scenes in one table
 # of a joint with play: name -> (unit that a table can scale, what it is); the rest is in --json
 CONSTANTS = {"c": ("m", "clearance c"), "K": ("", "contact stiffness K [N/mⁿ]"), "S": ("N*s", "film factor S")}
 AUDIT_SHOWN = 1e-3  # limits, from which on a check of the audit has a row of its own
-NEED_A_LEGEND = ("δ̇/δ̇⁻ while latched", "steps with it outside ±1", CONSTANTS["K"][1], CONSTANTS["S"][1])
+NEED_A_LEGEND = ("δ̇/δ̇⁻ during contact", "steps with it outside ±1", CONSTANTS["K"][1], CONSTANTS["S"][1])
 
 
 @dataclass(frozen=True)
@@ -413,7 +413,7 @@ def _format_accuracy_rows(reports: Sequence[SceneReport]) -> list[tuple[str, lis
             "contacts that began",
             [str(run.onsets) if has_contacts else "–" for run, has_contacts in zip(diagnostics, has_play, strict=True)],
         ),
-        ("δ̇/δ̇⁻ while latched", ratio_cells),
+        ("δ̇/δ̇⁻ during contact", ratio_cells),
         (
             "steps with it outside ±1",
             [str(run.ratio_outside) if math.isfinite(run.ratio_min) else "–" for run in diagnostics],
