@@ -52,9 +52,10 @@ def derive_equations(scene: Scene, seconds: Seconds | None = None) -> Model:
 def build_closed_linkage(
     mechanism: Mechanism, scene: str, parameters: Mapping[str, float | str] | None = None
 ) -> tuple[NumPyLinkage, list[int]]:
-    """Return the closed linkage of a scene in NumPy, and the indices of its rows that the scene with play keeps.
+    """Return the closed linkage of a scene (all joints ideal, without play) in NumPy, for its assembly.
 
-    parameters: run-time parameters by address, as `simulate` accepts them; None for the file's values.
+    Also return the indices of its constraint equations that the scene with clearances keeps. parameters: run-time
+    parameters by address, as `simulate` accepts them; None for the file's values.
     """
     model = make_model(make_scene(mechanism, scene))
     names_of_remaining_rows = {row.name for row in model.rows}
@@ -63,9 +64,9 @@ def build_closed_linkage(
 
 
 def _make_document_symbols(model: Model) -> Any:
-    """Return how the model's equations are written in documents: the symbols of each quantity.
+    """Return the FormulaWriter of a model, which prints its equations in the notation of its documents.
 
-    Imports the LaTeX target.
+    The LaTeX target is imported here.
     """
     from gudgeon.generator.targets.latex.to_html import FormulaWriter
 

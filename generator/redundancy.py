@@ -88,11 +88,11 @@ def check_mass_matrix(model: Model, source: KernelSource) -> None:
             scale_rows(linkage, linkage.p, linkage.closed_phi_q(0.0, q, linkage.p)[rows_of_scene])
             for q in configurations_near_start
         ]
-        lightest_motions = [_find_lightest_motion(matrix, has_mass) for matrix in matrices]
+        motions_of_least_mass = [_find_motion_of_least_mass(matrix, has_mass) for matrix in matrices]
     except (GudgeonError, ArithmeticError, ValueError):  # as above
         return
-    if all(fraction <= RANK for fraction, _ in lightest_motions):
-        motion = lightest_motions[-1][1]
+    if all(fraction <= RANK for fraction, _ in motions_of_least_mass):
+        motion = motions_of_least_mass[-1][1]
         name = max(bodies_without_inertia, key=lambda body: abs(motion[bodies_without_inertia[body]]))
         inertia = bodies[name].inertia
         location = inertia.where if inertia is not None else bodies[name].where
@@ -104,7 +104,7 @@ def check_mass_matrix(model: Model, source: KernelSource) -> None:
         )
 
 
-def _find_lightest_motion(phi_q: Array, has_mass: NDArray[np.bool_]) -> tuple[float, Array]:
+def _find_motion_of_least_mass(phi_q: Array, has_mass: NDArray[np.bool_]) -> tuple[float, Array]:
     """Return (fraction, motion (n,)) of the motion that satisfies the constraints and moves the least mass.
 
     phi_q: the scaled Jacobian (rows, n); has_mass: mask (n,) of coordinates with mass. The motion has norm 1; the
@@ -123,7 +123,7 @@ def _find_lightest_motion(phi_q: Array, has_mass: NDArray[np.bool_]) -> tuple[fl
 
 
 def _select_redundant_rows(rows: Sequence[Row], matrix: Array, rank_of_matrix: int) -> Redundancy:
-    """Select independent rows, drives first, then in the order of the file, and return the others as redundant.
+    """Select independent constraint equations, drives first, then in file order; return the others as redundant.
 
     matrix: the Jacobian (rows, n), of rank `rank_of_matrix`. Pivoting is a Gram–Schmidt orthogonalization of its rows.
     The result also names the owners of all rows whose multipliers are undetermined.

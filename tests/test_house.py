@@ -33,7 +33,7 @@ def test_no_regular_expression_looks_at_emitted_text() -> None:
     rooms = [ROOT / "generator" / room for room in names]
     users = {(file.name, name) for room in rooms for file in room.glob("*.py") for name in _with_regexes(file)}
     read = {("printer.py", "sanitize_comment"), ("readme.py", "_escape_markdown"), ("letters.py", "make_word_name")}
-    read |= {("theory.py", "find_letters")}
+    read |= {("theory.py", "find_sketch_symbols")}
     assert users == read
 
 

@@ -11,7 +11,7 @@ import sympy as sp
 from gudgeon.generator.equations.fields import JointFields
 from gudgeon.generator.equations.geometry import BodySymbols, Geometry, PointFrame
 from gudgeon.generator.ir.differentiation import compute_partial_derivative
-from gudgeon.generator.ir.finite_slopes import Upon
+from gudgeon.generator.ir.finite_slopes import Upon as FrozenSign
 from gudgeon.generator.kinds.joints.joint_type import joint_types
 from gudgeon.generator.mechanism import GROUND, Drive, Joint, PointRef
 from gudgeon.generator.symbols.from_expressions import convert_quantity_to_sympy, convert_to_sympy
@@ -185,7 +185,7 @@ def has_jumping_rate(drive: Drive) -> bool:
 
 _SWITCHING_CLASSES = (
     Pick,
-    Upon,
+    FrozenSign,
     Apart,
     Largest,
     Smallest,
@@ -211,13 +211,13 @@ def _differentiate_by_time(value: sp.Expr, t: sp.Symbol) -> sp.Expr:
     if not rate.has(*_SWITCHING_CLASSES):
         return rate
     rate = rate.replace(sp.DiracDelta, lambda *_: sp.Integer(0))
-    rate = rate.replace(Upon, sp.sign).replace(sp.sign, lambda x: 2 * sp.Heaviside(x) - 1)
+    rate = rate.replace(FrozenSign, sp.sign).replace(sp.sign, lambda x: 2 * sp.Heaviside(x) - 1)
     return rate.replace(Apart, sp.sign).replace(Largest, sp.Max).replace(Smallest, sp.Min)
 
 
 def _make_differentiable_abs(x: sp.Expr) -> sp.Expr:
-    """Return |x| in a form that SymPy differentiates without real and imaginary parts, also if x may be complex.
+    """Return |x|: Abs(x) if x is known to be real, else x times its sign as a factor with derivative 0.
 
-    An example is acos(t) beyond t = 1.
+    SymPy differentiates the second form without real and imaginary parts. An example is x = acos(t) beyond t = 1.
     """
-    return sp.Abs(x) if x.is_real else x * Upon(x)
+    return sp.Abs(x) if x.is_real else x * FrozenSign(x)

@@ -19,8 +19,8 @@ EPSILON_MAX = 0.9999  # the film is evaluated with its eccentricity ratio capped
 
 
 @dataclass(frozen=True)
-class Step:
-    """One equation symbol = value."""
+class Assignment:
+    """One equation symbol = value, which emitted code evaluates in this order."""
 
     symbol: sp.Symbol
     value: sp.Expr
@@ -52,7 +52,7 @@ def make_part_symbol(symbol: sp.Symbol, part: str) -> sp.Symbol:
     return _make_symbol(f"{symbol.name}_{part}")
 
 
-def make_gap_equations(clearance: Clearance) -> list[Step]:
+def make_gap_equations(clearance: Clearance) -> list[Assignment]:
     """Return the equations of e, the normal n, the penetration δ and their rates, in the order of their use.
 
     t is n turned by +90°. A bearing with a contour and a slider's corner at a wall have equations of their own.
@@ -62,16 +62,16 @@ def make_gap_equations(clearance: Clearance) -> list[Step]:
     if clearance.wall:
         return _make_wall_gap(clearance, clearance.wall)
     return [
-        Step(e, sp.sqrt(e_x**2 + e_y**2)),
-        Step(n_x, e_x / e),
-        Step(n_y, e_y / e),
-        Step(delta, e - clearance.pair.c),
-        Step(deltadot, de_x * n_x + de_y * n_y),
-        Step(de_t, de_y * n_x - de_x * n_y),
+        Assignment(e, sp.sqrt(e_x**2 + e_y**2)),
+        Assignment(n_x, e_x / e),
+        Assignment(n_y, e_y / e),
+        Assignment(delta, e - clearance.pair.c),
+        Assignment(deltadot, de_x * n_x + de_y * n_y),
+        Assignment(de_t, de_y * n_x - de_x * n_y),
     ]
 
 
-def _make_contour_gap(clearance: Clearance, contour: Contour) -> list[Step]:
+def _make_contour_gap(clearance: Clearance, contour: Contour) -> list[Assignment]:
     """Return the equations of the gap of a bearing with a contour: δ = e − c − w(β), β the angle of e in it.
 
     An elastic force −U′(δ) has the energy U if it acts along the gradient of δ. By e that gradient is u − w′/e t, with
@@ -79,82 +79,82 @@ def _make_contour_gap(clearance: Clearance, contour: Contour) -> list[Step]:
     e steep, and the bearing takes the moment −F_n w′ of a force through the journal's centre.
     """
     return [
-        Step(e, sp.sqrt(e_x**2 + e_y**2)),
-        Step(u_x, e_x / e),
-        Step(u_y, e_y / e),
-        Step(beta_i, sp.atan2(e_y, e_x) - theta_i),
-        Step(worn, contour.compute_depth(beta_i, 0)),
-        Step(worn_slope, contour.compute_depth(beta_i, 1)),
-        Step(delta, e - clearance.pair.c - worn),
-        Step(beta_rate, (de_y * u_x - de_x * u_y) / e - omega_i),
-        Step(deltadot, de_x * u_x + de_y * u_y - worn_slope * beta_rate),
-        Step(slant, sp.sqrt(e**2 + worn_slope**2)),
-        Step(steep, slant / e),
-        Step(n_x, (e_x + worn_slope * u_y) / slant),
-        Step(n_y, (e_y - worn_slope * u_x) / slant),
-        Step(de_t, de_y * n_x - de_x * n_y),
+        Assignment(e, sp.sqrt(e_x**2 + e_y**2)),
+        Assignment(u_x, e_x / e),
+        Assignment(u_y, e_y / e),
+        Assignment(beta_i, sp.atan2(e_y, e_x) - theta_i),
+        Assignment(worn, contour.compute_depth(beta_i, 0)),
+        Assignment(worn_slope, contour.compute_depth(beta_i, 1)),
+        Assignment(delta, e - clearance.pair.c - worn),
+        Assignment(beta_rate, (de_y * u_x - de_x * u_y) / e - omega_i),
+        Assignment(deltadot, de_x * u_x + de_y * u_y - worn_slope * beta_rate),
+        Assignment(slant, sp.sqrt(e**2 + worn_slope**2)),
+        Assignment(steep, slant / e),
+        Assignment(n_x, (e_x + worn_slope * u_y) / slant),
+        Assignment(n_y, (e_y - worn_slope * u_x) / slant),
+        Assignment(de_t, de_y * n_x - de_x * n_y),
     ]
 
 
-def _make_wall_gap(clearance: Clearance, wall: Wall) -> list[Step]:
+def _make_wall_gap(clearance: Clearance, wall: Wall) -> list[Assignment]:
     """Return the equations of the gap of a slider's corner at a wall of its guide.
 
     The outward normal n turns with the guide: ṅ = ω_i t. (e_x, e_y) leads from the guide's point to the centre of the
     corner's radius. e is the displacement of that centre towards the wall from the middle of the guide.
     """
     return [
-        Step(along, e_y * n_x - e_x * n_y),
-        Step(e, e_x * n_x + e_y * n_y - wall.rise),
-        Step(delta, e - clearance.pair.c),
-        Step(deltadot, de_x * n_x + de_y * n_y + omega_i * along),
-        Step(de_t, de_y * n_x - de_x * n_y),
+        Assignment(along, e_y * n_x - e_x * n_y),
+        Assignment(e, e_x * n_x + e_y * n_y - wall.rise),
+        Assignment(delta, e - clearance.pair.c),
+        Assignment(deltadot, de_x * n_x + de_y * n_y + omega_i * along),
+        Assignment(de_t, de_y * n_x - de_x * n_y),
     ]
 
 
-def make_penetration_equation(clearance: Clearance) -> Step:
+def make_penetration_equation(clearance: Clearance) -> Assignment:
     """Return the equation of the penetration δ of a joint; without a contour it depends on e alone."""
     return next(step for step in make_gap_equations(clearance) if step.symbol == delta)
 
 
-def make_contour_gap_equations(clearance: Clearance) -> list[Step]:
+def make_contour_gap_equations(clearance: Clearance) -> list[Assignment]:
     """Return the equations of δ, δ̇ and ė_t of a contour in directions along e and across it.
 
     `de_n` and `across` are the rates of e in these directions, `worn` and `worn_slope` the depth w and its derivative
     w′.
     """
     return [
-        Step(delta, e - clearance.pair.c - worn),
-        Step(lean, worn_slope / e),
-        Step(steep, sp.sqrt(1 + lean**2)),
-        Step(deltadot, de_n - lean * across + worn_slope * omega_i),
-        Step(de_t, (across + lean * de_n) / steep),
+        Assignment(delta, e - clearance.pair.c - worn),
+        Assignment(lean, worn_slope / e),
+        Assignment(steep, sp.sqrt(1 + lean**2)),
+        Assignment(deltadot, de_n - lean * across + worn_slope * omega_i),
+        Assignment(de_t, (across + lean * de_n) / steep),
     ]
 
 
-def make_lever_arm_equations(clearance: Clearance) -> list[Step]:
+def make_lever_arm_equations(clearance: Clearance) -> list[Assignment]:
     """Return the equations that precede the laws of a dry contact: lever arms of the contact point and slip v_t.
 
     The contact point is at mid-penetration. With `clip_ratio` the clipped ratio of velocities follows.
     """
     dimensions = clearance.pair
-    clipped = [Step(ratio, sp.Max(-1, sp.Min(1, deltadot / stored)))] if clearance.clip_ratio else []
+    clipped = [Assignment(ratio, sp.Max(-1, sp.Min(1, deltadot / stored)))] if clearance.clip_ratio else []
     if clearance.contour:
-        levers = [Step(a_j, dimensions.R_j - delta / (2 * steep)), Step(a_i, e / steep + a_j)]
-        return [*levers, Step(v_t, de_t + omega_j * a_j - omega_i * a_i), *clipped]
+        levers = [Assignment(a_j, dimensions.R_j - delta / (2 * steep)), Assignment(a_i, e / steep + a_j)]
+        return [*levers, Assignment(v_t, de_t + omega_j * a_j - omega_i * a_i), *clipped]
     return [
-        Step(a_i, dimensions.R_i + delta / 2),
-        Step(a_j, dimensions.R_j - delta / 2),
-        Step(v_t, de_t + omega_j * a_j - omega_i * a_i),
+        Assignment(a_i, dimensions.R_i + delta / 2),
+        Assignment(a_j, dimensions.R_j - delta / 2),
+        Assignment(v_t, de_t + omega_j * a_j - omega_i * a_i),
         *clipped,
     ]
 
 
-def make_contour_normal_force(clearance: Clearance) -> list[Step]:
+def make_contour_normal_force(clearance: Clearance) -> list[Assignment]:
     """Return the equation of the normal force of a contour, on which friction depends.
 
     The list is empty without a contour.
     """
-    return [Step(F_N, steep * _make_symbol("F_n"))] if clearance.contour else []
+    return [Assignment(F_N, steep * _make_symbol("F_n"))] if clearance.contour else []
 
 
 def resolve_contour_force(F_n: sp.Expr, friction_force: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
@@ -165,7 +165,7 @@ def resolve_contour_force(F_n: sp.Expr, friction_force: sp.Expr) -> tuple[sp.Exp
     return -F_n + friction_force * lean / steep, F_n * lean + friction_force / steep
 
 
-def make_dry_moment_equations(clearance: Clearance) -> list[Step]:
+def make_dry_moment_equations(clearance: Clearance) -> list[Assignment]:
     """Return the equations of the moments of the dry contact about the centres of bearing i and journal j.
 
     With a contour the bearing takes −w′ F_n in addition.
@@ -173,17 +173,17 @@ def make_dry_moment_equations(clearance: Clearance) -> list[Step]:
     tangential = make_part_symbol(F_along_t, "dry")
     moment = -worn_slope * _make_symbol("F_n") if clearance.contour else 0
     return [
-        Step(make_part_symbol(M_i, "dry"), -a_i * tangential + moment),
-        Step(make_part_symbol(M_j, "dry"), a_j * tangential),
+        Assignment(make_part_symbol(M_i, "dry"), -a_i * tangential + moment),
+        Assignment(make_part_symbol(M_j, "dry"), a_j * tangential),
     ]
 
 
-def make_wall_moment_equation(F_n: sp.Expr) -> Step:
+def make_wall_moment_equation(F_n: sp.Expr) -> Assignment:
     """Return the equation of the moment about the guide's point, with the lever arm of the normal force F_n."""
-    return Step(M_i, make_part_symbol(M_i, "dry") - along * F_n)
+    return Assignment(M_i, make_part_symbol(M_i, "dry") - along * F_n)
 
 
-def make_film_input_equations(clearance: Clearance, film: LawEquations) -> list[Step]:
+def make_film_input_equations(clearance: Clearance, film: LawEquations) -> list[Assignment]:
     """Return the equations of the eccentricity ratio ε and of the effective squeeze velocity w over the clearance.
 
     ε is capped at EPSILON_MAX. A film may have a clearance of its own, and its option selects relative or summed
@@ -192,13 +192,13 @@ def make_film_input_equations(clearance: Clearance, film: LawEquations) -> list[
     c = clearance.constants.get("film_clearance", clearance.constants.get(MEAN_CLEARANCE, clearance.pair.c))
     angular_velocity = omega_j - omega_i if film.options.get("angular_velocity") == "relative" else omega_i + omega_j
     return [
-        Step(epsilon, sp.Min(e / c, sp.Float(EPSILON_MAX))),
-        Step(w_n, deltadot / c),
-        Step(w_t, (de_t - angular_velocity * e / 2) / c),
+        Assignment(epsilon, sp.Min(e / c, sp.Float(EPSILON_MAX))),
+        Assignment(w_n, deltadot / c),
+        Assignment(w_t, (de_t - angular_velocity * e / 2) / c),
     ]
 
 
-def make_film_moment_equations(film: LawEquations) -> list[Step]:
+def make_film_moment_equations(film: LawEquations) -> list[Assignment]:
     """Return the equations of the moments of the film about both centres.
 
     Without `shear` the resultant acts at the journal's centre, and the journal's moment is 0. With it, it acts at the
@@ -207,41 +207,41 @@ def make_film_moment_equations(film: LawEquations) -> list[Step]:
     tangential = make_part_symbol(F_along_t, "film")
     if not film.options.get("shear", False):
         return [
-            Step(make_part_symbol(M_i, "film"), -e * tangential),
-            Step(make_part_symbol(M_j, "film"), sp.Integer(0)),
+            Assignment(make_part_symbol(M_i, "film"), -e * tangential),
+            Assignment(make_part_symbol(M_j, "film"), sp.Integer(0)),
         ]
     drag = _make_symbol("T0") * (omega_j - omega_i)
     return [
-        Step(make_part_symbol(M_i, "film"), drag - e * tangential / 2),
-        Step(make_part_symbol(M_j, "film"), -drag - e * tangential / 2),
+        Assignment(make_part_symbol(M_i, "film"), drag - e * tangential / 2),
+        Assignment(make_part_symbol(M_j, "film"), -drag - e * tangential / 2),
     ]
 
 
-def make_blend_equations(clearance: Clearance, closed: bool = False) -> list[Step]:
+def make_blend_equations(clearance: Clearance, is_closed: bool = False) -> list[Assignment]:
     """Return the equations of the fraction of the dry contact: 0 at e = c, 1 at e = c + e_0 (equation 17 of the paper).
 
-    A law of mixed lubrication replaces it. For a `closed` contact it has no switching point at e = c, which opening and
-    closing represent. The law reads `depth` then, since it may be undefined at δ < 0, where samples before a separation
-    lie.
+    A law of mixed lubrication replaces it. For a closed contact (`is_closed`) it has no switching point at e = c, which
+    opening and closing represent. The law reads `depth` then, since it may be undefined at δ < 0, where samples before
+    a separation lie.
     """
     if clearance.mixed is not None:
-        replacement = {delta: depth if closed else sp.Max(0, delta)}
+        replacement = {delta: depth if is_closed else sp.Max(0, delta)}
         return [
-            Step(_make_symbol(name), sp.sympify(expression).xreplace(replacement))
+            Assignment(_make_symbol(name), sp.sympify(expression).xreplace(replacement))
             for name, expression in clearance.mixed.steps.items()
         ]
     fraction = sp.Min(1, delta / clearance.transition)
-    return [Step(share, fraction if closed else sp.Max(0, fraction))]
+    return [Assignment(share, fraction if is_closed else sp.Max(0, fraction))]
 
 
-def make_resultant_equations(clearance: Clearance) -> list[Step]:
+def make_resultant_equations(clearance: Clearance) -> list[Assignment]:
     """Return the equations of the force on the journal in ground axes, and of the moments if parts are blended.
 
     A film and a dry contact are blended by the fraction `share`; a wall has the moment of its normal force in addition.
     """
     dry, film = clearance.normal is not None, clearance.film is not None
     normal, radial = -(F_N if clearance.contour else _make_symbol("F_n")), _make_symbol("F_r")
-    equations: list[Step] = []
+    equations: list[Assignment] = []
     if dry and film:
         equations += (
             make_blend_equations(clearance) if clearance.mixed is None else []
@@ -252,7 +252,7 @@ def make_resultant_equations(clearance: Clearance) -> list[Step]:
         }
         blended = {F_along_n: (normal, radial), **blended}
         equations += [
-            Step(symbol, share * dry_value + (1 - share) * film_value)
+            Assignment(symbol, share * dry_value + (1 - share) * film_value)
             for symbol, (dry_value, film_value) in blended.items()
         ]
         normal_force = F_along_n
@@ -262,8 +262,8 @@ def make_resultant_equations(clearance: Clearance) -> list[Step]:
     equations += [make_wall_moment_equation(_make_symbol("F_n"))] if clearance.wall else []
     return [
         *equations,
-        Step(F_x, normal_force * n_x - tangential * n_y),
-        Step(F_y, normal_force * n_y + tangential * n_x),
+        Assignment(F_x, normal_force * n_x - tangential * n_y),
+        Assignment(F_y, normal_force * n_y + tangential * n_x),
     ]
 
 

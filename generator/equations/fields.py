@@ -95,7 +95,7 @@ class JointFields:
             symbols.rules[function] = {base: rate * next_derivative for base, rate in rates.items()}
         return derivatives[0]
 
-    def derive(self, name: str, expression: sp.Expr) -> sp.Expr:
+    def derive_parameter(self, name: str, expression: sp.Expr) -> sp.Expr:
         """Return a derived parameter of the joint from an expression of parameters; it is computed once a run."""
         return self._parameter_table.derive_parameter(
             f"{self._joint.name}_{name}",
@@ -115,7 +115,7 @@ class JointFields:
             key = f"{body.name}.theta"
             quantity = start.set.get(key) or start.guess.get(key)
             values[body.theta] = ZERO if quantity is None else self._parameter_table.get_or_add_parameter(quantity)
-        return self.derive(name, expression.xreplace(values))
+        return self.derive_parameter(name, expression.xreplace(values))
 
 
 def derive_unit_vector(

@@ -76,7 +76,7 @@ class PointFrame:
 
     @property
     def velocity(self) -> tuple[sp.Expr, sp.Expr]:
-        """Return the velocity ṙ = (ẋ, ẏ) + ω ẑ × arm."""
+        """Return the velocity ṙ = (ẋ, ẏ) + ω ẑ × arm; (0, 0) for a point of the ground."""
         if self.body is None:
             return ZERO, ZERO
         return self.body.vx - self.arm[1] * self.body.omega, self.body.vy + self.arm[0] * self.body.omega
@@ -147,8 +147,8 @@ class Geometry(Freezable):
     def _derive_unit_inertia(self) -> sp.Expr:
         """Return the moment of inertia of every body of a massless mechanism as a parameter.
 
-        It is that of 1 kg at the mean squared distance of all points, and defines only the metric in which a closed
-        linkage is solved.
+        It is that of 1 kg at the mean squared distance of all points, and defines only the metric in which the closed
+        linkage (all joints without play) is solved.
         """
         components = [component for vector in self.local_vectors.values() for component in vector if component != 0]
         mean_square = sp.Add(*(component**2 for component in components)) / max(len(components), 1)

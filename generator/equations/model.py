@@ -237,21 +237,25 @@ class Model:
         points = dict.fromkeys((end.body, end.point) for end in ends if end.body == body and (body, end.point) in local)
         return tuple(s**2 for point in points for s in local[point])
 
-    def compute_turning_inertia(self, body: str) -> sp.Expr:
-        """Return J + Σ m s² of a body, with s from its centre of mass to the points of its joints."""
+    def compute_inertia_about_joints(self, body: str) -> sp.Expr:
+        """Return the sum J + Σ m s² of a body over the points of its joints (parallel-axis theorem).
+
+        s leads from the centre of mass to each point.
+        """
         body_symbols = self.geometry.bodies[body]
         return sp.Add(body_symbols.inertia, *(body_symbols.mass * square for square in self.compute_squared_arms(body)))
 
-    def is_light(self, body: str, joint: Joint | None) -> bool:
+    def has_negligible_inertia(self, body: str, joint: Joint | None) -> bool:
         """Return whether a body has nearly no moment of inertia about a joint, because its mass is lumped there.
 
-        With `joint` None the centre of mass replaces the joint. Values are the defaults of the file.
+        It is less than 1e-6 of the sum over all its joints, with the default values of the file. With `joint` None, or
+        a joint of other bodies, the centre of mass replaces the joint.
         """
         body_symbols, default = self.geometry.bodies[body], self.parameter_table.compute_default
         ends = [end for end in (joint.first, joint.second) if end.body == body] if joint else []
         arm = self.geometry.local_vectors.get((body, ends[0].point), ()) if ends else ()
         inertia = body_symbols.inertia + sp.Add(*(body_symbols.mass * s**2 for s in arm))
-        return default(inertia) < LIGHT_BODY * default(self.compute_turning_inertia(body))
+        return default(inertia) < LIGHT_BODY * default(self.compute_inertia_about_joints(body))
 
     @cached_property
     def masses(self) -> tuple[sp.Expr, ...]:

@@ -18,7 +18,7 @@ from gudgeon.generator.equations.user_defined_laws import (
 )
 from gudgeon.generator.kinds.laws.built import build_law
 from gudgeon.generator.kinds.laws.law import (
-    DEEPEST,
+    MAX_PENETRATION,
     MEAN_CLEARANCE,
     RESULTS,
     USER_LAWS,
@@ -252,7 +252,7 @@ def _derive_law(
         if name not in force_names
     }
     for name in force_names:
-        max_penetration = find_default_value(parameter_table, parameters.get(DEEPEST, bearing_symbols.c))
+        max_penetration = find_default_value(parameter_table, parameters.get(MAX_PENETRATION, bearing_symbols.c))
         parameters[name] = read_force_expression(
             law_use.quantities[name], variables["delta"], max_penetration, parameter_table
         )

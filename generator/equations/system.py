@@ -66,23 +66,23 @@ class System:
     dependent: tuple[DependentCoordinate, ...] = field(default=(), kw_only=True)  # of driven chains (driven_chains.py)
     in_tree: ClassVar[bool] = False  # whether the coordinates are those of a tree
 
-    def compute_turning_inertia(self, k: int) -> sp.Expr:
-        """Return the inertia about coordinate k if it is an angle, else 0.
+    def compute_inertia_about_joints(self, k: int) -> sp.Expr:
+        """Return the moment of inertia with which the pivot of M of coordinate k is compared; 0 for x and y.
 
-        It is J + m s² of its joints' points, s measured from the centre of mass. It is a derived parameter, with which
-        pivots of M are compared.
+        For the angle of a body it is J + Σ m s² over the points of its joints (parallel-axis theorem), s measured from
+        the centre of mass, as a derived parameter.
         """
         if k % 3 != 2:
             return ZERO
         name = self.model.bodies[k // 3].name
         return self.model.parameter_table.derive_parameter(
-            f"{name}_turning", self.model.compute_turning_inertia(name), "J and m s^2 of its joints"
+            f"{name}_turning", self.model.compute_inertia_about_joints(name), "J and m s^2 of its joints"
         )
 
     def compute_inertia_of_unit_mass(self, k: int) -> sp.Expr:
-        """Return what coordinate k moves if bodies had 1 kg: s² of its joints' points for an angle, else 1.
+        """Return the inertia of coordinate k for a mass of 1 kg: Σ s² over the joint points for an angle, else 1.
 
-        It sets least masses in projections.
+        Projections scale it to the smallest mass that they use (`raise_small_masses`).
         """
         return sp.Add(*self.model.compute_squared_arms(self.model.bodies[k // 3].name)) if k % 3 == 2 else ONE
 

@@ -95,7 +95,10 @@ def _check_force(force: Quantity, max_penetration: float, parameter_table: Param
 
 
 def _check_slope(force: Quantity, value: sp.Expr, delta: sp.Symbol, parameter_table: ParameterTable) -> None:
-    """Raise BadValueError if the derivative of the force by δ is not finite at δ = 0, so that no Jacobian exists."""
+    """Raise BadValueError if the derivative of the force by δ is not finite at δ = 0, so that no Jacobian exists.
+
+    `value` is the force as an expression of `delta` and parameters, which get their defaults in `parameter_table`.
+    """
     defaults = {entry.symbol: sp.Float(entry.default, 17) for entry in parameter_table.entries.values()}
     slope = sp.diff(value, delta).xreplace(defaults).subs(delta, 0)
     if slope.has(sp.zoo, sp.nan, sp.oo, -sp.oo):

@@ -78,11 +78,11 @@ class _ComplexConverter:
         return [argument]
 
     def _convert_line(self, line: Line) -> list[Line]:
-        """Return the real lines that replace a line, after the auxiliary locals that they read.
+        """Return the lines of real numbers that replace a line, preceded by the locals that they read.
 
-        The list of pending locals is emptied.
+        These were collected in `pending_locals`, which is emptied.
         """
-        lines = self._convert_without_locals(line)
+        lines = self._split_line(line)
         locals_, self.pending_locals = self.pending_locals, []
         return locals_ + lines
 
@@ -96,11 +96,12 @@ class _ComplexConverter:
         self.pending_locals.append(Statement(local.name, value))
         return local
 
-    def _convert_without_locals(self, line: Line) -> list[Line]:
-        """Return the lines that replace a line, without the auxiliary locals.
+    def _split_line(self, line: Line) -> list[Line]:
+        """Return the lines of real numbers that replace a line; locals that they read go to `pending_locals`.
 
-        Arrays are declared with twice their sizes, calls get the suffix "_complex", and lines without complex operands
-        stay. Raise ValueError for all others.
+        A statement becomes one for each part, the test of a pivot one of |real| + |imaginary|. A declared array gets
+        twice its sizes and counts as complex from then on, a call gets the suffix "_complex", and other lines without
+        complex operands stay. Raise ValueError for all others.
         """
         match line:
             case Statement():

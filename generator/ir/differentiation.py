@@ -91,14 +91,14 @@ class Tangents:
         """Return the tangent by the base symbols of a value from its derivatives by other symbols (chain rule)."""
         return self.sum_tangents((factor, self.get_tangent(symbol)) for symbol, factor in tangent.items())
 
-    def hold_branches(self, expression: sp.Expr) -> sp.Expr:
+    def freeze_branches(self, expression: sp.Expr) -> sp.Expr:
         """Return the expression with each switching function replaced by its active branch.
 
         The variables of `make_tangents_for_variables` are replaced by those of the kernel. A branch that is read for
         the first time is assigned by a new line of the kernel.
         """
         n_known = len(self._branches)
-        fixed = self._symbols.switches.hold_branches(expression, self._owner, self._branches)
+        fixed = self._symbols.switches.freeze_branches(expression, self._owner, self._branches)
         for branch, value in list(self._branches.items())[n_known:]:
             self._builder.append_line(Statement(branch.name, value.xreplace(self._symbol_map)))
         return fixed.xreplace(self._symbol_map)
@@ -109,7 +109,7 @@ class Tangents:
         `value_symbol`: a symbol that holds the value of the expression; a square root is then differentiated by
         dividing by that symbol.
         """
-        fixed = self.hold_branches(expression)
+        fixed = self.freeze_branches(expression)
         order = sorted(fixed.free_symbols, key=lambda s: s.name)
         if value_symbol is not None and fixed.is_Pow and fixed.exp == sp.Rational(1, 2):
             scale = sp.Rational(1, 2) / (value_symbol + TINY)

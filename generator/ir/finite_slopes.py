@@ -14,7 +14,7 @@ import sympy as sp
 from gudgeon.generator.symbols.derivatives import differentiate, find_symbols
 from gudgeon.generator.symbols.from_expressions import CLASSES, convert_derivative, find_classes
 from gudgeon.generator.symbols.switches import Largest, Pick, Smallest
-from gudgeon.generator.symbols.unevaluated import Share
+from gudgeon.generator.symbols.unevaluated import Share as UnevaluatedQuotient
 
 _SATURATING_CLASSES = find_classes(lambda f: f.saturates)
 _OVERFLOWING_CLASSES = find_classes(lambda f: f.is_exponential or f.has_pole)
@@ -143,7 +143,7 @@ def make_slope_or_zero(derivative: sp.Expr) -> Slope:
 def convert_for_intervals(expression: sp.Expr) -> sp.Expr:
     """Return the expression in the form for interval arithmetic, in which 0 · ∞ is 0.
 
-    It has no `Slope`, and conditional branches become Heaviside functions. Branches that are held over a step stay.
+    It has no `Slope`, and conditional branches become Heaviside functions. Branches that are frozen over a step stay.
     """
     expression = remove_slopes(expression)
     return expression.replace(Pick, _replace_branch_by_heaviside) if expression.has(Pick) else expression
@@ -155,9 +155,9 @@ def remove_slopes(expression: sp.Expr) -> sp.Expr:
 
 
 def _replace_branch_by_heaviside(branch: sp.Expr, a: sp.Expr, b: sp.Expr) -> sp.Expr:
-    """Return a branch that a sign chooses as b + H(x) (a − b); a branch held over a step is returned as a `Pick`.
+    """Return a branch that a sign chooses as b + H(x) (a − b); a branch frozen over a step as a `Pick`.
 
-    `branch` is the sign or held branch; `a` and `b` are the values above and below zero.
+    `branch` is the sign or frozen branch; `a` and `b` are the values above and below zero.
     """
     if not branch.has(sp.sign):
         return Pick(branch, a, b)
@@ -169,35 +169,37 @@ _SQUARING_CLASSES = find_classes(lambda f: f.squares_argument)  # whose derivati
 _MAX_SAFE_DECADES = 100  # decades from 1 beyond which the square of a number may overflow together with other factors
 
 
-def find_extreme_terms(expression: sp.Expr, symbol: sp.Symbol) -> list[sp.Expr]:
+def find_overflowing_squares(expression: sp.Expr, symbol: sp.Symbol) -> list[sp.Expr]:
     """Return the outermost terms whose derivative must keep quotients v′/v together.
 
-    These are squared values that may overflow, and terms that are a `Slope` or `Share` already. Empty if the expression
-    does not depend on `symbol`.
+    Their derivative would square a value whose square may overflow or underflow, or they are a `Slope` or an
+    `UnevaluatedQuotient` already. Empty if the expression does not depend on `symbol`.
     """
     if symbol not in find_symbols(expression):
         return []
-    if isinstance(expression, (Share, Slope)) or _may_square_extreme_value(expression):
+    if isinstance(expression, (UnevaluatedQuotient, Slope)) or _may_overflow_when_squared(expression):
         return [expression]
-    return [term for argument in expression.args for term in find_extreme_terms(argument, symbol)]
+    return [term for argument in expression.args for term in find_overflowing_squares(argument, symbol)]
 
 
 def differentiate_with_quotients(expression: sp.Expr, symbol: sp.Symbol) -> sp.Expr:
     """Return ∂/∂symbol of a smooth expression in the form that keeps quotients v′/v together.
 
-    A `Slope` is differentiated through its first argument, a `Share` inside the `Share`. A power vⁿ that may overflow
-    gives n vⁿ Share(v′/v). An expression without terms that may overflow is differentiated by SymPy.
+    A `Slope` is differentiated through its first argument, an `UnevaluatedQuotient` inside it. A power vⁿ whose square
+    may overflow gives n vⁿ UnevaluatedQuotient(v′/v). An expression without such terms is differentiated by SymPy.
     """
     if isinstance(expression, Slope):
         return differentiate_with_quotients(expression.args[0], symbol)
-    if isinstance(expression, Share):
-        return Share(differentiate_with_quotients(expression.args[0], symbol))
-    terms = {term: sp.Dummy(real=True) for term in find_extreme_terms(expression, symbol)}
+    if isinstance(expression, UnevaluatedQuotient):
+        return UnevaluatedQuotient(differentiate_with_quotients(expression.args[0], symbol))
+    terms = {term: sp.Dummy(real=True) for term in find_overflowing_squares(expression, symbol)}
     if not terms:
         return _differentiate_by_sympy(expression, symbol)
     if expression in terms and expression.is_Pow:
         return (
-            expression.exp * expression * Share(differentiate_with_quotients(expression.base, symbol) / expression.base)
+            expression.exp
+            * expression
+            * UnevaluatedQuotient(differentiate_with_quotients(expression.base, symbol) / expression.base)
         )
     if expression in terms:
         (argument,), inner_terms = expression.args, sp.Dummy(real=True)
@@ -205,7 +207,7 @@ def differentiate_with_quotients(expression: sp.Expr, symbol: sp.Symbol) -> sp.E
             outer_derivative = convert_derivative(derivative_text, inner_terms, expression)
         else:
             outer_derivative = differentiate(expression.func(inner_terms), inner_terms)
-        outer_derivative = outer_derivative.xreplace({inner_terms: Share(argument)})
+        outer_derivative = outer_derivative.xreplace({inner_terms: UnevaluatedQuotient(argument)})
         return outer_derivative * differentiate_with_quotients(argument, symbol)
     renamed, terms_by_dummy = expression.xreplace(terms), {dummy: term for term, dummy in terms.items()}
     inner_terms = (
@@ -215,11 +217,14 @@ def differentiate_with_quotients(expression: sp.Expr, symbol: sp.Symbol) -> sp.E
 
 
 def remove_numerical_forms(expression: sp.Expr) -> sp.Expr:
-    """Return the expression as a document prints it: without `Slope` and `Share`, which only keep its values finite."""
+    """Return the expression as a document prints it, without `Slope` and `UnevaluatedQuotient`.
+
+    These only keep its values finite.
+    """
     expression_without_slopes = remove_slopes(expression)
     return (
-        expression_without_slopes.replace(Share, lambda x: x)
-        if expression_without_slopes.has(Share)
+        expression_without_slopes.replace(UnevaluatedQuotient, lambda x: x)
+        if expression_without_slopes.has(UnevaluatedQuotient)
         else expression_without_slopes
     )
 
@@ -232,7 +237,7 @@ def _differentiate_by_sympy(expression: sp.Expr, symbol: sp.Symbol) -> sp.Expr:
     return rate
 
 
-def _may_square_extreme_value(term: sp.Expr) -> bool:
+def _may_overflow_when_squared(term: sp.Expr) -> bool:
     """Return whether differentiation of a term would square a value whose square may overflow or vanish.
 
     Such terms are v^-n with a number n, and atan(v) and similar functions.

@@ -105,10 +105,10 @@ def _count_by_sympy(expression: sp.Basic) -> int:
     return sum(int(count) for kind, count in counts.items() if kind.is_Symbol and kind.name != "NEG")
 
 
-def hold_branches(
+def freeze_branches(
     switches: Switches, owner: str, sections: Iterable[Section], registered_only: bool = False
 ) -> list[Section]:
-    """Return the sections with each switching function replaced by its branch, which is held over a step.
+    """Return the sections with each switching function replaced by its branch, which is frozen over a step.
 
     Each branch is assigned once, in a statement before the first that reads it. `owner`: whose switches are counted; ""
     is the scene. `registered_only`: switching functions that are not registered yet stay.
@@ -125,7 +125,7 @@ def hold_branches(
                         statements.append(statement)
                     continue
                 n_known = len(branches)
-                value = switches.hold_branches(statement.value, owner, branches, registered_only)
+                value = switches.freeze_branches(statement.value, owner, branches, registered_only)
                 statements += [Statement(s.name, branch) for s, branch in list(branches.items())[n_known:]]
                 statement = replace(statement, value=value)
             statements.append(statement)
@@ -165,7 +165,7 @@ HELD_BRANCHES_TITLE = (
 
 
 def declare_branches(kernel: Kernel, output_target: str = "nobody") -> Kernel:
-    """Return the kernel with a first section that declares the held branches.
+    """Return the kernel with a first section that declares the frozen branches.
 
     A kernel that reads no branch is returned unchanged. `output_target`: where the kernel writes its switching
     functions, "", "nobody" or "rhs" (see `DeclareBranches`).
@@ -262,7 +262,7 @@ class KernelBuilder:
         ]
         sections = input_sections + [Section(title, tuple(group)) for title, group in self._sections]
         if owner is not None:
-            sections = hold_branches(self._symbols.switches, owner, sections, registered_only)
+            sections = freeze_branches(self._symbols.switches, owner, sections, registered_only)
         nonempty = tuple(section for section in sections if section.statements)
         read_names = {name for section in nonempty for line in section.statements for name in line.reads}
         names = self._symbols.find_shorter_names(read_names)

@@ -55,7 +55,7 @@ def make_output_argument(name: str, type: Type = Number.REAL) -> Argument:
     return Argument(name, type, Access.WRITTEN)
 
 
-# The branches that are held over a step (or none), and the array to which switching functions are written.
+# The branches that are frozen over a step (or none), and the array to which switching functions are written.
 BRANCHES = (make_input_argument("branch"), make_output_argument("g"))
 
 TIME = Argument("t", access=Access.CONSTANT)

@@ -1,17 +1,15 @@
 """Division of a long generated function into parts that a C compiler can handle.
 
 Compilers allocate registers for a function as a whole, in more than linear time: the dynamics of 64 four-bars as one
-function of ten thousand statements would take gcc a minute. So a kernel of more than 850 lines becomes several of
-250 statements, called one after the other. A value that one part computes and another reads is passed through an array,
-under the same name in both. Shorter kernels, that is all except long chains, stay as they are.
-Runs of plain statements and of tests of pivots are divided. Lines that declare, call or jump stay in the function
-itself, and so do lines that read names which only such lines know.
-Before that, statements are moved near those that read them (`order_near_readers`). As derived, a kernel first
-computes all
-directions and arms, then all pivots, then all substitutions: in a long one each value has left the registers and the
-nearest cache before it is read. Here a result or a test of a pivot is preceded by what it needs, and what can be
-computed from the values at hand is computed then. Each statement stays as it is and follows what it reads: the numbers
-are the same, bit for bit.
+function of ten thousand statements would take gcc a minute. So a kernel of more than 850 lines becomes several of 250
+statements, called one after the other. A value that one part computes and another reads is passed through an array,
+under the same name in both. Shorter kernels, that is all except long chains, stay as they are. Runs of plain statements
+and of tests of pivots are divided. Lines that declare, call or jump stay in the function itself, and so do lines that
+read names which only such lines know. Before that, statements are moved near those that read them
+(`order_statements_near_readers`). As derived, a kernel first computes all directions and arms, then all pivots, then
+all substitutions: in a long one each value has left the registers and the nearest cache before it is read. Here a
+result or a test of a pivot is preceded by what it needs, and what can be computed from the values at hand is computed
+then. Each statement stays as it is and follows what it reads: the numbers are the same, bit for bit.
 """
 
 from __future__ import annotations
@@ -37,7 +35,7 @@ from gudgeon.generator.ir.statements import (
 from gudgeon.generator.symbols.storage import Place
 
 
-def order_near_readers(read_names: Sequence[frozenset[str]], defined_names: Sequence[str]) -> list[int]:
+def order_statements_near_readers(read_names: Sequence[frozenset[str]], defined_names: Sequence[str]) -> list[int]:
     """Return an order of statements in which each is near those that read it, as a list of indices.
 
     Statement k reads the names `read_names[k]` and defines `defined_names[k]` ("": a result or a test). Each follows
@@ -250,11 +248,14 @@ def _find_unused_name(name: str, items: Sequence[TitledLine]) -> str:
 
 
 def _order_lines(items: list[TitledLine]) -> list[TitledLine]:
-    """Return the lines in the order of `order_near_readers`, or unchanged if one reads an array that another writes."""
+    """Return the lines, each moved near its readers; unchanged if a line reads an array that another writes."""
     written_arrays = frozenset().union(*(item.line.writes for item in items))
     if any(written_arrays & item.line.reads for item in items):
         return items
-    return [items[k] for k in order_near_readers([item.reads for item in items], [item.defines for item in items])]
+    return [
+        items[k]
+        for k in order_statements_near_readers([item.reads for item in items], [item.defines for item in items])
+    ]
 
 
 def _make_load(name: str, place: Place) -> TitledLine:

@@ -45,17 +45,17 @@ def make_prepare_kernel(model: Model) -> Kernel:
 
 def make_mass_kernel(model: Model) -> Kernel:
     """Return the C function that writes the diagonal of the mass matrix M in absolute coordinates to `m` (n)."""
-    build = KernelBuilder(
+    builder = KernelBuilder(
         model.symbols, "mass_matrix", ["The diagonal of the mass matrix M (n) in absolute coordinates."]
     )
-    build.begin_section("M")
+    builder.begin_section("M")
     for k, mass in enumerate(model.masses):
-        build.append_store(Place("m")[k], mass)
-    return build.build_kernel((PARAMETERS, make_output_argument("m")))
+        builder.append_store(Place("m")[k], mass)
+    return builder.build_kernel((PARAMETERS, make_output_argument("m")))
 
 
 def make_row_kernels(model: Model) -> list[Kernel]:
-    """Return the C functions of the constraint equations of the closed linkage: Φ, Φ_q (dense, row by row), ν and γ."""
+    """Return the C functions of the constraint equations without play: Φ, Φ_q (dense, row by row), ν and γ."""
 
     def make_kernel(
         name: str,
@@ -70,16 +70,16 @@ def make_row_kernels(model: Model) -> list[Kernel]:
         `doc`: its comment; `reads_velocity`: the value depends on velocities; `get_value` returns it; `unit_suffix`:
         suffix of the unit, such as "/s".
         """
-        build = KernelBuilder(model.symbols, name, [doc])
-        build.begin_section("rows")
+        builder = KernelBuilder(model.symbols, name, [doc])
+        builder.begin_section("rows")
         for row_index, row in enumerate(model.all_rows):
-            build.append_store(
+            builder.append_store(
                 Place(array)[row_index],
                 get_value(row),
                 f"{row.name}, {row.unit}{unit_suffix}{_describe_absence(model, row)}",
             )
         arguments = (*STATE, PARAMETERS, make_output_argument(array))
-        return build.build_kernel(arguments if reads_velocity else (*STATE[:2], *arguments[3:]))
+        return builder.build_kernel(arguments if reads_velocity else (*STATE[:2], *arguments[3:]))
 
     note = " Rows marked 'open' or 'redundant' do not constrain the motion."
     note *= any(_describe_absence(model, row) for row in model.all_rows)
@@ -118,23 +118,23 @@ def _describe_absence(model: Model, row: Row) -> str:
 
 
 def _make_jacobian_kernel(model: Model) -> Kernel:
-    """Return the C function of the dense constraint Jacobian Φ_q of the closed linkage.
+    """Return the C function of the dense Jacobian Φ_q of all constraint equations, also of joints with play.
 
     It writes the non-zero entries only.
     """
-    build = KernelBuilder(
+    builder = KernelBuilder(
         model.symbols,
         "jacobian",
         ["The Jacobian Phi_q of the closed linkage, dense, row by row; zero entries are not written."],
     )
-    build.begin_section("non-zeros")
+    builder.begin_section("non-zeros")
     column_of = {q: k for k, q in enumerate(model.q)}
     for row_index, row in enumerate(model.all_rows):
         for q, value in row.phi_q.items():
-            build.append_store(
+            builder.append_store(
                 Place("phi_q")[row_index * len(model.q) + column_of[q]], value, f"d {row.name} / d {q.name}"
             )
-    return build.build_kernel((*STATE[:2], PARAMETERS, make_output_argument("phi_q")))
+    return builder.build_kernel((*STATE[:2], PARAMETERS, make_output_argument("phi_q")))
 
 
 def make_start_kernel(model: Model) -> Kernel:
@@ -142,16 +142,16 @@ def make_start_kernel(model: Model) -> Kernel:
 
     Eccentricities of journals and their rates follow those of coordinates.
     """
-    build = KernelBuilder(
+    builder = KernelBuilder(
         model.symbols,
         "start_values",
         ["Values of the file's start: guesses, set values, then rates; those of journals follow."],
     )
-    build.begin_section("start")
+    builder.begin_section("start")
     for key, group in list_start_values(model).items():
         for k, (quantity, sign) in enumerate(group):
-            build.append_store(
+            builder.append_store(
                 Place(key)[k], sign * model.parameter_table.get_or_add_parameter(quantity), quantity.address
             )
     arguments = (PARAMETERS, *(make_output_argument(key) for key in ("guess", "set", "rates")))
-    return build.build_kernel(arguments)
+    return builder.build_kernel(arguments)

@@ -31,7 +31,7 @@ from gudgeon.generator.ir.signatures import DISCRETE, PARAMETERS, STATE, Number,
 from gudgeon.generator.ir.sine_pairs import vectorize_sines
 from gudgeon.generator.ir.statements import DeclareBranches, LargestRow, MarkUnread, Return, Statement
 from gudgeon.generator.reduction.driven_loops import DrivenLoops
-from gudgeon.generator.solvers.square_rows import SquareRows
+from gudgeon.generator.solvers.square_rows import SquareSystem
 from gudgeon.generator.symbols.storage import Place
 from gudgeon.generator.symbols.switches import BranchOf
 
@@ -51,21 +51,21 @@ class DrivenLoopKernels:
     `switch_kernel` evaluates the switching functions of their drives; None if they have none.
     """
 
-    def __init__(self, system: System, chain: DrivenLoops) -> None:
-        """Derive the functions of the loops in `chain`, whose coordinates follow those of `system` in q.
+    def __init__(self, system: System, loops: DrivenLoops) -> None:
+        """Derive the functions of the loops in `loops`, whose coordinates follow those of `system` in q.
 
         The function of switching functions is made only if the drives have any; `size` scales steps of slides, 0
         without slides.
         """
-        self.system, self.chain, self.symbols = system, chain, system.model.symbols
+        self.system, self.loops, self.symbols = system, loops, system.model.symbols
         loop_system = replace(
             system,
-            q=tuple(k.q for k in chain.known),
-            v=tuple(k.rate for k in chain.known),
-            rows=chain.rows,
+            q=tuple(k.q for k in loops.known),
+            v=tuple(k.rate for k in loops.known),
+            rows=loops.rows,
             dependent=(),
         )
-        self.square = SquareRows(loop_system, ["." in name for name in chain.names])
+        self.square = SquareSystem(loop_system, ["." in name for name in loops.names])
         self.first = len(system.q)  # of the chains' coordinates in q and v
         kernels = [vectorize_sines(remove_unused_locals(kernel)) for kernel in self._make_kernels()]
         branches = [
@@ -77,7 +77,7 @@ class DrivenLoopKernels:
         ]
         self.switch_kernel = self._make_switch_kernel(branches) if branches else None
         self.kernels = [*map(declare_branches, kernels), *([self.switch_kernel] if self.switch_kernel else [])]
-        self.size = self._derive_extent() if any("." in name for name in chain.names) else ZERO
+        self.size = self._derive_extent() if any("." in name for name in loops.names) else ZERO
 
     def _make_kernels(self) -> list[Kernel]:
         """Return the functions of the loops in the order in which they are printed.
@@ -96,19 +96,19 @@ class DrivenLoopKernels:
 
         They are stored in q after the coordinates, and all other functions read them.
         """
-        build = KernelBuilder(
+        builder = KernelBuilder(
             self.symbols,
             DIRECTIONS,
             [
                 "Cosines and sines of all angles in the closures of dependent loops, stored in q after coordinates.",
             ],
         )
-        build.begin_section("directions")
-        first_index = self.first + len(self.chain.names)
-        symbols = [symbol for direction in self.chain.directions for symbol in (direction.cos, direction.sin)]
+        builder.begin_section("directions")
+        first_index = self.first + len(self.loops.names)
+        symbols = [symbol for direction in self.loops.directions for symbol in (direction.cos, direction.sin)]
         for k, symbol in enumerate(symbols):
-            build.append_store(Place("out")[first_index + k], self.symbols.definitions[symbol], symbol.name)
-        return build.build_kernel((*STATE[:2], DISCRETE, PARAMETERS, make_output_argument("out")), owner="")
+            builder.append_store(Place("out")[first_index + k], self.symbols.definitions[symbol], symbol.name)
+        return builder.build_kernel((*STATE[:2], DISCRETE, PARAMETERS, make_output_argument("out")), owner="")
 
     def _derive_extent(self) -> sp.Expr:
         """Return the length in m that scales steps of a slide, as a derived parameter.
@@ -125,7 +125,7 @@ class DrivenLoopKernels:
 
         It also returns the part of order 3 alone and the number of the equation with the largest |Φ|.
         """
-        build = KernelBuilder(
+        builder = KernelBuilder(
             self.symbols,
             STEP,
             [
@@ -135,31 +135,31 @@ class DrivenLoopKernels:
                 "the largest |Phi|. Returns 0, or the number of a row that depends on others here.",
             ],
         )
-        build.begin_section("closures of the chains")
-        named_rows = zip(self.square.names, self.chain.rows, strict=True)
-        phi = [build.append_local(f"phi_{name}", row.phi) for name, row in named_rows]
-        build.begin_section("the largest")
-        build.append_line(LargestRow(tuple(phi)))
-        solvers = self.square.factorize(build)
-        build.begin_section("Newton's step")
-        newton = self.square.solve(build, solvers, phi, "newton")
-        build.begin_section("correction by the curvature of the constraints")
+        builder.begin_section("closures of the chains")
+        named_rows = zip(self.square.names, self.loops.rows, strict=True)
+        phi = [builder.append_local(f"phi_{name}", row.phi) for name, row in named_rows]
+        builder.begin_section("the largest")
+        builder.append_line(LargestRow(tuple(phi)))
+        solvers = self.square.factorize(builder)
+        builder.begin_section("Newton's step")
+        newton = self.square.solve(builder, solvers, phi, "newton")
+        builder.begin_section("correction by the curvature of the constraints")
         correction_step = self.square.solve(
-            build, solvers, [self._compute_curvature(row, newton) / 2 for row in self.chain.rows], "bend"
+            builder, solvers, [self._compute_curvature(row, newton) / 2 for row in self.loops.rows], "bend"
         )
         for k, (newton_component, correction) in enumerate(zip(newton, correction_step, strict=True)):
-            build.append_store(Place("step")[k], newton_component + correction)
-            build.append_store(Place("bend")[k], correction)
-        build.append_line(Return())
+            builder.append_store(Place("step")[k], newton_component + correction)
+            builder.append_store(Place("bend")[k], correction)
+        builder.append_line(Return())
         outs = (make_output_argument("step"), make_output_argument("bend"), make_output_argument("row", Number.INTEGER))
-        return build.build_kernel((*STATE[:2], DISCRETE, PARAMETERS, *outs), status=True, owner="", prune=True)
+        return builder.build_kernel((*STATE[:2], DISCRETE, PARAMETERS, *outs), status=True, owner="", prune=True)
 
     def _compute_curvature(self, row: Row, step: Sequence[sp.Expr]) -> sp.Expr:
         """Return Φ_cc[step, step] of one constraint equation, its second derivative along `step`.
 
         `step`: one component for each dependent coordinate.
         """
-        step_of = dict(zip([k.q for k in self.chain.known], step, strict=True))
+        step_of = dict(zip([k.q for k in self.loops.known], step, strict=True))
         slope = sp.Add(*(entry * step_of[q] for q, entry in row.phi_q.items()))
         return sp.expand(
             sp.Add(*(self.symbols.differentiate(slope, q) * component for q, component in step_of.items()))
@@ -170,7 +170,7 @@ class DrivenLoopKernels:
 
         They are stored in v after the other rates. It returns 0 or the number of a dependent equation.
         """
-        build = KernelBuilder(
+        builder = KernelBuilder(
             self.symbols,
             RATES,
             [
@@ -180,22 +180,22 @@ class DrivenLoopKernels:
                 "Returns 0, or the number of a row that depends on others here.",
             ],
         )
-        dependent, rows = self.chain.known, self.chain.rows
-        solvers = self.square.factorize(build)
-        build.begin_section("rates")
-        rates = self.square.solve(build, solvers, [row.nu for row in rows], "rate")
+        dependent, rows = self.loops.known, self.loops.rows
+        solvers = self.square.factorize(builder)
+        builder.begin_section("rates")
+        rates = self.square.solve(builder, solvers, [row.nu for row in rows], "rate")
         for k, value in zip(dependent, rates, strict=True):  # by the name under which all expressions know it
-            build.append_line(Statement(k.rate.name, value))
+            builder.append_line(Statement(k.rate.name, value))
         for symbol in self._find_rate_symbols():
-            build.append_line(Statement(symbol.name, self.symbols.definitions[symbol]))
-        build.begin_section("second rates")
-        second_rates = self.square.solve(build, solvers, [row.gamma for row in rows], "second")
-        build.begin_section("results")
+            builder.append_line(Statement(symbol.name, self.symbols.definitions[symbol]))
+        builder.begin_section("second rates")
+        second_rates = self.square.solve(builder, solvers, [row.gamma for row in rows], "second")
+        builder.begin_section("results")
         for index, (coordinate, value) in enumerate(zip(dependent, second_rates, strict=True), self.first):
-            build.append_store(Place("v")[index], coordinate.rate)
-            build.append_store(Place("v")[index + len(dependent)], value)
-        build.append_line(Return())
-        return build.build_kernel(
+            builder.append_store(Place("v")[index], coordinate.rate)
+            builder.append_store(Place("v")[index + len(dependent)], value)
+        builder.append_line(Return())
+        return builder.build_kernel(
             (*STATE[:2], DISCRETE, PARAMETERS, make_output_argument("v")), status=True, owner="", prune=True
         )
 
@@ -204,7 +204,7 @@ class DrivenLoopKernels:
 
         It returns 0 or the number of a dependent equation.
         """
-        build = KernelBuilder(
+        builder = KernelBuilder(
             self.symbols,
             THIRD,
             [
@@ -212,21 +212,21 @@ class DrivenLoopKernels:
                 "Returns 0, or the number of a row that depends on others here.",
             ],
         )
-        dependent, t = self.chain.known, self.system.model.t
-        solvers = self.square.factorize(build)
-        build.begin_section("third rates")
-        tangents = Tangents(self.symbols, build, (t,))
+        dependent, t = self.loops.known, self.system.model.t
+        solvers = self.square.factorize(builder)
+        builder.begin_section("third rates")
+        tangents = Tangents(self.symbols, builder, (t,))
         for k in dependent:
             tangents.store_tangent(k.q, {t: k.rate})
             tangents.store_tangent(k.rate, {t: k.second})
         residuals = [
-            sp.Add(row.gamma, *(-row.phi_q.get(k.q, ZERO) * k.second for k in dependent)) for row in self.chain.rows
+            sp.Add(row.gamma, *(-row.phi_q.get(k.q, ZERO) * k.second for k in dependent)) for row in self.loops.rows
         ]
         residual_rates = [tangents.compute_gradient(value).get(t, ZERO) for value in residuals]
-        for index, value in enumerate(self.square.solve(build, solvers, residual_rates, "third")):
-            build.append_store(Place("out")[index], value)
-        build.append_line(Return())
-        return build.build_kernel(
+        for index, value in enumerate(self.square.solve(builder, solvers, residual_rates, "third")):
+            builder.append_store(Place("out")[index], value)
+        builder.append_line(Return())
+        return builder.build_kernel(
             (*STATE, DISCRETE, PARAMETERS, make_output_argument("out")), status=True, owner="", prune=True
         )
 
@@ -236,7 +236,7 @@ class DrivenLoopKernels:
         Their definitions follow the computed rates instead of standing at the beginning of the function.
         """
         info, definitions = self.symbols.info, self.symbols.definitions
-        varying = {k.rate for k in self.chain.known}
+        varying = {k.rate for k in self.loops.known}
         system_symbols = {*self.system.v, *self.system.q}
         result = []
         for symbol in [s for s in info if s in definitions and not info[s].place]:
@@ -253,11 +253,13 @@ class DrivenLoopKernels:
 
         `branches`: their branches, also repeated ones.
         """
-        build = KernelBuilder(self.symbols, "loop_switches", ["Switching functions of the drives of dependent loops."])
-        build.begin_section("corners")
+        builder = KernelBuilder(
+            self.symbols, "loop_switches", ["Switching functions of the drives of dependent loops."]
+        )
+        builder.begin_section("corners")
         for branch in dict.fromkeys(branches):
             name = f"side_{branch.args[0]}"
-            build.append_line(Statement(name, branch))
-            build.append_line(MarkUnread(name))
-        kernel = build.build_kernel((*STATE[:2], DISCRETE, PARAMETERS, make_output_argument("g")), owner="")
+            builder.append_line(Statement(name, branch))
+            builder.append_line(MarkUnread(name))
+        kernel = builder.build_kernel((*STATE[:2], DISCRETE, PARAMETERS, make_output_argument("g")), owner="")
         return replace(kernel, sections=(HELD_BRANCHES_SECTION, *kernel.sections))

@@ -44,53 +44,53 @@ def make_dynamics_kernel(
     kkt: KKT,
     name: str = "dynamics",
     doc: Sequence[str] = _DOC,
-    stabilised: bool = True,
+    is_stabilized: bool = True,
     append_fallback: AppendFallback | None = None,
 ) -> Kernel:
     """Return the C function of q̈ and λ at a state, with the forces of joints with play.
 
     `kkt`: the factorization to print; `doc`: the function's comment. `append_fallback` appends the code for a vanishing
-    pivot; None: the default, which finds the dependent equations. Without `stabilised` the right-hand sides are γ alone
-    and Φ, Φ̇ are not computed: for methods that project.
+    pivot; None: the default, which finds the dependent equations. Without `is_stabilized` the right-hand sides are γ
+    alone and Φ, Φ̇ are not computed: for methods that project.
     """
     model = system.model
-    build = KernelBuilder(model.symbols, name, (*doc, *describe_elimination(kkt)))
+    builder = KernelBuilder(model.symbols, name, (*doc, *describe_elimination(kkt)))
     if kkt.rows and not model.has_changing_constraints:
-        build.begin_section("status")
-        build.append_line(Status())
-    _append_event_functions(model, build)
+        builder.begin_section("status")
+        builder.append_line(Status())
+    _append_event_functions(model, builder)
     loads = [load for element in model.elements.values() for load in element.list_point_loads()]
     for index, clearance in enumerate(model.clearances):
-        loads += _append_clearance_call(build, index, clearance)
-    if model.clearances and not stabilised:
-        build.begin_section("if a is NULL, only the joints with play are evaluated")
-        build.append_line(ReturnIfOnlyJoints())
+        loads += _append_clearance_call(builder, index, clearance)
+    if model.clearances and not is_stabilized:
+        builder.begin_section("if a is NULL, only the joints with play are evaluated")
+        builder.append_line(ReturnIfOnlyJoints())
     generalized_loads, prescribed_forces = system.compute_generalized_forces(loads)
     forces = [applied_force + load for applied_force, load in zip(system.applied, generalized_loads, strict=True)]
-    stick_rhs = _append_slip_velocities(model, build, kkt, forces)
+    stick_rhs = _append_slip_velocities(model, builder, kkt, forces)
     b: dict[int, sp.Expr] = {k: f for k, f in enumerate(forces) if f != 0}
-    b.update(_append_constraint_rhs(model, build, kkt, stabilised))
+    b.update(_append_constraint_rhs(model, builder, kkt, is_stabilized))
     b.update(stick_rhs)
     # with changing constraints a vanishing pivot is reported, not handled
     factor = (
-        kkt.factorize(build)
+        kkt.factorize(builder)
         if model.has_changing_constraints
-        else kkt.factorize(build, True, RUN_SINGULAR, RUN_VANISHING)
+        else kkt.factorize(builder, True, RUN_SINGULAR, RUN_VANISHING)
     )
-    x = kkt.solve(build, factor, b)
-    build.begin_section("results")
+    x = kkt.solve(builder, factor, b)
+    builder.begin_section("results")
     for k, _ in enumerate(system.q):
-        build.append_store(Place("a")[k], x[k])
+        builder.append_store(Place("a")[k], x[k])
     for r, _ in enumerate(kkt.rows):
-        build.append_store(RHS["lambda"][r], x[kkt.n + r])
-    _append_friction_forces(build, kkt, x)
-    _append_rigid_contact_accelerations(build, kkt.system, x)
+        builder.append_store(RHS["lambda"][r], x[kkt.n + r])
+    _append_friction_forces(builder, kkt, x)
+    _append_rigid_contact_accelerations(builder, kkt.system, x)
     if kkt.rows and not model.has_changing_constraints:
-        (append_fallback or _append_dependent_rows)(build, kkt, b)
-    _append_powers(build, kkt, prescribed_forces)
-    build.append_line(Return(pivot=bool(kkt.rows and not model.has_changing_constraints)))
+        (append_fallback or _append_dependent_rows)(builder, kkt, b)
+    _append_powers(builder, kkt, prescribed_forces)
+    builder.append_line(Return(pivot=bool(kkt.rows and not model.has_changing_constraints)))
     arguments = (*STATE, DISCRETE, PARAMETERS, make_output_argument("a"), RHS)
-    kernel = build.build_kernel(arguments, status=True, owner="")
+    kernel = builder.build_kernel(arguments, status=True, owner="")
     return declare_branches(kernel, "rhs")
 
 
@@ -119,66 +119,69 @@ def format_coordinate_name(meaning: str) -> str:
     return meaning if "." in meaning else f"{meaning}.theta"
 
 
-def _append_event_functions(model: Model, build: KernelBuilder) -> None:
+def _append_event_functions(model: Model, builder: KernelBuilder) -> None:
     """Append the user's event functions, which are written at every state, also where a pivot vanishes."""
     if model.events:
-        build.begin_section("events")
+        builder.begin_section("events")
     for index, event in enumerate(model.events):
-        build.append_store(RHS["event"][index], event.expression, event.name)
+        builder.append_store(RHS["event"][index], event.expression, event.name)
 
 
-def _append_clearance_call(build: KernelBuilder, index: int, clearance: Clearance) -> list[PointLoad]:
+def _append_clearance_call(builder: KernelBuilder, index: int, clearance: Clearance) -> list[PointLoad]:
     """Append the call of a joint's force function and its power; return the loads on both bodies.
 
     They are the force and the moments that the call returns; a moment on the ground is 0.
     """
     name, out = clearance.label, RHS["clearance"][index]
-    build.begin_section(f"clearance {clearance.kind} {clearance.name}")
+    builder.begin_section(f"clearance {clearance.kind} {clearance.name}")
     e = [
-        build.append_local(f"e_{name}_{axis}", value) for axis, value in zip("xy", clearance.eccentricity, strict=True)
+        builder.append_local(f"e_{name}_{axis}", value)
+        for axis, value in zip("xy", clearance.eccentricity, strict=True)
     ]
     edot = [
-        build.append_local(f"edot_{name}_{axis}", value)
+        builder.append_local(f"edot_{name}_{axis}", value)
         for axis, value in zip("xy", clearance.eccentricity_rate, strict=True)
     ]
     arguments = (clearance.first.omega, clearance.second.omega, *clearance.further_arguments)
-    build.append_line(Call(f"clearance_{name}_", (*e, *edot, *arguments, *make_contact_arguments(index)), (out,)))
-    F = [build.append_local(f"F_{name}_{axis}", out[f"F{axis}"]) for axis in "xy"]
+    builder.append_line(Call(f"clearance_{name}_", (*e, *edot, *arguments, *make_contact_arguments(index)), (out,)))
+    F = [builder.append_local(f"F_{name}_{axis}", out[f"F{axis}"]) for axis in "xy"]
     moments = [
-        ZERO if point.body is None else build.append_local(f"M_{name}_{body_role}", out[f"moment_{body_role}"])
+        ZERO if point.body is None else builder.append_local(f"M_{name}_{body_role}", out[f"moment_{body_role}"])
         for point, body_role in ((clearance.first, "first"), (clearance.second, "second"))
     ]
-    build.append_store(out["power"], clearance.compute_power(F, edot, moments))
+    builder.append_store(out["power"], clearance.compute_power(F, edot, moments))
     return clearance.list_point_loads(F, moments)
 
 
-def _append_constraint_rhs(model: Model, build: KernelBuilder, kkt: KKT, stabilised: bool) -> dict[int, sp.Expr]:
+def _append_constraint_rhs(model: Model, builder: KernelBuilder, kkt: KKT, is_stabilized: bool) -> dict[int, sp.Expr]:
     """Return the right-hand side γ − 2αΦ̇ − β²Φ of each constraint equation, by node of the KKT matrix.
 
-    Φ and Φ̇ are also written to `rhs`, for diagnostics. Without `stabilised` the right-hand side is γ.
+    Φ and Φ̇ are also written to `rhs`, for diagnostics. Without `is_stabilized` the right-hand side is γ.
     """
-    if not stabilised:
+    if not is_stabilized:
         if kkt.rows:
-            build.begin_section("constraints: gamma")
-        named_rhs = (build.append_local(f"rhs_{row.name.replace('.', '_')}", row.gamma) for row in kkt.rows)
+            builder.begin_section("constraints: gamma")
+        named_rhs = (builder.append_local(f"rhs_{row.name.replace('.', '_')}", row.gamma) for row in kkt.rows)
         return {kkt.n + index: rhs for index, rhs in enumerate(named_rhs)}
     alpha, beta = model.baumgarte
     two_alpha = model.parameter_table.derive_parameter("two_alpha", 2 * alpha, "2 alpha")
     beta_squared = model.parameter_table.derive_parameter("beta_squared", beta**2, "beta^2")
     rhs: dict[int, sp.Expr] = {}
     if kkt.rows:
-        build.begin_section("constraints: Phi, Phi_dot = Phi_q v - nu, gamma")
+        builder.begin_section("constraints: Phi, Phi_dot = Phi_q v - nu, gamma")
     for index, row in enumerate(kkt.rows):
         name = row.name.replace(".", "_")
-        phi = build.append_local(f"phi_{name}", row.phi)
-        phi_dot = build.append_local(f"phi_dot_{name}", row.phi_q_v - row.nu)
-        rhs[kkt.n + index] = build.append_local(f"rhs_{name}", row.gamma - two_alpha * phi_dot - beta_squared * phi)
-        build.append_store(RHS["phi"][index], phi)
-        build.append_store(RHS["phi_dot"][index], phi_dot)
+        phi = builder.append_local(f"phi_{name}", row.phi)
+        phi_dot = builder.append_local(f"phi_dot_{name}", row.phi_q_v - row.nu)
+        rhs[kkt.n + index] = builder.append_local(f"rhs_{name}", row.gamma - two_alpha * phi_dot - beta_squared * phi)
+        builder.append_store(RHS["phi"][index], phi)
+        builder.append_store(RHS["phi_dot"][index], phi_dot)
     return rhs
 
 
-def _append_slip_velocities(model: Model, build: KernelBuilder, kkt: KKT, forces: list[sp.Expr]) -> dict[int, sp.Expr]:
+def _append_slip_velocities(
+    model: Model, builder: KernelBuilder, kkt: KKT, forces: list[sp.Expr]
+) -> dict[int, sp.Expr]:
     """Append the slip velocity and kinetic force of each friction element.
 
     The kinetic force is added to `forces`, the generalized forces by coordinate, in place. Return the right-hand sides
@@ -186,24 +189,24 @@ def _append_slip_velocities(model: Model, build: KernelBuilder, kkt: KKT, forces
     """
     stick_rhs: dict[int, sp.Expr] = {}
     if kkt.frictions:
-        build.begin_section("friction: slip, or stick as a constraint equation")
+        builder.begin_section("friction: slip, or stick as a constraint equation")
     coordinate_index = {q: k for k, q in enumerate(kkt.system.q)}
     two_alpha = derive_stick_gain(model) if kkt.frictions else ZERO
     for index, friction in enumerate(kkt.frictions):
         name, node = friction.name, kkt.first_friction + index
-        v = build.append_local(f"slip_{name}", friction.slip.v)
-        kkt.stick_symbols[node], sign = append_friction_mode(build, name, index)
-        force = build.append_local(f"kinetic_{name}", -sign * friction.slip.evaluate_kinetic_force(v))
+        v = builder.append_local(f"slip_{name}", friction.slip.v)
+        kkt.stick_symbols[node], sign = append_friction_mode(builder, name, index)
+        force = builder.append_local(f"kinetic_{name}", -sign * friction.slip.evaluate_kinetic_force(v))
         for q, entry in friction.jacobian.items():
             forces[coordinate_index[q]] += entry * force
-        stick_rhs[node] = build.append_local(f"rhs_{name}", friction.gamma - two_alpha * v)
+        stick_rhs[node] = builder.append_local(f"rhs_{name}", friction.gamma - two_alpha * v)
         for key, value in (("v", v), ("static_limit", friction.slip.static), ("speed", friction.slip.speed)):
-            build.append_store(RHS["friction"][index][key], value)
-        build.append_store(RHS["friction"][index]["force"], force)
+            builder.append_store(RHS["friction"][index][key], value)
+        builder.append_store(RHS["friction"][index]["force"], force)
     return stick_rhs
 
 
-def _append_friction_forces(build: KernelBuilder, kkt: KKT, solution: dict[int, sp.Expr]) -> None:
+def _append_friction_forces(builder: KernelBuilder, kkt: KKT, solution: dict[int, sp.Expr]) -> None:
     """Append the force of each friction element at stick, −λ of its equation, and the rate of slip J q̈ − γ.
 
     `solution`: accelerations and multipliers by node.
@@ -211,14 +214,16 @@ def _append_friction_forces(build: KernelBuilder, kkt: KKT, solution: dict[int, 
     coordinate_index = {q: k for k, q in enumerate(kkt.system.q)}
     for index, friction in enumerate(kkt.frictions):
         rate = sum((entry * solution[coordinate_index[q]] for q, entry in friction.jacobian.items()), -friction.gamma)
-        build.append_store(RHS["friction"][index]["rate"], rate)
+        builder.append_store(RHS["friction"][index]["rate"], rate)
         stick = kkt.stick_symbols[kkt.first_friction + index]
         target = RHS["friction"][index]["force"]
         force = Statement(target, -solution[kkt.first_friction + index], f"stick of {friction.name}")
-        build.append_line(When(Test(stick, "!=", (0.0,)), force))
+        builder.append_line(When(Test(stick, "!=", (0.0,)), force))
 
 
-def _append_rigid_contact_accelerations(build: KernelBuilder, system: System, solution: Mapping[int, sp.Expr]) -> None:
+def _append_rigid_contact_accelerations(
+    builder: KernelBuilder, system: System, solution: Mapping[int, sp.Expr]
+) -> None:
     """Append half the second derivative of e · e in joints with rigid surfaces; at a wall δ̈ itself.
 
     A run determines the contact forces of these joints from it. `solution`: accelerations and multipliers by node.
@@ -226,7 +231,7 @@ def _append_rigid_contact_accelerations(build: KernelBuilder, system: System, so
     for index, clearance in enumerate(system.model.clearances):
         if clearance.rigid and clearance.wall:
             outward = _compute_outward_acceleration(system, clearance, clearance.wall, solution)
-            build.append_store(RHS["clearance"][index]["half_square_rate"], outward, "at a wall delta'' itself")
+            builder.append_store(RHS["clearance"][index]["half_square_rate"], outward, "at a wall delta'' itself")
         elif clearance.rigid:
             journal_acceleration, bearing_acceleration = (
                 system.compute_acceleration(point, solution) for point in (clearance.second, clearance.first)
@@ -235,7 +240,7 @@ def _append_rigid_contact_accelerations(build: KernelBuilder, system: System, so
             value = sp.Add(
                 *(e[i] * (journal_acceleration[i] - bearing_acceleration[i]) + edot[i] ** 2 for i in range(2))
             )
-            build.append_store(RHS["clearance"][index]["half_square_rate"], value, "e . e'' + e' . e'")
+            builder.append_store(RHS["clearance"][index]["half_square_rate"], value, "e . e'' + e' . e'")
 
 
 def _compute_outward_acceleration(
@@ -261,22 +266,22 @@ def _compute_outward_acceleration(
     )
 
 
-def _append_dependent_rows(build: KernelBuilder, kkt: KKT, right_sides: Mapping[int, sp.Expr]) -> None:
+def _append_dependent_rows(builder: KernelBuilder, kkt: KKT, right_sides: Mapping[int, sp.Expr]) -> None:
     """Append the code for a vanishing pivot, which calls engine/scene/singular.c; nothing if all pivots are constant.
 
     `right_sides`: generalized forces and right-hand sides by node.
     """
-    if not build.has_jumps:
+    if not builder.has_jumps:
         return
-    build.append_line(Jump())
-    build.begin_section("a pivot vanished: constraint equations depend on each other here")
+    builder.append_line(Jump())
+    builder.begin_section("a pivot vanished: constraint equations depend on each other here")
     force, rhs = (
         tuple(right_sides.get(k, ZERO) for k in nodes) for nodes in (range(kkt.n), range(kkt.n, kkt.n + len(kkt.rows)))
     )
-    build.append_line(SolveDependentRows(force, rhs))
+    builder.append_line(SolveDependentRows(force, rhs))
 
 
-def _append_powers(build: KernelBuilder, kkt: KKT, prescribed_forces: Mapping[str, sp.Expr]) -> None:
+def _append_powers(builder: KernelBuilder, kkt: KKT, prescribed_forces: Mapping[str, sp.Expr]) -> None:
     """Append the powers in W of the drives, of the dissipative force elements and of the joints with play.
 
     A drive does −λᵀν, and in addition the power that inertia and loads need at a coordinate that it prescribes.
@@ -292,12 +297,12 @@ def _append_powers(build: KernelBuilder, kkt: KKT, prescribed_forces: Mapping[st
             effort -= model.symbols.differentiate_definitions(friction.slip.v, prescribed.rate) * force
         drive_power += prescribed.rate * (effort - prescribed_forces.get(prescribed.name, ZERO))
     clearances = tuple(RHS["clearance"][i]["power"] for i in range(len(model.clearances)))
-    build.append_store(RHS["power"][0], drive_power)
+    builder.append_store(RHS["power"][0], drive_power)
     friction_symbols = [
         [PlaceSymbol(RHS["friction"][r][field]) for field in ("force", "v", "speed")] for r in range(len(kkt.frictions))
     ]
     friction = sp.Add(*(force * (v + speed) for force, v, speed in friction_symbols))
-    build.append_store(
+    builder.append_store(
         RHS["power"][1], sp.Add(*(element.loads.power for element in model.elements.values())) + friction
     )
-    build.append_store(RHS["power"][2], Sum(clearances) if clearances else ZERO)
+    builder.append_store(RHS["power"][2], Sum(clearances) if clearances else ZERO)

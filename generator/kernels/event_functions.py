@@ -107,7 +107,7 @@ def make_ranges_kernel(event_kernel: Kernel, switch_indices: Sequence[int], n_ev
     """Return the C function of the ranges of all event functions over ranges of t, q and v.
 
     `event_kernel`: the function of their values; `switch_indices`: the numbers of the switching functions. These are
-    written to `out` first, then `n_events` user events.
+    written to `out` first, then `n_events` user events. Sections without statements are left out.
     """
     output_index: dict[Place, int] = {RHS["g"][k]: index for index, k in enumerate(switch_indices)}
     output_index |= {
@@ -329,7 +329,7 @@ class _TermCollector:
         """Return `is_shown_by_stages` of an expression without reading the cache.
 
         An expression without time is shown. Sums, products and low powers of such expressions are shown, and those of
-        the functions `shown_functions` whose argument is linear in time. Of a held branch its second argument counts.
+        the functions `shown_functions` whose argument is linear in time. Of a frozen branch its second argument counts.
         """
         if self.time not in self.find_symbol_names(expression):
             return True
@@ -357,7 +357,7 @@ class _TermCollector:
     def list_needed_definitions(self, terms: list[sp.Expr]) -> list[Statement]:
         """Return the definitions of the locals that the terms read, directly or not, in their order.
 
-        Held branches are replaced by signs.
+        Frozen branches are replaced by signs.
         """
         pending = [symbol.name for term in terms for symbol in term.free_symbols]
         needed_names: set[str] = set()
@@ -367,13 +367,13 @@ class _TermCollector:
                 needed_names.add(name)
                 value = self.known[name].value
                 pending += [symbol.name for symbol in value.free_symbols] if isinstance(value, sp.Expr) else []
-        return [_replace_held_branch(symbol) for name, symbol in self.known.items() if name in needed_names]
+        return [_replace_frozen_branch(symbol) for name, symbol in self.known.items() if name in needed_names]
 
 
-def _replace_held_branch(statement: Statement) -> Statement:
-    """Return a statement whose branch follows the sign of its switching function instead of the held branch.
+def _replace_frozen_branch(statement: Statement) -> Statement:
+    """Return a statement whose branch follows the sign of its switching function instead of the frozen branch.
 
-    Other statements are returned unchanged. Over a range of time no branch is held.
+    Other statements are returned unchanged. Over a range of time no branch is frozen.
     """
     if isinstance(statement.value, BranchOf):
         return replace(statement, value=sp.sign(statement.value.args[1]))

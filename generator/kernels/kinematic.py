@@ -9,11 +9,11 @@ from gudgeon.generator.ir.kernels import Kernel, KernelBuilder, remove_unused_lo
 from gudgeon.generator.ir.signatures import PARAMETERS, STATE, make_output_argument
 from gudgeon.generator.ir.sine_pairs import vectorize_sines
 from gudgeon.generator.ir.statements import Largest, Return
-from gudgeon.generator.solvers.square_rows import SquareRows
+from gudgeon.generator.solvers.square_rows import SquareSystem
 from gudgeon.generator.symbols.storage import Place
 
 
-def make_kinematic_kernels(system: System, closures: SquareRows) -> list[Kernel]:
+def make_kinematic_kernels(system: System, closures: SquareSystem) -> list[Kernel]:
     """Return the C functions of Newton's step at a position and of the bodies' motion at a position with its rates.
 
     `closures`: the closures of the tree as a square system.
@@ -24,12 +24,12 @@ def make_kinematic_kernels(system: System, closures: SquareRows) -> list[Kernel]
     ]
 
 
-def _make_newton_step_kernel(system: System, closures: SquareRows) -> Kernel:
+def _make_newton_step_kernel(system: System, closures: SquareSystem) -> Kernel:
     """Return the C function of Newton's step Φ_q step = Φ and of the rates Φ_q rates = ν at a position.
 
     It also writes the largest |Φ|, and returns 0 or the number of a dependent equation.
     """
-    build = KernelBuilder(
+    builder = KernelBuilder(
         system.model.symbols,
         "close_step",
         [
@@ -37,29 +37,29 @@ def _make_newton_step_kernel(system: System, closures: SquareRows) -> Kernel:
             "`worst`: the largest |Phi|. Returns 0, or the number of a row that depends on others here.",
         ],
     )
-    build.begin_section("closures")
-    phi = [build.append_local(f"phi_{name}", row.phi) for name, row in zip(closures.names, system.rows, strict=True)]
-    solvers = closures.factorize(build)
-    build.begin_section("Newton's step")
-    step = closures.solve(build, solvers, phi, "step")
-    build.begin_section("rates")
-    rates = closures.solve(build, solvers, [row.nu for row in system.rows], "rate")
-    build.begin_section("results")
+    builder.begin_section("closures")
+    phi = [builder.append_local(f"phi_{name}", row.phi) for name, row in zip(closures.names, system.rows, strict=True)]
+    solvers = closures.factorize(builder)
+    builder.begin_section("Newton's step")
+    step = closures.solve(builder, solvers, phi, "step")
+    builder.begin_section("rates")
+    rates = closures.solve(builder, solvers, [row.nu for row in system.rows], "rate")
+    builder.begin_section("results")
     for k, (component, rate) in enumerate(zip(step, rates, strict=True)):
-        build.append_store(Place("step")[k], component)
-        build.append_store(Place("rates")[k], rate)
-    build.append_line(Largest("worst", tuple(phi)))
-    build.append_line(Return())
+        builder.append_store(Place("step")[k], component)
+        builder.append_store(Place("rates")[k], rate)
+    builder.append_line(Largest("worst", tuple(phi)))
+    builder.append_line(Return())
     outs = (make_output_argument(name) for name in ("step", "rates", "worst"))
-    return build.build_kernel((*STATE[:2], PARAMETERS, *outs), status=True)
+    return builder.build_kernel((*STATE[:2], PARAMETERS, *outs), status=True)
 
 
-def _make_body_motion_kernel(system: System, closures: SquareRows) -> Kernel:
+def _make_body_motion_kernel(system: System, closures: SquareSystem) -> Kernel:
     """Return the C function of the accelerations Φ_q a = γ and of the motion of all bodies at a state.
 
     It also writes the largest |Φ̇|, and returns 0 or the number of a dependent equation.
     """
-    build = KernelBuilder(
+    builder = KernelBuilder(
         system.model.symbols,
         "compute_body_motion",
         [
@@ -69,24 +69,24 @@ def _make_body_motion_kernel(system: System, closures: SquareRows) -> Kernel:
         ],
     )
     bodies = system.model.bodies
-    build.begin_section("positions and velocities of the bodies")
+    builder.begin_section("positions and velocities of the bodies")
     for body in bodies:
         for k, (q, v) in enumerate(zip(body.q, body.v, strict=True), body.index):
-            build.append_store(Place("all_q")[k], q)
-            build.append_store(Place("all_v")[k], v)
-    build.begin_section("rates of the closures")
+            builder.append_store(Place("all_q")[k], q)
+            builder.append_store(Place("all_v")[k], v)
+    builder.begin_section("rates of the closures")
     named_rows = zip(closures.names, system.rows, strict=True)
-    phi_dot = [build.append_local(f"phi_dot_{name}", row.phi_q_v - row.nu) for name, row in named_rows]
-    build.append_line(Largest("worst", tuple(phi_dot)))
-    solvers = closures.factorize(build)
-    build.begin_section("accelerations")
-    a = closures.solve(build, solvers, [row.gamma for row in system.rows], "second")
+    phi_dot = [builder.append_local(f"phi_dot_{name}", row.phi_q_v - row.nu) for name, row in named_rows]
+    builder.append_line(Largest("worst", tuple(phi_dot)))
+    solvers = closures.factorize(builder)
+    builder.begin_section("accelerations")
+    a = closures.solve(builder, solvers, [row.gamma for row in system.rows], "second")
     for k, value in enumerate(a):
-        build.append_store(Place("a")[k], value)
+        builder.append_store(Place("a")[k], value)
     for body in bodies:
         motion = system.motions[body.name]
         for k, (row_entries, bias) in enumerate(zip(motion.jacobian, motion.bias, strict=True), body.index):
-            build.append_store(Place("all_a")[k], sp.Add(bias, *(entry * a[j] for j, entry in row_entries.items())))
-    build.append_line(Return())
+            builder.append_store(Place("all_a")[k], sp.Add(bias, *(entry * a[j] for j, entry in row_entries.items())))
+    builder.append_line(Return())
     outs = (make_output_argument(name) for name in ("a", "all_q", "all_v", "all_a", "worst"))
-    return build.build_kernel((*STATE, PARAMETERS, *outs), status=True)
+    return builder.build_kernel((*STATE, PARAMETERS, *outs), status=True)

@@ -19,7 +19,7 @@ def make_outputs_kernel(model: Model) -> Kernel:
 
     Reactions are written for each joint without play; a drive whose equation was left out has torque 0.
     """
-    build = KernelBuilder(
+    builder = KernelBuilder(
         model.symbols,
         "outputs",
         [
@@ -28,32 +28,32 @@ def make_outputs_kernel(model: Model) -> Kernel:
         ],
     )
     multiplier: dict[str, sp.Expr] = {}
-    build.begin_section("multipliers")
+    builder.begin_section("multipliers")
     for row_index, row in enumerate(model.rows):
-        multiplier[row.name] = build.append_local(
+        multiplier[row.name] = builder.append_local(
             f"multiplier_{row.name.replace('.', '_')}", Place("lambda")[row_index]
         )
-    build.begin_section("reactions")
+    builder.begin_section("reactions")
     rows_by_owner: dict[str, list[Row]] = {}
     for row in model.rows:
         rows_by_owner.setdefault(row.owner, []).append(row)
     for j, joint in enumerate(find_constraining_joints(model)):
         for k, value in enumerate(_compute_reaction(model, joint, rows_by_owner.get(joint.name, []), multiplier)):
             target = Place("reactions")[N_REACTION_COLUMNS * j + k]
-            build.append_store(target, value, f"{joint.name}.{REACTION_COLUMN_NAMES[k]}")
+            builder.append_store(target, value, f"{joint.name}.{REACTION_COLUMN_NAMES[k]}")
     for d, name in enumerate(model.scene.mechanism.drives):
-        build.append_store(Place("torques")[d], -multiplier.get(name, ZERO), f"{name}")
+        builder.append_store(Place("torques")[d], -multiplier.get(name, ZERO), f"{name}")
     for k, (name, (value, _)) in enumerate(find_element_series(model).items()):
-        build.append_store(Place("series")[k], value, name)
-    build.begin_section("energy")
+        builder.append_store(Place("series")[k], value, name)
+    builder.begin_section("energy")
     kinetic = sp.Add(*(m * v**2 / 2 for m, v in zip(model.masses, model.v, strict=True)))
-    build.append_store(Place("energy")[ENERGY_kinetic], kinetic)
+    builder.append_store(Place("energy")[ENERGY_kinetic], kinetic)
     gx, gy = model.gravity
     gravity_energies = (-body.mass * (gx * body.x + gy * body.y) for body in model.bodies)
     potentials = (element.loads.potential for element in model.elements.values())
-    build.append_store(Place("energy")[ENERGY_potential], sp.Add(*gravity_energies, *potentials))
+    builder.append_store(Place("energy")[ENERGY_potential], sp.Add(*gravity_energies, *potentials))
     results = (make_output_argument(name) for name in ("reactions", "torques", "series", "energy"))
-    return build.build_kernel((*STATE, PARAMETERS, make_input_argument("lambda"), *results))
+    return builder.build_kernel((*STATE, PARAMETERS, make_input_argument("lambda"), *results))
 
 
 def find_element_series(model: Model) -> dict[str, tuple[sp.Expr, str]]:

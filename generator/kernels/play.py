@@ -8,10 +8,10 @@ from dataclasses import dataclass, replace
 import sympy as sp
 
 from gudgeon.generator.equations import contact_steps as contact
-from gudgeon.generator.equations.contact_steps import Step
+from gudgeon.generator.equations.contact_steps import Assignment
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.equations.play import Clearance, LawEquations, make_law_identifier
-from gudgeon.generator.ir.kernels import Kernel, KernelBuilder, Section, hold_branches
+from gudgeon.generator.ir.kernels import Kernel, KernelBuilder, Section, freeze_branches
 from gudgeon.generator.ir.reciprocals import hoist_reciprocals, share_reciprocals
 from gudgeon.generator.ir.signatures import BRANCHES, CONTACT, PARAMETERS, Argument, make_output_argument
 from gudgeon.generator.ir.statements import Statement
@@ -82,17 +82,17 @@ def _make_law_kernel(model: Model, clearance: Clearance, equations: LawEquations
     results = equations.results
     fields = name_joint_parameters(model, clearance)
     names = {symbol: fields[info.place] for symbol, info in model.symbols.info.items() if info.place in fields}
-    build = KernelBuilder(model.symbols, make_law_name(equations), describe_law(equations, names))
-    build.begin_section("")
+    builder = KernelBuilder(model.symbols, make_law_name(equations), describe_law(equations, names))
+    builder.begin_section("")
     for name, equation in equations.steps.items():
         value = hoist_reciprocals(model.parameter_table, sp.sympify(equation))
         if name in results:
-            build.append_store(Result(f"{name}_out"), value)
+            builder.append_store(Result(f"{name}_out"), value)
         else:
-            build.append_line(Statement(name, value))
+            builder.append_line(Statement(name, value))
     variables = (Argument(symbol.name) for symbol in equations.variables)
     result_arguments = (make_output_argument(f"{name}_out") for name in results)
-    kernel = build.build_kernel(
+    kernel = builder.build_kernel(
         (*variables, PARAMETERS, *BRANCHES, *result_arguments), inline=True, owner=clearance.name
     )
     return share_reciprocals(kernel)
@@ -182,8 +182,8 @@ def make_joint_functions(model: Model, clearance: Clearance, shared_functions: S
     """
     name, film = clearance.name, clearance.film
 
-    def make_guarded_statements(steps: Sequence[Step]) -> Statements:
-        """Return the statements of some steps, with guards at the centre and with held branches."""
+    def make_guarded_statements(steps: Sequence[Assignment]) -> Statements:
+        """Return the statements of some steps, with guards at the centre and with frozen branches."""
         return _make_statements(model, steps, name, _guard_values(clearance, steps))
 
     laws, parts = make_law_calls(model, clearance, shared_functions), {}
@@ -200,14 +200,14 @@ def make_joint_functions(model: Model, clearance: Clearance, shared_functions: S
     if film is not None and clearance.normal is not None:
         parts["share"] = (
             *((DEPTH_STATEMENT,) if clearance.mixed else ()),
-            *make_guarded_statements(contact.make_blend_equations(clearance, closed=True)),
+            *make_guarded_statements(contact.make_blend_equations(clearance, is_closed=True)),
         )
     indices = [switch.index for switch in model.symbols.switches.list_switches(name)]
     switch_range = range(min(indices, default=0), max(indices, default=-1) + 1)
     return JointFunctions(clearance, laws, gap, switch_indices=switch_range, **parts)
 
 
-def _guard_values(clearance: Clearance, steps: Sequence[Step]) -> Mapping[sp.Symbol, Conditional]:
+def _guard_values(clearance: Clearance, steps: Sequence[Assignment]) -> Mapping[sp.Symbol, Conditional]:
     """Return the values that replace those of steps which divide by zero at e = 0, by symbol.
 
     There are none for a wall, and further ones for a contour.
@@ -230,7 +230,7 @@ def _guard_values(clearance: Clearance, steps: Sequence[Step]) -> Mapping[sp.Sym
 
 
 def _make_statements(
-    model: Model, steps: Sequence[Step], owner: str, guards: Mapping[sp.Symbol, Conditional]
+    model: Model, steps: Sequence[Assignment], owner: str, guards: Mapping[sp.Symbol, Conditional]
 ) -> Statements:
     """Return steps as statements that read parameters in place and take branches from the joint's switches.
 
@@ -243,7 +243,7 @@ def _make_statements(
         )
         if step.symbol == contact.e and guards:  # of what has a centre
             statements.append(Statement("inverse_e", 1 / contact.e))
-    (section,) = hold_branches(model.symbols.switches, owner, [Section("", tuple(statements))])
+    (section,) = freeze_branches(model.symbols.switches, owner, [Section("", tuple(statements))])
     return tuple(item for item in section.statements if isinstance(item, Statement))
 
 

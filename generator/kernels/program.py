@@ -36,7 +36,7 @@ from gudgeon.generator.reduction.reduction import TreeSystem, reduce_model
 from gudgeon.generator.solvers.kkt import KKT
 from gudgeon.generator.solvers.newton import Newton, make_complex_kernels
 from gudgeon.generator.solvers.sparsity import Block
-from gudgeon.generator.solvers.square_rows import SquareRows
+from gudgeon.generator.solvers.square_rows import SquareSystem
 
 
 @dataclass(frozen=True)
@@ -113,7 +113,7 @@ class KinematicFunctions:
 
     kernels: tuple[Kernel, ...]
     pivots: tuple[str, ...]
-    rows: SquareRows | None
+    rows: SquareSystem | None
     projection_kkt: KKT | None
 
     @property
@@ -287,7 +287,7 @@ def _derive_kinematic_functions(model: Model, kkt: KKT, integrated: Integrated) 
     They are in tree coordinates unless the pattern of the closures leaves a coordinate undetermined; then a projection
     in absolute coordinates replaces them.
     """
-    rows = SquareRows(integrated.system, [not angle for angle in integrated.angles])
+    rows = SquareSystem(integrated.system, [not angle for angle in integrated.angles])
     if integrated.reduced and rows.is_solvable:
         names = tuple(row.name for row in integrated.system.rows)
         return KinematicFunctions(

@@ -25,9 +25,9 @@ def make_projection_kernel(system: System, rows: tuple[Row, ...], name: str) -> 
     x is the smallest in the metric of M with Φ_q x = r. `rows`: the equations; `name`: the function's name. Light
     bodies count with a least mass.
     """
-    system = raise_light_masses(system)
+    system = raise_small_masses(system)
     model, kkt = system.model, KKT(system, rows)
-    build = KernelBuilder(
+    builder = KernelBuilder(
         model.symbols,
         name,
         [
@@ -36,19 +36,19 @@ def make_projection_kernel(system: System, rows: tuple[Row, ...], name: str) -> 
             "Returns 0, or the number of the pivot that vanished.",
         ],
     )
-    build.begin_section("right-hand side")
+    builder.begin_section("right-hand side")
     row_index = {row.name: k for k, row in enumerate(model.all_rows)}
     r = {
-        kkt.n + k: build.append_local(f"r_{row.name.replace('.', '_')}", Place("r")[row_index[row.name]])
+        kkt.n + k: builder.append_local(f"r_{row.name.replace('.', '_')}", Place("r")[row_index[row.name]])
         for k, row in enumerate(kkt.rows)
     }
-    x = kkt.solve(build, kkt.factorize(build), r, "step_")
-    build.begin_section("results")
+    x = kkt.solve(builder, kkt.factorize(builder), r, "step_")
+    builder.begin_section("results")
     for k, _ in enumerate(system.q):
-        build.append_store(Place("x")[k], x[k])
-    build.append_line(Return())
+        builder.append_store(Place("x")[k], x[k])
+    builder.append_line(Return())
     arguments = (*STATE[:2], make_input_argument("r"), PARAMETERS, make_output_argument("x"))
-    return build.build_kernel(arguments, status=True), kkt
+    return builder.build_kernel(arguments, status=True), kkt
 
 
 def add_film_masses(system: System) -> System:
@@ -74,8 +74,8 @@ def add_film_masses(system: System) -> System:
     return replace(system, mass=mass)
 
 
-def raise_light_masses(system: System) -> System:
-    """Return the system with no body lighter than 1e-4 of the mass of all, for projections.
+def raise_small_masses(system: System) -> System:
+    """Return the system with masses raised so that no body is lighter than 1e-4 of the mass of all, for projections.
 
     In the metric of M the equations of both joints of a light body nearly depend on each other. Errors of the
     constraints may be measured by any masses. Ordinary machines keep their masses, to the bit. A system with a drive
@@ -104,14 +104,14 @@ def make_closing_kernel(system: System, name: str = "closing_step") -> Kernel:
     A film turns a change of ė by a tolerance into a force that nothing carries, so that e and ė are kept as they are.
     `name`: the function's name.
     """
-    metric_system = raise_light_masses(system)
+    metric_system = raise_small_masses(system)
     kkt = KKT(add_film_masses(metric_system), system.rows)
     film_comment = (
         []
         if kkt.system is metric_system
         else ["Motions that squeeze a film have 1e6 times the mass of all bodies in M."]
     )
-    build = KernelBuilder(
+    builder = KernelBuilder(
         system.model.symbols,
         name,
         [
@@ -120,23 +120,23 @@ def make_closing_kernel(system: System, name: str = "closing_step") -> Kernel:
             "`worst`: the largest |Phi|. Returns 0, or the number of the pivot that vanished.",
         ],
     )
-    build.begin_section("Phi and Phi_dot")
+    builder.begin_section("Phi and Phi_dot")
     phi, phi_dot = {}, {}
     for r, row in enumerate(kkt.rows):
         row_name = row.name.replace(".", "_")
-        phi[kkt.n + r] = build.append_local(f"phi_{row_name}", row.phi)
-        phi_dot[kkt.n + r] = build.append_local(f"phi_dot_{row_name}", row.phi_q_v - row.nu)
+        phi[kkt.n + r] = builder.append_local(f"phi_{row_name}", row.phi)
+        phi_dot[kkt.n + r] = builder.append_local(f"phi_dot_{row_name}", row.phi_q_v - row.nu)
     factor = kkt.factorize(
-        build, threshold=RUN_VANISHING, pair_threshold=RUN_VANISHING
+        builder, threshold=RUN_VANISHING, pair_threshold=RUN_VANISHING
     )  # nearer, rounding would be blown up
-    x, velocity_step = kkt.solve(build, factor, phi, "dq_"), kkt.solve(build, factor, phi_dot, "dv_")
-    build.begin_section("results")
+    x, velocity_step = kkt.solve(builder, factor, phi, "dq_"), kkt.solve(builder, factor, phi_dot, "dv_")
+    builder.begin_section("results")
     for k, _ in enumerate(system.q):
-        build.append_store(Place("dq")[k], x[k])
-        build.append_store(Place("dv")[k], velocity_step[k])
-    build.append_line(Largest("worst", tuple(phi.values())))
-    build.append_line(Return())
+        builder.append_store(Place("dq")[k], x[k])
+        builder.append_store(Place("dv")[k], velocity_step[k])
+    builder.append_line(Largest("worst", tuple(phi.values())))
+    builder.append_line(Return())
     outs = (make_output_argument(name) for name in ("dq", "dv", "worst"))
     # a switching function of lengths and parameters alone is not an event function, so its branch is not held
-    kernel = build.build_kernel((*STATE, DISCRETE, PARAMETERS, *outs), status=True, owner="", registered_only=True)
+    kernel = builder.build_kernel((*STATE, DISCRETE, PARAMETERS, *outs), status=True, owner="", registered_only=True)
     return declare_branches(kernel)

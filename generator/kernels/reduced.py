@@ -50,7 +50,7 @@ def make_reduced_kernels(system: TreeSystem) -> tuple[list[Kernel], KKT, DrivenL
     """
     kkt = KKT(system, allow_early_pairs=has_singular_fallback(system))
     dynamics = make_dynamics_kernel(
-        system, kkt, DYNAMICS, _DOC, stabilised=False, append_fallback=_append_absolute_solution
+        system, kkt, DYNAMICS, _DOC, is_stabilized=False, append_fallback=_append_absolute_solution
     )
     projection, _ = make_projection_kernel(system, system.rows, "reduced_project")
     chains = DrivenLoopKernels(system, system.driven_loops) if system.driven_loops else None
@@ -65,16 +65,16 @@ def make_reduced_kernels(system: TreeSystem) -> tuple[list[Kernel], KKT, DrivenL
     return [remove_unused_locals(kernel) for kernel in kernels], kkt, chains
 
 
-def _append_absolute_solution(build: KernelBuilder, kkt: KKT, right_sides: Mapping[int, sp.Expr]) -> None:
+def _append_absolute_solution(builder: KernelBuilder, kkt: KKT, right_sides: Mapping[int, sp.Expr]) -> None:
     """Append the code for a vanishing pivot: the absolute formulation solves and finds the dependent equations.
 
     Nothing is appended if no pivot is tested; `right_sides` is not used.
     """
-    if not build.has_jumps:
+    if not builder.has_jumps:
         return
-    build.append_line(Jump())
-    build.begin_section("a pivot vanished: constraint equations depend on each other here")
-    build.append_line(SolveDependentRows())
+    builder.append_line(Jump())
+    builder.begin_section("a pivot vanished: constraint equations depend on each other here")
+    builder.append_line(SolveDependentRows())
 
 
 def _make_expand_kernel(system: TreeSystem) -> Kernel:
@@ -82,19 +82,19 @@ def _make_expand_kernel(system: TreeSystem) -> Kernel:
 
     They are written to `all_q` and `all_v`.
     """
-    build = KernelBuilder(
+    builder = KernelBuilder(
         system.model.symbols,
         "expand",
         [
             "Coordinates all_q (N_Q) and velocities all_v of all bodies at tree coordinates q and rates v.",
         ],
     )
-    build.begin_section("bodies")
+    builder.begin_section("bodies")
     for body in system.model.bodies:
         for index, (q, v) in enumerate(zip(body.q, body.v, strict=True)):
-            build.append_store(Place("all_q")[body.index + index], q)
-            build.append_store(Place("all_v")[body.index + index], v)
-    return build.build_kernel((*STATE, PARAMETERS, make_output_argument("all_q"), make_output_argument("all_v")))
+            builder.append_store(Place("all_q")[body.index + index], q)
+            builder.append_store(Place("all_v")[body.index + index], v)
+    return builder.build_kernel((*STATE, PARAMETERS, make_output_argument("all_q"), make_output_argument("all_v")))
 
 
 def _make_reduce_kernels(model: Model, system: TreeSystem) -> list[Kernel]:
@@ -176,12 +176,12 @@ def _make_closure_kernels(system: TreeSystem) -> list[Kernel]:
 
         `reads_velocity`: the value depends on rates.
         """
-        build = KernelBuilder(system.model.symbols, name, [doc])
-        build.begin_section("rows")
+        builder = KernelBuilder(system.model.symbols, name, [doc])
+        builder.begin_section("rows")
         for r, row in enumerate(system.rows):
-            build.append_store(Place("out")[r], get_value(row), row.name)
+            builder.append_store(Place("out")[r], get_value(row), row.name)
         arguments: Sequence[Argument] = STATE if reads_velocity else STATE[:2]
-        return build.build_kernel((*arguments, PARAMETERS, make_output_argument("out")))
+        return builder.build_kernel((*arguments, PARAMETERS, make_output_argument("out")))
 
     return [
         make_kernel("closures", "Phi of the loop closures in tree coordinates; m and rad.", False, lambda row: row.phi),

@@ -26,7 +26,7 @@ def build_reduction_log(
     """
     tree = system.tree if isinstance(system, TreeSystem) else None
     steps = [
-        *_make_opening_steps(model),
+        *_list_removal_steps(model),
         *(_make_reduction_steps(model, system) if isinstance(system, TreeSystem) else ()),
     ]
     unknown_names = _list_unknown_names(model, system)
@@ -65,8 +65,8 @@ def _measure_factorization(kkt: KKT) -> Solve:
     )
 
 
-def _make_opening_steps(model: Model) -> Iterator[Step]:
-    """Yield the steps from the closed linkage to the equations of the scene.
+def _list_removal_steps(model: Model) -> Iterator[Step]:
+    """Yield the steps from the closed linkage (all joints without play) to the equations of the scene.
 
     The first opens the joints with play, the second removes redundant equations; either may be empty.
     """
@@ -111,9 +111,9 @@ def _list_joint_names(links: Iterable[Link]) -> tuple[str, ...]:
 
 
 def _make_angle_steps(model: Model, tree: Tree) -> Iterator[Step]:
-    """Yield the elimination of angles that equations give in other angles: prescribed, constant and dependent ones.
+    """Yield three steps, the elimination of prescribed, of constant, and of dependent angles; each may be empty.
 
-    Each equation used has eliminated one angle.
+    Each equation used has eliminated one angle; a dependent one is affine in other angles.
     """
     drives = model.scene.mechanism.drives
 

@@ -67,7 +67,7 @@ def _derive_series(system: TreeSystem) -> Series:
     """
     kkt = _RecordedKKT(system, allow_early_pairs=has_singular_fallback(system))
     dynamics = remove_unused_locals(
-        make_dynamics_kernel(system, kkt, DYNAMICS, stabilised=False, append_fallback=_ignore_vanishing_pivot)
+        make_dynamics_kernel(system, kkt, DYNAMICS, is_stabilized=False, append_fallback=_ignore_vanishing_pivot)
     )
     diagonal = {(k, k): system.mass[k, k] for k in range(kkt.n) if (k, k) in system.mass}
     linear = LinearSystem(FACTORS, {**kkt.entries, **diagonal}, kkt.loads, kkt.unknowns)
@@ -82,8 +82,8 @@ class _RecordedKKT(KKT):
 
     def factorize(
         self,
-        build: KernelBuilder,
-        jumps: bool = False,
+        builder: KernelBuilder,
+        jump_on_failure: bool = False,
         threshold: Threshold = SINGULAR,
         pair_threshold: Threshold = VANISHING,
     ) -> Factor:
@@ -92,21 +92,23 @@ class _RecordedKKT(KKT):
         No discrete state is passed to the series, from which C reads them otherwise.
         """
         threshold, pair_threshold = (Threshold(limit.name, limit) for limit in (threshold, pair_threshold))
-        return super().factorize(build, jumps, threshold, pair_threshold)
+        return super().factorize(builder, jump_on_failure, threshold, pair_threshold)
 
     def solve(
-        self, build: KernelBuilder, factor: Factor, b: Mapping[int, sp.Expr], prefix: str = ""
+        self, builder: KernelBuilder, factor: Factor, b: Mapping[int, sp.Expr], prefix: str = ""
     ) -> dict[int, sp.Expr]:
         """Append the solution; record the names of the right-hand sides and the symbols of the unknowns, by node."""
-        build.begin_section("right-hand side")
-        load_symbols = {k: build.append_local(f"load_{self.names[k]}", b.get(k, ZERO)) for k in self.elimination.order}
+        builder.begin_section("right-hand side")
+        load_symbols = {
+            k: builder.append_local(f"load_{self.names[k]}", b.get(k, ZERO)) for k in self.elimination.order
+        }
         self.loads = {symbol.name: k for k, symbol in load_symbols.items()}
-        x = super().solve(build, factor, load_symbols, prefix)
+        x = super().solve(builder, factor, load_symbols, prefix)
         self.unknowns = {k: symbol for k, symbol in x.items() if symbol.is_Symbol}
         return x
 
 
-def _ignore_vanishing_pivot(build: KernelBuilder, kkt: KKT, right_sides: Mapping[int, sp.Expr]) -> None:
+def _ignore_vanishing_pivot(builder: KernelBuilder, kkt: KKT, right_sides: Mapping[int, sp.Expr]) -> None:
     """Append nothing for a vanishing pivot: another method takes the step then.
 
     It is passed to `make_dynamics_kernel` as `append_fallback`.

@@ -45,24 +45,24 @@ def derive_quantity(
 ) -> Quantity:
     """Return a registered quantity at an address whose value is a formula of other quantities.
 
-    `formula` is an expression with letters; `quantities` maps these letters to quantities. `location` is the location
+    `formula` is an expression of variables; `quantities` maps their names to quantities. `location` is the location
     in the file.
     """
-    value = _replace_letters(parse(formula, location), quantities)
+    value = _substitute_quantities(parse(formula, location), quantities)
     return reader.register_quantity(Quantity(address, value, dimension, location, tuple(quantities.values())))
 
 
-def _replace_letters(expr: Expr, quantities: Mapping[str, Quantity]) -> Expr:
-    """Return a formula's tree with the letters replaced by the addresses of their quantities, literal zeros by 0."""
+def _substitute_quantities(expr: Expr, quantities: Mapping[str, Quantity]) -> Expr:
+    """Return a formula's tree with variables replaced by the addresses of their quantities, literal zeros by 0."""
     match expr:
         case Name(path=path):
             return Number(0.0, "0") if quantities[path].is_zero else Name(quantities[path].address)
         case Unary(operator=operator, operand=operand):
-            return Unary(operator, _replace_letters(operand, quantities))
+            return Unary(operator, _substitute_quantities(operand, quantities))
         case Binary(operator=operator, left=left, right=right):
-            return Binary(operator, _replace_letters(left, quantities), _replace_letters(right, quantities))
+            return Binary(operator, _substitute_quantities(left, quantities), _substitute_quantities(right, quantities))
         case Call(function=function, arguments=arguments):
-            return Call(function, tuple(_replace_letters(argument, quantities) for argument in arguments))
+            return Call(function, tuple(_substitute_quantities(argument, quantities) for argument in arguments))
     return expr
 
 
@@ -149,7 +149,7 @@ class MassProperties:
     def _set_mass(self, node: Map, values: Values, area: str, lengths: Mapping[str, Quantity], key: Text) -> None:
         """Set the mass to density times thickness times `area`, unless the shape has neither density nor thickness.
 
-        `area` is a formula of the letters in `lengths`. Raises an InputError if the body also gives its mass, or if one
+        `area` is a formula of the variables `lengths`. Raises an InputError if the body also gives its mass, or if one
         of density and thickness is missing.
         """
         plate_quantities = {"d": self._read_density(node, values), "h": values.quantities.get("thickness")}
@@ -183,10 +183,10 @@ class MassProperties:
             self._reader.add_condition(self.inertia, ">", 0.0, "a moment of inertia is positive")
 
     def _describe_centred_shape(self, kind: Text, values: Values) -> tuple[str, str, dict[str, Quantity]]:
-        """Return area, squared radius of gyration and their letters for a shape centred on the centre of mass.
+        """Return area, squared radius of gyration and their variables for a shape centred on the centre of mass.
 
-        The first two are formulas, the last maps letters to quantities. Raises BadValueError for a bar without a
-        length.
+        The first two are formulas, the last maps names of variables to quantities. Raises BadValueError for a bar
+        without a length.
         """
         if kind == "disc":
             return "pi * r**2", "r**2 / 2", {"r": values.quantities["disc"]}
@@ -205,7 +205,7 @@ class MassProperties:
     def _describe_triangle(
         self, node: Map, kind: Text, points: Mapping[str, Vector]
     ) -> tuple[str, str, dict[str, Quantity]]:
-        """Return area, squared radius of gyration and their letters for a triangle, and set its centre of mass.
+        """Return area, squared radius of gyration and their variables for a triangle, and set its centre of mass.
 
         Raises BadValueError if the body has a centre of mass already, UnknownNameError for an unknown corner.
         """

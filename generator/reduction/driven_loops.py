@@ -37,7 +37,7 @@ class Direction:
 
     cos: sp.Symbol
     sin: sp.Symbol
-    turns: Mapping[int, sp.Expr]  # by number of the dependent coordinate
+    angle_coefficients: Mapping[int, sp.Expr]  # by number of the dependent coordinate
 
 
 @dataclass(frozen=True)
@@ -65,12 +65,16 @@ def add_directions(
     index_of = {name: k for k, name in enumerate(driven_loops.names)}
     directions: list[Direction] = []
     for frame in frames:
-        if frame.turns and set(frame.turns) <= {*index_of, *prescribed_names} and {frame.cos, frame.sin} & read_symbols:
+        if (
+            frame.angle_coefficients
+            and set(frame.angle_coefficients) <= {*index_of, *prescribed_names}
+            and {frame.cos, frame.sin} & read_symbols
+        ):
             first_index = len(system.q) + len(driven_loops.names) + 2 * len(directions)
             for k, symbol in enumerate((frame.cos, frame.sin)):
                 symbols.info[symbol] = replace(symbols.info[symbol], place=Place("q")[first_index + k])
-            turns = {index_of[name]: c for name, c in frame.turns.items() if name in index_of}
-            directions.append(Direction(frame.cos, frame.sin, turns))
+            angle_coefficients = {index_of[name]: c for name, c in frame.angle_coefficients.items() if name in index_of}
+            directions.append(Direction(frame.cos, frame.sin, angle_coefficients))
     return replace(driven_loops, directions=tuple(directions))
 
 

@@ -47,14 +47,14 @@ class Coordinate:
 
 @dataclass(frozen=True)
 class Frame:
-    """Directions that turn together; `turns` are the c_k by coordinate, empty for the ground's."""
+    """Directions that turn together; `angle_coefficients` are the c_k by coordinate, empty for the ground's."""
 
     name: str
     theta: sp.Expr
     omega: sp.Expr
     cos: sp.Expr
     sin: sp.Expr
-    turns: Mapping[str, sp.Expr]
+    angle_coefficients: Mapping[str, sp.Expr]
 
 
 class Motions:
@@ -130,17 +130,17 @@ class Motions:
 
         A longer angle or rate becomes a symbol of its own.
         """
-        turns = {k: c for k, c in affine.items() if k != CONSTANT}
+        angle_coefficients = {k: c for k, c in affine.items() if k != CONSTANT}
         theta, omega = self.compute_value(affine), self.compute_rate(affine)
         if not theta.is_Symbol:
-            theta = self.define_value(f"{name}_angle", theta, turns)
+            theta = self.define_value(f"{name}_angle", theta, angle_coefficients)
         if not omega.is_Symbol and omega != 0:
-            omega = self.define_rate(f"{name}_rate", omega, turns)
+            omega = self.define_rate(f"{name}_rate", omega, angle_coefficients)
         cos = self.symbols.add_definition(f"cos_theta_{name}", sp.cos(theta), None, f"cos of {name}.theta")
         sin = self.symbols.add_definition(f"sin_theta_{name}", sp.sin(theta), None, f"sin of {name}.theta")
-        frame = Frame(name, theta, omega, cos, sin, turns)
-        self.symbols.rules[cos] = self.find_derivative_rules({k: -c * sin for k, c in turns.items()})
-        self.symbols.rules[sin] = self.find_derivative_rules({k: c * cos for k, c in turns.items()})
+        frame = Frame(name, theta, omega, cos, sin, angle_coefficients)
+        self.symbols.rules[cos] = self.find_derivative_rules({k: -c * sin for k, c in angle_coefficients.items()})
+        self.symbols.rules[sin] = self.find_derivative_rules({k: c * cos for k, c in angle_coefficients.items()})
         return frame
 
     def rotate_vector(self, frame: Frame, w: Pair, base_name: str) -> Pair:
@@ -150,7 +150,7 @@ class Motions:
         names.
         """
         x, y = w
-        if not frame.turns or w == (ZERO, ZERO):
+        if not frame.angle_coefficients or w == (ZERO, ZERO):
             return w
         if all(part in (-1, 0, 1) for part in w):
             return frame.cos * x - frame.sin * y, frame.sin * x + frame.cos * y
@@ -160,8 +160,12 @@ class Motions:
         if (frame.name, x, y) not in self._arms:
             a_x = self.symbols.add_definition(f"{base_name}_x", frame.cos * x - frame.sin * y, None, "A(theta) s, x")
             a_y = self.symbols.add_definition(f"{base_name}_y", frame.sin * x + frame.cos * y, None, "A(theta) s, y")
-            self.symbols.rules[a_x] = self.find_derivative_rules({k: -c * a_y for k, c in frame.turns.items()})
-            self.symbols.rules[a_y] = self.find_derivative_rules({k: c * a_x for k, c in frame.turns.items()})
+            self.symbols.rules[a_x] = self.find_derivative_rules(
+                {k: -c * a_y for k, c in frame.angle_coefficients.items()}
+            )
+            self.symbols.rules[a_y] = self.find_derivative_rules(
+                {k: c * a_x for k, c in frame.angle_coefficients.items()}
+            )
             self._arms[frame.name, x, y] = a_x, a_y
         return self._arms[frame.name, x, y]
 

@@ -57,10 +57,10 @@ class TreePoint(PointFrame):
         return geometry.compute_jacobian_columns(self.terms)
 
     @property
-    def turns(self) -> Mapping[str, sp.Expr]:
+    def angle_coefficients(self) -> Mapping[str, sp.Expr]:
         """Return ∂θ/∂z of the point's body by coordinate."""
         geometry: TreeGeometry = self.geometry  # type: ignore[assignment]
-        return geometry.frame_of[self.body.name].turns if self.body else {}
+        return geometry.frame_of[self.body.name].angle_coefficients if self.body else {}
 
     def expand_arms(self) -> TreePoint:
         """Return the same point with its position and velocity as sums of arms.
@@ -126,15 +126,24 @@ class TreeGeometry(Geometry):
         """
         affine = self.motions.hoist_coefficients(f"{body}_theta", self.tree.angles[body])
         constant = affine.get(CONSTANT, ZERO)
-        turns = {k: c for k, c in affine.items() if k != CONSTANT}
-        frame = next((f for f in self.frames.values() if f.turns == turns), None)
+        angle_coefficients = {k: c for k, c in affine.items() if k != CONSTANT}
+        frame = next((f for f in self.frames.values() if f.angle_coefficients == angle_coefficients), None)
         if frame is None:
-            single_body = next((b for b in turns if len(turns) == 1 and turns[b] == 1 and b in self.tree.free), None)
+            single_body = next(
+                (
+                    b
+                    for b in angle_coefficients
+                    if len(angle_coefficients) == 1 and angle_coefficients[b] == 1 and b in self.tree.free
+                ),
+                None,
+            )
             name, frame_affine = (single_body, {single_body: ONE}) if single_body else (body, affine)
             frame = self.frames[name] = self.motions.make_frame(name, frame_affine)
         else:
             name = frame.name
-        frame_constant = ZERO if not turns or name in self.tree.free else self.tree.angles[name].get(CONSTANT, ZERO)
+        frame_constant = (
+            ZERO if not angle_coefficients or name in self.tree.free else self.tree.angles[name].get(CONSTANT, ZERO)
+        )
         self._offset[body] = sp.expand(constant - frame_constant)
         self.frame_of[body] = frame
 
@@ -194,9 +203,9 @@ class TreeGeometry(Geometry):
         return self.motions.compute_rate(self.slides[slide]) if slide else ZERO
 
     def _add_terms(self, terms: Terms, added_terms: Terms, base_name: str) -> Terms:
-        """Return the sum of terms; those with the same frame and slide are added.
+        """Return the sum of terms, without those that are zero.
 
-        `base_name`: base of the names of derived parameters.
+        Vectors with the same frame and slide are added, as derived parameters; `base_name`: base of their names.
         """
         result = dict(terms)
         for key, w in added_terms.items():
@@ -220,9 +229,9 @@ class TreeGeometry(Geometry):
             frame, value = self.frames[name], self.get_slide_value(slide)
             a_x, a_y = self.motions.rotate_vector(frame, w, f"arm_{name}")
             along = self.find_slide_rates(slide)
-            for k in dict.fromkeys((*frame.turns, *along)):
+            for k in dict.fromkeys((*frame.angle_coefficients, *along)):
                 x, y = result.get(k, (ZERO, ZERO))
-                angular, linear = frame.turns.get(k, ZERO) * value, along.get(k, ZERO)
+                angular, linear = frame.angle_coefficients.get(k, ZERO) * value, along.get(k, ZERO)
                 result[k] = x - angular * a_y + linear * a_x, y + angular * a_x + linear * a_y
         return result
 
@@ -302,10 +311,10 @@ class TreeGeometry(Geometry):
             body_symbols.index,
             x,
             y,
-            make_symbol(f"{body}_theta", theta, frame.turns),
+            make_symbol(f"{body}_theta", theta, frame.angle_coefficients),
             vx,
             vy,
-            make_symbol(f"{body}_omega", omega, frame.turns, True),
+            make_symbol(f"{body}_omega", omega, frame.angle_coefficients, True),
             body_symbols.mass,
             body_symbols.inertia,
         )

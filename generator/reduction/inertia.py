@@ -61,9 +61,9 @@ class Inertia:
         """
         if first.name == second.name:
             return ONE, ZERO
-        if not first.turns:
+        if not first.angle_coefficients:
             return second.cos, second.sin
-        if not second.turns:
+        if not second.angle_coefficients:
             return first.cos, -first.sin
         if (first.name, second.name) not in self._angle_differences:
             define, name = self.symbols.add_definition, f"{second.name}_less_{first.name}"
@@ -78,9 +78,16 @@ class Inertia:
 
         d cos = −sin dψ and d sin = cos dψ. P and Q have the same rules.
         """
-        turns = {k: second.turns.get(k, ZERO) - first.turns.get(k, ZERO) for k in {**first.turns, **second.turns}}
-        self.symbols.rules[cos] = self.motions.find_derivative_rules({k: -c * sin for k, c in turns.items()})
-        self.symbols.rules[sin] = self.motions.find_derivative_rules({k: c * cos for k, c in turns.items()})
+        angle_coefficients = {
+            k: second.angle_coefficients.get(k, ZERO) - first.angle_coefficients.get(k, ZERO)
+            for k in {**first.angle_coefficients, **second.angle_coefficients}
+        }
+        self.symbols.rules[cos] = self.motions.find_derivative_rules(
+            {k: -c * sin for k, c in angle_coefficients.items()}
+        )
+        self.symbols.rules[sin] = self.motions.find_derivative_rules(
+            {k: c * cos for k, c in angle_coefficients.items()}
+        )
 
     def find_products(self, T: Term, U: Term) -> Pair:
         """Return P_TU and Q_TU of two terms, from a cache; (0, 0) for terms that no body has together.
@@ -124,8 +131,8 @@ class Inertia:
             self.geometry.find_slide_rates(T[1]),
             self.geometry.get_slide_value(T[1]),
         )
-        names = dict.fromkeys((*frame.turns, *along))
-        return {k: (frame.turns.get(k, ZERO) * value, along.get(k, ZERO)) for k in names}
+        names = dict.fromkeys((*frame.angle_coefficients, *along))
+        return {k: (frame.angle_coefficients.get(k, ZERO) * value, along.get(k, ZERO)) for k in names}
 
     def _iterate_term_pairs(self) -> Iterable[tuple[Term, Term]]:
         """Yield ordered pairs of terms that some body has together, in both orders."""
@@ -144,9 +151,9 @@ class Inertia:
                     entry = turn_T * turn_U * P + turn_T * slide_U * Q - slide_T * turn_U * Q + slide_T * slide_U * P
                     sums[k, j] = sums.get((k, j), ZERO) + entry
         for body in self.geometry.bodies.values():
-            turns = self.geometry.frame_of[body.name].turns
-            for k, slide_U in turns.items():
-                for j, d in turns.items():
+            angle_coefficients = self.geometry.frame_of[body.name].angle_coefficients
+            for k, slide_U in angle_coefficients.items():
+                for j, d in angle_coefficients.items():
                     sums[k, j] = sums.get((k, j), ZERO) + body.inertia * slide_U * d
         result = {}
         for (k, j), value in sums.items():

@@ -42,28 +42,30 @@ class TreeSystem(System):
     driven_loops: DrivenLoops | None = None  # what the drives determine through loops (driven_chains.py)
     in_tree = True
 
-    def _find_turning_bodies(self, k: int) -> dict[str, sp.Expr]:
+    def _find_rotating_bodies(self, k: int) -> dict[str, sp.Expr]:
         """Return the bodies that turn with coordinate k, and their rates by it; none for a slide."""
         geometry, name = self.model.geometry, self.unknowns[k]
         assert isinstance(geometry, TreeGeometry)
-        turns = {body: geometry.frame_of[body].turns.get(name, ZERO) for body in geometry.bodies}
-        return {body: rate for body, rate in turns.items() if rate != 0}
+        angle_coefficients = {
+            body: geometry.frame_of[body].angle_coefficients.get(name, ZERO) for body in geometry.bodies
+        }
+        return {body: rate for body, rate in angle_coefficients.items() if rate != 0}
 
     def compute_inertia_of_unit_mass(self, k: int) -> sp.Expr:
-        """Return the inertia about an angle k of all bodies that turn with it, each of 1 kg; 1 for a slide."""
-        turned = self._find_turning_bodies(k).items()
+        """Return the inertia of an angle k for bodies of 1 kg: Σ (∂θ/∂k)² s² over their joint points; 1 for a slide."""
+        turned = self._find_rotating_bodies(k).items()
         return (
             sp.Add(*(c**2 * s for body, c in turned for s in self.model.compute_squared_arms(body))) if turned else ONE
         )
 
-    def compute_turning_inertia(self, k: int) -> sp.Expr:
-        """Return the inertia about an angle k of all bodies that turn with it, as a derived parameter.
+    def compute_inertia_about_joints(self, k: int) -> sp.Expr:
+        """Return the moment of inertia with which the pivot of M of coordinate k is compared; 0 for a slide.
 
-        It is 0 for a slide.
+        For an angle it is Σ (∂θ/∂k)² (J + Σ m s²) over the bodies that turn with it, a derived parameter.
         """
         name = self.unknowns[k]
         inertia = sp.Add(
-            *(c**2 * self.model.compute_turning_inertia(body) for body, c in self._find_turning_bodies(k).items())
+            *(c**2 * self.model.compute_inertia_about_joints(body) for body, c in self._find_rotating_bodies(k).items())
         )
         return self.model.parameter_table.derive_parameter(
             f"{name.replace('.', '_')}_turning", inertia, "J and m s^2 of what turns with it"
@@ -85,7 +87,7 @@ class TreeSystem(System):
                 lever_force = forces_by_lever.setdefault(key, [ZERO, ZERO])
                 lever_force[0] += sign * x
                 lever_force[1] += sign * y
-            for k, rate in point.turns.items():
+            for k, rate in point.angle_coefficients.items():
                 moments[k] = moments.get(k, ZERO) + rate * moment
         forces = dict(moments)
         for k, forces_by_lever in levers.items():
@@ -110,7 +112,7 @@ class TreeConstraints(Constraints):
         names = {
             k
             for body in bodies
-            for k in (*geometry.centre_of_mass(body.name).columns, *geometry.frame_of[body.name].turns)
+            for k in (*geometry.centre_of_mass(body.name).columns, *geometry.frame_of[body.name].angle_coefficients)
         }
         return [
             (c.q, c.v) for name, c in geometry.motions.coordinates.items() if name in names and c.acceleration is None
@@ -327,9 +329,11 @@ def _derive_motion(geometry: TreeGeometry, body: str, index_of: Mapping[str, int
 
     `index_of`: index of each unknown; prescribed coordinates contribute to the bias.
     """
-    com, turns = geometry.centre_of_mass(body), geometry.frame_of[body].turns
+    com, angle_coefficients = geometry.centre_of_mass(body), geometry.frame_of[body].angle_coefficients
     coordinates = geometry.motions.coordinates
-    columns = [{k: column_pair[i] for k, column_pair in com.columns.items()} for i in range(2)] + [dict(turns)]
+    columns = [{k: column_pair[i] for k, column_pair in com.columns.items()} for i in range(2)] + [
+        dict(angle_coefficients)
+    ]
     bias = [*geometry.compute_bias(com.terms), ZERO]
     for i, column in enumerate(columns):
         for k, entry in column.items():

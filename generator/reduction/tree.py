@@ -64,7 +64,7 @@ def find_path(links: Iterable[Link], body: str) -> list[Link]:
 
 # operations: an entry of M with its velocity term, an entry of a closure's row, a product of the elimination
 _PAIR_COST, _ENTRY_COST, _PRODUCT_COST = 14, 4, 2
-_LIGHT_END_COST = 10**6  # a body at the end of a chain whose mass is lumped at the joint that carries it
+_LEAF_WITHOUT_INERTIA_COST = 10**6  # a body at the end of a chain whose mass is lumped at the joint that carries it
 _FREE_ENTRY_COST = 5  # an entry of M with x or y of a body that moves freely
 
 
@@ -103,7 +103,9 @@ class OperationEstimate:
         self.costs: dict[frozenset[tuple[str, str]], int] = {}  # by the joint that places each body
         body_of = {q: body.name for body in model.bodies for q in body.q}
         self.angles = angles
-        self.turns = {body_name: frozenset(k for k in affine if k in angles) for body_name, affine in angles.items()}
+        self.angle_coordinates = {
+            body_name: frozenset(k for k in affine if k in angles) for body_name, affine in angles.items()
+        }
         satisfied = used_rows.union(*(shared_point.rows for shared_point in shared_points))
         self.rows = [(r.name, sorted({body_of[q] for q in r.phi_q})) for r in model.rows if r.name not in satisfied]
 
@@ -117,7 +119,8 @@ class OperationEstimate:
     def _count_operations(self, links: tuple[Link, ...]) -> int:
         """Return the estimated operations of the right-hand side on a tree.
 
-        Entries of M and of closures count, and the elimination. Light bodies at the ends of chains cost 10⁶ each.
+        Entries of M and of closures count, and the elimination. Each leaf body with nearly no inertia about its joint
+        costs 10⁶ more.
         """
         satisfied_rows = {row for link in links for row in link.rows}
         paths: dict[str, list[Link]] = {}
@@ -126,7 +129,7 @@ class OperationEstimate:
         for link in links:
             paths[link.body] = [*paths.get(link.parent, []), link]
             moving_coordinates[link.body] = (
-                moving_coordinates[link.parent] | self.turns[link.body] | set(link.coordinates)
+                moving_coordinates[link.parent] | self.angle_coordinates[link.body] | set(link.coordinates)
             )
             coordinates_of_masses.append(
                 frozenset(link.coordinates) if link.joint is None else moving_coordinates[link.body]
@@ -148,23 +151,23 @@ class OperationEstimate:
                 neighbours.append(indices)
                 for index in indices:
                     neighbours[index] = neighbours[index] | {len(neighbours) - 1}
-        cost += _LIGHT_END_COST * len(self._find_light_ends(links))
+        cost += _LEAF_WITHOUT_INERTIA_COST * len(self._find_leaves_without_inertia(links))
         return cost + _PRODUCT_COST * choose_elimination(tuple(map(frozenset, neighbours)), len(index_of)).cost
 
-    def _find_light_ends(self, links: tuple[Link, ...]) -> list[Link]:
-        """Return the links whose body carries no other and has nearly no inertia about its joint or its centre.
+    def _find_leaves_without_inertia(self, links: tuple[Link, ...]) -> list[Link]:
+        """Return the links of leaf bodies with nearly no moment of inertia about their joint or centre of mass.
 
-        Bodies that slide or do not turn freely are left out.
+        A leaf carries no other body. Bodies that slide or do not turn freely are left out.
         """
         parents = {link.parent for link in links}
         ends = [link for link in links if link.body not in parents and set(self.angles[link.body]) == {link.body}]
-        return [link for link in ends if not link.slides and self._is_light(link)]
+        return [link for link in ends if not link.slides and self._has_negligible_inertia(link)]
 
-    def _is_light(self, link: Link) -> bool:
+    def _has_negligible_inertia(self, link: Link) -> bool:
         """Return whether a body has nearly no inertia about the joint that carries it, from a cache."""
         key = link.body, link.joint.name if link.joint else ""
         if key not in self._light:
-            self._light[key] = self.model.is_light(link.body, link.joint)
+            self._light[key] = self.model.has_negligible_inertia(link.body, link.joint)
         return self._light[key]
 
     def find_closing_pairs(self, links: tuple[Link, ...]) -> list[Joint]:
@@ -197,7 +200,7 @@ class OperationEstimate:
             )
             n_shared = max(next(differing_indices, min(len(first_path), len(second_path))) - 1, 0)
         links = [link for body in bodies for link in paths.get(body, [])[n_shared:]]
-        return {key for link in links for key in (*self.turns[link.body], *link.coordinates)}
+        return {key for link in links for key in (*self.angle_coordinates[link.body], *link.coordinates)}
 
 
 _MAX_DEPTHS = (None, 5, 3, 2, 1)  # how many bodies a chain may have before it is cut
@@ -321,7 +324,7 @@ def _find_edges(model: Model, angles: Mapping[str, Affine]) -> list[Joint]:
     """Return the joints that can position a body: all their equations exist, and a slide's bodies turn together."""
     row_names = {row.name for row in model.rows}
 
-    def find_turning_coordinates(body: str) -> dict[str, sp.Expr]:
+    def find_angle_coefficients(body: str) -> dict[str, sp.Expr]:
         """Return the coordinates with which a body turns, and their coefficients; empty for the ground."""
         return {k: c for k, c in angles.get(body, {}).items() if k != CONSTANT}
 
@@ -333,9 +336,7 @@ def _find_edges(model: Model, angles: Mapping[str, Affine]) -> list[Joint]:
         rows = joint_types()[joint.kind].carries
         if not rows or not all(f"{joint.name}.{row}" in row_names for row in rows):
             return False
-        return len(rows) == 2 or find_turning_coordinates(joint.first.body) == find_turning_coordinates(
-            joint.second.body
-        )
+        return len(rows) == 2 or find_angle_coefficients(joint.first.body) == find_angle_coefficients(joint.second.body)
 
     return list(filter(can_position, model.scene.mechanism.joints.values()))
 

@@ -13,7 +13,7 @@ from collections.abc import Sequence
 import sympy as sp
 
 from gudgeon.generator.equations import contact_steps as contact
-from gudgeon.generator.equations.contact_steps import Step
+from gudgeon.generator.equations.contact_steps import Assignment
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.equations.play import Clearance, LawEquations
 from gudgeon.generator.ir.differentiation import Tangent, Tangents
@@ -82,10 +82,10 @@ class _DerivativeBuilder:
         """Begin a section of statements with a title."""
         self.builder.begin_section(title)
 
-    def append_step(self, step: Step) -> None:
+    def append_assignment(self, step: Assignment) -> None:
         """Append an equation symbol = value of contact_steps.py, and its tangent."""
         value = read_parameters_at_places(self.model, step.value)
-        value_on_branch = self.tangents.store_powers(self.tangents.hold_branches(value))
+        value_on_branch = self.tangents.store_powers(self.tangents.freeze_branches(value))
         self.builder.append_line(Statement(step.symbol.name, value_on_branch))
         self.tangents.store_tangent(step.symbol, self.tangents.compute_gradient(value, step.symbol))
 
@@ -101,7 +101,7 @@ class _DerivativeBuilder:
                 sp.Symbol(name, real=True),
                 hoist_reciprocals(self.model.parameter_table, sp.sympify(equation)),
             )
-            self.builder.append_line(Statement(name, law_tangents.store_powers(law_tangents.hold_branches(value))))
+            self.builder.append_line(Statement(name, law_tangents.store_powers(law_tangents.freeze_branches(value))))
             law_tangents.store_tangent(symbol, law_tangents.compute_gradient(value, symbol))
             if name in equations.results:
                 results[name] = symbol
@@ -127,14 +127,16 @@ def make_film_derivative_kernel(model: Model, clearance: Clearance, film: LawEqu
     derivative_builder = _DerivativeBuilder(model, clearance, "film")
     derivative_builder.begin_section("eccentricity ratio and effective squeeze velocity")
     for step in contact.make_film_input_equations(clearance, film):
-        derivative_builder.append_step(step)
+        derivative_builder.append_assignment(step)
     derivative_builder.begin_section("film")
     results = derivative_builder.append_law(film, (contact.epsilon, contact.w_n, contact.w_t))
     derivative_builder.begin_section("moments")
-    derivative_builder.append_step(Step(contact.make_part_symbol(contact.F_along_t, "film"), results["F_t"]))
+    derivative_builder.append_assignment(
+        Assignment(contact.make_part_symbol(contact.F_along_t, "film"), results["F_t"])
+    )
     moments = contact.make_film_moment_equations(film)
     for step in moments:
-        derivative_builder.append_step(step)
+        derivative_builder.append_assignment(step)
     tangential = contact.make_part_symbol(contact.F_along_t, "film")
     return derivative_builder.finish_kernel([results["F_r"], tangential, *(step.symbol for step in moments)])
 
@@ -153,7 +155,7 @@ def make_dry_derivative_kernel(model: Model, clearance: Clearance, normal: LawEq
         if clearance.contour
         else [contact.make_penetration_equation(clearance)]
     ):
-        derivative_builder.append_step(step)
+        derivative_builder.append_assignment(step)
     builder.append_line(Statement(contact.depth.name, sp.Max(contact.delta, 0)))
     depth_slope = builder.append_local("depth_by_e", Conditional(_IS_PENETRATING, sp.Integer(1), ZERO))
     tangents.store_tangent(
@@ -167,7 +169,7 @@ def make_dry_derivative_kernel(model: Model, clearance: Clearance, normal: LawEq
         ratio, {base: ratio_slope * rate for base, rate in tangents.get_tangent(contact.deltadot).items()}
     )
     for step in contact.make_lever_arm_equations(clearance):
-        derivative_builder.append_step(replace_stored_speed(step))
+        derivative_builder.append_assignment(replace_stored_speed(step))
     derivative_builder.begin_section("contact")
     further_variables = [
         _FORCE if clearance.rigid else sp.Symbol(name, real=True) for name in normal.further_variables
@@ -175,7 +177,7 @@ def make_dry_derivative_kernel(model: Model, clearance: Clearance, normal: LawEq
     F_n = derivative_builder.append_law(normal, (contact.depth, contact.ratio, *further_variables))["F_n"]
     tangential = contact.make_part_symbol(contact.F_along_t, "dry")
     for step in contact.make_contour_normal_force(clearance):
-        derivative_builder.append_step(step)
+        derivative_builder.append_assignment(step)
     normal_force = contact.F_N if clearance.contour else F_n
     friction_results: dict[str, sp.Symbol] = {}
     if clearance.friction is not None:
@@ -183,23 +185,23 @@ def make_dry_derivative_kernel(model: Model, clearance: Clearance, normal: LawEq
         for state, base in zip(states, derivative_builder.states, strict=False):
             tangents.store_tangent(state, {base: sp.Integer(1)})
         friction_results = derivative_builder.append_law(clearance.friction, (normal_force, contact.v_t, *states))
-    derivative_builder.append_step(Step(tangential, friction_results.pop("F_t", ZERO)))
+    derivative_builder.append_assignment(Assignment(tangential, friction_results.pop("F_t", ZERO)))
     moments = contact.make_dry_moment_equations(clearance)
     for step in moments:
-        derivative_builder.append_step(step)
+        derivative_builder.append_assignment(step)
     forces = (-F_n, tangential)
     if clearance.contour:
         forces = contact.resolve_contour_force(F_n, tangential)
     return derivative_builder.finish_kernel([*forces, *(step.symbol for step in moments), *friction_results.values()])
 
 
-def replace_stored_speed(step: Step) -> Step:
+def replace_stored_speed(step: Assignment) -> Assignment:
     """Return the equation without the choice between stored and present approach speed, which C makes.
 
     The ratio of velocities keeps only its clipping; other equations are returned unchanged.
     """
     speed_ratio = contact.deltadot / contact.stored
-    return Step(step.symbol, step.value.subs(speed_ratio, UNCLIPPED)) if step.symbol == contact.ratio else step
+    return Assignment(step.symbol, step.value.subs(speed_ratio, UNCLIPPED)) if step.symbol == contact.ratio else step
 
 
 def read_parameters_at_places(model: Model, value: sp.Expr) -> sp.Expr:
@@ -227,13 +229,13 @@ def make_fraction_derivative_kernel(model: Model, clearance: Clearance) -> Kerne
             contact.depth,
             {contact.delta: builder.append_local("depth_by_delta", Conditional(_IS_PENETRATING, sp.Integer(1), ZERO))},
         )
-    *abbreviations, fraction = contact.make_blend_equations(clearance, closed=True)
+    *abbreviations, fraction = contact.make_blend_equations(clearance, is_closed=True)
     for step in abbreviations:
         value = read_parameters_at_places(model, step.value)
-        builder.append_line(Statement(step.symbol.name, tangents.hold_branches(value)))
+        builder.append_line(Statement(step.symbol.name, tangents.freeze_branches(value)))
         tangents.store_tangent(step.symbol, tangents.compute_gradient(value, step.symbol))
     value = read_parameters_at_places(model, fraction.value)
-    builder.append_store(Place("out")[0], tangents.hold_branches(value))
+    builder.append_store(Place("out")[0], tangents.freeze_branches(value))
     builder.append_store(Place("out")[1], tangents.compute_gradient(value).get(contact.delta, ZERO))
     arguments = (Argument(contact.delta.name), PARAMETERS, *BRANCHES, make_output_argument("out"))
     return builder.build_kernel(arguments, inline=True)

@@ -127,10 +127,10 @@ class DependentCoordinates:
         only_avoided = bool(best) and rank[best[0]][0]  # with one body that is placed others may be placed by it
         return [(k, r) for k, r in best if not only_avoided or k // 3 == best[0][0] // 3]
 
-    def find_light_ends(self) -> set[tuple[str, str]]:
-        """Return pairs (body, joint) of bodies that turn freely and have no inertia about the joint that places them.
+    def find_leaves_without_inertia(self) -> set[tuple[str, str]]:
+        """Return pairs (body, joint) of leaf bodies with nearly no moment of inertia about the joint that places them.
 
-        Such a body carries no other body.
+        A leaf carries no other body; bodies whose angle an equation gives are left out. Both are names.
         """
         joints, bodies = self.model.scene.mechanism.joints, self.model.bodies
         placing_joints = {
@@ -140,28 +140,29 @@ class DependentCoordinates:
         }
         ends = [(body, joints[owner]) for body, owner in placing_joints]
         carriers = {joint.first.body if joint.second.body == body else joint.second.body for body, joint in ends}
-        turned_bodies = {
+        rotating_bodies = {
             bodies[first_coordinate // 3].name
             for coordinates, _ in self.groups
             for first_coordinate in coordinates
             if first_coordinate % 3 == 2
         }
-        free_ends = [(body, joint) for body, joint in ends if body not in carriers | turned_bodies]
-        return {(body, joint.name) for body, joint in free_ends if self.model.is_light(body, joint)}
+        free_ends = [(body, joint) for body, joint in ends if body not in carriers | rotating_bodies]
+        return {(body, joint.name) for body, joint in free_ends if self.model.has_negligible_inertia(body, joint)}
 
 
 def order_dependent_coordinates(system: System, rows: Sequence[Row]) -> DependentCoordinates:
     """Return the order in which bodies are placed, if possible by joints about which they have inertia.
 
-    The order is determined again with light ends avoided, until no new ones are found.
+    The order is determined again with pairs (body, joint) avoided that `find_leaves_without_inertia` returns, until
+    there are no new ones.
     """
     avoided_pairs: set[tuple[str, str]] = set()
     while True:
         dependent_coordinates = DependentCoordinates(system, rows, frozenset(avoided_pairs))
-        light_ends = dependent_coordinates.find_light_ends()
-        if light_ends <= avoided_pairs:
+        leaves_without_inertia = dependent_coordinates.find_leaves_without_inertia()
+        if leaves_without_inertia <= avoided_pairs:
             return dependent_coordinates
-        avoided_pairs |= light_ends
+        avoided_pairs |= leaves_without_inertia
 
 
 class FirstPivots:

@@ -69,11 +69,11 @@ class KKT:
         self.blocks = self._group_pivots()
         self.stick_symbols: dict[int, sp.Symbol] = {}  # node -> 1 in stick, 0 in slip
         self.pivots = tuple(names[k - self.n] for k in self.elimination.order if k >= self.n)
-        self.turning_inertias = (
-            self._find_turning_inertias() if self.rows and not system.model.has_changing_constraints else {}
+        self.inertias_of_angles = (
+            self._find_inertias_of_angles() if self.rows and not system.model.has_changing_constraints else {}
         )
         if not system.in_tree:
-            self.pivots += tuple(system.model.symbols.info[system.q[k]].meaning for k in self.turning_inertias)
+            self.pivots += tuple(system.model.symbols.info[system.q[k]].meaning for k in self.inertias_of_angles)
 
     def _group_pivots(self) -> list[list[int]]:
         """Return the pivots as blocks of one or two nodes, in elimination order.
@@ -99,13 +99,13 @@ class KKT:
                 blocks.append([k])
         return blocks
 
-    def _find_turning_inertias(self) -> dict[int, sp.Expr]:
-        """Return the angles that are pivots by themselves, with the inertia that turns with them.
+    def _find_inertias_of_angles(self) -> dict[int, sp.Expr]:
+        """Return the angles that are pivots by themselves, with the moment of inertia that turns with them.
 
         An angle is left out if that inertia is its entry of M anyway, or 0.
         """
         single_nodes = [k for block in self.blocks for k in block if block[-1] < self.n]
-        inertia_of_angle = {k: self.system.compute_turning_inertia(k) for k in single_nodes}
+        inertia_of_angle = {k: self.system.compute_inertia_about_joints(k) for k in single_nodes}
         return {
             k: inertia for k, inertia in inertia_of_angle.items() if inertia != 0 and inertia != self.system.mass[k, k]
         }
@@ -113,15 +113,15 @@ class KKT:
     def factorize(
         self,
         builder: KernelBuilder,
-        jumps: bool = False,
+        jump_on_failure: bool = False,
         threshold: Threshold = SINGULAR,
         pair_threshold: Threshold = VANISHING,
     ) -> Factor:
         """Append the statements of L and D⁻¹, with tests of the pivots, and return both.
 
-        A pivot below `threshold` of its size fails. With `jumps` the function then jumps to the code for vanishing
-        pivots, else it returns the pivot's number, from 1. `pair_threshold`: the same threshold for both equations of a
-        joint together.
+        A pivot below `threshold` of its size fails. With `jump_on_failure` the function then jumps to the code for
+        vanishing pivots, else it returns the pivot's number, from 1. `pair_threshold`: the same threshold for both
+        equations of a joint together.
         """
         builder.begin_section(FACTORS)
         L: Entries = {}
@@ -133,7 +133,7 @@ class KKT:
         n_rows = 0
         for block in self.blocks:
             inverse |= self._invert_block(
-                builder, block, earlier_columns, (L, W), (jumps, n_rows), (threshold, pair_threshold)
+                builder, block, earlier_columns, (L, W), (jump_on_failure, n_rows), (threshold, pair_threshold)
             )
             n_rows += sum(k >= self.n for k in block)
             later_nodes = [i for i in self.elimination.structure[block[-1]]]
@@ -165,15 +165,21 @@ class KKT:
         pivots. `on_failure`: whether a vanishing pivot jumps, and the number of equations before the block.
         `thresholds`: those of one and of two equations.
         """
-        (L, W), (jumps, count) = factors, on_failure
+        (L, W), (jump_on_failure, count) = factors, on_failure
         if block[0] in self.first_pivots.partner:
             return self._invert_coordinate_with_row(builder, block, earlier_columns, L, W)
         if len(block) == 2:
             return self._invert_pair(builder, block, earlier_columns, factors, on_failure, thresholds)
         (k,) = block
         if k < self.n:
-            return {k: {k: self._invert_coordinate_pivot(builder, k, earlier_columns[k], L, W, jumps)}}
-        return {k: {k: self._invert_row_pivot(builder, k, earlier_columns[k], L, W, (jumps, count + 1), thresholds[0])}}
+            return {k: {k: self._invert_coordinate_pivot(builder, k, earlier_columns[k], L, W, jump_on_failure)}}
+        return {
+            k: {
+                k: self._invert_row_pivot(
+                    builder, k, earlier_columns[k], L, W, (jump_on_failure, count + 1), thresholds[0]
+                )
+            }
+        }
 
     def _invert_coordinate_with_row(
         self,
@@ -262,8 +268,8 @@ class KKT:
                 builder, block, scale, (pivot_values[0], determinant), (*on_failure, thresholds[1])
             )
         elif on_failure[0]:
-            self._append_light_pivot_test(builder, first, pivot_values[0])
-            self._append_light_pivot_test(builder, second, determinant, pivot_values[0])
+            self._append_small_inertia_test(builder, first, pivot_values[0])
+            self._append_small_inertia_test(builder, second, determinant, pivot_values[0])
         inverse = builder.append_local(f"inverse_{name[0]}__{name[1]}", (-1 if is_row_pair else 1) / determinant)
         inverse_first, inverse_second = (
             builder.append_local(f"inverse_pivot_{name[i]}", pivot_values[1 - i] * inverse) for i in range(2)
@@ -328,19 +334,19 @@ class KKT:
         earlier_columns: Sequence[int],
         L: Mapping[tuple[int, int], sp.Expr],
         W: Mapping[tuple[int, int], sp.Expr],
-        jumps: bool,
+        jump_on_failure: bool,
     ) -> sp.Expr:
         """Return 1/D of coordinate k, with D = M_kk minus L W of the columns that are eliminated before it.
 
-        It is a derived parameter if there are no such columns and M_kk is constant, else a new local. With `jumps`, the
-        pivot of a coordinate in `turning_inertias` is tested first; 1/D is then a local also for a constant M_kk whose
-        default is not positive.
+        It is a derived parameter if there are no such columns and M_kk is constant, else a new local. With
+        `jump_on_failure`, the pivot of a coordinate in `inertias_of_angles` is tested first; 1/D is then a local also
+        for a constant M_kk whose default is not positive.
         """
         mass = self.system.mass[k, k]
-        if jumps and k in self.turning_inertias:
+        if jump_on_failure and k in self.inertias_of_angles:
             value = mass - sum((L[k, j] * W[k, j] for j in earlier_columns), ZERO)
             pivot = append_local_unless_simple(builder, f"pivot_{self.names[k]}", value)
-            self._append_light_pivot_test(builder, k, pivot)
+            self._append_small_inertia_test(builder, k, pivot)
             constant = self.system.model.parameter_table.is_constant(mass)
             if earlier_columns or not constant or self.system.model.parameter_table.compute_default(mass) <= 0.0:
                 return builder.append_local(f"inverse_pivot_{self.names[k]}", 1 / pivot)
@@ -352,17 +358,17 @@ class KKT:
         value = mass - sum((L[k, j] * W[k, j] for j in earlier_columns), sp.Integer(0))
         return builder.append_local(f"inverse_pivot_{self.names[k]}", 1 / value)
 
-    def _append_light_pivot_test(
+    def _append_small_inertia_test(
         self, builder: KernelBuilder, k: int, pivot: sp.Expr, *earlier_pivots: sp.Expr
     ) -> None:
         """Append a jump for an angle of which elimination leaves nearly no inertia; nothing for other coordinates.
 
         `pivot` is its own pivot times those in `earlier_pivots`.
         """
-        if k in self.turning_inertias:
-            status = len(self.rows) + len(self.frictions) + 1 + list(self.turning_inertias).index(k)
+        if k in self.inertias_of_angles:
+            status = len(self.rows) + len(self.frictions) + 1 + list(self.inertias_of_angles).index(k)
             builder.append_line(
-                Guard(Test(pivot, ">", (LIGHT_PIVOT, self.turning_inertias[k], *earlier_pivots)), status, True)
+                Guard(Test(pivot, ">", (LIGHT_PIVOT, self.inertias_of_angles[k], *earlier_pivots)), status, True)
             )
 
     def _make_mass_name(self, mass: sp.Expr, k: int) -> str:
@@ -393,13 +399,16 @@ class KKT:
         if earlier_rows:
             value = scale + sum((L[k, j] * W[k, j] for j in earlier_rows), sp.Integer(0))
             pivot = builder.append_local(f"pivot_{name}", value)
-        test, (jumps, status) = Test(pivot, ">", (threshold, self._compute_row_size(builder, k, scale))), on_failure
+        test, (jump_on_failure, status) = (
+            Test(pivot, ">", (threshold, self._compute_row_size(builder, k, scale))),
+            on_failure,
+        )
         if k < self.first_friction:
-            builder.append_line(Guard(test, status, jumps))
+            builder.append_line(Guard(test, status, jump_on_failure))
             return -builder.append_local(f"inverse_pivot_{name}", 1 / pivot)
         stick = self.stick_symbols[k]  # a row that slips is switched off: its multiplier is zero
         is_sticking = Test(stick, "!=", (0.0,))
-        builder.append_line(Guard(test, status, jumps, is_sticking))
+        builder.append_line(Guard(test, status, jump_on_failure, is_sticking))
         return -builder.append_local(f"inverse_pivot_{name}", Conditional(is_sticking, 1 / pivot, ZERO))
 
     def solve(

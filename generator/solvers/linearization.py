@@ -66,7 +66,8 @@ class Linearization:
         self.q, self.v = ({s: k for k, s in enumerate(group)} for group in (system.q, system.v))
         self.states = self.model.law_states  # of each joint with play, as in C
         self.z = {
-            self._make_held_symbol(f"{c.label}_{state.name}", DISCRETE["contact"][i]["state"][k]): i * self.states + k
+            self._make_constant_symbol(f"{c.label}_{state.name}", DISCRETE["contact"][i]["state"][k]): i * self.states
+            + k
             for i, c in enumerate(self.model.clearances)
             for k, state in enumerate(c.states)
         }
@@ -79,9 +80,9 @@ class Linearization:
             ):
                 self.tangents.store_tangent(symbol, {self.t: rate})
         self.parts = LinearizedParts()
-        self.a = [self._make_held_symbol(f"a_{q.name}", Place("a")[k]) for k, q in enumerate(system.q)]
+        self.a = [self._make_constant_symbol(f"a_{q.name}", Place("a")[k]) for k, q in enumerate(system.q)]
         self.multiplier = [
-            self._make_held_symbol(f"held_lambda_{row.name}", RHS["lambda"][r]) for r, row in enumerate(system.rows)
+            self._make_constant_symbol(f"held_lambda_{row.name}", RHS["lambda"][r]) for r, row in enumerate(system.rows)
         ]
         self.sticks: list[sp.Symbol] = []  # 1 in stick, 0 in slip
         self.rates: list[sp.Expr] = []  # of the inner states
@@ -112,7 +113,7 @@ class Linearization:
         self._add_powers()
         return self.parts
 
-    def _make_held_symbol(self, base_name: str, place: Place) -> sp.Symbol:
+    def _make_constant_symbol(self, base_name: str, place: Place) -> sp.Symbol:
         """Return a new symbol that is read at a place and held constant in derivatives."""
         return self.symbols.add_symbol(base_name.replace(".", "_"), place)
 
@@ -160,7 +161,7 @@ class Linearization:
         }
         results |= {f"state_rate_{k}": out["state_rate"][k] for k in range(len(states))}
         for i, (result_name, place) in enumerate(results.items()):
-            symbol = self._make_held_symbol(f"{name}_{result_name}", place)
+            symbol = self._make_constant_symbol(f"{name}_{result_name}", place)
             places = {k: Place(slopes)[i][j] for j, k in enumerate(derivative_names) if input_tangents[j]}
             derivatives = [
                 builder.append_local(f"{symbol.name}_by_{k}", derivative_place)
@@ -290,7 +291,10 @@ class Linearization:
             self._add_derivatives(k, value, 1)
 
     def _add_powers(self) -> None:
-        """Add the derivatives of the powers to the parts; nothing if all powers are 0."""
+        """Add the derivatives of the powers by q, v, inner states and t to the parts, and append their statements.
+
+        The power of the drives also gets those by multipliers and accelerations. Nothing is added if all powers are 0.
+        """
         if not any(self.powers):
             return
         self.builder.begin_section("powers")

@@ -69,7 +69,7 @@ def choose_elimination(
         return (node >= end, len(graph[node]), node)
 
     def compute_fill_key(graph: Sequence[set[int]], node: int, depth: int) -> tuple[int, ...]:
-        """Return the key of least fill-in, then of least degree."""
+        """Return the key of least fill-in, then of least degree; nodes from `last` on come last."""
         neighbours = sorted(graph[node])
         missing = sum(b not in graph[a] for i, a in enumerate(neighbours) for b in neighbours[i + 1 :])
         return (node >= end, missing, len(neighbours), node)

@@ -40,7 +40,7 @@ class Solver:
     name: str = ""
 
 
-class SquareRows:
+class SquareSystem:
     """Prints the solution of Φ_q x = r for a system's equations in its coordinates, if it `is_solvable`."""
 
     def __init__(self, system: System, is_slide: Sequence[bool]) -> None:

@@ -65,7 +65,7 @@ def read_parameters(reader: Reader, root: Map) -> tuple[dict[Text, Text], list[A
 def _iterate_section_entries(reader: Reader, root: Map, section: str) -> Iterator[tuple[Text, Any]]:
     """Yield name and node of each entry of a section; nothing if the section is missing or empty.
 
-    An error is collected if the section is not a mapping, or if the caller's block raises.
+    An error is collected if the section is not a mapping.
     """
     with reader.collect_errors():
         if section in root and not (isinstance(root[section], Text) and root[section].is_null):

@@ -38,7 +38,7 @@ class CurveOf(sp.Function):
 
 
 class CurveOn(sp.Function):
-    """CurveOn(name, k, x, side): the curve on the pieces of one held branch, each continued beyond its knots."""
+    """CurveOn(name, k, x, side): the curve on the pieces of one frozen branch, each continued beyond its knots."""
 
     nargs = 4
     is_real = True

@@ -103,10 +103,10 @@ class _Converter:
     def convert_node(self, expr: Expr) -> sp.Expr:
         """Return the SymPy expression of a node of the tree, from a cache if it has been converted."""
         if id(expr) not in self._expression_by_id:
-            self._expression_by_id[id(expr)] = self._convert_uncached(expr)
+            self._expression_by_id[id(expr)] = self._convert_node_uncached(expr)
         return self._expression_by_id[id(expr)]
 
-    def _convert_uncached(self, expr: Expr) -> sp.Expr:
+    def _convert_node_uncached(self, expr: Expr) -> sp.Expr:
         """Convert one node of the tree to SymPy, without reading the cache.
 
         Floats of integer value below 1e15 become integers, and names what the resolver returns for them. Operands are
@@ -142,7 +142,8 @@ class _Converter:
     def _convert_power(self, left: Expr, a: sp.Expr, b: sp.Expr) -> sp.Expr:
         """Return the power a**b of two converted operands; `left` is the unconverted base.
 
-        A power of two numbers is computed in binary64. Exponents such as 0.5 are made exact.
+        A power of two numbers is computed in binary64. Exponents such as 0.5 are made exact, and so is every exponent
+        of a base with an exponential. Operands stay unevaluated where SymPy would expand them to extreme numbers.
         """
         if a.is_number and b.is_number:
             return _compute_numeric_power(a, b)
@@ -152,7 +153,7 @@ class _Converter:
         return apply_unexpanded(lambda a, b: self._make_power_without_squares(a, b, left), a, exponent)
 
     def _make_power_without_squares(self, base: sp.Expr, exponent: sp.Expr, *operands: Expr) -> sp.Expr:
-        """Return a power of an expression; squares under a square root are taken out.
+        """Return base**exponent; of a sum to a multiple of 1/2, squares under the root are taken out.
 
         `operands`: the unconverted base, or both arguments of hypot, whose numbers are then read as written.
         """

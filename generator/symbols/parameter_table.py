@@ -216,7 +216,7 @@ class ParameterTable(Freezable):
     def derive_signed_parameter(
         self, base_name: str, expression: sp.Expr, meaning: str = "", field_base_name: str = ""
     ) -> sp.Expr:
-        """Return a derived parameter as `derive`, but as −s if the opposite expression has the symbol s already.
+        """Return a derived parameter, or −s if the opposite expression has the symbol s already (`derive_parameter`).
 
         Opposite arms then share one parameter.
         """

@@ -108,18 +108,18 @@ class Freezable:
         It cannot be undone; `copy_mutable` returns a copy that may grow.
         """
         self.frozen = True
-        _replace_tables(self, _READ_ONLY_TYPES)
+        _convert_containers(self, _READ_ONLY_TYPES)
 
     def copy_mutable(self) -> Self:
         """Return a copy with its own dictionaries, lists and sets, which may grow."""
         copy_ = copy.copy(self)
         copy_.frozen = False
-        _replace_tables(copy_, _MUTABLE_TYPES)
+        _convert_containers(copy_, _MUTABLE_TYPES)
         return copy_
 
 
-def _replace_tables(owner: Freezable, types: dict[type, Any]) -> None:
-    """Convert each attribute of an object whose type is a key of `types` to the type that is its value."""
+def _convert_containers(owner: Freezable, type_map: dict[type, Any]) -> None:
+    """Convert each attribute of an object whose type is a key of `type_map` to the type that is its value."""
     for name, value in vars(owner).items():
-        if type(value) in types:
-            setattr(owner, name, types[type(value)](value))
+        if type(value) in type_map:
+            setattr(owner, name, type_map[type(value)](value))

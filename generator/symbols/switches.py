@@ -1,7 +1,7 @@
 """Switching functions: the zeros at which min, max, abs, sign, where and mod of the equations change branch.
 
 Each switching point is the zero of a function g of the state. In emitted code its branch (the sign of g) is either
-taken from g itself or held over a step, so that a method of high order sees a smooth right-hand side, and its
+taken from g itself or frozen over a step, so that a method of high order sees a smooth right-hand side, and its
 Jacobian the same branch; a zero of g then ends the step. The jumps of mod(a, b) = a − b⌊a/b⌋ at the ends of periods
 are switching points too.
 """
@@ -53,7 +53,7 @@ class ModOf(_Remainder):
 
 
 class ModOn(_Remainder):
-    """ModOn(a, b, side): the remainder on the periods of one held branch, continued beyond their ends."""
+    """ModOn(a, b, side): the remainder on the periods of one frozen branch, continued beyond their ends."""
 
     nargs = 3
 
@@ -66,7 +66,7 @@ class PeriodsOf(sp.Function):
 
 
 class BranchOf(sp.Function):
-    """BranchOf(k, g): the branch of switch k, −1 or 1 (0 only where g is 0 and no branch is held)."""
+    """BranchOf(k, g): the branch of switch k, −1 or 1 (0 only where g is 0 and no branch is frozen)."""
 
     nargs = 2
     is_real = True
@@ -248,10 +248,10 @@ class Switches(Freezable):
         """
         return [switch for switch in self.switch_by_key.values() if switch.owner == owner]
 
-    def hold_branches(
+    def freeze_branches(
         self, expression: sp.Expr, owner: str, branches: dict[sp.Symbol, sp.Expr], registered_only: bool = False
     ) -> sp.Expr:
-        """Return an expression in which max, min, abs, sign, Heaviside, curves and mod use held branches.
+        """Return an expression in which max, min, abs, sign, Heaviside, curves and mod use frozen branches.
 
         Each branch is a symbol `side_<k>`; `branches` is extended in place by these symbols with their `BranchOf`.
         `owner`: joint with play, or "". `registered_only`: switching functions without a switch stay as they are, for a
@@ -259,7 +259,7 @@ class Switches(Freezable):
         """
         if not expression.has(sp.Max, sp.Min, sp.Abs, sp.sign, sp.Heaviside, CurveOf, ModOf):
             return expression
-        arguments = [self.hold_branches(a, owner, branches, registered_only) for a in expression.args]
+        arguments = [self.freeze_branches(a, owner, branches, registered_only) for a in expression.args]
 
         def make_branch_symbol(g: sp.Expr) -> sp.Expr:
             """Return the symbol of the branch of g with its sign, and register it.

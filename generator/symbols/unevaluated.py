@@ -67,12 +67,12 @@ def apply_unexpanded(operation: Callable[..., sp.Expr], *operands: sp.Expr) -> s
     Operands that are numbers are never wrapped.
     """
     result = operation(*operands)
-    if all(operand.is_number for operand in operands) or not _has_new_extremes(result, operands):
+    if all(operand.is_number for operand in operands) or not _has_new_extreme_numbers(result, operands):
         return result
     return operation(*(operand if operand.is_number else Whole(operand) for operand in operands))
 
 
-def _has_new_extremes(result: sp.Expr, operands: tuple[sp.Expr, ...]) -> bool:
+def _has_new_extreme_numbers(result: sp.Expr, operands: tuple[sp.Expr, ...]) -> bool:
     """Return whether a result contains extreme numbers, or several high powers as factors, that are new.
 
     New are those that no operand contains.

@@ -182,7 +182,7 @@ def _build_joint_blocks(subject: Subject) -> list[Block]:
         make_row(drive.name, _format_driven_quantity(drive), format_drive_value(model, subject.notation, drive.name))
         for drive in mechanism.drives.values()
     ]
-    blocks += make_tables(make_row("drive", "prescribes", "value"), driven, (2,)) + values.take_long_expressions()
+    blocks += make_tables(make_row("drive", "prescribes", "value"), driven, (2,)) + values.pop_long_expressions()
     for kind in dict.fromkeys(joint.kind for joint in mechanism.joints.values()):
         summary, *lines = read_sketch(joint_types()[kind])
         blocks += [make_paragraph(summary), Sketch(tuple(lines))]
@@ -203,7 +203,7 @@ def _build_force_blocks(subject: Subject) -> list[Block]:
     blocks += make_tables(
         make_row("element", "field", "value"), [r for e in elements for r in list_field_rows(e, values)]
     )
-    return blocks + values.take_long_expressions()
+    return blocks + values.pop_long_expressions()
 
 
 def _format_driven_quantity(drive: Drive) -> str:

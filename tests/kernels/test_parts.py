@@ -10,7 +10,7 @@ from gudgeon.generator.ir import sine_pairs
 from gudgeon.generator.ir import split as parts
 from gudgeon.generator.ir.kernels import Kernel, Section
 from gudgeon.generator.ir.signatures import Number, make_input_argument, make_output_argument
-from gudgeon.generator.ir.split import order_near_readers
+from gudgeon.generator.ir.split import order_statements_near_readers
 from gudgeon.generator.ir.statements import Call, Declare, Line, Statement
 from gudgeon.generator.pipeline import generate_kernel_source
 from gudgeon.generator.symbols.storage import Place, PlaceSymbol
@@ -84,14 +84,16 @@ def test_statements_stand_near_what_reads_them() -> None:
     # two pairs of values, computed first and read last: each pair moves to what reads it
     defines = ["a", "b", "c", "d", "ab", "cd", ""]
     reads = [frozenset(names.split()) for names in ("x", "y", "x", "y", "a b", "c d", "ab cd")]
-    assert order_near_readers(reads, defines) == [0, 1, 4, 2, 3, 5, 6]
+    assert order_statements_near_readers(reads, defines) == [0, 1, 4, 2, 3, 5, 6]
 
 
 @pytest.mark.parametrize("seed", range(5))
 def test_every_statement_comes_once_and_behind_what_it_reads(seed: int) -> None:
     draw = np.random.default_rng(seed)
     needs = [set(draw.integers(0, k, size=3).tolist()) if k else set() for k in range(300)]
-    order = order_near_readers([frozenset(f"x{j}" for j in own) for own in needs], [f"x{k}" for k in range(300)])
+    order = order_statements_near_readers(
+        [frozenset(f"x{j}" for j in own) for own in needs], [f"x{k}" for k in range(300)]
+    )
     place = {k: n for n, k in enumerate(order)}
     assert sorted(order) == list(range(300)) and order != sorted(order)
     assert all(place[j] < place[k] for k, own in enumerate(needs) for j in own)

@@ -10,7 +10,7 @@ import pytest
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.pipeline import derive_scene
 from gudgeon.generator.targets.latex import render_equations_html, render_equations_tex, render_equations_text
-from gudgeon.generator.targets.latex.theory import find_letters
+from gudgeon.generator.targets.latex.theory import find_sketch_symbols
 from gudgeon.teaching.notebook import write_notebook
 from tests.slow import slow_but
 from tests.targets_latex.equations_reader import NAME, rows, sections
@@ -112,4 +112,4 @@ def test_a_file_whose_letters_are_its_own_is_told_of_none() -> None:
 def test_letters_of_a_sketch() -> None:
     """Words, initials, articles and corners of a drawing are none; what has a dot is told without it too."""
     lines = ["A force at a point  o--[=--o Q   F = k (l − l_0) + d l̇²", "L. C. Bo, ‖r_P‖ sgn v/v_s"]
-    assert set(find_letters(lines)) == {"Q", "F", "k", "l", "l_0", "d", "l\u0307", "r_P", "v", "v_s"}
+    assert set(find_sketch_symbols(lines)) == {"Q", "F", "k", "l", "l_0", "d", "l\u0307", "r_P", "v", "v_s"}

@@ -22,7 +22,7 @@ def derive_constraint_equations(first_frame: Any, second_frame: Any, joint_field
     joint_fields: the joint's values (JointFields).
     """
     x, y, length = second_frame.x - first_frame.x, second_frame.y - first_frame.y, joint_fields.quantity("length", 0)
-    return [(x**2 + y**2) * joint_fields.derive("half_inverse_length", 1 / (2 * length)) - length / 2]
+    return [(x**2 + y**2) * joint_fields.derive_parameter("half_inverse_length", 1 / (2 * length)) - length / 2]
 
 
 def draw_symbol(pen: Any) -> None:

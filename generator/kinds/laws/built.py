@@ -29,7 +29,7 @@ _CHOICES = 64  # combinations of a law's options and numbers that are tried
 
 @dataclass(frozen=True)
 class Probe:
-    """Contain a law in symbols of its own: its steps, and the expressions of its derived constants."""
+    """Contain a law in probe symbols: its equations and its derived constants, expressions by name."""
 
     steps: Mapping[str, Any]
     derived: Mapping[str, Any]
@@ -104,10 +104,11 @@ def build_law(law: Law, inputs: LawInputs) -> dict[str, Any]:
     return expressions
 
 
-def probe_law(law: Law, options: Mapping[str, str | bool], numbers: Iterable[str]) -> Probe:
-    """Build a law by itself, to find the names that it uses and to compute its key.
+def probe_law(law: Law, options: Mapping[str, str | bool], parameter_names: Iterable[str]) -> Probe:
+    """Return a law's equations and derived constants by name, in symbols `probe_<name>` of its parameters.
 
-    `numbers` are the keys of the parameters that get a symbol. Raises LawError.
+    `parameter_names` are the keys of the parameters that get a symbol; the others count as left out. Variables have
+    symbols of their own names. Raises LawError for what `law.build` must not return (`build_law`).
     """
     import sympy as sp
 
@@ -119,7 +120,7 @@ def probe_law(law: Law, options: Mapping[str, str | bool], numbers: Iterable[str
         return _make_real_symbol(f"probe_{name}")
 
     inputs = LawInputs(
-        {name: _make_real_symbol(f"probe_{name}") for name in numbers},
+        {name: _make_real_symbol(f"probe_{name}") for name in parameter_names},
         options,
         PairSymbols(**{name: _make_real_symbol(f"probe_{name}") for name in PAIR}),
         {name: sp.Symbol(name, real=True) for name in law.variables},
@@ -151,9 +152,9 @@ def compute_law_key(law: Law) -> str:
     choices = list(itertools.islice(_iterate_option_choices(law), _CHOICES + 1))
     if len(choices) > _CHOICES:
         return f"{os.getpid()} {uuid.uuid4()}"
-    for options, numbers in choices:
+    for options, parameter_names in choices:
         try:
-            probed_law = probe_law(law, options, numbers)
+            probed_law = probe_law(law, options, parameter_names)
         except LawError as error:
             digest.update(str(error).encode())
             continue
@@ -163,22 +164,18 @@ def compute_law_key(law: Law) -> str:
 
 
 def _iterate_option_choices(law: Law) -> Iterator[tuple[dict[str, str | bool], tuple[str, ...]]]:
-    """Yield each choice of a law: its options by name, and the names of its required and some optional numbers."""
-    required_numbers = [
+    """Yield each choice of a law: its options by name, and the names of its required and some optional parameters."""
+    required_names = [
         field_of_law.name
         for field_of_law in law.parameters
         if field_of_law.required or field_of_law.default is not None
     ]
-    optional_numbers = [
-        field_of_law.name for field_of_law in law.parameters if field_of_law.name not in required_numbers
-    ]
+    optional_names = [field_of_law.name for field_of_law in law.parameters if field_of_law.name not in required_names]
     names = [field_of_law.name for field_of_law in law.options]
     for values in itertools.product(*(field_of_law.values for field_of_law in law.options)):
-        for is_given in itertools.product((True, False), repeat=len(optional_numbers)):
-            given_numbers = [
-                name for name, is_in_choice in zip(optional_numbers, is_given, strict=True) if is_in_choice
-            ]
-            yield dict(zip(names, values, strict=True)), (*required_numbers, *given_numbers)
+        for is_given in itertools.product((True, False), repeat=len(optional_names)):
+            given_names = [name for name, is_in_choice in zip(optional_names, is_given, strict=True) if is_in_choice]
+            yield dict(zip(names, values, strict=True)), (*required_names, *given_names)
 
 
 def _find_result_names(law: Law, steps: Any) -> frozenset[str]:
@@ -281,22 +278,21 @@ Results = dict[str, NDArray[np.float64]]
 
 
 def make_law_function(
-    law: Law, numbers: Mapping[str, Any], options: Mapping[str, str | bool], pair: Mapping[str, float]
+    law: Law, parameter_values: Mapping[str, Any], options: Mapping[str, str | bool], pair_values: Mapping[str, float]
 ) -> Callable[..., Results]:
     """Return a law by itself as a function of arrays: variables of its role, further ones, inner states.
 
-    The function returns the law's results by name in SI units.
-    numbers: by key, without optional ones that are left out; expressions of a variable as SymPy.
-    pair: R_i, R_j, c, L, E_i, nu_i, E_j, nu_j. Further variables are arguments whether the law reads them or not.
-    Raises LawError if the law cannot be computed.
+    The function returns the law's results by name in SI units. parameter_values: by key, without optional ones that are
+    left out; expressions of a variable as SymPy. pair_values: R_i, R_j, c, L, E_i, nu_i, E_j, nu_j. Further variables
+    are arguments whether the law reads them or not. Raises LawError if the law cannot be computed.
     """
     import sympy as sp
 
     symbols = {name: sp.Symbol(name, real=True) for name in law.variables}
     inputs = LawInputs(
-        {name: x if isinstance(x, sp.Expr) else sp.Float(x) for name, x in numbers.items()},
+        {name: x if isinstance(x, sp.Expr) else sp.Float(x) for name, x in parameter_values.items()},
         options,
-        PairSymbols(**{name: sp.Float(x) for name, x in pair.items()}),
+        PairSymbols(**{name: sp.Float(x) for name, x in pair_values.items()}),
         symbols,
         lambda _, expression, __: expression,
     )

@@ -23,7 +23,7 @@ from typing import Any
 
 from gudgeon.generator.field import Field, word
 from gudgeon.generator.kinds.laws.dissipation import DISSIPATION, PULLS, RESTITUTION, make_hysteresis_factor
-from gudgeon.generator.kinds.laws.law import DEEPEST, LawInputs
+from gudgeon.generator.kinds.laws.law import MAX_PENETRATION, LawInputs
 
 GEOMETRY = word(
     "geometry",
@@ -85,7 +85,7 @@ def make_cylinder_force(inputs: LawInputs, log_constant: int, max_penetration_ra
     delta = inputs.variables["delta"]
     K = inputs.derive("spring", sp.pi * inputs.pair.L * make_contact_modulus(inputs), "pi L E*")
     scale = inputs.derive("scale", 4 * inputs.pair.c, "4 (R_i - R_j)")
-    inputs.derive(DEEPEST, max_penetration_ratio * inputs.pair.c, "penetration up to which the law holds")
+    inputs.derive(MAX_PENETRATION, max_penetration_ratio * inputs.pair.c, "penetration up to which the law holds")
     above, p = sp.Symbol("above", real=True), [sp.Symbol(f"p_{n}", real=True) for n in range(STEPS + 1)]
     far = sp.Symbol("far", real=True)
     root = sp.Symbol("root_far", real=True)

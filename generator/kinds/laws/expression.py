@@ -14,18 +14,18 @@ from typing import Any
 
 from gudgeon.generator.field import OF_PENETRATION, Bound, number
 from gudgeon.generator.kinds.laws.dissipation import DISSIPATION, PULLS, RESTITUTION, SEPARATION, make_hysteresis_factor
-from gudgeon.generator.kinds.laws.law import DEEPEST, SECANT_DEPTH, Law, LawInputs
+from gudgeon.generator.kinds.laws.law import MAX_PENETRATION, SECANT_DEPTH, Law, LawInputs
 from gudgeon.language.units import FORCE, LENGTH
 
 
 def build_normal_force(inputs: LawInputs) -> dict[str, Any]:
-    """Return the compressive normal force F_n (N) for δ > 0."""
+    """Return the compressive normal force F_n (N) for δ > 0 and its abbreviations, as equations by name."""
     import sympy as sp
 
     force, delta = inputs.parameters["force"], inputs.variables["delta"]
-    deepest = inputs.parameters.get(DEEPEST)
+    deepest = inputs.parameters.get(MAX_PENETRATION)
     if deepest is not None:
-        inputs.derive(DEEPEST, deepest, "penetration up to which the expression holds")
+        inputs.derive(MAX_PENETRATION, deepest, "penetration up to which the expression holds")
     if force.has(delta):
         depth = SECANT_DEPTH * inputs.pair.c
         inputs.derive("spring", force.subs(delta, depth) / depth, "secant stiffness at a twentieth of the clearance")
@@ -55,7 +55,7 @@ LAW = Law(
             varies=OF_PENETRATION,
         ),
         number(
-            DEEPEST,
+            MAX_PENETRATION,
             "penetration up to which the expression holds; a run that goes deeper stops",
             LENGTH,
             symbol=r"\delta_{\mathrm{max}}",

@@ -17,7 +17,7 @@ from gudgeon.generator.kinds.laws.law import Law, LawInputs
 
 
 def build_normal_force(inputs: LawInputs) -> dict[str, Any]:
-    """Return the compressive normal force F_n (N) for δ > 0."""
+    """Return the compressive normal force F_n (N) for δ > 0 and its abbreviations, as equations by name."""
     import sympy as sp
 
     return make_cylinder_force(inputs, -1, sp.Rational(1, 2))

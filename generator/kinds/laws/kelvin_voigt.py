@@ -22,7 +22,7 @@ from gudgeon.language.units import DAMPING, STIFFNESS
 
 
 def build_normal_force(inputs: LawInputs) -> dict[str, Any]:
-    """Return the compressive normal force F_n (N) for δ > 0."""
+    """Return the compressive normal force F_n (N) for δ > 0 and its abbreviations, as equations by name."""
     import sympy as sp
 
     K = inputs.derive("spring", inputs.parameters["stiffness"], "stiffness")

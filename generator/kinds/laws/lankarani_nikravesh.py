@@ -17,7 +17,7 @@ from gudgeon.language.units import DIMENSIONLESS
 
 
 def build_normal_force(inputs: LawInputs) -> dict[str, Any]:
-    """Return the compressive normal force F_n (N) for δ > 0."""
+    """Return the compressive normal force F_n (N) for δ > 0 and its abbreviations, as equations by name."""
     return {"F_n": make_normal_force(inputs, make_pair_stiffness(inputs), LAW.name)}
 
 

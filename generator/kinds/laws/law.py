@@ -71,7 +71,7 @@ RESULTS: Mapping[str, tuple[str, ...]] = {
 # Constant that a mixed law may derive: the film's clearance, between the mean surfaces.
 MEAN_CLEARANCE = "mean_clearance"
 # Constant that a normal law may derive: the penetration (m) beyond which it is not valid and a run stops.
-DEEPEST = "deepest"
+MAX_PENETRATION = "deepest"
 # What a law with an inner state may derive: the deflection (m) at which its friction slides, which errors of the state
 # are measured by; without it they are measured by the lengths of the linkage.
 BREAKAWAY = "breakaway"

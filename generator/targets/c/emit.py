@@ -191,7 +191,7 @@ def _print_parameters_file(program: Program) -> str:
 
 
 def _print_constraints_file(program: Program) -> str:
-    """Return the text of constraints.c: functions of the closed linkage, and `same_start` for integrated scenes."""
+    """Return the text of constraints.c: functions of all constraint equations, and `same_start` if integrated."""
     at_start = (kernel for kernel in program.closed_linkage if kernel.name not in NOT_AT_START)
     return _print_kernels(*program.closed_linkage) + (print_start_comparison(at_start) if program.integrates else "")
 
@@ -334,7 +334,7 @@ def _print_step_scales(loop_kernels: DrivenLoopKernels) -> list[str]:
     """
     # without a size all points are one
     inverse_size = f"1.0 / (p->{loop_kernels.size} + DBL_MIN)" if loop_kernels.size.is_Symbol else "1.0"
-    return ["1.0" if "." not in name else inverse_size for name in loop_kernels.chain.names]
+    return ["1.0" if "." not in name else inverse_size for name in loop_kernels.loops.names]
 
 
 def _list_direction_rotations(loop_kernels: DrivenLoopKernels) -> list[tuple[int, str]]:
@@ -355,11 +355,11 @@ def _list_direction_rotations(loop_kernels: DrivenLoopKernels) -> list[tuple[int
             else f"p->{coefficient} * "
         )
 
-    first_direction = loop_kernels.first + len(loop_kernels.chain.names)
+    first_direction = loop_kernels.first + len(loop_kernels.loops.names)
     return [
-        (first_direction + 2 * k, " + ".join(f"{print_factor(c)}step[{j}]" for j, c in d.turns.items()))
-        for k, d in enumerate(loop_kernels.chain.directions)
-        if d.turns
+        (first_direction + 2 * k, " + ".join(f"{print_factor(c)}step[{j}]" for j, c in d.angle_coefficients.items()))
+        for k, d in enumerate(loop_kernels.loops.directions)
+        if d.angle_coefficients
     ]
 
 

@@ -268,7 +268,7 @@ class LinePrinter(ValuePrinter):
 def _print_branch_arrays(branches: DeclareBranches) -> list[str]:
     """Return the declarations of `branch` (the active branches) and of `g` (values of switching functions).
 
-    `branch` is NULL if no branch is held. `g` is omitted, a local array, or part of the results, as `branches` says.
+    `branch` is NULL if no branch is frozen. `g` is omitted, a local array, or part of the results, as `branches` says.
     """
     stored_branches = (
         "discrete->held ? discrete->branch : NULL;"

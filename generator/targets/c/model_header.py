@@ -20,7 +20,7 @@ from gudgeon.generator.kernels import outputs
 from gudgeon.generator.kernels.event_functions import depends_on_state, make_ranges_kernel
 from gudgeon.generator.kernels.program import Program
 from gudgeon.generator.kinds.joints.joint_type import CORNERS
-from gudgeon.generator.kinds.laws.law import BREAKAWAY, DEEPEST
+from gudgeon.generator.kinds.laws.law import BREAKAWAY, MAX_PENETRATION
 from gudgeon.generator.solvers.kkt import KKT
 from gudgeon.generator.solvers.pivots import EARLY, LIGHT_PIVOT, NEARLY_SINGULAR, SINGULAR, VANISHING
 from gudgeon.generator.solvers.square_rows import SHARE
@@ -337,7 +337,7 @@ def get_max_penetration(clearance: Clearance) -> sp.Expr:
     It is a tenth of the bearing's radius, or the law's own limit if that is smaller.
     """
     tenth = sp.sympify(clearance.pair.R_i) / 10
-    return sp.Min(clearance.constants[DEEPEST], tenth) if DEEPEST in clearance.constants else tenth
+    return sp.Min(clearance.constants[MAX_PENETRATION], tenth) if MAX_PENETRATION in clearance.constants else tenth
 
 
 def _find_largest_block_size(program: Program) -> int:
@@ -468,7 +468,7 @@ def list_joint_parameters(model: Model) -> list[tuple[str, str, list[str]]]:
             for name in ("restitution", "threshold")
         }
     meanings = dict(_PARAMETER_MEANINGS)
-    if any(DEEPEST in c.constants for c in model.clearances):
+    if any(MAX_PENETRATION in c.constants for c in model.clearances):
         meanings["deepest"] = meanings["deepest"].replace("radius.", "radius, or a law's own.")
     if any(c.wall for c in model.clearances):
         meanings["deepest"] = meanings["deepest"].replace("radius", "radius, of half a guide's width", 1)

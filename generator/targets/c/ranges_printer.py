@@ -70,7 +70,7 @@ class RangesPrinter(printer.CPrinter):
         return self._print_chained_calls("times", (number, *factors) if number != 1 else tuple(factors))
 
     def _print_Pow(self, expr: sp.Pow) -> str:
-        """Print a power of a range as a call: inverse, square and square root have functions of their own.
+        """Print a power of a range as a call: exponents −1, 2, ±1/2 by functions of their own, others by range_pow.
 
         A power without symbols is printed as a number.
         """

@@ -32,12 +32,12 @@ def describe_reduced_file(system: TreeSystem) -> list[str]:
         "M a + Phi_q^T lambda = g and Phi_q a = gamma with q = s. Joints outside the tree are the loop closures Phi.",
         "",
         "Tree, parents first (body: how it is positioned; its angle):",
-        *_format_list(links, "\n"),
+        *_format_comment_list(links, "\n"),
         "Unknowns, with rates in v and accelerations in a at the same index:",
-        *_format_list(stored_coordinates or ["none"]),
+        *_format_comment_list(stored_coordinates or ["none"]),
         "Loop closures, with the places of their multipliers:",
-        *_format_list(closures or ["none"]),
-        *(["Joints with play, whose forces are applied loads:", *_format_list(joints)] if joints else []),
+        *_format_comment_list(closures or ["none"]),
+        *(["Joints with play, whose forces are applied loads:", *_format_comment_list(joints)] if joints else []),
         "",
         "expand: state of the tree to all_q, all_v of the bodies (x, y, theta each, as in constraints.c).",
         "reduce_state: the opposite direction. closures, closure_rates: Phi and its rate.",
@@ -71,7 +71,7 @@ def _get_unit(name: str) -> str:
     return "rad" if name.endswith(".theta") else "m"
 
 
-def _format_list(items: Sequence[str], separator: str = "; ") -> list[str]:
+def _format_comment_list(items: Sequence[str], separator: str = "; ") -> list[str]:
     """Return items as indented comment lines, wrapped, or one item per line if the separator is a line break.
 
     Only the first _MAX_LISTED items are printed, followed by the number of the others.

@@ -114,7 +114,7 @@ def _list_tree_kernels(program: Program) -> list[Kernel]:
 
 
 def _find_closure_indices(program: Program) -> list[int]:
-    """Return the index of each loop closure among all rows of the tree's linkage; [] in the full formulation."""
+    """Return the index of each loop closure among the constraint equations of the tree; [] in the full formulation."""
     if program.tree is None:
         return []
     system = program.tree.system

@@ -172,8 +172,8 @@ def make_tables(
 ) -> list[Block]:
     """Return rows as tables of at most MOST_ROWS rows, since a table does not break over pages; [] for no rows.
 
-    text_columns: the columns with running text. tokens: highlighting tokens by row. upright: whether columns become
-    rows on a phone.
+    text_columns: the columns with running text. tokens: highlighting tokens by row. transposes_on_phone:
+    whether columns become rows on a phone.
     """
     starts = range(0, len(rows), MOST_ROWS)
     return [
@@ -185,7 +185,7 @@ def make_tables(
 
 
 def make_row_token(number: int) -> str:
-    """Return the token of a row of Φ, counted from 1; it also stands for the row's entries (light.js)."""
+    """Return the token of a constraint equation, counted from 1; it also stands for its entries of Φ_q (light.js)."""
     return f"row-{number}"
 
 
@@ -195,7 +195,7 @@ def make_entry_token(row: int, column: int) -> str:
 
 
 def make_sum_token(row: int) -> str:
-    """Return the token of the line of C that sums a row of Φ, highlighted with each of the row's terms."""
+    """Return the token of the line of C that sums a component of Φ, highlighted with each of its terms."""
     return f"sum-{row}"
 
 
@@ -205,7 +205,7 @@ def make_owner_token(row: Row) -> str:
 
 
 def list_entry_tokens(model: Model, number: int, row: Row) -> Iterator[str]:
-    """Return the tokens of a row's nonzero entries of Φ_q; `number` is the row's, counted from 1."""
+    """Return the tokens of the nonzero entries of Φ_q of a constraint equation, whose `number` counts from 1."""
     column_of = {q: k for k, q in enumerate(model.q, 1)}
     return (make_entry_token(number, column_of[q]) for q in row.phi_q)
 

@@ -46,7 +46,11 @@ def make_equation(
     selection_token: str = "",
     value_name: str = "",
 ) -> Equation:
-    """Return an equation that may break between the terms of the right side; tokens and value as in document.py."""
+    """Return the equation left = right, which may break between the terms of the right side.
+
+    An expression on the left is formatted by `notation`. tokens: highlighting tokens; selection_token: the one that
+    selecting the equation highlights, "" for all; value_name: name of the value that a page shows, "" for none.
+    """
     left_name = left if isinstance(left, Name) else notation.format_expression(left)
     return Equation(left_name, notation.format_terms(right), tokens, selection_token, value_name)
 
@@ -59,7 +63,7 @@ def make_equation_block(
     selection_token: str = "",
     value_name: str = "",
 ) -> Block:
-    """Return an equation as a block.
+    """Return the equation left = right as a block; the arguments are those of `make_equation`.
 
     One with more than LONGEST operations is replaced by a sentence about its length.
     """
@@ -108,7 +112,7 @@ def _describe_coordinates(model: Model, notation: Notation) -> list[Block]:
 
 
 def _describe_abbreviations(model: Model, notation: Notation) -> Iterator[Block]:
-    """Yield the equations of derived parameters and long drives that the rows show by a letter.
+    """Yield the equations of derived parameters and long drives that the equations show by a symbol.
 
     Constants of laws and temporaries of force elements are left out. Sentences explain where(…) and H if they occur.
     """
@@ -129,7 +133,7 @@ def _describe_abbreviations(model: Model, notation: Notation) -> Iterator[Block]
 
 
 def _describe_constraints(model: Model, notation: Notation) -> list[Block]:
-    """Return the rows of Φ of each joint and drive with their entries of Φ_q, ν and γ, and an introduction."""
+    """Return the constraint equations of each joint and drive, with entries of Φ_q, ν and γ, and an introduction."""
     blocks: list[Block] = [
         make_paragraph(
             "The mechanism is closed while ",
@@ -166,7 +170,7 @@ def _describe_constraints(model: Model, notation: Notation) -> list[Block]:
 
 
 def _make_row_equation(row_number: int, row: Row, model: Model, notation: Notation) -> Equation:
-    """Return row `row_number` of Φ as an equation; each term is highlighted with its own entries and temporaries."""
+    """Return constraint equation `row_number` as a formula, each term highlighted with its entries and temporaries."""
     column_of = {q: i for i, q in enumerate(model.q, 1)}
     term_tokens: dict[sp.Expr, list[str]] = {}
     for part in sp.Add.make_args(row.phi):
@@ -191,7 +195,7 @@ def _make_row_equation(row_number: int, row: Row, model: Model, notation: Notati
 
 
 def _group_rows_by_owner(model: Model) -> Iterator[tuple[str, list[tuple[int, Row]]]]:
-    """Yield (title, [(number of the row, row)]) of each joint and drive.
+    """Yield (title, [(number, constraint equation)]) of each joint and drive; numbers count from 1.
 
     The title has its type and its line of the file.
     """
@@ -205,12 +209,12 @@ def _group_rows_by_owner(model: Model) -> Iterator[tuple[str, list[tuple[int, Ro
 
 
 def _format_row_names(rows: Sequence[tuple[int, Row]]) -> str:
-    """Return the names and units of rows as text."""
+    """Return the names and units of constraint equations as text."""
     return ("row " if len(rows) == 1 else "rows ") + ", ".join(f"{row.name} ({row.unit})" for _, row in rows)
 
 
 def _list_multipliers(rows: Sequence[tuple[int, Row]]) -> list[str | Name]:
-    """Return the parts of a text with the names of the rows' multipliers, each with its value."""
+    """Return the parts of a text with the names of the multipliers of constraint equations, each with its value."""
     names = [replace(name_component(LAMBDA, k), value=f"lambda.{k}") for k, _ in rows]
     separated = [part for name in names for part in (", ", name)][1:]
     return [f"multiplier{'s' * (len(rows) > 1)} ", *separated]
@@ -232,7 +236,7 @@ def _describe_jacobian(model: Model) -> list[Block]:
 
 
 def _describe_jacobian_entries(rows: Sequence[tuple[int, Row]], model: Model, notation: Notation) -> list[Block]:
-    """Return the block of Φ_q of one joint or drive: a table of the columns with nonzero entries.
+    """Return the Jacobian entries of one joint or drive: a table of the columns of Φ_q with nonzero ones.
 
     If the table would be wider than WIDEST characters, each entry gets its own equation.
     """

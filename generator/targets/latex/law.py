@@ -32,7 +32,13 @@ from gudgeon.generator.targets.latex.letters import (
 )
 from gudgeon.generator.targets.latex.notation import Notation
 from gudgeon.generator.targets.latex.play import describe_inner_states, format_option
-from gudgeon.generator.targets.latex.play_letters import LAW_LETTERS, NAMES, RATIO, get_latex_symbol, name_law_step
+from gudgeon.generator.targets.latex.play_letters import (
+    LAW_SYMBOL_NAMES,
+    NAMES,
+    RATIO,
+    get_latex_symbol,
+    name_law_variable,
+)
 from gudgeon.generator.targets.latex.render import render_document
 from gudgeon.language.plot_units import format_unit
 from gudgeon.language.units import find_si_unit
@@ -93,8 +99,8 @@ def derive_forms(law: Law, name: str) -> list[Form]:
     """
     alias_options = law.also.get(name, {})
     defaults = {law_field.name: law_field.default_option for law_field in law.options} | {**alias_options}
-    required_numbers = [law_field.name for law_field in law.parameters if not _is_optional(law_field)]
-    zero_steps = {name for name, value in probe_law(law, defaults, required_numbers).steps.items() if value == 0}
+    required_names = [law_field.name for law_field in law.parameters if not _is_optional(law_field)]
+    zero_steps = {name for name, value in probe_law(law, defaults, required_names).steps.items() if value == 0}
     default_form = _derive_form(law, {}, defaults, (), zero_steps)
     known_equations = {print_equation(equation) for equation in default_form.equations}
     all_forms = [default_form]
@@ -110,8 +116,8 @@ def derive_forms(law: Law, name: str) -> list[Form]:
         *((law_field.name, GIVEN) for law_field in law.parameters if _is_optional(law_field)),
     ):
         is_number = key not in defaults
-        options, chosen_numbers = defaults if is_number else {**defaults, key: value}, (key,) if is_number else ()
-        form = _derive_form(law, {key: value}, options, chosen_numbers, zero_steps)
+        options, chosen_names = defaults if is_number else {**defaults, key: value}, (key,) if is_number else ()
+        form = _derive_form(law, {key: value}, options, chosen_names, zero_steps)
         all_forms.append(
             replace(
                 form,
@@ -166,9 +172,9 @@ def _make_document(law: Law, name: str) -> Document:
 
 
 def _describe_equations(law: Law, default_form: Form, other_forms: Sequence[Form]) -> Iterator[Block]:
-    """Yield the blocks on a law's default form: its letters, inner states, constants and steps.
+    """Yield the blocks on a law's default form: its symbols, inner states, constants and steps.
 
-    other_forms: forms of other choices, whose letters are listed, too.
+    other_forms: forms of other choices, whose symbols are listed, too.
     """
     letters = {
         name: letter_ for each_form in (*reversed(other_forms), default_form) for name, letter_ in each_form.used
@@ -193,7 +199,7 @@ def _describe_choices(other_forms: Sequence[Form]) -> Iterator[Block]:
 
 
 def _list_parameter_cells(parameter: Field) -> tuple[tuple[str | Name, ...], ...]:
-    """Return the table row of a number of a law: key, letter, unit, bounds, default, meaning."""
+    """Return the table row of a parameter of a law: key, symbol, unit, bounds, default, meaning."""
     unit = "any" if parameter.dimension is None else format_unit(find_si_unit(parameter.dimension)) or "-"
     default = "needed" if parameter.required else "-" if parameter.default is None else f"{parameter.default:g}"
     meaning = f"{parameter.meaning}; without it {parameter.otherwise}" if parameter.otherwise else parameter.meaning
@@ -237,20 +243,18 @@ def _derive_form(
     law: Law,
     selected: Mapping[str, str | bool],
     options: Mapping[str, str | bool],
-    chosen_numbers: Sequence[str],
+    chosen_names: Sequence[str],
     zero_steps: Set[str],
 ) -> Form:
-    """Return a law's equations for one choice, in letters of its own.
+    """Return a law's equations for one choice, in symbols of its own.
 
     Constants that only repeat a number are replaced by it. Steps that are zero by default are left out while they are
     zero.
     """
-    numbers = [
-        law_field.name
-        for law_field in law.parameters
-        if not _is_optional(law_field) or law_field.name in chosen_numbers
+    parameter_names = [
+        law_field.name for law_field in law.parameters if not _is_optional(law_field) or law_field.name in chosen_names
     ]
-    probed_law = probe_law(law, options, numbers)
+    probed_law = probe_law(law, options, parameter_names)
     repeated_constants = {
         _make_probe_symbol(name): value for name, value in probed_law.derived.items() if value.is_Symbol
     }
@@ -262,7 +266,7 @@ def _derive_form(
         return value
 
     names = _restore_law_names(
-        assign_unique_names(_propose_symbol_names(law, numbers, probed_law.derived, probed_law.steps))
+        assign_unique_names(_propose_symbol_names(law, parameter_names, probed_law.derived, probed_law.steps))
     )
     notation = Notation(Symbols(), names, frozenset(), {})
     constants = {
@@ -293,11 +297,11 @@ def _derive_form(
 
 
 def _propose_symbol_names(
-    law: Law, number_names: Sequence[str], constants: Mapping[str, sp.Expr], steps: Mapping[str, sp.Expr]
+    law: Law, parameter_names: Sequence[str], constants: Mapping[str, sp.Expr], steps: Mapping[str, sp.Expr]
 ) -> Iterator[tuple[sp.Symbol, Name]]:
-    """Yield (symbol, name) in the order in which they get their letters: variables, results, numbers, constants, steps.
+    """Yield (symbol, name) in the order of naming: variables, results, parameters, pair, constants, equations.
 
-    Fixed letters come first, so that the law's own abbreviations give way.
+    Fixed names come first, so that the law's own abbreviations give way.
     """
     parameters = {parameter.name: parameter for parameter in law.parameters}
     for name in law.variables:
@@ -307,15 +311,15 @@ def _propose_symbol_names(
         symbol = sp.Symbol(name, real=True)
         if name in ("F_n", "F_r", "F_t"):
             yield symbol, NAMES.get(symbol) or make_symbol_name("F", "t")
-    for name in number_names:
+    for name in parameter_names:
         yield _make_probe_symbol(name), make_name_from_latex(get_latex_symbol(parameters[name]))
     for name in PAIR:
         base, _, index = name.partition("_")
         yield _make_probe_symbol(name), make_symbol_name(base, index) if index else make_symbol_name(base)
     for name in constants:
-        yield _make_probe_symbol(name), LAW_LETTERS.get(name) or make_word_name(name)
+        yield _make_probe_symbol(name), LAW_SYMBOL_NAMES.get(name) or make_word_name(name)
     for name in steps:
-        yield sp.Symbol(name, real=True), name_law_step(law, name)
+        yield sp.Symbol(name, real=True), name_law_variable(law, name)
 
 
 def _restore_law_names(names: Mapping[sp.Symbol, Name]) -> dict[sp.Symbol, Name]:

@@ -96,7 +96,7 @@ def _describe_dissipation() -> Iterator[str]:
 
 
 def _describe_law(law: Law) -> Iterator[str]:
-    """Yield the Markdown lines on one law: equations, other choices, inner states, keys, validity and source."""
+    """Yield the Markdown lines on a law: title, other names, equations, choices, states, keys, validity and source."""
     yield from (f"### `{law.name}`", "", f"{make_sentence(law.title)}", "")
     if law.also:
         names_text = ", ".join(f"`{name}`" for name in law.also)
@@ -188,7 +188,7 @@ def _print_keys_table(fields: Sequence[Field]) -> Iterator[str]:
 
 
 def _list_parameter_cells(parameter: Field) -> tuple[str, ...]:
-    """Return the cells of a number: letter, unit, condition, default."""
+    """Return the cells of a parameter: symbol, unit, condition, default."""
     unit = "any" if parameter.dimension is None else format_unit(find_si_unit(parameter.dimension))
     default = (
         "needed"
@@ -201,7 +201,7 @@ def _list_parameter_cells(parameter: Field) -> tuple[str, ...]:
 
 
 def _list_option_cells(option: Field) -> tuple[str, ...]:
-    """Return the cells of an option of a law: its values and its default; it has neither letter nor unit."""
+    """Return the cells of an option of a law: its values and its default; it has neither symbol nor unit."""
     return (
         "",
         "",

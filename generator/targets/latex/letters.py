@@ -120,7 +120,8 @@ def make_name_from_latex(latex: str) -> Name:
 def assign_unique_names(proposed: Iterable[tuple[sp.Expr, Name]]) -> dict[sp.Symbol, Name]:
     """Return {symbol: unique name} for pairs (expression, proposed name); other expressions than symbols are left out.
 
-    The first symbol gets the letter. Others get the name of their symbol in C if that is a word ("T0"), else primes.
+    The first symbol gets the proposed name. Others get the name of their symbol in C if that is a word ("T0"), else
+    primes.
     """
     names: dict[sp.Symbol, Name] = {}
     used_names: set[str] = set()

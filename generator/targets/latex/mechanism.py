@@ -56,18 +56,18 @@ def _describe_bodies(model: Model, values: ValueFormatter) -> list[Block]:
     return [
         make_paragraph(lead),
         *make_tables(make_row("body", "mass", "inertia", "length"), rows, tokens=tokens),
-        *make_tables(make_row("side", "length"), values.list_body_numbers("sides")),
-        *make_tables(make_row("number of a shape", "value"), values.list_body_numbers("shape")),
+        *make_tables(make_row("side", "length"), values.list_body_quantities("sides")),
+        *make_tables(make_row("number of a shape", "value"), values.list_body_quantities("shape")),
         *make_tables(make_row("material", "density"), values.list_densities()),
         *make_tables(make_row("point", "in the frame of its body"), points),
-        *values.take_long_expressions(),
+        *values.pop_long_expressions(),
     ]
 
 
 def _describe_ground(model: Model, values: ValueFormatter) -> list[Block]:
     """Return the table of the ground's points."""
     rows = [make_row(name, values.format_vector(vector)) for name, vector in model.scene.mechanism.ground.items()]
-    return [*make_tables(make_row("point", "position"), rows), *values.take_long_expressions()]
+    return [*make_tables(make_row("point", "position"), rows), *values.pop_long_expressions()]
 
 
 def _describe_joints(model: Model, values: ValueFormatter) -> list[Block]:
@@ -91,7 +91,7 @@ def _describe_joints(model: Model, values: ValueFormatter) -> list[Block]:
     blocks += make_tables(
         make_row("angle at the start", "value"), [make_row(e.address, values.format_parameter(e)) for e in start_angles]
     )
-    blocks += values.take_long_expressions()
+    blocks += values.pop_long_expressions()
     for kind in dict.fromkeys(joint.kind for joint in model.scene.mechanism.joints.values()):
         summary, *lines = read_sketch(joint_types()[kind])
         blocks += [make_paragraph(summary), Sketch(tuple(lines))]
@@ -179,5 +179,5 @@ def _describe_parameters(model: Model, notation: Notation, values: ValueFormatte
         )
     return [
         *make_tables(make_row("parameter", "letter", "value in the file", "unit"), rows),
-        *values.take_long_expressions(),
+        *values.pop_long_expressions(),
     ]

@@ -78,7 +78,7 @@ def _describe_elements(model: Model, notation: Notation) -> list[Block]:
     values, temporary_symbols = ValueFormatter(model, notation), list_temporaries(model)
     frictions = {friction.name: friction for friction in model.frictions}
     fields = [row for applied in model.elements.values() for row in list_field_rows(applied.element, values)]
-    blocks: list[Block] = [*make_tables(make_row("element", "field", "value"), fields), *values.take_long_expressions()]
+    blocks: list[Block] = [*make_tables(make_row("element", "field", "value"), fields), *values.pop_long_expressions()]
     for name, applied in model.elements.items():
         element_type = element_types()[applied.element.kind]
         targets = " and ".join(format_point(target, element_type.targets) for target in applied.element.targets)
@@ -131,7 +131,7 @@ def _describe_friction(model: Model, friction: Friction, notation: Notation) -> 
 
 
 def _describe_generalized_forces(model: Model, notation: Notation) -> list[Block]:
-    """Return the nonzero components of g from gravity and force elements, in letters of the force elements."""
+    """Return the nonzero components of g from gravity and force elements, in symbols of the force elements."""
     gx, gy = model.gravity
     forces = [f for body in model.bodies for f in (body.mass * gx, body.mass * gy, sp.Integer(0))]
     for element in model.elements.values():

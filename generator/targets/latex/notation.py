@@ -13,7 +13,7 @@ from gudgeon.generator.ir.finite_slopes import remove_numerical_forms
 from gudgeon.generator.symbols.symbols import Symbols, strip_identifier
 from gudgeon.generator.targets.latex.letters import Name, add_primes, make_symbol_name, make_word_name
 from gudgeon.generator.targets.latex.printers import TexPrinter, TextPrinter
-from gudgeon.generator.targets.latex.theory import collect_theory_letters
+from gudgeon.generator.targets.latex.theory import collect_theory_symbols
 
 LONG_DRIVE = 8  # operations beyond which a drive's value keeps a letter of its own
 LONG_CONSTANT = 4  # the same for what is computed once a run
@@ -54,7 +54,7 @@ _RATES = {"vx": ("x", 1), "vy": ("y", 1), "omega": ("theta", 1)}
 
 @dataclass(frozen=True)
 class PrimedSymbol:
-    """Represent a symbol that has a prime because its letter is used for another one."""
+    """Represent a symbol that has a prime because its name without the prime is used for another one."""
 
     name: Name
     meaning: str
@@ -64,7 +64,7 @@ class PrimedSymbol:
 
 @dataclass(frozen=True)
 class Notation:
-    """Contain the names of a model's symbols; `shown_symbols`: derived ones shown by their own letter."""
+    """Contain the names of a model's symbols; `shown_symbols`: derived ones that keep a name of their own."""
 
     symbols: Symbols
     names: Mapping[sp.Symbol, Name]
@@ -95,13 +95,14 @@ class Notation:
     ) -> tuple[Name, ...]:
         """Return the terms of a sum with their signs as formulas; a line may break between them.
 
-        list_tokens: function that returns the highlighting tokens of a term.
+        `Slope` and `UnevaluatedQuotient` are removed before. list_tokens: function that returns the highlighting tokens
+        of a term.
         """
         expression = remove_numerical_forms(sp.sympify(expression))
         signs = self._text.split_signed_terms(expression)
         return tuple(
             Name(
-                sign + self._latex.print_breakable(term),
+                sign + self._latex.print_breakable_formula(term),
                 sign.replace("{}", "") + self._text.doprint(term),
                 list_tokens(term),
             )
@@ -128,7 +129,7 @@ def make_notation(model: Model) -> Notation:
     for symbol in list_rotated_components(model):  # behind the coordinates of their body
         order[symbol] = 1 + min(order[q] for q in model.symbols.rules[symbol])
     names, primed_symbols = _assign_unique_names(model)
-    return Notation(model.symbols, names, frozenset(_list_symbols_with_letter(model)), order, primed_symbols)
+    return Notation(model.symbols, names, frozenset(_list_shown_symbols(model)), order, primed_symbols)
 
 
 def _assign_unique_names(model: Model) -> tuple[dict[sp.Symbol, Name], tuple[PrimedSymbol, ...]]:
@@ -137,15 +138,15 @@ def _assign_unique_names(model: Model) -> tuple[dict[sp.Symbol, Name], tuple[Pri
     A name that is used before, or by the theory, gets primes.
     """
     names: dict[sp.Symbol, Name] = {}
-    used_letters, primed_symbols = collect_theory_letters(model), list[PrimedSymbol]()
+    used_symbol_names, primed_symbols = collect_theory_symbols(model), list[PrimedSymbol]()
     for symbol, proposed_name in _propose_names(model):
         if isinstance(symbol, sp.Symbol) and symbol not in names:
-            names[symbol], meaning = add_primes(proposed_name, used_letters), _describe_symbol(model, symbol)
+            names[symbol], meaning = add_primes(proposed_name, used_symbol_names), _describe_symbol(model, symbol)
             if names[symbol] != proposed_name:
                 primed_symbols.append(
-                    PrimedSymbol(names[symbol], meaning, proposed_name, used_letters[proposed_name.text])
+                    PrimedSymbol(names[symbol], meaning, proposed_name, used_symbol_names[proposed_name.text])
                 )
-            used_letters[names[symbol].text] = meaning
+            used_symbol_names[names[symbol].text] = meaning
     return names, tuple(primed_symbols)
 
 
@@ -156,9 +157,10 @@ def _describe_symbol(model: Model, symbol: sp.Symbol) -> str:
 
 
 def _propose_names(model: Model) -> Iterator[tuple[sp.Symbol, Name]]:
-    """Yield (symbol, name) with fixed letters first, so that user-defined names give way.
+    """Yield (symbol, name) with fixed names first, so that user-defined names give way.
 
-    Names may repeat. The order is: time, coordinates, drives, parameters of the file, derived ones, temporaries.
+    Names may repeat. The order is: time, coordinates, drives, parameters of the file, derived ones, temporaries of
+    force elements, distances of drives, rotated components.
     """
     yield model.t, make_symbol_name("t")
     for body in model.bodies:
@@ -196,7 +198,7 @@ def _propose_names(model: Model) -> Iterator[tuple[sp.Symbol, Name]]:
 
 
 def name_parameter(address: str) -> Name:
-    """Return the letter of a parameter by its address: "bodies.L1.length" is l with the subscript L1.
+    """Return the name of a parameter by its address: "bodies.L1.length" is l with the subscript L1.
 
     An address of an unknown form becomes a word.
     """
@@ -247,7 +249,7 @@ def name_parameter(address: str) -> Name:
 
 
 def get_field_letter(field: str) -> str:
-    """Return the letter of a field by its name, "m" for "mass"; a field without one keeps its name."""
+    """Return the symbol of a field by its name, "m" for "mass"; a field without one keeps its name."""
     return _ONE_LETTER.get(field, field)
 
 
@@ -310,8 +312,8 @@ def list_rotated_components(model: Model) -> list[sp.Symbol]:
     ]
 
 
-def _list_symbols_with_letter(model: Model) -> Iterator[sp.Symbol]:
-    """Yield the derived symbols that equations show by their own letter instead of their definition.
+def _list_shown_symbols(model: Model) -> Iterator[sp.Symbol]:
+    """Yield the derived symbols that equations show by their own name instead of their definition.
 
     They are sums of rotated components, distances, long drives, constants of laws, long derived parameters and
     temporaries.

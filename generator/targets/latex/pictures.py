@@ -36,7 +36,7 @@ def print_svg(width: float, height: float, label: str, parts: Sequence[str]) -> 
 def draw_jacobian_pattern(model: Model) -> list[Block]:
     """Return the picture of the nonzero entries of Φ_q, in SVG and in characters; [] if it would be too large."""
     dots = _list_nonzero_entries(model)
-    if not _is_small_enough(len(model.rows), len(model.q)):
+    if not _fits_in_picture(len(model.rows), len(model.q)):
         return []
     cell_side = compute_cell_side(len(model.q), SMALL)
     parts = [
@@ -54,7 +54,7 @@ def draw_jacobian_pattern(model: Model) -> list[Block]:
 def draw_assembled_matrix(model: Model) -> list[Block]:
     """Return the picture of [M Φ_qᵀ; Φ_q 0] with its blocks distinguished; [] if it would be too large."""
     n, m = len(model.q), len(model.rows)
-    if not _is_small_enough(n + m, n + m):
+    if not _fits_in_picture(n + m, n + m):
         return []
     entries = _list_nonzero_entries(model)
     masses = [Dot(k, k, f"body-{body.name}") for body in model.bodies for k in range(body.index, body.index + 3)]
@@ -75,7 +75,7 @@ def draw_assembled_matrix(model: Model) -> list[Block]:
     return [Picture(caption, print_svg(total, total, caption, parts))]
 
 
-def _is_small_enough(n_rows: int, n_columns: int) -> bool:
+def _fits_in_picture(n_rows: int, n_columns: int) -> bool:
     """Return whether a matrix is small enough for a picture."""
     return n_rows <= MOST_ROWS and n_columns <= MOST_COLUMNS
 
@@ -112,18 +112,18 @@ def _print_body_names(model: Model, top: int, cell_side: int) -> list[str]:
 
     top: the vertical position of the matrix. cell_side: the side of an entry. Long names are shortened.
     """
-    parts, max_letters = [], 3 * cell_side // 7  # letters that fit above three columns
+    parts, max_characters = [], 3 * cell_side // 7  # letters that fit above three columns
     bottom = top + cell_side * len(model.rows)
     for body in model.bodies:
         x = 30 + cell_side * body.index
-        name = html.escape(body.name if len(body.name) <= max_letters else f"{body.name[: max_letters - 1]}…")
+        name = html.escape(body.name if len(body.name) <= max_characters else f"{body.name[: max_characters - 1]}…")
         parts.append(f'<path class="rule" d="M{x - 0.5} {top - 6}V{bottom}"/>')
         parts.append(f'<text x="{x + 1}" y="{top - 9}" data-of="body-{html.escape(body.name)}">{name}</text>')
     return parts
 
 
 def _print_row_numbers(model: Model, top: int, cell_side: int) -> list[str]:
-    """Return the SVG of the numbers of the rows on the left of a matrix."""
+    """Return the SVG of the numbers of the constraint equations on the left of a matrix."""
     return [
         f'<text class="end" x="25" y="{top + cell_side * r + cell_side // 2 + 3}" '
         f'data-of="{make_row_token(r + 1)}">{r + 1}</text>'

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import sympy as sp
 
 from gudgeon.generator.equations import contact_steps as contact
-from gudgeon.generator.equations.contact_steps import Step
+from gudgeon.generator.equations.contact_steps import Assignment
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.equations.play import Clearance, LawEquations
 from gudgeon.generator.field import Field
@@ -55,7 +55,11 @@ def describe_contour(joint: JointWithPlay) -> Iterator[Block]:
 
 
 def describe_corner(name: str, guide: str, slider: str) -> Block:
-    """Return the paragraph on a corner of a slider and its letters; `guide` and `slider` are points "body.point"."""
+    """Return the paragraph on the position of a slider's corner and on the symbols n and e.
+
+    name: the name of its clearance, whose last part contains "front" or not and "upper" or not. guide, slider: points
+    "body.point".
+    """
     corner_name = name.rpartition(".")[2]
     is_front, is_upper = "front" in corner_name, "upper" in corner_name
     return make_paragraph(
@@ -129,7 +133,7 @@ PAIR = (
 
 
 class JointWithPlay:
-    """Write one joint's equations in its own letters: c, R_i, K, c_e stand for this joint only.
+    """Write one joint's equations in its own symbols: c, R_i, K, c_e stand for this joint only.
 
     of: its highlighting tokens. alike: labels of all joints with the same play.
     """
@@ -141,10 +145,10 @@ class JointWithPlay:
         self.of_law = [f"law-{self.play.contact.name}", *self.of]
         self.alike = [c.label for c in model.clearances if _have_same_play(model.scene.play[c.joint.name], self.play)]
         self.notation = notation.rename_symbols(contact_names.name_joint_symbols(model, clearance))
-        self.numbers = list(self._list_joint_numbers())
+        self.numbers = list(self._list_joint_quantities())
 
-    def _list_joint_numbers(self) -> Iterator[tuple[Quantity, str, str]]:
-        """Yield (quantity, letter in LaTeX if it is not a run-time parameter, meaning) of the joint's numbers.
+    def _list_joint_quantities(self) -> Iterator[tuple[Quantity, str, str]]:
+        """Yield (quantity, symbol in LaTeX if it is not a run-time parameter, meaning) of the joint's parameters.
 
         They are dimensions, elastic constants if there is dry contact, numbers of laws and the width of the
         transition.
@@ -168,21 +172,21 @@ class JointWithPlay:
         if self.play.contact.transition is not None:
             yield self.play.contact.transition, "e_0", "width of the transition from film to dry contact"
 
-    def list_law_steps(self, equations: LawEquations) -> list[Step]:
-        """Return the equations of a law in this joint's letters, without results that are zero."""
+    def list_law_assignments(self, equations: LawEquations) -> list[Assignment]:
+        """Return the equations of a law in this joint's symbols, without results that are zero."""
         renamed = {
             sp.Symbol(name, real=True): contact_names.get_result_symbol(equations, name) for name in equations.steps
         }
         if self.clearance.contour and equations.law.role == "friction":
             renamed[sp.Symbol("F_n", real=True)] = contact.F_N
         return [
-            Step(contact_names.get_result_symbol(equations, name), sp.sympify(value).xreplace(renamed))
+            Assignment(contact_names.get_result_symbol(equations, name), sp.sympify(value).xreplace(renamed))
             for name, value in equations.steps.items()
             if value != 0
         ]
 
-    def make_equations(self, steps: list[Step]) -> list[Block]:
-        """Return an equation symbol = value for each step, in this joint's letters and with the law's tokens."""
+    def make_equations(self, steps: list[Assignment]) -> list[Block]:
+        """Return an equation symbol = value for each step, in this joint's symbols and with the law's tokens."""
         return [
             make_equation(
                 step.symbol, self.notation.expand_symbols(step.value), self.notation, self.of_law, self.of_law[0]
@@ -260,7 +264,7 @@ def _describe_contact(joint: JointWithPlay) -> list[Section]:
     """
     clearance, name = joint.clearance, joint.clearance.name
     kind = clearance.kind.capitalize()
-    sections = [Section(f"{kind} {name}: numbers", tuple(list_number_blocks(joint)), 2)]
+    sections = [Section(f"{kind} {name}: numbers", tuple(describe_parameter_values(joint)), 2)]
     if clearance.normal is not None:
         sections.append(Section(f"{kind} {name}: dry contact", tuple(_describe_dry_contact(joint)), 2))
     if clearance.film is not None:
@@ -333,7 +337,7 @@ def _describe_law(joint: JointWithPlay, role: str) -> list[Block]:
     ]
     blocks += describe_inner_states(law)
     plot = plot_law(joint.functions, joint.alike, role, law) if isinstance(joint.functions, HighlightIndex) else []
-    return [*blocks, *joint.make_equations(joint.list_law_steps(equations)), *plot]
+    return [*blocks, *joint.make_equations(joint.list_law_assignments(equations)), *plot]
 
 
 def _format_source(field: Field, value: str | bool) -> str:
@@ -346,7 +350,7 @@ def _describe_generalized_force(joint: JointWithPlay) -> list[Block]:
     """Return force and moment of a joint on both bodies as contributions to g; the ground has none."""
     clearance, notation = joint.clearance, joint.notation
     blocks: list[Block] = [make_paragraph(f"The {clearance.kind} adds to g, by the numbers of the coordinates:")]
-    # which letter holds the moment depends on the parts that the joint has
+    # which symbol holds the moment depends on the parts that the joint has
     moments = contact.find_moment_symbols(clearance)
     for point, sign, moment in ((clearance.first, -1, moments[0]), (clearance.second, 1, moments[1])):
         if point.body is None:
@@ -363,7 +367,7 @@ def _describe_generalized_force(joint: JointWithPlay) -> list[Block]:
     return blocks
 
 
-def list_number_blocks(joint: JointWithPlay) -> list[Block]:
+def describe_parameter_values(joint: JointWithPlay) -> list[Block]:
     """Return the table of the joint's numbers, then the equations of its derived constants."""
     slots, values, rows = joint.model.parameter_table, ValueFormatter(joint.model, joint.notation), []
     for quantity, letter_, meaning in joint.numbers:
@@ -385,7 +389,7 @@ def list_number_blocks(joint: JointWithPlay) -> list[Block]:
     header = make_row("letter", "meaning", "address", "value in the file", "unit")
     return [
         *make_tables(header, rows, (1,)),
-        *values.take_long_expressions(),
+        *values.pop_long_expressions(),
         make_paragraph("From these follow once a run:"),
         *constant_equations,
     ]

@@ -103,8 +103,8 @@ NAMES: Mapping[sp.Symbol, Name] = {
     sp.Symbol("F_r", real=True): make_symbol_name("F", "r"),
     sp.Symbol(CONSTRAINT_VARIABLES[0], real=True): make_symbol_name("lambda"),
 }
-# What the laws call their abbreviations and constants, in the paper's letters.
-LAW_LETTERS = {
+# What the laws call their abbreviations and constants, by the paper's symbols.
+LAW_SYMBOL_NAMES = {
     "root": make_symbol_name("s"),
     "factor": make_symbol_name("f"),
     "hysteresis": make_symbol_name("a"),
@@ -134,7 +134,7 @@ GUIDE = (
 RATIO, CLIPPED = Name(r"\frac{\dot{\delta}}{\dot{\delta}^{-}}", "(δ̇/δ̇⁻)"), make_symbol_name("r")
 
 
-def name_contact_steps(clearance: Clearance) -> dict[sp.Symbol, Name]:
+def name_contact_variables(clearance: Clearance) -> dict[sp.Symbol, Name]:
     """Return {symbol: name} of the contact steps of a joint with play.
 
     Forces and moments have the index d or f if the joint has both dry contact and film. Corners at walls have their
@@ -157,17 +157,18 @@ def name_contact_steps(clearance: Clearance) -> dict[sp.Symbol, Name]:
 
 
 def name_joint_symbols(model: Model, clearance: Clearance) -> dict[sp.Symbol, Name]:
-    """Return {symbol: unique letter} of one joint's sections: c, R_i, K, c_e stand for this joint only."""
-    return assign_unique_names(_propose_letters(model, clearance))
+    """Return {symbol: unique name} of one joint's sections: c, R_i, K, c_e stand for this joint only."""
+    return assign_unique_names(_propose_symbol_names(model, clearance))
 
 
-def _propose_letters(model: Model, clearance: Clearance) -> Iterator[tuple[sp.Expr, Name]]:
-    """Yield (symbol, letter) in the order in which symbols get their letters.
+def _propose_symbol_names(model: Model, clearance: Clearance) -> Iterator[tuple[sp.Expr, Name]]:
+    """Yield (symbol, name) in the order in which symbols get their names.
 
-    Contact steps come first, then dimensions, elastic constants, numbers and constants of laws, and steps of laws.
+    Contact variables come first, then dimensions, elastic constants, the transition, parameters and constants of laws,
+    and variables of laws.
     """
     pair, laws, wall = clearance.pair, list_laws(model, clearance), clearance.wall
-    yield from name_contact_steps(clearance).items()
+    yield from name_contact_variables(clearance).items()
     lengths = _LETTERS_AT_WALL if wall else (("c", "c"), ("R_i", "R_i"), ("R_j", "R_j"), ("L", "L"))
     pairs = [(getattr(pair, attribute), latex) for attribute, latex in lengths]
     for symbol, latex in pairs:
@@ -188,10 +189,10 @@ def _propose_letters(model: Model, clearance: Clearance) -> Iterator[tuple[sp.Ex
                 yield entry.symbol, make_name_from_latex(get_latex_symbol(parameter))
     for name, value in clearance.constants.items():
         if not (wall and value == pair.R_j):
-            yield value, LAW_LETTERS.get(name) or make_word_name(name)
+            yield value, LAW_SYMBOL_NAMES.get(name) or make_word_name(name)
     for equations, _ in laws:
         for name in equations.steps:
-            yield get_result_symbol(equations, name), name_law_step(equations.law, name)
+            yield get_result_symbol(equations, name), name_law_variable(equations.law, name)
 
 
 def _find_parameter(model: Model, quantity: Quantity | None) -> ParameterEntry | None:
@@ -220,13 +221,13 @@ def get_result_symbol(equations: LawEquations, name: str) -> sp.Symbol:
     return sp.Symbol(name, real=True)
 
 
-def name_law_step(law: Law, name: str) -> Name:
+def name_law_variable(law: Law, name: str) -> Name:
     """Return the name of an abbreviation or result of a law; the rate of an inner state has a dot."""
     name = name.removesuffix("__")  # of a user-defined law
     rate_names = {f"{state.name}_rate": make_symbol_name(state.name, dots=1) for state in law.states}
-    return (LAW_LETTERS | rate_names).get(name) or make_word_name(name)
+    return (LAW_SYMBOL_NAMES | rate_names).get(name) or make_word_name(name)
 
 
 def get_latex_symbol(parameter: Field) -> str:
-    """Return the letter of a law's parameter in LaTeX: its symbol, or else its name."""
+    """Return the symbol of a law's parameter in LaTeX, or else its name."""
     return parameter.symbol or make_word_name(parameter.name).latex

@@ -24,7 +24,7 @@ from gudgeon.language.plot_units import choose_prefix, format_label
 from gudgeon.language.units import VELOCITY
 
 POINTS = 61
-DEEPEST = 0.05  # share of the clearance up to which contact forces are drawn
+MAX_PENETRATION_FRACTION = 0.05  # share of the clearance up to which contact forces are drawn
 FAST = 0.1  # m/s, approach at which a law that reads δ̇ itself is drawn
 WIDTH, HEIGHT, LEFT, RIGHT, TOP, BOTTOM = 420, 204, 62, 408, 16, 172
 
@@ -39,7 +39,7 @@ class Curve:
 
 @dataclass(frozen=True)
 class Plot:
-    """Represent a plot; axes are (letter, SI unit), `now` is the local on the x axis by function: "dry", "v_t"."""
+    """Represent a plot; axes are (symbol, SI unit), `now` is the local on the x axis by function: "dry", "v_t"."""
 
     x: Any
     curves: tuple[Curve, ...]
@@ -110,7 +110,9 @@ def _plot_normal_force(
     functions: Functions, joint: JointFunctions, call: SharedFunctionCall, parameters: Mapping[str, float]
 ) -> Plot:
     """Return the plot of a normal force over the penetration, a curve for each of three ratios δ̇/δ̇⁻: 1, 0, −1."""
-    delta = np.linspace(0.0, DEEPEST, POINTS) * _evaluate_symbol(functions, parameters, joint.clearance.pair.c)
+    delta = np.linspace(0.0, MAX_PENETRATION_FRACTION, POINTS) * _evaluate_symbol(
+        functions, parameters, joint.clearance.pair.c
+    )
     curves = []
     for ratio in (1.0, 0.0, -1.0):
         rate_argument = [ratio * FAST] if joint.further_variables else []

@@ -129,7 +129,7 @@ class TextPrinter(_BodyOrder, StrPrinter):
 
 
 class TexPrinter(_BodyOrder, LatexPrinter):
-    """Print LaTeX for amsmath. `print_breakable` lets long terms break at their signs."""
+    """Print LaTeX for amsmath. `print_breakable_formula` lets long terms break at their signs."""
 
     def __init__(
         self, names: Mapping[sp.Symbol, Name], order: Mapping[sp.Symbol, int], is_breakable: bool = False
@@ -145,7 +145,7 @@ class TexPrinter(_BodyOrder, LatexPrinter):
         self._order, self._breakable, self._names = order, is_breakable, names
         self._text = TextPrinter({symbol: "x" * name.width for symbol, name in names.items()}, order)
 
-    def print_breakable(self, expr: sp.Expr) -> str:
+    def print_breakable_formula(self, expr: sp.Expr) -> str:
         """Return an expression in LaTeX; one longer than LONG is printed so that a line may break in it.
 
         A long one has brackets of fixed size and fractions with slashes.

@@ -1,6 +1,6 @@
 """Contains the standard symbols of a document of equations, with their meaning; other names must differ from them.
 
-The sketches of joint types and force elements contain such letters, too.
+The sketches of joint types and force elements contain such symbols, too.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from collections.abc import Iterable, Iterator
 import sympy as sp
 
 from gudgeon.generator.equations import contact_steps as contact
-from gudgeon.generator.equations.contact_steps import Step
+from gudgeon.generator.equations.contact_steps import Assignment
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.equations.play import Clearance
 from gudgeon.generator.kinds.forces.force_type import ElementType, element_types
@@ -24,7 +24,7 @@ from gudgeon.generator.targets.latex.play_letters import (
     get_result_symbol,
     list_given_parameters,
     list_laws,
-    name_contact_steps,
+    name_contact_variables,
     name_joint_symbols,
 )
 
@@ -37,10 +37,10 @@ def read_sketch(type_: JointType | ElementType) -> list[str]:
     return [summary, *sketch.strip("\n").splitlines()]
 
 
-def find_letters(lines: list[str]) -> Iterator[str]:
-    """Yield the letters that stand alone in the lines of a sketch, with subscripts; those with dots also without them.
+def find_sketch_symbols(lines: list[str]) -> Iterator[str]:
+    """Yield the symbols that stand alone in the lines of a sketch, with subscripts; those with dots also without them.
 
-    Parts of a drawing ("o---"), initials ("L. C. Bo") and articles are not letters.
+    Parts of a drawing ("o---"), initials ("L. C. Bo") and articles are not symbols.
     """
     lone_letter = re.compile(r"(?<![\w.'-])(?!(?:a|A|I) [a-z]{2})([^\W\d_]\u0307?\u0307?(?:_\w+)?)(?![\w.'-])")
     for line in lines:
@@ -57,20 +57,20 @@ def name_component(vector: Name, index: int) -> Name:
     return Name(f"{vector.latex}_{{{index}}}", f"{vector.text}_{index}")
 
 
-def collect_theory_letters(model: Model) -> dict[str, str]:
-    """Return {plain text of a letter: meaning} of the theory in a scene's document; user-defined names avoid these.
+def collect_theory_symbols(model: Model) -> dict[str, str]:
+    """Return {plain text of a symbol: meaning} of the theory in a scene's document; user-defined names avoid these.
 
-    The first meaning of a letter counts; t, time, is left out.
+    The first meaning of a symbol counts; t, time, is left out.
     """
     meanings: dict[str, str] = {}
-    for text, meaning in _list_letters(model):
+    for text, meaning in _list_theory_symbols(model):
         meanings.setdefault(text, meaning)
     meanings.pop("t", None)  # time everywhere
     return meanings
 
 
-def _list_letters(model: Model) -> Iterator[tuple[str, str]]:
-    """Yield (letter, meaning) of everything that a scene's document uses without a name from the file.
+def _list_theory_symbols(model: Model) -> Iterator[tuple[str, str]]:
+    """Yield (symbol, meaning) of everything that a scene's document uses without a name from the file.
 
     It contains constraint equations, the unit step, curves, joints with play, force elements, events and sketches, as
     far as the scene has them.
@@ -79,22 +79,22 @@ def _list_letters(model: Model) -> Iterator[tuple[str, str]]:
     yield from (("M", "mass matrix"), ("g", "generalized forces"), ("a", "accelerations, in the C"))
     yield from ((f"g_{k}", "a generalized force") for k in range(1, 1 + len(model.q)))
     if model.rows:
-        yield from _list_row_letters(model)
+        yield from _list_constraint_symbols(model)
     values = [*(e for row in model.rows for e in (row.phi, row.nu, row.gamma)), *model.symbols.definitions.values()]
     if any(sp.sympify(value).has(sp.Heaviside) for value in values):
         yield "H", "unit step"
     yield from ((name, "a curve of the file") for name in model.scene.mechanism.curves)
     for clearance in model.clearances:
         meaning = f"a letter of {clearance.kind} {clearance.name} with play"
-        yield from ((text, meaning) for text in _list_play_letters(model, clearance))
-    yield from _list_force_letters(model)
+        yield from ((text, meaning) for text in _list_clearance_symbols(model, clearance))
+    yield from _list_force_element_symbols(model)
     yield from ((make_symbol_name("z", event.name).text, f"event {event.name}") for event in model.events)
     for kind in dict.fromkeys(joint.kind for joint in model.scene.mechanism.joints.values()):
-        yield from _list_sketch_letters(joint_types()[kind])
+        yield from _list_sketch_symbols(joint_types()[kind])
 
 
-def _list_row_letters(model: Model) -> Iterator[tuple[str, str]]:
-    """Yield (letter, meaning) of Φ, λ, ν and γ, of their components, and of the derivatives of Φ."""
+def _list_constraint_symbols(model: Model) -> Iterator[tuple[str, str]]:
+    """Yield (symbol, meaning) of Φ, λ, ν and γ, of their components, and of the derivatives of Φ."""
     for name, meaning in (
         (PHI, "constraints"),
         (LAMBDA, "multipliers"),
@@ -106,8 +106,8 @@ def _list_row_letters(model: Model) -> Iterator[tuple[str, str]]:
     yield from ((f"Φ_{variables}", "a derivative of the constraints") for variables in ("q", "t", "qt", "tt"))
 
 
-def _list_force_letters(model: Model) -> Iterator[tuple[str, str]]:
-    """Yield (letter, meaning) of potential energies, of friction elements, and of the sketches of force elements."""
+def _list_force_element_symbols(model: Model) -> Iterator[tuple[str, str]]:
+    """Yield (symbol, meaning) of potential energies, of friction elements, and of the sketches of force elements."""
     for name, applied in model.elements.items():
         if applied.loads.potential != 0:
             yield make_symbol_name("V", name).text, f"potential energy of {name}"
@@ -117,18 +117,18 @@ def _list_force_letters(model: Model) -> Iterator[tuple[str, str]]:
         jacobian_entries = (make_symbol_name("J", friction.name, str(k)) for k in range(1, 1 + len(model.q)))
         yield from ((name.text, f"slip of {friction.name}") for name in jacobian_entries)
     for kind in dict.fromkeys(applied.element.kind for applied in model.elements.values()):
-        yield from _list_sketch_letters(element_types()[kind])
+        yield from _list_sketch_symbols(element_types()[kind])
 
 
-def _list_sketch_letters(type_: JointType | ElementType) -> Iterator[tuple[str, str]]:
-    """Yield (letter, meaning) of the letters in the sketch of a joint type or force element."""
-    return ((text, f"in the sketch: {type_.title}") for text in find_letters(read_sketch(type_)))
+def _list_sketch_symbols(type_: JointType | ElementType) -> Iterator[tuple[str, str]]:
+    """Yield (symbol, meaning) of the symbols in the sketch of a joint type or force element."""
+    return ((text, f"in the sketch: {type_.title}") for text in find_sketch_symbols(read_sketch(type_)))
 
 
-def _list_play_letters(model: Model, clearance: Clearance) -> Iterator[str]:
-    """Yield the letters of a joint with play: those of its steps, parameters, laws and parts."""
-    used_symbols = {contact.stored, *_list_step_symbols(_list_equation_steps(clearance))}
-    step_names = name_contact_steps(clearance)
+def _list_clearance_symbols(model: Model, clearance: Clearance) -> Iterator[str]:
+    """Yield the symbols of a joint with play: those of its steps, parameters, laws and parts."""
+    used_symbols = {contact.stored, *_list_assignment_symbols(_list_clearance_assignments(clearance))}
+    step_names = name_contact_variables(clearance)
     yield from (
         name.text
         for symbol, name in name_joint_symbols(model, clearance).items()
@@ -146,14 +146,14 @@ def _list_play_letters(model: Model, clearance: Clearance) -> Iterator[str]:
         yield from ("W", "F", "w")
 
 
-def _list_equation_steps(clearance: Clearance) -> Iterator[Step]:
+def _list_clearance_assignments(clearance: Clearance) -> Iterator[Assignment]:
     """Yield the equations of a joint with play from eccentricity to force, those of its laws included."""
     yield from (
-        Step(symbol, sp.Integer(0))
+        Assignment(symbol, sp.Integer(0))
         for symbol in (contact.e_x, contact.e_y, contact.de_x, contact.de_y, contact.omega_i, contact.omega_j)
     )
     if clearance.contour:
-        yield Step(contact.theta_i, contact.steep)
+        yield Assignment(contact.theta_i, contact.steep)
     yield from contact.make_gap_equations(clearance)
     if clearance.normal is not None:
         yield from (
@@ -169,11 +169,11 @@ def _list_equation_steps(clearance: Clearance) -> Iterator[Step]:
     yield from contact.make_resultant_equations(clearance)
     for equations in clearance.laws:
         yield from (
-            Step(get_result_symbol(equations, name), sp.sympify(step)) for name, step in equations.steps.items()
+            Assignment(get_result_symbol(equations, name), sp.sympify(step)) for name, step in equations.steps.items()
         )
 
 
-def _list_step_symbols(steps: Iterable[Step]) -> Iterator[sp.Symbol]:
+def _list_assignment_symbols(steps: Iterable[Assignment]) -> Iterator[sp.Symbol]:
     """Yield the symbols of steps: each result, then the symbols in its value."""
     for step in steps:
         yield step.symbol

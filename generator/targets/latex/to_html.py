@@ -136,7 +136,7 @@ class FormulaWriter:
         return "\n".join(f"[{', '.join(row)}]" for row in self._format_entries(matrix, lambda name: name.text))
 
     def equation(self) -> Name:
-        """Return Φ(q, t) = 0, row by row."""
+        """Return the constraint equations Φ(q, t) = 0, one below the other."""
         return Name(rf"\Phi(q, t) = {self.latex(self.model.Phi)} = 0", f"Φ(q, t) =\n{self.text(self.model.Phi)}")
 
     def html(self) -> str:

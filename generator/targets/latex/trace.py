@@ -37,7 +37,7 @@ from gudgeon.generator.targets.latex.document import (
     make_sum_token,
 )
 
-# Functions of the closed linkage by the letter of what they give: `constraints` gives phi[r].
+# Functions of the closed linkage by the symbol of what they give: `constraints` gives phi[r].
 RESULT_SYMBOLS = {"constraints": "phi", "jacobian": "phi_q", "velocity_rhs": "nu", "acceleration_rhs": "gamma"}
 Tokens = Mapping[int, Marks]  # by line
 
@@ -108,7 +108,7 @@ class _TokenCollector:
         members = map(self.model.parameter_table.find_field_name, self.model.parameter_table.list_symbols())
         self.place_in_p = {f"{PARAMETERS}.{member}": k for k, member in enumerate(members, 1)}
         tree = program.tree
-        in_chains = tree.chains.chain.rows if tree and tree.chains else ()
+        in_chains = tree.chains.loops.rows if tree and tree.chains else ()
         self.in_chains = {make_identifier(f"phi_{row.name}"): row.name for row in in_chains}
         self.shown = {name for row in self.model.rows for name in find_symbol_names(row.phi)}
 
@@ -240,7 +240,10 @@ class _TokenCollector:
         return NO_MARKS
 
     def _find_dynamics_tokens(self, function_name: str, local_name: str, array: str, index: int) -> Marks:
-        """Return the token of the row that a store in the equations of motion belongs to, as a set; empty if none."""
+        """Return the token of the constraint equation that a store in the equations of motion belongs to, as a set.
+
+        It is found by the index in phi, phi_dot or out, or by the name of the local, rhs_<equation>; empty if none.
+        """
         rows = self.model.rows if function_name == "dynamics" else self.program.integrated.system.rows
         if index >= 0 and array in ("phi", "phi_dot", "out"):
             return self._get_row_tokens(rows[index].name)
@@ -256,7 +259,7 @@ class _TokenCollector:
         return frozenset({f"name-{target}"}) if target in self.shown else NO_MARKS
 
     def _get_single_line_tokens(self, function_name: str, target: Key) -> Marks:
-        """Return the token that only the line itself gets: of the sum of a row of Φ, or of a multiplier.
+        """Return the token that only the line itself gets: of the sum of a component of Φ, or of a multiplier.
 
         The set is empty for other lines.
         """

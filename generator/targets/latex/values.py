@@ -29,9 +29,9 @@ _STRENGTH = {"+": 1, "-": 1, "*": 2, "/": 2, "**": 4}
 
 
 class ValueFormatter:
-    """Write the numbers of a scene as table cells: letter, value and expression.
+    """Write the numbers of a scene as table cells: symbol, value and expression.
 
-    Expressions that are too long for a cell are collected for `take_long_expressions`.
+    Expressions that are too long for a cell are collected for `pop_long_expressions`.
     """
 
     def __init__(self, model: Model, notation: Notation) -> None:
@@ -47,8 +47,8 @@ class ValueFormatter:
         return self.format_parameter(self._slots.entries[quantity.address])
 
     def _format_varying_quantity(self, quantity: Quantity) -> Text:
-        """Return an expression of time and motion; a long one is replaced by its letter and collected for
-        `take_long_expressions`.
+        """Return an expression of time and motion; a long one is replaced by its symbol and collected for
+        `pop_long_expressions`.
 
         An expression of a cam's angle, or with named expressions, stays as the file writes it.
         """
@@ -67,7 +67,7 @@ class ValueFormatter:
         return (left,)
 
     def format_parameter(self, entry: ParameterEntry) -> Text:
-        """Return the cell "letter = value" of a parameter."""
+        """Return the cell "symbol = value" of a parameter."""
         return self._notation.format_expression(entry.symbol), " = ", *self.format_default(entry)
 
     def format_default(self, entry: ParameterEntry) -> Text:
@@ -101,7 +101,7 @@ class ValueFormatter:
     def format_dependency(self, entry: ParameterEntry) -> Text:
         """Return the expression of a dependent number and " = "; () for an independent one.
 
-        A long expression is collected for `take_long_expressions`, and () is returned.
+        A long expression is collected for `pop_long_expressions`, and () is returned.
         """
         if not entry.depends_on_parameters:
             return ()
@@ -114,7 +114,7 @@ class ValueFormatter:
     def _split_long_formula(self, entry: ParameterEntry) -> list[Block]:
         """Return a long formula as blocks.
 
-        The argument of a long root gets a letter, since lines cannot break in it.
+        The argument of a long root gets a symbol, since lines cannot break in it.
         """
         notation, value, blocks = self._notation, entry.value, list[Block]()
         left_side = notation.format_expression(entry.symbol)
@@ -157,7 +157,7 @@ class ValueFormatter:
         factor = "" if digits == "1" else rf"{digits} \cdot "
         return Name(rf"{factor}10^{{{int(power)}}}", f"{digits}e{power}")
 
-    def list_body_numbers(self, part: str) -> list[tuple[Text, ...]]:
+    def list_body_quantities(self, part: str) -> list[tuple[Text, ...]]:
         """Return the table rows of the numbers of bodies in the section `part`, "sides" or "shape"."""
         entries_with_path = [
             (e, e.address.split(".")) for e in self._slots.entries.values() if e.address.startswith("bodies.")
@@ -177,13 +177,13 @@ class ValueFormatter:
             if path[0] == "materials" and path[2:] == ["density"]
         ]
 
-    def take_long_expressions(self) -> list[Block]:
+    def pop_long_expressions(self) -> list[Block]:
         """Return the long expressions since the last call, to be placed below a table, and forget them; [] for none."""
         long_blocks, self._long = list(dict.fromkeys(self._long)), []
         return [make_paragraph("In full:"), *long_blocks] if long_blocks else []
 
     def format_vector(self, vector: Vector) -> Text:
-        """Return the cell of a vector; a zero next to a parameter is written as "letter = 0"."""
+        """Return the cell of a vector; a zero next to a parameter is written as "symbol = 0"."""
         is_parameter = [component.address in self._slots.entries for component in vector]
         x, y = (
             (name_parameter(component.address), " = 0")

@@ -71,7 +71,7 @@ def make_document(model: Model, functions: Functions) -> Document:
 
 
 def add_letters_section(sections: Sequence[Section], notation: Notation) -> tuple[Section, ...]:
-    """Return the sections, preceded by a table of the primed letters and their meaning if there are any."""
+    """Return the sections, preceded by a table of the primed symbols and their meaning if there are any."""
     table_blocks = make_primes_table(
         notation, (name for section in sections for block in section.blocks for name in _list_formulas(block))
     )

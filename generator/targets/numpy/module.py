@@ -218,7 +218,7 @@ class NumPyModel(ClosedLinkage):
         ArrayError for another number of latches or modes.
         """
         model = self.model
-        approach_speeds = _convert_numbers_by_name(
+        approach_speeds = _order_numbers_by_name(
             "latches", latches, [c.name for c in model.clearances], [np.nan] * len(model.clearances)
         )
         inner_states = np.broadcast_to(
@@ -229,7 +229,7 @@ class NumPyModel(ClosedLinkage):
                 SimpleNamespace(closed=bool(x == x), deltadot_minus=float(x), force=np.nan, state=z)
                 for x, z in zip(approach_speeds, inner_states, strict=True)
             ],
-            mode=_convert_numbers_by_name("modes", modes, [friction.name for friction in model.frictions]),
+            mode=_order_numbers_by_name("modes", modes, [friction.name for friction in model.frictions]),
         )
         m = len(model.rows)
         rhs = SimpleNamespace(
@@ -273,7 +273,7 @@ def _print_thresholds(kernel: Kernel) -> list[str]:
     return ["\n".join([*head, *(f"{name} = {value!r}" for name, value in sorted(limits.items()))])] if limits else []
 
 
-def _convert_numbers_by_name(
+def _order_numbers_by_name(
     argument_name: str, values: ArrayLike, names: list[str], default_numbers: list[float] | None = None
 ) -> list[float]:
     """Return one number for each name; `default_numbers` are the values if nothing is given. Raises ArrayError."""

@@ -193,7 +193,7 @@ def _is_steady(value: Array, neighbour: Array) -> bool:
 def _find_nearly_closed_position(
     numpy_model: NumPyModel, t: float, p: Any, displacement_scale: float, rng: np.random.Generator
 ) -> Array:
-    """Return positions q (n,) near a closed linkage, displaced at random, rounded to seven digits.
+    """Return positions q (n,) near those that satisfy Φ = 0, displaced at random, rounded to seven digits.
 
     displacement_scale: standard deviation of the displacements, m or rad. A few Gauss–Newton steps from a random
     position close the linkage; they end early at a value that is not finite.
