@@ -14,18 +14,19 @@ class Method:
     fixed: bool = False  # whether it takes a `step` and no tolerance
     slopes: bool = False  # whether it uses the Jacobian, so that forces need finite slopes
     smooth: bool = False  # for smooth motion only; a library has it only on request
+    lanes: bool = False  # whether runs go side by side in vector lanes (`lane` in engine/methods)
     staged: bool = False  # implicit stages solved together; a library has it with films, or on request
 
 
 # all integrators in C
 METHODS = (
-    Method("rk4", "s", fixed=True),
-    Method("dop853", "o"),
-    Method("dopri5", "d"),
-    Method("rodas5p", "^", slopes=True),
-    Method("radau5", "v", slopes=True, staged=True),
-    Method("radau9", ">", slopes=True, staged=True),
-    Method("taylor", "*", smooth=True),
+    Method("rk4", "s", fixed=True, lanes=True),
+    Method("dop853", "o", lanes=True),
+    Method("dopri5", "d", lanes=True),
+    Method("rodas5p", "^", slopes=True, lanes=True),
+    Method("radau5", "v", slopes=True, lanes=True, staged=True),
+    Method("radau9", ">", slopes=True, lanes=True, staged=True),
+    Method("taylor", "*", smooth=True, lanes=True),
 )
 SMOOTH = tuple(method.name for method in METHODS if method.smooth)  # methods for smooth motion only
 STAGED = tuple(method.name for method in METHODS if method.staged)  # methods whose stages are solved together
@@ -38,6 +39,7 @@ EXPLICIT, STIFF = "dop853", "rodas5p"  # methods between which `auto` switches; 
 FINE = 3e-7  # tolerance below which `auto` uses the second of STAGED
 ADAPTIVE = "adaptive"  # internal name of the method that switches
 KINEMATIC = "kinematic"  # method for linkages without degrees of freedom
+IN_LANES = (*(method.name for method in METHODS if method.lanes), ADAPTIVE)  # methods that vector lanes have
 STAGES = "stages"  # name of the reduced formulation with the matrices of STAGED
 NEED_SLOPES = (*(method.name for method in METHODS if method.slopes), ADAPTIVE)  # methods that use the Jacobian
 # methods that integrate, as command line and messages offer them

@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gudgeon.contract.boundary import ALL_OVER, LISTS, NEW, NOT_CLOSED, OVER
-from gudgeon.contract.methods import SMOOTH
+from gudgeon.contract.methods import IN_LANES, SMOOTH
 from gudgeon.loading.compiler import has_compiler
 from gudgeon.model.arrays import find_memory_address
 from gudgeon.model.compiled import CompiledModel
@@ -206,4 +206,4 @@ def may_use_lanes(compiled: CompiledModel, method: str, n_runs: int) -> bool:
     Scenes derived for Taylor's method have lanes for it only.
     """
     has_lanes = bool(compiled.source.lanes) and (method in SMOOTH) == bool(compiled.source.taylor)
-    return n_runs >= MIN_RUNS and has_lanes and has_compiler()
+    return n_runs >= MIN_RUNS and method in IN_LANES and has_lanes and has_compiler()
