@@ -73,7 +73,7 @@ static int start_run(const Batch *batch, long i, const long *candidates, int n, 
         batch->remembered + i * AT_LEAST_ONE(N_DISCRETE));
     run->began = i + 1;
     gudgeon_run_record(run, step_record.rows, step_record.capacity);
-    set_contact_codes(run, batch->codes + i * AT_LEAST_ONE(N_CLEARANCES));
+    restore_compression_flags(run, batch->codes + i * AT_LEAST_ONE(N_CLEARANCES));
     gudgeon_run_stop(run, batch->stop);
     start_audit(run, batch->audit, batch->size[i]);
     if (batch->trace)
@@ -178,10 +178,10 @@ static int has_unread_records(const Integrator *run)
 }
 
 /*
- * Integrate the runs *current to end - 1 of a batch, one after the other, in the memory `integrator`. Return ALL_OVER;
- * LISTS or RUN_OVER if contacts or events of run *current are to be fetched, and it continues or is over; GOES_ON after
- * `limit` steps. Call again, after RUN_OVER with the next run. If the batch is ending, runs under way end at once and
- * no run begins.
+ * Integrate the runs *current to end - 1 of a batch, one after the other, in the memory
+ * `integrator`. Return ALL_OVER; LISTS or RUN_OVER if contacts or events of run *current are to be
+ * fetched, and it continues or is over; GOES_ON after `limit` steps. Call again, after RUN_OVER with
+ * the next run. If the batch is ending, runs under way end at once and no run begins.
  */
 int gudgeon_ensemble(const void *batch_data, void *integrator, long *current, long end)
 {
@@ -223,16 +223,16 @@ static Samples get_samples(const Batch *batch, long i)
     const long row = get_first_row(batch, i);
     return (Samples){
         .n = batch->n_requested[i], .done = batch->done + i, .t = get_sample_times(batch, i), .y = batch->y + row * N_S,
-        .latched = batch->latched + row * AT_LEAST_ONE(N_DISCRETE),
-        .state = batch->state + row * AT_LEAST_ONE(N_CLEARANCES)
+        .discrete_states = batch->latched + row * AT_LEAST_ONE(N_DISCRETE),
+        .contact_codes = batch->state + row * AT_LEAST_ONE(N_CLEARANCES)
     };
 }
 
 /*
- * Complete the last step of run i and prepare its next one, run->control.attempt, for a library of lanes. trial_result:
- * what the lanes did of run->step. NOT_TRIED: it is tried here; STAGES_FAILED: its stages were not found; NO_TRIAL:
- * there is none. A rejected step leads to the next attempt. Return GOES_ON, LISTS if its lists are full, or RUN_OVER
- * after its end.
+ * Complete the last step of run i and prepare its next one, run->control.attempt, for a library of
+ * lanes. trial_result: what the lanes did of run->step. NOT_TRIED: it is tried here; STAGES_FAILED:
+ * its stages were not found; NO_TRIAL: there is none. A rejected step leads to the next attempt.
+ * Return GOES_ON, LISTS if its lists are full, or RUN_OVER after its end.
  */
 static int advance_single_run(const Batch *batch, long i, int trial_result, void *integrator)
 {

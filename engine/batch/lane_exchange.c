@@ -173,8 +173,8 @@ static void scatter_step(const LaneGroup *group, int k, Step *step)
         step->rate[i][1] = lane_step->rate[i][1][k];
     }
     for (int j = 0; j < 2 * N_X && N_WATCHED > 0; j++) {
-        step->least[j] = lane_step->least[j][k];
-        step->most[j] = lane_step->most[j][k];
+        step->min_state[j] = lane_step->min_state[j][k];
+        step->max_state[j] = lane_step->max_state[j][k];
     }
     scatter_rhs(&lane_step->rhs, k, &step->rhs);
 }
@@ -220,8 +220,8 @@ static void scatter_trial(const LaneGroup *group, int k, int method, Integrator 
 #endif
 
 /*
- * Copy the result of a trial step by `method` in lane k to its run: time, length, error norm and counts. The stability
- * and the step itself are copied only if the lane accepted it.
+ * Copy the result of a trial step by `method` in lane k to its run: time, length, error norm and counts. The stiffness
+ * estimate and the step itself are copied only if the lane accepted it.
  */
 static void scatter_result(const LaneGroup *group, int k, int method)
 {
@@ -240,6 +240,6 @@ static void scatter_result(const LaneGroup *group, int k, int method)
     run->counts.evaluations += counts_end; /* a series may be rejected by its end only */
     if (!group->step.is_accepted[k])
         return;
-    run->choice.stability = group->integrator.choice.stability[k];
+    run->choice.h_rho = group->integrator.choice.h_rho[k];
     scatter_step(group, k, step);
 }

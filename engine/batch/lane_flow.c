@@ -178,11 +178,12 @@ static int count_runs(const LaneGroup *group)
 int gudgeon_lane_count(void) { return MAX_GROUP_RUNS; }
 
 /*
- * Integrate the runs run_number[i] (MAX_GROUP_RUNS of them, -1: none) of a batch together in lanes, each in its own
- * Integrator run[i]. Return GOES_ON, to be called again, if runs are over (run_number[i] = -1) or after `limit` steps.
- * Return LISTS if the lists of a run are full, ALL_OVER if fewer than two runs are left or the batch is ending.
- * Unfinished runs then continue alone (gudgeon_ensemble). single: the functions that gudgeon_single_run_functions()
- * returns. The wall time is shared equally by the runs.
+ * Integrate the runs run_number[i] (MAX_GROUP_RUNS of them, -1: none) of a batch together in lanes,
+ * each in its own Integrator run[i]. Return GOES_ON, to be called again, if runs are over
+ * (run_number[i] = -1) or after `limit` steps. Return LISTS if the lists of a run are full, ALL_OVER
+ * if fewer than two runs are left or the batch is ending. Unfinished runs then continue alone
+ * (gudgeon_ensemble). single: the functions that gudgeon_single_run_functions() returns. The wall
+ * time is shared equally by the runs.
  */
 int gudgeon_lanes(const void *batch, const void *single, void *const *run, long *run_number)
 {
@@ -217,5 +218,6 @@ int gudgeon_lanes(const void *batch, const void *single, void *const *run, long 
             group.batch->t_last[group.run_number[i]] = group.run[i]->t;
         run_number[i] = group.run_number[i];
     }
-    return lists_full ? LISTS : (n_reported || count_runs(&group) > 1) && !*group.batch->ending ? GOES_ON : ALL_OVER;
+    const int continues = (n_reported || count_runs(&group) > 1) && !*group.batch->ending;
+    return lists_full ? LISTS : continues ? GOES_ON : ALL_OVER;
 }

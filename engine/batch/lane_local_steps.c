@@ -37,7 +37,7 @@ static void load_local_steps(
     for (int kind = 0; kind < 2; kind++) {
         lanes->norm.speed[kind][k] = run->norm.speed[kind];
         lanes->norm.speed_floor[kind][k] = run->norm.speed_floor[kind];
-        lanes->norm.least[kind][k] = run->norm.least[kind];
+        lanes->norm.min_size[kind][k] = run->norm.min_size[kind];
     }
     for (int j = 0; j < 2 * N_X; j++)
         lanes->norm.inverse_scale[j][k] = run->norm.inverse_scale[j];
@@ -109,8 +109,8 @@ static void flush_local_steps(LocalSteps *local_steps, const LaneIntegrator *lan
     run->choice.since += (int)steps;
     run->choice.n_contrary_steps = run->progress.no_advance = run->progress.short_steps = run->newton.ready =
         run->series.ready = 0;
-    run->discrete.held = 1;
-    run->choice.stability = 0.0;
+    run->discrete.is_frozen = 1;
+    run->choice.h_rho = 0.0;
     run->series.max_step = local_steps->max_step[k];
     run->control.h = TAYLOR_AHEAD * run->series.max_step;
     run->control.attempt = (Attempt){.h = h, .longest = h, .left = local_steps->t_end[k] - run->t,

@@ -12,8 +12,8 @@ static void discard_stages(LaneStep *step)
     for (int k = 0; k < N_EVENT_FUNCTIONS; k++)
         step->lowest[k] = broadcast(INFINITY);
     for (int k = 0; k < 2 * N_X && N_WATCHED > 0; k++) {
-        step->least[k] = broadcast(INFINITY);
-        step->most[k] = broadcast(-INFINITY);
+        step->min_state[k] = broadcast(INFINITY);
+        step->max_state[k] = broadcast(-INFINITY);
     }
     for (int i = 0; i < N_CLEARANCES; i++) {
         step->rate[i][0] = broadcast(INFINITY);
@@ -106,8 +106,8 @@ static void record_stage(const LaneIntegrator *run, LaneStep *step, const LaneRh
 static void extend_stage_range(LaneStep *step, const Lanes *y)
 {
     for (int k = 0; k < 2 * N_X && N_WATCHED > 0; k++) {
-        step->least[k] = lanes_min_of(step->least[k], y[k]);
-        step->most[k] = lanes_max_of(step->most[k], y[k]);
+        step->min_state[k] = lanes_min_of(step->min_state[k], y[k]);
+        step->max_state[k] = lanes_max_of(step->max_state[k], y[k]);
     }
 }
 
@@ -165,8 +165,8 @@ static void begin_stage_iteration(LaneIntegrator *run, LaneStep *step, LaneBits 
     for (int k = 0; k < N_EVENT_FUNCTIONS; k++)
         step->lowest[k] = select_value(is_active, broadcast(INFINITY), step->lowest[k]);
     for (int k = 0; k < 2 * N_X && N_WATCHED > 0; k++) {
-        step->least[k] = select_value(is_active, broadcast(INFINITY), step->least[k]);
-        step->most[k] = select_value(is_active, broadcast(-INFINITY), step->most[k]);
+        step->min_state[k] = select_value(is_active, broadcast(INFINITY), step->min_state[k]);
+        step->max_state[k] = select_value(is_active, broadcast(-INFINITY), step->max_state[k]);
     }
     for (int i = 0; i < N_CLEARANCES; i++) {
         step->rate[i][0] = select_value(is_active, broadcast(INFINITY), step->rate[i][0]);
@@ -197,8 +197,8 @@ static void record_iterated_stage(LaneIntegrator *run, LaneStep *step, LaneBits 
         values[STAGE_GAP_RATES + i] = select_value(is_active, rate, values[STAGE_GAP_RATES + i]);
     }
     for (int k = 0; k < 2 * N_X && N_WATCHED > 0; k++) {
-        step->least[k] = select_value(is_active, lanes_min_of(step->least[k], y[k]), step->least[k]);
-        step->most[k] = select_value(is_active, lanes_max_of(step->most[k], y[k]), step->most[k]);
+        step->min_state[k] = select_value(is_active, lanes_min_of(step->min_state[k], y[k]), step->min_state[k]);
+        step->max_state[k] = select_value(is_active, lanes_max_of(step->max_state[k], y[k]), step->max_state[k]);
     }
 }
 

@@ -48,7 +48,7 @@ static inline int any_of(LaneBits mask)
 #include "lane_functions.h"
 
 /* Frozen branches, and values of the switching functions, of all lanes. */
-#define held_branches(discrete) (discrete)->branch
+#define frozen_branches(discrete) (discrete)->branch
 #define reported_branches(rhs) (rhs)->g
 
 /*
@@ -166,7 +166,7 @@ static inline LaneBits is_touching(const LaneContactState *contact, Lanes delta)
     return is_closed(contact);
 }
 
-/* Return the wall time in s. */
+/* Return the wall time since the epoch, s. */
 static double read_wall_time(void)
 {
     struct timespec now;
@@ -193,7 +193,7 @@ typedef struct {
 typedef struct {
     Lanes weight[N_Y];
 #if TAYLOR
-    Lanes energy_scale, work_scale, speed[2], speed_floor[2], least[2], inverse_scale[2 * N_X];
+    Lanes energy_scale, work_scale, speed[2], speed_floor[2], min_size[2], inverse_scale[2 * N_X];
 #endif
 } LaneNorm;
 
@@ -201,7 +201,7 @@ typedef struct {
 typedef struct {
     Lanes t, y[N_Y], dy[N_Y];
     struct {
-        Lanes stability;
+        Lanes h_rho;
     } choice;
     LaneNorm norm;
     struct {
@@ -240,7 +240,7 @@ typedef struct {
     double node[N_STAGES];
     Lanes stage_values[N_STAGES][AT_LEAST_ONE(N_STAGE_VALUES)], lowest[AT_LEAST_ONE(N_EVENT_FUNCTIONS)],
         rate[AT_LEAST_ONE(N_CLEARANCES)][2];
-    Lanes least[2 * N_X + 1], most[2 * N_X + 1];
+    Lanes min_state[2 * N_X + 1], max_state[2 * N_X + 1];
     LaneBits is_accepted, is_failed, has_no_stages, has_no_dense;
 } LaneStep;
 

@@ -32,8 +32,8 @@ static int evaluate_exchange_rates(Model *model, double *dx, RhsOutputs *rhs)
     int status = 0, changed = 1;
     for (int pass = 0; pass < 6 && changed && !status; pass++) {
         DiscreteState now = model->discrete;
-        status = motion(model->t, model->x, &now, (const Parameters *)model->p, dx, rhs);
-        changed = now.held && update_branches(model, rhs, 0);
+        status = compute_motion_rates(model->t, model->x, &now, (const Parameters *)model->p, dx, rhs);
+        changed = now.is_frozen && update_branches(model, rhs, 0);
     }
     return status;
 }
@@ -65,7 +65,8 @@ static int raise_nominals(Model *model)
 /*
  * Set the nominals of all states at the start, as in methods/begin.c. Return 0 or the status of the rates. min_scale:
  * smallest relevant length (m) and angle, the nominals of coordinates. Those of velocities are 1 % of the speed that
- * covers it in the time scale of the start. Those of works are the energy at these speeds.
+ * covers it in the time scale of the start, or in the time left if the start is at rest. Those of works are the energy
+ * at these speeds. All are then raised by raise_nominals().
  */
 static int set_initial_nominals(Model *model, const double *min_scale)
 {
@@ -172,7 +173,7 @@ static int resolve_zero_branches(Model *model, const double *dx, RhsOutputs *rhs
  * a status. A contact begins where the penetration is positive; its approach speed is stored. Up to six passes are
  * made.
  */
-static int iterate_friction_modes(Model *model)
+static int update_contacts_and_branches(Model *model)
 {
     double dx[N_Y];
     RhsOutputs rhs;
@@ -184,8 +185,8 @@ static int iterate_friction_modes(Model *model)
         const int within = joint->delta > 0.0 || (joint->delta == 0.0 && joint->deltadot >= 0.0);
         if (touches == within)
             continue;
-        const double least = min_approach_speed((const Parameters *)model->p, i);
-        model->latched[i] = within ? fmax(joint->deltadot, least) : NAN;
+        const double min_speed = min_approach_speed((const Parameters *)model->p, i);
+        model->latched[i] = within ? fmax(joint->deltadot, min_speed) : NAN;
         model->state[i] = within ? CODE_IMPACT : CODE_FREE; /* an impact ends at a completed step */
     }
     if (!status)
@@ -193,7 +194,7 @@ static int iterate_friction_modes(Model *model)
     for (int k = 0; k < N_SWITCHES && !status; k++)
         model->discrete.branch[k] = rhs.g[k] < 0.0 ? -1.0 : 1.0;
     read_sampled_discrete_state(model);
-    model->discrete.held = 1;
+    model->discrete.is_frozen = 1;
     for (int pass = 0; pass < 6 && changed && !status; pass++) {
         status = evaluate_exchange_rates(model, dx, &rhs);
         changed = !status && update_branches(model, &rhs, 1);
@@ -217,7 +218,7 @@ FMI3_EXPORT fmi3Status fmi3UpdateDiscreteStates(fmi3Instance instance, fmi3Boole
 {
     Model *model = instance;
     /* before the projection, which may move a located indicator back across zero */
-    const int status = iterate_friction_modes(model);
+    const int status = update_contacts_and_branches(model);
     const double drift = compute_closure_drift(model, 1);
     *needs_update = *terminate = *has_next_event_time = false;
     *nominals_changed = !status && raise_nominals(model);

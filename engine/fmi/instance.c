@@ -179,7 +179,7 @@ static void discard_contacts_and_events(void *run)
 
 /*
  * Integrate the run of an instance to time t (s), which ends a step. Return 0 or a status. Full lists are emptied.
- * After an event that ends the run, its state is copied and m->ended is set.
+ * After an event that ends the run, its state is copied and model->ended is set.
  */
 static int advance_to(Model *model, double t)
 {

@@ -282,20 +282,20 @@ static int collect_events(Search *search, SampledPosition *b)
  * Return whether event function i is zero within rounding up to b, like a velocity that a constraint holds at zero. It
  * is at both ends, and its bounds f are near zero or narrow with the part.
  */
-static int is_zero_by_constraint(Search *search, SampledPosition *b, int i, Range f)
+static int is_zero_by_constraint(Search *search, SampledPosition *b, int i, Interval f)
 {
     const double part = (b->position.t - search->begin.position.t) / search->h, most = max_of(-f.lo, f.hi);
     const double error = estimate_event_uncertainty(search->run, &search->begin, i);
-    return !f.partly && fabs(search->begin.event[i]) <= error
+    return !f.may_be_undefined && fabs(search->begin.event[i]) <= error
         && (most <= MAX_UNCERTAINTY_RATIO * error || is_bound_narrowing(-most, part, -search->max_bound[i]))
         && get_resolved_value(search->run, b, i, 0) == 0.0;
 }
 
 /*
  * Compute bounds of positions q and velocities v over the cubic between positions a and b, and of their slopes over the
- * part. Slopes are by the fraction of the part. q, v: N_Q ranges each.
+ * part. Slopes are by the fraction of the part. q, v: N_Q intervals each.
  */
-static void bound_motion(const Position *a, const Position *b, Range *q, Range *v)
+static void bound_motion(const Position *a, const Position *b, Interval *q, Interval *v)
 {
     const double h = b->t - a->t;
     for (int k = 0; k < N_Q; k++) {
@@ -305,9 +305,9 @@ static void bound_motion(const Position *a, const Position *b, Range *q, Range *
         const double end = 2.0 * two + 6.0 * three, turn = -two / (3.0 * three);
         const double top = turn > 0.0 && turn < 1.0 ? from + turn * (2.0 * two + 3.0 * turn * three) : from;
         const double least = min_of(top, min_of(from, to)), most = max_of(top, max_of(from, to));
-        q[k] = (Range){max_of(a->q[k] + min_of(least, 0.0), b->q[k] - max_of(most, 0.0)),
+        q[k] = (Interval){max_of(a->q[k] + min_of(least, 0.0), b->q[k] - max_of(most, 0.0)),
             min_of(a->q[k] + max_of(most, 0.0), b->q[k] - min_of(least, 0.0)), least, most, 0};
-        v[k] = (Range){least / h, most / h, min_of(2.0 * two, end) / h, max_of(2.0 * two, end) / h, 0};
+        v[k] = (Interval){least / h, most / h, min_of(2.0 * two, end) / h, max_of(2.0 * two, end) / h, 0};
     }
 }
 
@@ -319,15 +319,17 @@ static int may_have_hidden_zero(Search *search, SampledPosition *b)
 {
     const SampledPosition *a = &search->begin;
     const double h = b->position.t - a->position.t;
-    Range q[N_Q], v[N_Q], out[N_WATCHED];
+    Interval q[N_Q], v[N_Q], out[N_WATCHED];
     bound_motion(&a->position, &b->position, q, v);
-    watched_ranges((Range){a->position.t, b->position.t, h, h, 0}, q, v, &(DiscreteState){0}, search->run->p, out);
+    watched_ranges((Interval){a->position.t, b->position.t, h, h, 0}, q, v, &(DiscreteState){0},
+        search->run->p, out);
     for (int i = 0; i < N_USER_EVENTS; i++) {
-        const Range f = out[N_WATCHED - N_USER_EVENTS + i];
+        const Interval f = out[N_WATCHED - N_USER_EVENTS + i];
         const double branch = f.hi <= 0.0 || a->event[i] < 0.0 ? -1.0 : 1.0;
         if (h == search->h)
             search->max_bound[i] = max_of(-f.lo, f.hi);
-        if (classify_zero(branch < 0.0 ? range_negative(f) : f, branch * a->event[i], branch * b->event[i], 1.0, 0) < 0
+        const Interval bounds = branch < 0.0 ? interval_negative(f) : f;
+        if (classify_zero(bounds, branch * a->event[i], branch * b->event[i], 1.0, 0) < 0
             && !is_zero_by_constraint(search, b, i, f))
             return 1;
     }
@@ -388,7 +390,7 @@ int gudgeon_kinematic_events(void *integrator, long n, const double *t, const do
     long *n_found, long *n_done)
 {
     KinematicRun *run = integrator;
-    SampledPosition end[DEEPEST + 2];
+    SampledPosition end[MAX_PART_HALVINGS + 2];
     Search search = {.run = run, .branch = branch, .t = event_time, .event = event, .capacity = capacity,
         .start = start, .stop = stop, .end = end};
     run->p = (const Parameters *)parameters;

@@ -106,8 +106,8 @@ static int integrate_work_over_jumps(
 }
 
 /*
- * Add the works of one step from position a to b to `work`, J. Changes of speed by less than 1e-9 of it are not jumps.
- * Return 0 or a status.
+ * Add the works of one step from position a to b to `work`, J. Changes of speed by less than 1e-9 of it are not jumps;
+ * at other ones the step is halved, MAX_SPLITS times at most. Return 0 or a status.
  */
 static int integrate_work_of_step(KinematicRun *run, const Position *a, const Position *b, double *work)
 {

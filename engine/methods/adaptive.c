@@ -74,9 +74,9 @@ static int commit_step(Integrator *run, Step *step, double fraction, double t_ne
  * Return the rounding error in s of the end time t of a fixed step, a multiple of the step length; 0 without fixed
  * steps. Samples within that difference of t are at t.
  */
-static double compute_end_time_rounding(const Integrator *run, double t)
+static double compute_end_time_tolerance(const Integrator *run, double t)
 {
-    return run->control.fixed > 0.0 ? compute_time_rounding(t, run->control.fixed) : 0.0;
+    return run->control.fixed > 0.0 ? compute_time_tolerance(t, run->control.fixed) : 0.0;
 }
 
 /*
@@ -96,7 +96,7 @@ static int store_samples_of_step(Integrator *run, Step *step, double t_new, cons
         interpolate(run, step, (t - step->t) / step->h, y);
         project_state(run, t, y, p);
         project_slips(run, t, y, p);
-        store_sample(run, t, y, p, *samples->done, samples->y, samples->latched, samples->state);
+        store_sample(run, t, y, p, *samples->done, samples->y, samples->discrete_states, samples->contact_codes);
     }
     restore_evaluations(run, evaluations); /* samples are output, not integration */
     return 0;
@@ -163,7 +163,7 @@ static int repeat_step(
 {
     set_next_step_length(run, h);
     open_attempt(run, t_end, p);
-    run->discrete.held = 1;
+    run->discrete.is_frozen = 1;
     const int status = find_accepted_step(run, p, step);
     if (!status)
         *fraction = find_first_event(run, step, p, event);
@@ -233,7 +233,7 @@ static int find_event_of_step(
 static int prepare_step(Integrator *run, int is_last, const Parameters *p, const Samples *samples, int *status)
 {
     const double t_end = samples->t[samples->n - 1];
-    const int is_new_step = !run->discrete.held && !run->control.attempt.open;
+    const int is_new_step = !run->discrete.is_frozen && !run->control.attempt.open;
     *status = is_new_step ? begin_integration(run, t_end - run->t, p) : 0;
     if (!*status && is_new_step)
         record_state_after_jump(run, p);
@@ -242,9 +242,10 @@ static int prepare_step(Integrator *run, int is_last, const Parameters *p, const
         return !is_last; /* attempts continue */
     if (*status)
         return 0;
-    const double t_due = run->t + compute_end_time_rounding(run, run->t);
+    const double t_due = run->t + compute_end_time_tolerance(run, run->t);
     for (; *samples->done < samples->n && samples->t[*samples->done] <= t_due; ++*samples->done)
-        store_sample(run, run->t, run->y, p, *samples->done, samples->y, samples->latched, samples->state);
+        store_sample(run, run->t, run->y, p, *samples->done, samples->y, samples->discrete_states,
+            samples->contact_codes);
     if (*samples->done == samples->n || is_last)
         return 0;
     if (run->cancellation.stop)
@@ -274,12 +275,12 @@ static int accept_step(Integrator *run, const Parameters *p, const Samples *samp
     if (status || run->cancellation.stop)
         return status ? status : STOPPED; /* results of a cancelled search are invalid */
     if (run->control.fixed > 0.0)
-        run->discrete.held = 1;
+        run->discrete.is_frozen = 1;
     const double t_uncut = run->control.fixed > 0.0 ? run->control.attempt.end
         : step->h == t_end - run->t ? t_end : run->t + step->h;
     const double t_new = fraction < 1.0 ? run->t + fraction * step->h : t_uncut;
     /* samples this close to the event are at it */
-    const double tolerance = event < 0 ? compute_end_time_rounding(run, t_new)
+    const double tolerance = event < 0 ? compute_end_time_tolerance(run, t_new)
         : max_of(8.0 * DBL_EPSILON * fabs(t_new), 2.0 * run->roots.time_resolution);
     status = store_samples_of_step(run, step, t_new - tolerance, p, samples);
     /* the end of a fixed step may lie at the jump of a drive, as that of a run may */
@@ -296,7 +297,7 @@ static int accept_step(Integrator *run, const Parameters *p, const Samples *samp
         status = commit_step(run, step, fraction, t_new, event, p);
     if (!status && event >= 0)
         status = fit_first_step_after_event(run, t_end - run->t, p);
-    run->discrete.held = 1;
+    run->discrete.is_frozen = 1;
     if (may_jump && !status) {
         set_phi_dot_max(run, drift); /* the branch of a rate exactly at the jump is arbitrary */
         status = apply_drive_jumps_now(run, p);
@@ -323,7 +324,7 @@ int gudgeon_adaptive_run(void *integrator, const double *parameters, long n, con
     Integrator *run = integrator;
     const Parameters *p = (const Parameters *)parameters;
     const Samples samples = {.n = n, .done = n_stored, .t = t, .y = y,
-        .latched = discrete_states, .state = contact_codes};
+        .discrete_states = discrete_states, .contact_codes = contact_codes};
     int status;
     relink_methods(run);
     run->step.method = find_method_in_library(run->step.method);

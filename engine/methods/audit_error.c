@@ -57,7 +57,7 @@ static int has_drive_jump_at_ends(const Integrator *run, const Step *step, const
 static void check_convergence_order(Integrator *run, double error, double change)
 {
     Audit *audit = &run->audit;
-    if (!(run->choice.stability < 1.0 && change < INFINITY))
+    if (!(run->choice.h_rho < 1.0 && change < INFINITY))
         return;
     audit->measured++;
     audit->errors += error;

@@ -71,7 +71,7 @@ static void check_dense_output_rates(Integrator *run, const Step *step, double t
     for (int part = 0; part < (has_films() ? 1 : 2); part++) {
         const double slip = N_FRICTIONS ? AUDIT_SLIP / (part ? step->h : 1.0) : 0.0;
         const double elapsed = max_of(min_of(fabs(t), step->h * (double)(run->counts.steps + 1)), step->h);
-        const int bounded = !step->method->stiff && run->choice.stability > 1.0;
+        const int bounded = !step->method->stiff && run->choice.h_rho > 1.0;
         double allowed = max_of(AUDIT_DRIFT / elapsed, bounded ? AUDIT_BOUNDED / step->h : 0.0);
         double largest_error = 0.0, largest_rate = 0.0;
         for (int k = part * N_X; k < (part + 1) * N_X; k++) {
@@ -100,8 +100,9 @@ static void check_rates_at_step_end(Integrator *run, Step *step, const Parameter
 
 /*
  * Check the film forces at time t of a step by the accelerations `dy` that they cause, against those of the dense
- * output, `rate`. Recorded as CHECK_force of the joint with the largest film force. Omitted without films, without
- * tolerances, in the first step, and where a failure is at a jump of a drive.
+ * output, `rate`. Recorded as CHECK_force of the joint with the largest film force, relative to that force or, if
+ * larger, FILM_FADED of a peak force in the run. Omitted without films, without tolerances, in the first step, and
+ * where a failure is at a jump of a drive.
  */
 static void check_film_forces(Integrator *run, const Step *step, double t, const RhsOutputs *rhs, const double *rate,
     const double *dy, const Parameters *p)

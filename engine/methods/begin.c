@@ -36,7 +36,7 @@ static double find_fastest_rate(const Integrator *run, const double *dy)
 {
     double rate = 0.0;
     for (int k = 0; k < N_X; k++) {
-        const double least = run->norm.least[is_angle[k]], a = fabs(dy[N_X + k]);
+        const double least = run->norm.min_size[is_angle[k]], a = fabs(dy[N_X + k]);
         rate = max_of(rate, max_of(fabs(run->y[N_X + k]) / least, sqrt(a / least)));
     }
     return rate;
@@ -60,8 +60,10 @@ static void set_speed_floors(Integrator *run, double time_left, const Parameters
         && !evaluate_run_rhs(run, run->t + time_left / MAX_RATES_PER_RUN, run->y, p, dy, &rhs))
         rate = min_of(rate, find_fastest_rate(run, dy));
     for (int kind = 0; kind < 2; kind++) {
-        run->norm.speed_floor[kind] = run->norm.least[kind] * (rate * time_left > 1e-3 ? 0.01 * rate : 1.0 / time_left);
-        run->norm.speed_rounded[kind] = run->norm.least[kind] * (rate > MIN_START_RATE ? 0.01 * rate : 1.0 / time_left);
+        run->norm.speed_floor[kind] = run->norm.min_size[kind]
+            * (rate * time_left > 1e-3 ? 0.01 * rate : 1.0 / time_left);
+        run->norm.speed_rounded[kind] = run->norm.min_size[kind]
+            * (rate > MIN_START_RATE ? 0.01 * rate : 1.0 / time_left);
     }
 }
 
@@ -82,7 +84,7 @@ static int is_starting_in_contact(const Integrator *run)
 static void set_inner_state_weights(Integrator *run, const Parameters *p)
 {
 #if LAW_STATES
-    const double length = is_angle[0] ? run->norm.least[0] / run->norm.least[1] : 1.0;
+    const double length = is_angle[0] ? run->norm.min_size[0] / run->norm.min_size[1] : 1.0;
     for (int k = 0; k < N_STATES; k++) {
         const double deflection = breakaway(p, k / LAW_STATES);
         run->norm.weight[FIRST_STATE + k] = deflection > 0.0 ? run->norm.inverse_scale[2 * N_X - 1] / deflection
@@ -113,9 +115,10 @@ static int begin_run(Integrator *run, const Parameters *p)
 }
 
 /*
- * Begin the integration of a run, or resume it: first right-hand side, contacts, friction modes, tolerances, first step
- * length. Contacts and branches are frozen from here on. A first step length that is known already is kept; in a closed
- * contact it is fitted as at an onset. time_left: time to the end of the run, s. Return 0 or the status.
+ * Begin the integration of a run, or resume it: first right-hand side, contacts, friction modes, tolerances, jumps of
+ * drives, signs of user-defined events, first step length. Contacts and branches are frozen from here on. A first step
+ * length that is known already is kept; in a closed contact it is fitted as at an onset. Methods that control their
+ * length begin with time_left, the time to the end of the run, s. Return 0 or the status.
  */
 static int begin_integration(Integrator *run, double time_left, const Parameters *p)
 {
@@ -165,7 +168,7 @@ void gudgeon_adaptive_setup(void *integrator, int method, int stiff_method, cons
     for (int k = 0; k < 2 * N_X; k++)
         run->norm.inverse_scale[k] = 1.0 / scale[k];
     run->norm.work_scale = max_of(1e-10, WORK_TOL * scale[2 * N_X - 1]); /* smaller: rounding of summed works */
-    run->norm.least[0] = min_size[0];
-    run->norm.least[1] = min_size[1];
+    run->norm.min_size[0] = min_size[0];
+    run->norm.min_size[1] = min_size[1];
     set_series_order(run, scale[2 * N_X - 1]);
 }

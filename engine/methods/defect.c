@@ -46,7 +46,7 @@ static double compute_relative_film_error(const Integrator *run, const Step *ste
     const double rate_rounding = RATE_ROUNDED / step->h;
     double difference[2] = {0.0, 0.0}, largest[2], fraction = 0.0;
     largest[0] = film_force / run->films.lightest;
-    largest[1] = largest[0] * run->norm.least[1] / run->norm.least[0];
+    largest[1] = largest[0] * run->norm.min_size[1] / run->norm.min_size[0];
     for (int k = N_X; k < 2 * N_X && film_force > 0.0; k++) {
         const int kind = !!is_angle[k - N_X];
         difference[kind] = max_of(difference[kind], fabs(rate[k] - dy[k]) - rate_rounding * fabs(run->y[k]));

@@ -7,7 +7,10 @@
 #if HAS_CONTINUATION
 enum { MAX_SKIPPED_LOG2 = 6 }; /* log2 of the largest number of steps without detection after failed attempts */
 
-/* Set the policy near singular positions (SINGULAR_...) in the discrete state, with its limits of small pivots. */
+/*
+ * Set the policy near singular positions (SINGULAR_...) in the discrete state, with its limits of small pivots: the
+ * usual ones for SINGULAR_IGNORE, else NEARBY.
+ */
 static void set_singular_policy(Integrator *run, int policy)
 {
     run->discrete.singular_policy = policy;

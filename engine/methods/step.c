@@ -67,8 +67,8 @@ static void discard_stages(Step *step)
     for (int k = 0; k < N_EVENT_FUNCTIONS; k++)
         step->lowest[k] = INFINITY;
     for (int k = 0; k < 2 * N_X && N_WATCHED > 0; k++) {
-        step->least[k] = INFINITY;
-        step->most[k] = -INFINITY;
+        step->min_state[k] = INFINITY;
+        step->max_state[k] = -INFINITY;
     }
     for (int k = 0; k < N_SWITCHES; k++)
         step->passed[k] = 0;
@@ -102,8 +102,8 @@ static void record_stage(const Integrator *run, Step *step, const RhsOutputs *rh
 static void extend_stage_range(Step *step, const double *y)
 {
     for (int k = 0; k < 2 * N_X && N_WATCHED > 0; k++) {
-        step->least[k] = min_of(step->least[k], y[k]);
-        step->most[k] = max_of(step->most[k], y[k]);
+        step->min_state[k] = min_of(step->min_state[k], y[k]);
+        step->max_state[k] = max_of(step->max_state[k], y[k]);
     }
 }
 
@@ -165,7 +165,10 @@ static void project_unless_stabilised(Integrator *run, double t, double *y, cons
         project_onto_constraints(run, t, y, p);
 }
 
-/* Project state y at time t onto the constraint equations and the closed rigid contacts, in place. */
+/*
+ * Project state y at time t in place onto the constraint equations, unless the method stabilises them by Baumgarte's
+ * terms, and onto the closed rigid contacts.
+ */
 static void project_state(Integrator *run, double t, double *y, const Parameters *p)
 {
     project_unless_stabilised(run, t, y, p);

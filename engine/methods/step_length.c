@@ -75,8 +75,8 @@ static void set_method_choice(Integrator *run, int method, int stiff_method)
 }
 
 /*
- * Start the step-size control of a run at its present time. fixed_step: length of all steps, s; 0: error norms
- * determine it.
+ * Start the step-size control of a run at its present time. fixed_step: length of all steps, s, which are accepted with
+ * any error; 0: error norms determine the length.
  */
 static void start_step_control(Integrator *run, double fixed_step)
 {
@@ -144,7 +144,7 @@ static void choose_method(Integrator *run, const Parameters *p)
     const int slower = run->choice.since > COMPARE_FROM && run->choice.since < COMPARE_TO
         && run->control.h < STIFF_LENGTH_RATIO * run->control.h_stiff;
     const int stiff = run->choice.method->stiff;
-    const double stability = run->choice.stability;
+    const double stability = run->choice.h_rho;
     const int against = stiff ? stability < MAX_EXPLICIT_STABILITY : stability > run->choice.method->bounded || slower;
     run->choice.n_contrary_steps = against ? run->choice.n_contrary_steps + 1 : 0;
     run->choice.since++;
@@ -244,7 +244,7 @@ static void choose_next_length(Integrator *run, const Step *step, int was_reject
     double factor = SAFETY * approx_exp2(power
         * (LAST_ERROR_EXPONENT * approx_log2(run->control.error_before) - ERROR_EXPONENT * approx_log2(error)));
     const double known = run->choice.since <= PATIENCE ? run->choice.rate * step->h : 0.0;
-    const double stability = max_of(run->choice.stability, known);
+    const double stability = max_of(run->choice.h_rho, known);
     if (!step->method->stiff && stability > 1.0)
         factor = min_of(factor, STABLE_GROWTH * step->method->bounded / stability);
     factor = min_of(factor, compute_observed_growth(run, step, was_rejected));
@@ -322,8 +322,9 @@ static double compute_fixed_step_length(Integrator *run, double t_end, double *e
 
 /*
  * Open the attempts at the next step of a run towards t_end: set run->control.attempt with the first length to try. The
- * length is limited by contacts, flights, rejected lengths and the end of the run. Fixed steps do not freeze branches.
- * Without an error estimate, a branch held beyond its end, as the force of a film, could grow without bound.
+ * length is limited by contacts, flights, rejected lengths, a suppressed switching point and the end of the run. Fixed
+ * steps do not freeze branches. Without an error estimate, a branch held beyond its end, as the force of a film, could
+ * grow without bound.
  */
 static void open_attempt(Integrator *run, double t_end, const Parameters *p)
 {
@@ -331,7 +332,7 @@ static void open_attempt(Integrator *run, double t_end, const Parameters *p)
     double h, end = t_end;
     if (run->control.fixed > 0.0) {
         h = compute_fixed_step_length(run, t_end, &end);
-        run->discrete.held = DRIVE_IMPULSES; /* at the jump of a drive constraints have two rates */
+        run->discrete.is_frozen = DRIVE_IMPULSES; /* at the jump of a drive constraints have two rates */
     } else {
         h = run->roots.skip >= 0 ? min_of(run->control.h, run->roots.monitor) : run->control.h;
         h = limit_length_by_flight(
@@ -365,8 +366,9 @@ static int is_step_accepted(Integrator *run, int trial_status, const Parameters 
     Attempt *attempt = &run->control.attempt;
     const int is_fixed = run->control.fixed > 0.0;
     *status = trial_status;
-    if (N_SWITCHES > 0 && is_fixed && trial_status == NOT_FINITE && run->discrete.held) {
-        run->discrete.held = 0; /* until the step is committed: a held branch may be NaN beyond its switching point */
+    if (N_SWITCHES > 0 && is_fixed && trial_status == NOT_FINITE && run->discrete.is_frozen) {
+        /* until the step is committed: a frozen branch may be NaN beyond its switching point */
+        run->discrete.is_frozen = 0;
         return prepare_retry(run);
     }
     if (trial_status == STOPPED || is_fixed)
@@ -381,12 +383,12 @@ static int is_step_accepted(Integrator *run, int trial_status, const Parameters 
     }
     const int is_good = !trial_status && step->error <= run->control.accept;
     const double min_length = MIN_STEP_FRACTION * attempt->far;
-    if (is_good && !method->stiff && run->choice.stability > method->unstable) {
+    if (is_good && !method->stiff && run->choice.h_rho > method->unstable) {
         count_rejected_step(run);
         if (run->choice.automatic && !attempt->methods_failed)
             change_method(run);
         else
-            attempt->h *= method->bounded / run->choice.stability;
+            attempt->h *= method->bounded / run->choice.h_rho;
         return prepare_retry(run);
     }
     if (is_good && FLIGHT_STEP_SLACK * compute_flight_step_limit(run, step, p) < attempt->h) {
@@ -423,8 +425,9 @@ static int is_step_accepted(Integrator *run, int trial_status, const Parameters 
         : compute_shrink_factor(run, step);
     if (attempt->h > min_length)
         return prepare_retry(run);
-    if (N_SWITCHES > 0 && trial_status == NOT_FINITE && run->discrete.held) {
-        run->discrete.held = 0; /* until the step is committed: a held branch may be NaN beyond its switching point */
+    if (N_SWITCHES > 0 && trial_status == NOT_FINITE && run->discrete.is_frozen) {
+        /* until the step is committed: a frozen branch may be NaN beyond its switching point */
+        run->discrete.is_frozen = 0;
         attempt->h = attempt->longest;
         return prepare_retry(run);
     }

@@ -35,7 +35,7 @@ static void uncount_end_evaluation(Integrator *run) { count_evaluations(run, -1)
 
 /*
  * Compute the series at the state of the run and its longest step, unless they are stored already. All steps tried from
- * this state share the series. Return 0 or the status.
+ * this state share the series, which counts as one evaluation unless a lane has counted it. Return 0 or the status.
  */
 static int expand_series(Integrator *run, const Parameters *p)
 {
@@ -51,8 +51,8 @@ static int expand_series(Integrator *run, const Parameters *p)
 }
 
 /*
- * Compute a step of at most h (s) by the series; the step sets its own length. Return 0 or the status. If the series
- * cannot be computed or is not finite, as with links in one line, the step is one of dop853, which becomes
+ * Compute a step of at most h (s) by the series, which sets the length of the attempt. Return 0 or the status. If the
+ * series cannot be computed or is not finite, as with links in one line, the step is one of dop853, which becomes
  * step->method.
  */
 static int taylor_try_step(Integrator *run, double h, const Parameters *p, Step *step)

@@ -5,13 +5,13 @@
  * tree vanishes. Return 0 or a status. Return NEAR near a singular position if such positions are to be detected. If
  * they are, and this is none, the reduced equations are solved with the usual limits of pivots.
  */
-int solve_by_absolute(double t, const double *q, const double *v, const DiscreteState *discrete, const Parameters *p,
-    double *a, RhsOutputs *rhs)
+int solve_by_absolute(double t, const double *q, const double *v, const DiscreteState *discrete,
+    const Parameters *p, double *a, RhsOutputs *rhs)
 {
     double all_q[N_Q], all_v[N_Q], all_a[N_Q];
     RhsOutputs all_bodies;
     DiscreteState now = *discrete;
-    now.held = 0; /* switching functions have other indices there */
+    now.is_frozen = 0; /* switching functions have other indices there */
     expand(t, q, v, p, all_q, all_v);
     const int status = dynamics(t, all_q, all_v, &now, p, all_a, &all_bodies);
     if (discrete->least > NEARLY_SINGULAR && status == NEAR)

@@ -49,9 +49,9 @@ typedef struct {
 } ContinuedMotion;
 
 /*
- * Add the contribution of a node, a regular state y with its rates and multipliers, to
- * `interpolated_motion`. node_distance: distance of the node from the singular position in nodes, 1 ... N_SIDE_NODES.
- * The last node does not count for the lower degree.
+ * Add the contribution of a node, a regular state y with rates and multipliers, to `interpolated_motion`.
+ * node_distance: distance of the node from the singular position in nodes, 1 ... N_SIDE_NODES. The last node does not
+ * count for the lower degree.
  */
 static void add_interpolation_node(
     int node_distance, const double *y, const double *dy, const RhsOutputs *rhs, ContinuedMotion *interpolated_motion)
@@ -149,7 +149,8 @@ static int copy_continued_motion(const double *y, const ContinuedMotion *continu
  * the policy in `discrete` decides. The state is projected and evaluated there, the motion is continued from both
  * sides, NEAR is returned, or the state is evaluated without treatment.
  */
-int motion(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dy, RhsOutputs *rhs)
+int compute_motion_rates(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dy,
+    RhsOutputs *rhs)
 {
     ContinuedMotion at;
     if (discrete->singular_policy == SINGULAR_PROJECT || discrete->singular_policy == SINGULAR_PROJECT_OR_IGNORE) {
@@ -175,10 +176,10 @@ int motion(double t, const double *y, DiscreteState *discrete, const Parameters 
 }
 
 /*
- * Compute the corrections dq, dv (N_X) that return state y to the closures, and the largest residual *residual. Return
- * 0 or a status. Near a singular position, by the policy in `discrete`, they are those to the continued state, with
- * *residual = 0: one pass is enough. If the motion cannot be continued there, the usual limits of pivots apply. y is
- * not changed.
+ * Compute the corrections dq, dv (N_X) of state y, to be subtracted, that close the loops, and the largest residual
+ * *residual. Return 0 or a status. Near a singular position, by the policy in `discrete`, they are those to the
+ * continued state, with *residual = 0: one pass is enough. If the motion cannot be continued there, the usual limits of
+ * pivots apply. y is not changed.
  */
 int compute_correction(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dq, double *dv,
     double *residual)
@@ -207,14 +208,15 @@ int compute_correction(double t, const double *y, DiscreteState *discrete, const
  * Compute the rates dy of the integrated state y and the outputs rhs; the scene has no continuation. Return 0 or a
  * status.
  */
-int motion(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dy, RhsOutputs *rhs)
+int compute_motion_rates(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dy,
+    RhsOutputs *rhs)
 {
     return evaluate_rhs(t, y, discrete, p, dy, rhs);
 }
 
 /*
- * Compute the corrections dq, dv (N_X) that return state y to the closures, and the largest residual *residual. Return
- * 0 or a status. The scene has no continuation.
+ * Compute the corrections dq, dv (N_X) of state y, to be subtracted, that close the loops, and the largest residual
+ * *residual. Return 0 or a status. The scene has no continuation.
  */
 int compute_correction(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dq, double *dv,
     double *residual)

@@ -135,7 +135,7 @@ double gudgeon_time_reduced(long count, double t, const double *q, const double 
         y[N_X + k] = v[k];
     }
     for (long i = 0; i < count; i++) {
-        motion(t + (i % 2 ? ahead : 0.9 * ahead), y, &now, p, dy, &rhs);
+        compute_motion_rates(t + (i % 2 ? ahead : 0.9 * ahead), y, &now, p, dy, &rhs);
         sum += dy[N_X];
         y[0] = q[0] + 1e-300 * sum;
     }

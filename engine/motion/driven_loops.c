@@ -198,7 +198,7 @@ static int accept_driven_loops(double t, const TreeState *tree, DiscreteState *d
 /*
  * Compute the driven loops at time t in `tree`, from the last accepted state; those found last are reused at the same
  * time. If one move fails, they are solved in parts, then interpolated. Return 0, or the number of a closure that
- * cannot be followed.
+ * cannot be followed; a failure stored by solve_driven_loops() is returned at once.
  */
 static inline int follow_driven_loops(double t, const DiscreteState *discrete, const Parameters *p, TreeState *tree)
 {

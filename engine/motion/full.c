@@ -33,7 +33,10 @@ void convert_from_absolute(double t, const double *absolute_state, DiscreteState
         y[k] = absolute_state[k];
 }
 
-/* Update the maxima of |Phi| and |Phi_dot| with an accepted state, from its outputs rhs. Return 0. */
+/*
+ * Update the maxima of the constraint violations |Phi| and |Phi_dot| with an accepted state, from its outputs rhs.
+ * Return 0.
+ */
 int accept_state(double t, const double *y, DiscreteState *discrete, const Parameters *p, const RhsOutputs *rhs,
     double *phi_max, double *phi_dot_max)
 {

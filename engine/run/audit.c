@@ -84,7 +84,7 @@ static void check_constraint_residuals(Integrator *run)
 {
     if (uses_baumgarte_terms(run))
         return;
-    double limit = max_of(get_audit_tolerance(run) * run->norm.least[0], AUDIT_ROUNDING * get_mechanism_size(run));
+    double limit = max_of(get_audit_tolerance(run) * run->norm.min_size[0], AUDIT_ROUNDING * get_mechanism_size(run));
     if (run->counts.steps <= 1)
         run->audit.phi_start = run->residuals.phi_max;
     const double residual = run->residuals.phi_max > run->audit.phi_start ? run->residuals.phi_max : 0.0;
@@ -115,7 +115,7 @@ static void check_constraints(Integrator *run, double t, const double *absolute_
     constraints(t, absolute_state, p, phi);
     for (int i = 0; i < N_ROWS; i++) {
         const int row = kept_row[i], length = row_is_length[row];
-        const double play = length ? run->norm.least[0] : run->norm.least[1];
+        const double play = length ? run->norm.min_size[0] : run->norm.min_size[1];
         const double limit = max_of(rtol * play,
             AUDIT_ROUNDING * (length ? size + max_coordinate[0] : 1.0 + max_coordinate[1]));
         record_check(audit, CHECK_position, fabs(phi[row]), limit, t, row);
@@ -269,7 +269,7 @@ static void check_open_gaps(Integrator *run, double t, const RhsOutputs *rhs, co
             + 8.0 * DBL_EPSILON * fabs(t)) * fabs(joint->deltadot);
         const double min_rounding = max_of(AUDIT_GRAZE, 64.0 * DBL_EPSILON * get_mechanism_size(run));
         const double rounding = max_of(1e-9 * radial_clearance(p, i), min_rounding);
-        const double limit = max_of(AUDIT_DEPTH * get_audit_tolerance(run) * run->norm.least[0], rounding)
+        const double limit = max_of(AUDIT_DEPTH * get_audit_tolerance(run) * run->norm.min_size[0], rounding)
             + location_error;
         record_check(&run->audit, CHECK_gap, max_of(joint->delta, 0.0), limit, t, i);
     }

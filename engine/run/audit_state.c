@@ -74,7 +74,7 @@ static int audit_state(Integrator *run, int n_events_before, const Parameters *p
     check_constraints(run, run->t, absolute_state, 0, p);
 #endif
     check_forces_of_open_joints(run);
-    if (N_SWITCHES > 0 && run->discrete.held) {
+    if (N_SWITCHES > 0 && run->discrete.is_frozen) {
         record_check(audit, CHECK_branch, 0.0, 1.0, run->t, -1);
         check_branches_at_step_end(run, p);
     }

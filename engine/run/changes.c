@@ -158,9 +158,9 @@ static int is_drive_rate_unbounded(Integrator *run, double time_offset, const Pa
     double dy[3][N_Y], largest = 0.0;
     RhsOutputs rhs;
     int is_unbounded_rate = 0;
-    unfrozen.held = 0;
+    unfrozen.is_frozen = 0;
     for (int i = 0; i < 3; i++)
-        if (motion(run->t + offset[i], run->y, &unfrozen, p, dy[i], &rhs))
+        if (compute_motion_rates(run->t + offset[i], run->y, &unfrozen, p, dy[i], &rhs))
             return 0;
     for (int k = N_X; k < 2 * N_X; k++)
         largest = max_of(largest, fabs(dy[1][k]));
@@ -272,7 +272,7 @@ static int apply_event(Integrator *run, int event, const Parameters *p)
         values_before[i] = run->rhs.event[i];
     for (int k = 0; k < N_CLEARANCES + N_SWITCHES; k++)
         if (k == event
-            || (k < N_CLEARANCES && event_function(&run->discrete, &run->rhs, k) < compute_penetration_rounding(p, k)))
+            || (k < N_CLEARANCES && event_function(&run->discrete, &run->rhs, k) < compute_penetration_tolerance(p, k)))
             toggle_contact_or_branch(run, k, p);
     const int switch_index = event - N_CLEARANCES, friction = switch_index - N_SWITCHES;
     const int user_event = friction - N_FRICTIONS;
@@ -303,7 +303,8 @@ static int check_open_contacts(const Integrator *run, const Parameters *p)
 {
     for (int i = 0; i < N_CLEARANCES; i++)
         if (!run->discrete.contact[i].closed
-            && run->rhs.clearance[i].delta > min_of(1e-9, 1e-6 * deepest(p, i)) + 1e-3 * radial_clearance(p, i))
+            && run->rhs.clearance[i].delta
+                > min_of(1e-9, 1e-6 * max_valid_penetration(p, i)) + 1e-3 * radial_clearance(p, i))
             return LOST;
     return 0;
 }

@@ -5,10 +5,14 @@
 
 #define SHALLOW_RIGID (8.0 * DBL_EPSILON) /* times the clearance: every impact of rigid surfaces has an impulse */
 
-/* Return the negative penetration in m that counts as rounding at a joint: an event function above it has no sign. */
-static double compute_penetration_rounding(const Parameters *p, int joint)
+/*
+ * Return the negative penetration in m that counts as rounding at a joint: an event function above it has no sign. It
+ * is 1e-10 of the largest valid penetration, SHALLOW at most, or SHALLOW_RIGID clearances for rigid surfaces. Called in
+ * the search for zeros of gaps, after events, and at the start for contacts that touch.
+ */
+static double compute_penetration_tolerance(const Parameters *p, int joint)
 {
-    return is_compliant(joint) ? -min_of(SHALLOW, 1e-10 * deepest(p, joint))
+    return is_compliant(joint) ? -min_of(SHALLOW, 1e-10 * max_valid_penetration(p, joint))
         : -SHALLOW_RIGID * radial_clearance(p, joint);
 }
 
@@ -46,7 +50,7 @@ static void initialize_contacts(Integrator *run, double t, const double *approac
  * Set which contacts are still being compressed, when an earlier run is resumed. codes: the contact code of each joint
  * at the end of that run. Called when a batch resumes a run.
  */
-static void set_contact_codes(Integrator *run, const signed char *codes)
+static void restore_compression_flags(Integrator *run, const signed char *codes)
 {
     for (int i = 0; i < N_CLEARANCES; i++)
         run->contacts.is_compressing[i] = codes[i] == CODE_IMPACT;
@@ -131,8 +135,8 @@ static void close_contact(Integrator *run, int joint, double t, double deltadot,
 }
 
 /*
- * End the contact of a joint with compliant surfaces at time t (s) and append the contact to the list that Python
- * fetches.
+ * End the contact of a joint with compliant surfaces at time t (s), reset the inner states of its laws, and append the
+ * contact to the list that Python fetches.
  */
 static void open_contact(Integrator *run, int joint, double t)
 {
@@ -181,7 +185,7 @@ static int initialize_compliant_contacts(Integrator *run, const Parameters *p)
         const Clearance *clearance = &run->rhs.clearance[i];
         const int was_closed = run->discrete.contact[i].closed;
         const int touches = clearance->delta >= 0.0
-            && (clearance->delta > -compute_penetration_rounding(p, i) || clearance->deltadot > 0.0);
+            && (clearance->delta > -compute_penetration_tolerance(p, i) || clearance->deltadot > 0.0);
         if (!is_compliant(i)) /* rigid contacts change at events only (run/impacts.c) */
             continue;
         if (!was_closed && touches)

@@ -69,7 +69,7 @@ static int diagnose_stall(const Integrator *run, int default_status, const Param
  */
 static void update_slip_branches(Integrator *run, const Parameters *p)
 {
-    int changed = N_SWITCHES && run->discrete.held;
+    int changed = N_SWITCHES && run->discrete.is_frozen;
     for (int pass = 0; pass < 6 && changed; pass++) {
         double dy[N_Y];
         RhsOutputs rhs;
@@ -95,7 +95,7 @@ static int compute_slips_after_impact(Integrator *run, const Delassus *impact, c
     double y[N_Y], dy[N_Y];
     DiscreteState discrete = run->discrete;
     RhsOutputs rhs;
-    discrete.held = 0; /* branches of friction laws follow this slip */
+    discrete.is_frozen = 0; /* branches of friction laws follow this slip */
     for (int i = 0; i < N_Y; i++)
         y[i] = run->y[i];
     for (int k = 0; k < impact->n; k++) {

@@ -98,7 +98,7 @@ static int resolve_impact(Integrator *run, const Parameters *p, int n_impacts_be
     FrictionImpulses friction;
     double approach_speed[N_RIGID], rebound_sum[N_RIGID], impulse[N_RIGID];
     const DiscreteState known_state = run->discrete;
-    const double min_rate = compute_gap_rate_rounding(run, p), gap = compute_gap_rounding(run, p);
+    const double min_rate = compute_gap_rate_tolerance(run, p), gap = compute_gap_tolerance(run, p);
     int has_impact = 0;
     *energy = 0.0;
     for (int i = 0; i < N_CLEARANCES; i++) {
@@ -150,7 +150,7 @@ static int update_closed_contacts(Integrator *run, int opening_joint, const Para
     unsigned char is_resting[N_CLEARANCES], has_force[N_CLEARANCES] = {0};
     double force[N_RIGID];
     const DiscreteState known_state = run->discrete;
-    const double min_rate = compute_gap_rate_rounding(run, p);
+    const double min_rate = compute_gap_rate_tolerance(run, p);
     Delassus contacts = {0};
     for (int i = 0; i < N_CLEARANCES; i++) {
         const double speed_limit = max_of(threshold_of(p, i), min_rate);
@@ -185,7 +185,7 @@ static int update_closed_contacts(Integrator *run, int opening_joint, const Para
 static int separate_contacts(Integrator *run, const Parameters *p)
 {
     const double energy = compute_kinetic_energy(run, p);
-    double distance = compute_gap_rounding(run, p);
+    double distance = compute_gap_tolerance(run, p);
     int status = 0, has_contact = 1;
     for (int pass = 0; pass < MAX_SEPARATIONS && has_contact && !status; pass++, distance *= 4.0) {
         double gap[N_RIGID];

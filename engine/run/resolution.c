@@ -11,7 +11,7 @@
  * Return the gap rate in m/s below which it is rounding: GAP_RATE_ROUNDING of the largest velocity of a body. Rates
  * that were just set to 0 keep such residuals.
  */
-static double compute_gap_rate_rounding(const Integrator *run, const Parameters *p)
+static double compute_gap_rate_tolerance(const Integrator *run, const Parameters *p)
 {
     double absolute_state[N_S], max_speed = 0.0;
     convert_to_absolute(run->t, run->y, &run->discrete, p, absolute_state);
@@ -21,7 +21,7 @@ static double compute_gap_rate_rounding(const Integrator *run, const Parameters 
 }
 
 /* Return the gap in m below which it is rounding: GAP_ROUNDING of the largest coordinate or clearance. */
-static double compute_gap_rounding(const Integrator *run, const Parameters *p)
+static double compute_gap_tolerance(const Integrator *run, const Parameters *p)
 {
     double absolute_state[N_S], max_length = 0.0;
     convert_to_absolute(run->t, run->y, &run->discrete, p, absolute_state);

@@ -14,7 +14,7 @@ static int evaluate_motion_with_inner_states(
     double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dy, RhsOutputs *rhs)
 {
     copy_inner_states(discrete, y);
-    const int status = motion(t, y, discrete, p, dy, rhs);
+    const int status = compute_motion_rates(t, y, discrete, p, dy, rhs);
     copy_inner_rates(rhs, dy);
     return status;
 }
@@ -49,13 +49,13 @@ static int evaluate_run_rhs(
 #include "envelope.c"
 
 /*
- * Return whether the penetration of any joint at the present state exceeds the range of validity of its contact laws, a
- * tenth of the radius.
+ * Return whether the penetration of any joint at the present state exceeds the range of validity of its contact laws: a
+ * tenth of the radius, unless a law states it.
  */
 static int is_outside_contact_laws(const Integrator *run, const Parameters *p)
 {
     for (int i = 0; i < N_CLEARANCES; i++)
-        if (run->rhs.clearance[i].delta > deepest(p, i))
+        if (run->rhs.clearance[i].delta > max_valid_penetration(p, i))
             return 1;
     return 0;
 }
@@ -107,13 +107,13 @@ static void store_sample(const Integrator *run, double t, const double *state_ve
 
 /*
  * Set the branches of all switching functions to their signs at the present state, and freeze them and the contacts
- * (discrete.held). Called when a run begins, and before states just after the present time are evaluated.
+ * (discrete.is_frozen). Called when a run begins, and before states just after the present time are evaluated.
  */
 static void freeze_branches(Integrator *run)
 {
     for (int k = 0; k < N_SWITCHES; k++)
         run->discrete.branch[k] = run->rhs.g[k] < 0.0 ? -1.0 : 1.0;
-    run->discrete.held = 1;
+    run->discrete.is_frozen = 1;
 }
 
 /*

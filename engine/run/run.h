@@ -95,7 +95,7 @@ typedef struct {
     /* bracket of a zero of each watched function: its ends, and the values there */
     double from[AT_LEAST_ONE(N_WATCHED)], to[AT_LEAST_ONE(N_WATCHED)];
     double above[AT_LEAST_ONE(N_WATCHED)], below[AT_LEAST_ONE(N_WATCHED)];
-    double least[2 * N_X + 1], most[2 * N_X + 1];   /* range of the state at the stages, if functions are watched */
+    double min_state[2 * N_X + 1], max_state[2 * N_X + 1]; /* range of the state at the stages, if watched */
     unsigned char near[AT_LEAST_ONE(N_WATCHED)], has_zero_bracket;
     double rate[AT_LEAST_ONE(N_CLEARANCES)][2];   /* smallest and largest d delta/dt of the stages */
     double spread[AT_LEAST_ONE(N_TERMS)];         /* range of terms of time alone over the step; -1: unknown */
@@ -130,8 +130,8 @@ typedef struct {
 typedef struct {
     long n, *done;
     const double *t;
-    double *y, *latched;
-    signed char *state;
+    double *y, *discrete_states;
+    signed char *contact_codes;
 } Samples;
 
 /* The step record: states that Python fetches; rows NULL: nothing is recorded. Written by: run/step_record.c. */
@@ -218,7 +218,7 @@ typedef struct {
  */
 typedef struct {
     const Method *method, *implicit; /* method of the next step; the stiff method of `auto` */
-    double stability; /* h rho of the last tried step: its length times the largest rate of the motion */
+    double h_rho; /* h rho of the last tried step: its length times the largest rate of the motion */
     double rate; /* rho, 1/s, where `auto` returned to the explicit method */
     int automatic, n_contrary_steps, patience, since;
 } MethodChoice;
@@ -250,7 +250,7 @@ typedef struct {
  * Copied by: batch/lane_exchange.c, batch/lane_local_steps.c.
  */
 typedef struct {
-    double inverse_scale[2 * N_X + 1], least[2]; /* 1/tolerances; smallest relevant length (m), angle */
+    double inverse_scale[2 * N_X + 1], min_size[2]; /* 1/tolerances; smallest relevant length (m), angle */
     double speed[2], speed_floor[2], speed_rounded[2];
     double weight[N_Y]; /* error weights: 1/tolerance */
     double work_scale, energy_scale; /* tolerance of works relative to the energy throughput (J) */
@@ -348,8 +348,8 @@ static inline int has_films(void)
 #if N_USER_EVENTS
 /* States at the user-defined events of the list, in the layout of samples; stored after the Integrator. */
 typedef struct {
-    double y[LISTED_EVENTS][N_S], latched[LISTED_EVENTS][AT_LEAST_ONE(N_DISCRETE)];
-    signed char state[LISTED_EVENTS][AT_LEAST_ONE(N_CLEARANCES)];
+    double y[LISTED_EVENTS][N_S], discrete_states[LISTED_EVENTS][AT_LEAST_ONE(N_DISCRETE)];
+    signed char contact_codes[LISTED_EVENTS][AT_LEAST_ONE(N_CLEARANCES)];
 } EventStates;
 
 /* Return the states at the listed user-defined events, which follow the Integrator in memory. */

@@ -35,7 +35,7 @@ static int is_slip_residual(const Integrator *run, const double *direction, doub
 {
     int is_small = 1;
     for (int k = N_X; k < 2 * N_X; k++) {
-        const double *scale = run->norm.least;
+        const double *scale = run->norm.min_size;
         const double angle_per_length = scale[0] > 0.0 ? scale[1] / scale[0] : 1.0; /* rad/m; rk4 does not know */
         const double located = is_angle[k - N_X] ? MAX_RESIDUAL_SLIP * angle_per_length : MAX_RESIDUAL_SLIP;
         const double tolerance = run->norm.weight[k] > 0.0 ? MAX_RESIDUAL_TOLERANCES / run->norm.weight[k] : 0.0;

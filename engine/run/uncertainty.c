@@ -31,8 +31,8 @@ static void add_constraint_residuals(Integrator *run, double t, const double *y,
 }
 
 /*
- * Compute the errors of coordinates and velocities of a state y: rounding relative to the largest length and angle,
- * plus constraint residuals. error (2 N_X): m, rad and their rates.
+ * Compute the errors of coordinates and velocities of a state y: accumulated rounding (ACCUMULATED_ULPS) of the largest
+ * length, angle and speed of each kind, plus constraint residuals. error (2 N_X): m, rad and their rates.
  */
 static void estimate_state_errors(Integrator *run, double t, const double *y, const Parameters *p, double *error)
 {
@@ -68,7 +68,7 @@ static void add_residual_slips(Integrator *run, double t, const double *y, const
             error[k] += fabs(direction[k] * rhs.friction[element].v / response);
     }
     for (int k = 0; k < N_X && status >= 0; k++) /* a held coordinate may be 0: use the smallest relevant length */
-        error[k] = max_of(error[k], ACCUMULATED_ULPS * DBL_EPSILON * run->norm.least[is_angle[k]]);
+        error[k] = max_of(error[k], ACCUMULATED_ULPS * DBL_EPSILON * run->norm.min_size[is_angle[k]]);
 }
 #else
 /* Leave `error` unchanged: the scene has no friction that may stick. */

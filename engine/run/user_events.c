@@ -29,7 +29,7 @@ static int record_user_event(Integrator *run, int event, double t, const double 
         if (run->events.number[k] == event)
             return 0; /* within the time resolution: the same zero, crossed again by rounding */
     if (run->events.n < LISTED_EVENTS)
-        store_sample(run, t, state_vector, p, run->events.n, at->y[0], at->latched[0], at->state[0]);
+        store_sample(run, t, state_vector, p, run->events.n, at->y[0], at->discrete_states[0], at->contact_codes[0]);
     append_user_event(run, event, t);
     return run->events.stop && event_stops[event];
 #else
@@ -125,21 +125,21 @@ static int evaluate_rates_just_after(Integrator *run, double duration, const Par
     double y[N_Y], dy[N_Y];
     for (int k = 0; k < N_Y; k++)
         y[k] = run->y[k] + duration * run->dy[k];
-    if (!run->discrete.held)
+    if (!run->discrete.is_frozen)
         freeze_branches(run);
     return update_branches_at(run, run->t + duration, y, dy, rhs_after, -1, p);
 }
 
 /*
- * Return the time difference in s within which an event counts as at the start or end of a run. It depends on the state
- * alone, or for rk4 on its step length fixed_step in s (0: another method). Used where events at the start and end of a
- * run are found.
+ * Return the time difference in s within which an event counts as at the start or end of a run: COINCIDENCE_FRACTION of
+ * the time scale of the state, or of rk4's step length fixed_step in s (0: another method). It is COINCIDENCE_S at most
+ * and at least 4 ulp of the time. Used where events at the start and end of a run are found.
  */
 static double compute_coincidence_time(const Integrator *run, double fixed_step)
 {
     double rate = 0.0;
     for (int k = 0; k < N_X && !(fixed_step > 0.0); k++) {
-        const double scale = run->norm.least[is_angle[k]];
+        const double scale = run->norm.min_size[is_angle[k]];
         rate = max_of(rate, max_of(fabs(run->y[N_X + k]) / scale, sqrt(fabs(run->dy[N_X + k]) / scale)));
     }
     const double limit = min_of(COINCIDENCE_S, COINCIDENCE_FRACTION * (fixed_step > 0.0 ? fixed_step : 1.0 / rate));
@@ -341,11 +341,12 @@ int gudgeon_run_events(void *integrator, int capacity, double *t, int *event, do
 #if N_USER_EVENTS
     EventStates *states = get_event_states(run);
     memcpy(y, states->y, (size_t)count * sizeof states->y[0]);
-    memcpy(discrete, states->latched, (size_t)count * sizeof states->latched[0]);
-    memcpy(codes, states->state, (size_t)count * sizeof states->state[0]);
+    memcpy(discrete, states->discrete_states, (size_t)count * sizeof states->discrete_states[0]);
+    memcpy(codes, states->contact_codes, (size_t)count * sizeof states->contact_codes[0]);
     memmove(states->y, states->y + count, (size_t)n_left * sizeof states->y[0]);
-    memmove(states->latched, states->latched + count, (size_t)n_left * sizeof states->latched[0]);
-    memmove(states->state, states->state + count, (size_t)n_left * sizeof states->state[0]);
+    memmove(states->discrete_states, states->discrete_states + count,
+        (size_t)n_left * sizeof states->discrete_states[0]);
+    memmove(states->contact_codes, states->contact_codes + count, (size_t)n_left * sizeof states->contact_codes[0]);
 #else
     (void)y, (void)discrete, (void)codes;
 #endif

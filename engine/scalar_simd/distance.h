@@ -21,15 +21,15 @@ static Real compute_constraint_distance(const IntegratorOf *run, const Real *y_b
  */
 static inline int get_motion_index(int k) { return k < 2 * N_X ? k : k + N_WORK; }
 
-/* Store h rho of a tried step: its length times the largest rate that its stages show. choose_method() uses it. */
-static inline void record_stability(IntegratorOf *run, Real stability) { run->choice.stability = stability; }
+/* Store the stiffness estimate of a tried step, h rho: its length times the largest rate that its stages show. */
+static inline void store_stiffness_estimate(IntegratorOf *run, Real h_rho) { run->choice.h_rho = h_rho; }
 
 /*
- * Store h rho of an explicit step from two states at its end: that of the step, and that of the last stage. stage_y,
- * stage_rates: state and rates of the last stage. h rho is h times the ratio of the norms of the differences of rates
- * and states. It is 0 where the two states do not differ.
+ * Estimate and store h rho, the stiffness of an explicit step (for choose_method()) from two states at its end: that of
+ * the step, and that of the last stage, stage_y with rates stage_rates. h rho is h times the ratio of the norms of the
+ * differences of rates and states. It is 0 where the two states do not differ.
  */
-static inline void record_end_stability(IntegratorOf *run, const StepOf *step, Real h, const Real *stage_y,
+static inline void estimate_stiffness_at_end(IntegratorOf *run, const StepOf *step, Real h, const Real *stage_y,
     const Real *stage_rates)
 {
     Real change = make_real(0.0), distance = make_real(0.0);
@@ -39,5 +39,5 @@ static inline void record_end_stability(IntegratorOf *run, const StepOf *step, R
         change = real_max(real_abs(step->dy[i] - stage_rates[i]) * weight, change);
         distance = real_max(real_abs(step->y[i] - stage_y[i]) * weight, distance);
     }
-    record_stability(run, select_value(distance > MIN_RESOLVED, h * change / distance, make_real(0.0)));
+    store_stiffness_estimate(run, select_value(distance > MIN_RESOLVED, h * change / distance, make_real(0.0)));
 }

@@ -152,7 +152,7 @@ static int dop853_try_step(IntegratorOf *run, Real h, const ParametersOf *p, Ste
     if (status_last)
         return status_last;
     /* beyond about 6 the step is bounded by stability */
-    record_end_stability(run, step, h, y, step->k[DOP853_STAGES - 1]);
+    estimate_stiffness_at_end(run, step, h, y, step->k[DOP853_STAGES - 1]);
     return 0;
 }
 

@@ -239,7 +239,7 @@ static int RADAU(try_step)(IntegratorOf *run, Real h, const ParametersOf *p, Ste
         change = real_max(real_abs(inverse_h * u[i] - r[i]) * run->norm.weight[i], change);
         distance = real_max(real_abs(u[i]) * run->norm.weight[i], distance);
     }
-    record_stability(run, select_value(distance > MIN_RESOLVED, h * change / distance, make_real(0.0)));
+    store_stiffness_estimate(run, select_value(distance > MIN_RESOLVED, h * change / distance, make_real(0.0)));
     const Mask large = step->error > run->control.accept;
     if (any_of(large)) { /* repeat at the state with the error: this filters stiff components */
         Real y[N_Y], dy[N_Y];

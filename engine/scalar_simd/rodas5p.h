@@ -139,6 +139,6 @@ static int rodas5p_try_step(IntegratorOf *run, Real h, const ParametersOf *p, St
         step->error = real_max(real_abs(step->k[7][i]) * run->norm.weight[i], step->error);
     if (is_error_not_finite(run, step->error))
         return NOT_FINITE;
-    record_stability(run, select_value(distance > MIN_RESOLVED, h * change / distance, make_real(0.0)));
+    store_stiffness_estimate(run, select_value(distance > MIN_RESOLVED, h * change / distance, make_real(0.0)));
     return is_step_rejected(run, step) ? 0 : finish_step(run, step, p);
 }

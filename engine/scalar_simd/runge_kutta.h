@@ -74,7 +74,7 @@ static int runge_kutta_try_step(IntegratorOf *run, const Tableau *tableau, Real 
         return NOT_FINITE;
     if (is_step_rejected(run, step))
         return 0;
-    record_end_stability(run, step, h, y, step->k[tableau->stages - 1]);
+    estimate_stiffness_at_end(run, step, h, y, step->k[tableau->stages - 1]);
     return 0;
 }
 

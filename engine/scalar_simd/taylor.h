@@ -102,7 +102,7 @@ static int taylor_try_series_step(IntegratorOf *run, Real h, const ParametersOf 
         h = real_min(h, run->series.max_step);
     step->t = run->t, step->dense_ready = 0;
     discard_stages(step);
-    record_stability(run, make_real(0.0));
+    store_stiffness_estimate(run, make_real(0.0));
     for (int is_repeated = 0;; is_repeated = 1) {
         step->h = h;
         taylor_evaluate_state_and_rate(run, h, step->y, rate);

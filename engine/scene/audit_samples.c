@@ -16,7 +16,7 @@ int compute_absolute_accelerations(double t, const double *absolute_state, const
     double rate[N_S];
     RhsOutputs rhs;
     DiscreteState now = *discrete;
-    now.held = 0; /* switching functions of all bodies have other indices */
+    now.is_frozen = 0; /* switching functions of all bodies have other indices */
     now.least = NEARLY_SINGULAR;
     now.least_size = VANISHING;
     const int status = evaluate_rates_at(t, absolute_state, &now, p, rate, &rhs);
@@ -75,7 +75,7 @@ int has_drive_jump(double t, const double *q, const double *v, const Parameters 
 }
 
 /* W: smaller powers are products of underflowing numbers. */
-#define LEAST_POWER 1e-250
+#define MIN_POWER 1e-250
 
 /*
  * Audit n samples (runtime/simulation/audit.py). relative_errors (n, 4), each relative to the largest term:
@@ -126,7 +126,7 @@ void gudgeon_audit_samples(long n, const double *t, const double *q, const doubl
         compute_velocity_residuals(t[i], q, v, h, p, missed, nu);
         const double between = h > 0.0 ? 2.0 * h : INFINITY;
         double sum = (stored[1][1] - stored[0][1]) / between, driven = 0.0;
-        double terms = LEAST_POWER + fabs(sum) + force[0] * fast[0] + force[1] * fast[1];
+        double terms = MIN_POWER + fabs(sum) + force[0] * fast[0] + force[1] * fast[1];
         terms += 4e6 * DBL_EPSILON * fabs(stored[2][1]) / between;
         for (int i = 0; i < N_FRICTIONS; i++) /* in stick, all powers are rounding errors of friction */
             terms += fabs(rhs.friction[i].force) * (fast[0] + fabs(rhs.friction[i].v));

@@ -72,7 +72,7 @@ void read_discrete_state(const double *sample, DiscreteState *discrete)
 #endif
     for (int i = 0; i < N_USER_EVENTS; i++)
         discrete->event_sign[i] = 0;
-    discrete->held = 0;
+    discrete->is_frozen = 0;
     discrete->token = NULL;
     discrete->least = NEARLY_SINGULAR;
     discrete->least_size = VANISHING;

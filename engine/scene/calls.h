@@ -50,21 +50,21 @@ int gudgeon_jacobian(double t, const double *y, const double *discrete, const do
 int gudgeon_newton(double t, const double *y, const double *discrete, const double *p, double eta, double s,
     const double *r, double *u);
 size_t gudgeon_run_size(void);
-void gudgeon_run_start(void *integrator, const double *p, double t, const double *y, const double *latched);
+void gudgeon_run_start(void *integrator, const double *p, double t, const double *y, const double *discrete);
 void gudgeon_run_record(void *integrator, double *rows, long capacity);
 long gudgeon_run_recorded(void *integrator);
-void gudgeon_run_sample(const void *integrator, const double *p, double *y, double *latched, signed char *state);
+void gudgeon_run_sample(const void *integrator, const double *p, double *y, double *discrete, signed char *codes);
 void gudgeon_run_stop(void *integrator, int stop);
 int gudgeon_run_full(const void *integrator);
 int gudgeon_run_listed(const void *integrator);
-int gudgeon_run_events(void *integrator, int capacity, double *t, int *event, double *y, double *latched,
-    signed char *state);
+int gudgeon_run_events(void *integrator, int capacity, double *t, int *event, double *y, double *discrete,
+    signed char *codes);
 int gudgeon_run_impacts(void *integrator, int last, int capacity, double *numbers, int *joints);
 int gudgeon_method(const char *name);
 void gudgeon_adaptive_setup(void *integrator, int method, int automatic, const double *scale, const double *least,
     double fixed);
 int gudgeon_adaptive_run(void *integrator, const double *parameters, long n, const double *t, long limit,
-    double *y, double *latched, signed char *state, long *done);
+    double *y, double *discrete_states, signed char *contact_codes, long *n_stored);
 void gudgeon_run_report(const void *integrator, double *t, long *counts, double *numbers, double *peaks);
 
 /*

@@ -10,8 +10,8 @@
 enum { MAX_CLOSING = 60 };
 
 /*
- * Compute the residuals of the start into workspace->residual: -Phi, then the differences from the set coordinates,
- * each divided by its scale. Return their Euclidean norm.
+ * Compute the residuals of the start into workspace->residual: -Phi (with the set eccentricities of journals), then the
+ * differences from the set coordinates, each divided by its scale. Return their Euclidean norm.
  */
 static double compute_start_residuals(StartWorkspace *workspace, double t, const double *q, const Parameters *p)
 {

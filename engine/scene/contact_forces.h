@@ -15,7 +15,7 @@ enum { HAS_FRICTION = 1 };
 enum { HAS_FRICTION = 0 };
 #endif
 
-/* Compute the rates of a state (evaluate_state_rates() or motion()); returns a status. */
+/* Compute the rates of a state (evaluate_state_rates() or compute_motion_rates()); returns a status. */
 typedef int RatesOf(
     double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dy, RhsOutputs *rhs);
 
@@ -69,9 +69,9 @@ static double choose_unit_force(const Delassus *contacts, const Parameters *p)
 }
 
 /*
- * Compute r, D and `response` of the listed contacts, which `discrete` has closed, by n + 1 evaluations of the
- * right-hand side `evaluate_rates` at (t, y). n_rates: number of rates. Their forces in `discrete` are 0 afterwards.
- * Return the status of the evaluations.
+ * Compute the Delassus operator D of the listed contacts, which `discrete` has closed, their delta'' without forces, r,
+ * and the `response` of all n_rates rates to unit forces. The right-hand side `evaluate_rates` is evaluated n + 1 times
+ * at (t, y). The contact forces in `discrete` are 0 afterwards. Return the status of the evaluations.
  */
 static int compute_delassus(RatesOf *evaluate_rates, int n_rates, double t, const double *y, DiscreteState *discrete,
     const Parameters *p, Delassus *contacts)

@@ -10,7 +10,7 @@
  * Return the depth of a bearing contour in m at an angle (rad), or its derivative by the angle of order 1 or 2. depths:
  * `count` depths at equal angles, the first at 0; they repeat after a turn. NAN if the angle is not finite.
  */
-static inline double contour(const double *depths, int count, int order, double angle)
+static inline double evaluate_contour(const double *depths, int count, int order, double angle)
 {
     const double turns = angle / (2.0 * PI), position = count * (turns - floor(turns)), per_angle = count / (2.0 * PI);
     if (!(position >= 0.0 && position <= count))

@@ -214,28 +214,30 @@ static inline void compute_curve_bounds(
 }
 
 /*
- * Return the part of x within the range of a curve: all of it for a periodic curve, empty if there is none, partly
- * undefined if x exceeds the range.
+ * Return the part of x within the range of a curve: all of it for a periodic curve, empty if there is none. The result
+ * may be undefined if x exceeds the range by more than CURVE_MARGIN of its length.
  */
-static inline Range restrict_to_curve_range(const Curve *curve_table, Range x)
+static inline Interval restrict_to_curve_range(const Curve *curve_table, Interval x)
 {
     const double first = curve_table->x[0], last = curve_table->x[curve_table->pieces],
         allowance = CURVE_MARGIN * (last - first);
     if (is_empty(x) || curve_table->repeats)
         return x;
     if (!(x.hi >= first - allowance && x.lo <= last + allowance))
-        return only(NAN);
-    x.partly |= x.lo < first - allowance || x.hi > last + allowance;
+        return make_interval(NAN);
+    x.may_be_undefined |= x.lo < first - allowance || x.hi > last + allowance;
     x.lo = max_of(x.lo, first - allowance);
     x.hi = min_of(x.hi, last + allowance);
     return x;
 }
 
 /*
- * Return bounds of evaluate_curve() and of its slope for x and a frozen branch; a branch that is not constant counts as
- * 0. Empty outside of the range. If no piece of the branch is in the interval, all pieces count.
+ * Return bounds of evaluate_curve(curve_table, order, x, branch), the derivative of an order (0 ... 3) of a curve, and
+ * of its slope along the step, by the chain rule with the slope of x. A branch that is not constant counts as 0.
+ * Outside of the range it is empty, or may be undefined if x is partly outside. If no piece of the branch is in the
+ * interval, all pieces count.
  */
-static inline Range bound_curve(const Curve *curve_table, int order, Range x, Range branch)
+static inline Interval bound_curve(const Curve *curve_table, int order, Interval x, Interval branch)
 {
     const double frozen = branch.lo == branch.hi ? branch.lo : 0.0;
     double lower, upper, min_slope, max_slope;
@@ -248,14 +250,14 @@ static inline Range bound_curve(const Curve *curve_table, int order, Range x, Ra
     else
         max_slope = lower < upper ? INFINITY : 0.0, min_slope = -max_slope;
     return lower <= upper ? apply_chain_rule(x, lower, upper, min_slope, max_slope)
-        : bound_curve(curve_table, order, x, only(0.0));
+        : bound_curve(curve_table, order, x, make_interval(0.0));
 }
 
 /*
  * Return bounds of evaluate_knot_function(), a parabola in each piece, and of its slope. Over a period or more they are
  * -1 and 1 with unbounded slope. Empty if x is.
  */
-static inline Range bound_knot_function(const Curve *curve_table, Range x)
+static inline Interval bound_knot_function(const Curve *curve_table, Interval x)
 {
     const double first = curve_table->x[0], last = curve_table->x[curve_table->pieces];
     const double shift = curve_table->repeats ? (last - first) * floor((x.lo - first) / (last - first)) : 0.0;
@@ -263,7 +265,7 @@ static inline Range bound_knot_function(const Curve *curve_table, Range x)
     if (is_empty(x))
         return x;
     if (curve_table->repeats && !(x.hi - x.lo < last - first))
-        return (Range){-1.0, 1.0, -INFINITY, INFINITY, x.partly};
+        return (Interval){-1.0, 1.0, -INFINITY, INFINITY, x.may_be_undefined};
     for (int i = find_curve_piece(curve_table, x.lo - shift);; i++) {
         const int k = i % curve_table->pieces;
         const double begin = curve_table->x[k] + shift + (i >= curve_table->pieces ? last - first : 0.0),
@@ -286,9 +288,9 @@ static inline Range bound_knot_function(const Curve *curve_table, Range x)
     return apply_chain_rule(x, lower, upper, min_slope, max_slope);
 }
 
-#define range_curve(which, order, x) bound_curve(&curves[which], order, x, only(0.0))
-#define range_curve_on(which, order, x, branch) bound_curve(&curves[which], order, x, branch)
-#define range_knots(which, x) bound_knot_function(&curves[which], x)
+#define interval_curve(which, order, x) bound_curve(&curves[which], order, x, make_interval(0.0))
+#define interval_curve_on(which, order, x, branch) bound_curve(&curves[which], order, x, branch)
+#define interval_knots(which, x) bound_knot_function(&curves[which], x)
 #endif
 
 #endif

@@ -80,7 +80,7 @@ static int linearize_and_factorize_equations(double t, const double *y, const do
 #if N_DEPENDENT
     solve_driven_loops(t, y + FIRST_STATE, &discrete_state, p); /* the guess follows the works */
 #endif
-    int status = motion(t, y, &discrete_state, p, dy, &rhs);
+    int status = compute_motion_rates(t, y, &discrete_state, p, dy, &rhs);
     if (!status)
         status = linearize_state(t, y, &discrete_state, p, dy + N_X, &rhs, linearization);
     return status ? status : -newton_factor(eta, linearization);

@@ -11,7 +11,7 @@ void mass_matrix(const Parameters *p, double *m);
 /* Of joint i with play: radial clearance, m; penetration up to which its laws hold, m; least approach speed, m/s. */
 #if N_CLEARANCES
 double radial_clearance(const Parameters *p, int i);
-double deepest(const Parameters *p, int i);
+double max_valid_penetration(const Parameters *p, int i);
 double min_approach_speed(const Parameters *p, int i);
 #if LAW_STATES
 double breakaway(const Parameters *p, int i);
@@ -22,7 +22,7 @@ double threshold_of(const Parameters *p, int i);
 #endif
 #else
 static inline double radial_clearance(const Parameters *p, int i) { return (void)p, (void)i, 0.0; }
-static inline double deepest(const Parameters *p, int i) { return (void)p, (void)i, 0.0; }
+static inline double max_valid_penetration(const Parameters *p, int i) { return (void)p, (void)i, 0.0; }
 static inline double min_approach_speed(const Parameters *p, int i) { return (void)p, (void)i, 0.0; }
 #endif
 /* Constraint equations: Phi, Phi_q (N_ALL_ROWS x N_Q, by rows; zeros are not written), nu, gamma; values of a start. */
@@ -76,7 +76,8 @@ void solve_driven_loops(double t, const double *guess, DiscreteState *discrete, 
 
 #if INTEGRATES
 /* The integrated state (motion/): its rates, conversions from and to the state of all bodies, steps to the closures. */
-int motion(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dy, RhsOutputs *rhs);
+int compute_motion_rates(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dy,
+    RhsOutputs *rhs);
 void convert_to_absolute(double t, const double *y, const DiscreteState *discrete, const Parameters *p, double *all);
 void convert_from_absolute(double t, const double *all, DiscreteState *discrete, const Parameters *p, double *y);
 int compute_correction(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dq, double *dv,
@@ -88,7 +89,8 @@ int evaluate_contacts(double t, const double *y, DiscreteState *discrete, const 
 int solve_correction(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dq, double *dv,
     double *worst);
 /*
- * Accept a state, with `rhs` of motion() there: update the maxima of |Phi| and |Phi_dot|; follow driven loops from it.
+ * Accept a state, with `rhs` of compute_motion_rates() there: update the maxima of |Phi| and |Phi_dot|; follow driven
+ * loops from it.
  */
 int accept_state(double t, const double *y, DiscreteState *discrete, const Parameters *p, const RhsOutputs *rhs,
     double *phi_max, double *phi_dot_max);
@@ -96,7 +98,7 @@ int accept_state(double t, const double *y, DiscreteState *discrete, const Param
 /* Coefficients c[0] ... c[order] of the motion's series in powers of time from a state on. */
 int compute_taylor_series(double t, const double *y, const Parameters *p, int order, double (*c)[TAYLOR_Y]);
 #endif
-/* Newton's matrix: linearize at a state with rates of motion(), factorize for a step, solve. */
+/* Newton's matrix: linearize at a state with rates of compute_motion_rates(), factorize for a step, solve. */
 int linearize_state(double t, const double *y, DiscreteState *discrete, const Parameters *p, const double *a,
     const RhsOutputs *rhs, Linear *lin);
 void linearize(double t, const double *q, const double *v, const DiscreteState *discrete, const Parameters *p,
@@ -124,10 +126,10 @@ int project(double t, const double *q, const double *r, const Parameters *p, dou
 
 /* Equations with a vanishing pivot: in absolute coordinates (singular.c), in tree coordinates
  * (motion/absolute_fallback.c). */
-int solve_dependent(double t, const double *q, const Parameters *p, const double *force, const double *rhs, double *a,
-    double *lambda, int pivot, const DiscreteState *discrete);
-int solve_by_absolute(double t, const double *q, const double *v, const DiscreteState *discrete, const Parameters *p,
-    double *a, RhsOutputs *rhs);
+int solve_dependent(double t, const double *q, const Parameters *p, const double *force, const double *rhs,
+    double *a, double *lambda, int pivot, const DiscreteState *discrete);
+int solve_by_absolute(double t, const double *q, const double *v, const DiscreteState *discrete,
+    const Parameters *p, double *a, RhsOutputs *rhs);
 /* Factorization and solution of a small dense block (block.c). */
 int factor_block(int n, double *A, int *order);
 void solve_block(int n, const double *A, const int *order, double *x);
@@ -154,8 +156,9 @@ void compute_velocity_residuals(double t, const double *q, const double *v, doub
 void watched_functions(double t, const double *q, const double *v, const DiscreteState *discrete, const Parameters *p,
     RhsOutputs *rhs);
 void watched_ranges(
-    Range t, const Range *q, const Range *v, const DiscreteState *discrete, const Parameters *p, Range *out);
-void time_terms(Range t, const Parameters *p, Range *out);
+    Interval t, const Interval *q, const Interval *v, const DiscreteState *discrete, const Parameters *p,
+    Interval *out);
+void time_terms(Interval t, const Parameters *p, Interval *out);
 #endif
 
 /* Read the discrete state of a sample (calls.c). */

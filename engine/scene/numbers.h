@@ -37,7 +37,7 @@ static inline int same_number(double x, double y) { return x == y && !signbit(x)
  * Return the distance, s, below which a sample coincides with the end t of a step of length h: both contain rounding
  * errors.
  */
-static inline double compute_time_rounding(double t, double h) { return 8.0 * DBL_EPSILON * fabs(t) + 1e-12 * h; }
+static inline double compute_time_tolerance(double t, double h) { return 8.0 * DBL_EPSILON * fabs(t) + 1e-12 * h; }
 
 #ifdef __wasm__ /* in a web page, rare functions are compiled for size */
 #define OPTIMIZE_SIZE __attribute__((minsize))
@@ -54,7 +54,7 @@ static inline double compute_step_end(double t_begin, double t_end, double fixed
 {
     const double n_steps = max_of(ceil((t_end - t_begin) / fixed_step * (1.0 - 1e-12)), 1.0);
     const double last_length = t_end - t_begin - (n_steps - 1.0) * fixed_step, n_before = rint(t_begin / fixed_step);
-    const int is_multiple = fabs(n_before * fixed_step - t_begin) <= compute_time_rounding(t_begin, fixed_step);
+    const int is_multiple = fabs(n_before * fixed_step - t_begin) <= compute_time_tolerance(t_begin, fixed_step);
     *length = index < n_steps || fabs(last_length - fixed_step) < 1e-9 * fixed_step ? fixed_step : last_length;
     return index < n_steps ? (is_multiple ? (n_before + index) * fixed_step : t_begin + index * fixed_step) : t_end;
 }
@@ -98,8 +98,8 @@ static inline double mod_on(double a, double b, double branch)
 }
 
 /*
- * Return a switching function whose zeros are the ends of the periods of mod(a, b): parabolas, positive in even periods
- * of a/b, negative in odd ones.
+ * Return the continuous switching function of mod(a, b), whose zeros are the multiples of b: parabolas of height 1 in
+ * even periods of a/b and -1 in odd ones.
  */
 static inline double period_branch(double a, double b)
 {

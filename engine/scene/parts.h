@@ -1,7 +1,7 @@
 /* Steps of the computation of sine, logarithm, exponential and power (functions.h), for a number or a SIMD vector. */
 /*
- * Reduce an angle x (rad) to r in [-pi/4, pi/4]: x = k pi/2 + r + error, where *error is the rounding error of r.
- * Return the last two bits of k, the quadrant.
+ * Reduce the argument x (rad, |x| < TURN_LIMIT = 1e5) to r in [-pi/4, pi/4]: x = k pi/2 + r + *error, the rounding
+ * error of r. Return the last two bits of k, the quadrant. Larger x lose accuracy: callers use the C library for them.
  */
 static inline PARTS_BITS PARTS_FUNCTION(reduce_angle)(PARTS_REAL x, PARTS_REAL *r, PARTS_REAL *error)
 {

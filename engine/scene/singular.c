@@ -10,8 +10,8 @@
  * The free motion then follows from M along an orthonormal basis Z of the null space: Z^T M Z z = Z^T (g - M a), with
  * the accelerations a so far.
  */
-#define LEAST_INERTIA 1e-3 /* of m s^2, s the longest arm of a joint: least moment of inertia in the norm */
-#define LEAST_MASS 1e-4    /* of the heaviest body: least mass in the norm */
+#define MIN_INERTIA 1e-3 /* of m s^2, s the longest arm of a joint: smallest moment of inertia in the norm */
+#define MIN_MASS 1e-4    /* of the heaviest body: smallest mass in the norm */
 
 enum { N_PADDED_ROWS = (AT_LEAST_ONE(N_ROWS) + 3) / 4 * 4 }; /* number of equations, rounded up to whole vectors */
 
@@ -132,8 +132,9 @@ static int select_independent_rows(Workspace *workspace, double min_square)
 }
 
 /*
- * Compute the norm that replaces the mass matrix where masses or moments of inertia are small: its square roots, the
- * fraction of M in it, and in workspace->light whether any is small. Called by initialize_workspace().
+ * Compute the norm that replaces the mass matrix where masses (below MIN_MASS of the largest) or moments of inertia
+ * (below MIN_INERTIA m s^2) are small: workspace->free[0] is M on entry and the norm on return, root its square roots,
+ * fraction that of M in it, and light whether any is small. Called by initialize_workspace().
  */
 static void compute_mass_norm(Workspace *workspace)
 {
@@ -141,7 +142,7 @@ static void compute_mass_norm(Workspace *workspace)
     for (int k = 0; k < N_Q; k++)
         heaviest = k % 3 < 2 ? max_of(heaviest, workspace->root[k]) : heaviest;
     for (int k = 0; k < N_Q; k++) {
-        double arm_squared = 0.0, mass = k % 3 < 2 ? max_of(workspace->root[k], LEAST_MASS * heaviest)
+        double arm_squared = 0.0, mass = k % 3 < 2 ? max_of(workspace->root[k], MIN_MASS * heaviest)
             : workspace->root[k];
         for (int i = 0; i < N_ROWS && k % 3 == 2; i++) {
             const double *row = workspace->all[kept_row[i]];
@@ -149,7 +150,7 @@ static void compute_mass_norm(Workspace *workspace)
                 arm_squared = max_of(arm_squared, row[k] * row[k]);
         }
         if (k % 3 == 2)
-            mass = max_of(mass, arm_squared > 0.0 ? LEAST_INERTIA * workspace->free[0][k - 1] * arm_squared : 1e-300);
+            mass = max_of(mass, arm_squared > 0.0 ? MIN_INERTIA * workspace->free[0][k - 1] * arm_squared : 1e-300);
         workspace->fraction[k] = workspace->root[k] / mass;
         workspace->light |= workspace->fraction[k] < 1.0;
         workspace->free[0][k] = mass;

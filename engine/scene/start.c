@@ -1,7 +1,7 @@
 /*
- * The start nearest to a guess: a closed configuration (closing.c), then velocities that are least in the norm of the
- * mass matrix. This is the regular case; 1 is returned where Newton's method leads far away or fails, and the search in
- * Python decides.
+ * The start nearest to a guess: a closed configuration (closing.c), then velocities that are smallest in the norm of
+ * the mass matrix. This is the regular case; 1 is returned where Newton's method leads far away or fails, and the
+ * search in Python decides.
  */
 #include "closing.c"
 #include "start.h"
@@ -14,7 +14,7 @@
 
 /*
  * Return the largest distance from the origin in m that drives, set coordinates and guess q require; at least the size
- * of the mechanism.
+ * of the mechanism. workspace->residual is overwritten.
  */
 static double find_largest_distance(StartWorkspace *workspace, double t, const Parameters *p, const double *q)
 {
@@ -51,9 +51,9 @@ static void initialize_start_workspace(StartWorkspace *workspace, const Paramete
 }
 
 /*
- * Initialize the workspace and set q to the guess, with the angles that equations without positions determine. Store q
- * as reference of distances, and the largest distance from the origin as radius. Return 1 if those equations depend on
- * each other, else 0.
+ * Initialize the workspace and set q to the guess and the set coordinates (others 0), with the angles that equations
+ * without positions determine. Store q as reference of distances, and the largest distance from the origin as radius.
+ * Return 1 if those equations depend on each other, else 0.
  */
 static int initialize_guess(StartWorkspace *workspace, double t, const Parameters *p, double *q)
 {
@@ -147,8 +147,8 @@ static void select_nearest_start(StartWorkspace *workspace, double t, const Para
 }
 
 /*
- * Compute the reciprocal square roots (N_Q) of the diagonal of the norm of velocities: the mass matrix with a least
- * moment of inertia.
+ * Compute inverse_root (N_Q), the reciprocal square roots of the diagonal of the norm of velocities: the mass matrix
+ * with moments of inertia of at least SMALL_INERTIA m size^2.
  */
 static void compute_metric_scaling(const StartWorkspace *workspace, const Parameters *p, double *inverse_root)
 {
@@ -161,7 +161,7 @@ static void compute_metric_scaling(const StartWorkspace *workspace, const Parame
 }
 
 /*
- * Compute the velocities v that satisfy Phi_q v = nu and the set rates at q, least in the norm of M, refined twice.
+ * Compute the velocities v that satisfy Phi_q v = nu and the set rates at q, smallest in the norm of M, refined twice.
  * Return 1 if the equations depend on each other or are not satisfied to rounding, else 0.
  */
 OPTIMIZE_SIZE static int compute_start_velocities(StartWorkspace *workspace, double t, const Parameters *p,
@@ -211,9 +211,9 @@ OPTIMIZE_SIZE static int compute_start_velocities(StartWorkspace *workspace, dou
 
 /*
  * Compute the start nearest to the guess that the parameters contain. Outputs: coordinates q and velocities v (N_Q
- * each), and *residual, the largest |Phi| reached, m or rad. t: time, s; size: of the mechanism, m. Return 0, or 1 if
- * the search in Python must decide: the start does not close, is far from the guess, has no velocities, was cancelled,
- * guesses points, or memory is short. Called for each run of a batch.
+ * each), and *residual, the largest |Phi| or deviation from a set coordinate reached, m or rad. t: time, s; size: of
+ * the mechanism, m. Return 0, or 1 if the search in Python must decide: the start does not close, is far from the
+ * guess, has no velocities, was cancelled, guesses points, or memory is short. Called for each run of a batch.
  */
 int compute_start(
     double t, const double *parameters, double size, double *q, double *v, double *residual, Cancellation *cancellation)
@@ -243,9 +243,9 @@ int compute_start(
 
 /*
  * Compute the start nearest to the guess that the parameters contain, by compute_start() without cancellation. Outputs:
- * coordinates q and velocities v (N_Q each), and *residual, the largest |Phi| reached, m or rad. t: time, s; size: of
- * the mechanism, m. Return 0, or 1 if the search in Python must decide: the start does not close, is far from the
- * guess, has no velocities, guesses points, or memory is short.
+ * coordinates q and velocities v (N_Q each), and *residual, the largest |Phi| or deviation from a set coordinate
+ * reached, m or rad. t: time, s; size: of the mechanism, m. Return 0, or 1 if the search in Python must decide: the
+ * start does not close, is far from the guess, has no velocities, guesses points, or memory is short.
  */
 int gudgeon_start(double t, const double *parameters, double size, double *q, double *v, double *residual)
 {

@@ -90,8 +90,8 @@ typedef struct {
 
 #endif
 /*
- * Discrete states: contact states, branches of switching functions, and the mode of each friction: 0 stick, 1 or -1
- * the sign of its slip, 2 no force, because others hold the slip at zero. While `held`, contacts and branches are
+ * Discrete states: contact states, branches of switching functions, and the mode of each friction: 0 stick, 1 or -1 the
+ * sign of its slip, 2 no force, because others hold the slip at zero. While `is_frozen`, contacts and branches are
  * frozen as they are here, whatever the state is.
  */
 typedef struct {
@@ -99,7 +99,7 @@ typedef struct {
     double mode[AT_LEAST_ONE(N_FRICTIONS)];
     double branch[AT_LEAST_ONE(N_SWITCHES)];
     signed char event_sign[AT_LEAST_ONE(N_USER_EVENTS)]; /* last sign of each user event; 0: none yet */
-    int held;
+    int is_frozen;
     Cancellation *token; /* NULL: no cancellation */
     int singular_policy;                  /* policy near a singular position, one of those below */
     double least, least_size; /* fraction of a pivot, of one or two equations, below which they are dependent */

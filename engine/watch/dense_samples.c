@@ -4,8 +4,8 @@
  * sampled on the dense output; a step that does not resolve it is repeated shorter. Scenes with bounds use watched.c.
  */
 #if N_WATCHED
-/* Evaluate the outputs of the right-hand side at a state y of the dense output; rates and status are discarded. */
-static void sample_dense_output(Integrator *run, double t, const double *y, const Parameters *p, RhsOutputs *rhs)
+/* Evaluate the outputs of the right-hand side at a state y and time t (s); rates and status are discarded. */
+static void evaluate_rhs_outputs(Integrator *run, double t, const double *y, const Parameters *p, RhsOutputs *rhs)
 {
     double dy[N_Y];
     (void)evaluate_run_rhs(run, t, y, p, dy, rhs);
@@ -30,9 +30,9 @@ static int may_have_zero(const Integrator *run, const Step *step, int event, dou
 }
 
 /*
- * Estimate by how much each watched function changes if every coordinate and velocity changes by one error tolerance:
- * uncertainty (N_WATCHED). Smaller values cannot be resolved. Called by is_step_unresolved() for the allowed error of
- * samples.
+ * Estimate by how much each watched function changes if all coordinates and velocities at the beginning of a step are
+ * raised by one error tolerance at once: uncertainty (N_WATCHED), by one evaluation. Smaller values cannot be resolved.
+ * Called by is_step_unresolved() for the allowed error of samples.
  */
 static void estimate_event_function_uncertainty(Integrator *run, const Step *step, const Parameters *p,
     double *uncertainty)
@@ -41,7 +41,7 @@ static void estimate_event_function_uncertainty(Integrator *run, const Step *ste
     RhsOutputs rhs;
     for (int k = 0; k < N_Y; k++)
         y[k] = run->y[k] + (k < 2 * N_X ? 1.0 / run->norm.weight[k] : 0.0);
-    sample_dense_output(run, step->t, y, p, &rhs);
+    evaluate_rhs_outputs(run, step->t, y, p, &rhs);
     for (int i = 0; i < N_WATCHED; i++)
         uncertainty[i] = fabs(
             event_function(&run->discrete, &rhs, watched[i]) - event_function(&run->discrete, &run->rhs, watched[i]));
@@ -115,7 +115,7 @@ static int is_step_unresolved(Integrator *run, Step *step, const Parameters *p)
         RhsOutputs rhs = sample < N_SAMPLES ? run->rhs : step->rhs;
         if (sample > 0 && sample < N_SAMPLES) {
             interpolate(run, step, (double)sample / N_SAMPLES, y);
-            sample_dense_output(run, step->t + (double)sample / N_SAMPLES * step->h, y, p, &rhs);
+            evaluate_rhs_outputs(run, step->t + (double)sample / N_SAMPLES * step->h, y, p, &rhs);
         }
         for (int i = 0; i < N_WATCHED; i++)
             step->sample[i][sample] = event_function(&run->discrete, &rhs, watched[i]);

@@ -34,8 +34,8 @@ static int is_contact_force_function(const Integrator *run, int event)
 
 #if N_FRICTIONS
 /*
- * Return the error of a slip velocity that the tolerances of all velocities allow, m/s, by one evaluation for each
- * velocity; 0 if it is not finite.
+ * Return the error of a slip velocity that the tolerances of all velocities allow, m/s: the sum of its changes by one
+ * tolerance of each velocity, one evaluation each. A failed evaluation counts as 0; 0 if the sum is not finite.
  */
 static double compute_slip_tolerance(Integrator *run, int element, const Parameters *p)
 {
@@ -96,7 +96,7 @@ static int collect_stage_samples(const Step *step, Sample begin, Sample end, Sta
  */
 static int may_terms_oscillate_between(Step *step, double begin, double end, const Parameters *p)
 {
-    Range term[N_TERMS], term_low[N_TERMS], term_middle[N_TERMS], term_high[N_TERMS];
+    Interval term[N_TERMS], term_low[N_TERMS], term_middle[N_TERMS], term_high[N_TERMS];
     const double width = end - begin;
     if (step->spread[0] < 0.0) {
         bound_time_terms(step->t, step->h, 0.0, 1.0, p, term);
@@ -110,7 +110,7 @@ static int may_terms_oscillate_between(Step *step, double begin, double end, con
     for (int k = 0; k < N_TERMS; k++) {
         const double slope = term_high[k].lo - term_low[k].lo,
             second_difference = fabs(term_low[k].lo - 2.0 * term_middle[k].lo + term_high[k].lo);
-        const double excess = max_of(width * term[k].up - slope, slope - width * term[k].down)
+        const double excess = max_of(width * term[k].max_slope - slope, slope - width * term[k].min_slope)
             - 2.0 * second_difference;
         if (!(excess <= MAX_TERM_EXCESS * step->spread[k]))
             return 1;

@@ -108,8 +108,8 @@ static int find_dense_sample(const DenseSamples *samples, double fraction, int g
 }
 
 /*
- * Store the event functions and slopes at a fraction of the step in place of the oldest sample, and return its index.
- * rhs: outputs there; gaps_only: store those of joints with play only.
+ * Store the event functions at a fraction of the step in place of the oldest sample, and return its index. Slopes are
+ * stored for joints with play only. rhs: outputs there; gaps_only: store the functions of these joints only.
  */
 static int add_dense_sample(Integrator *run, const Step *step, double fraction, const RhsOutputs *rhs, int gaps_only)
 {

@@ -8,9 +8,9 @@
  * Compute bounds (N_TERMS) of all terms of time alone over a part of an interval. begin, end: fractions of the interval
  * of length h (s) from t (s) on.
  */
-static void bound_time_terms(double t, double h, double begin, double end, const Parameters *p, Range *bounds)
+static void bound_time_terms(double t, double h, double begin, double end, const Parameters *p, Interval *bounds)
 {
-    time_terms((Range){t + begin * h, t + end * h, h, h, 0}, p, bounds);
+    time_terms((Interval){t + begin * h, t + end * h, h, h, 0}, p, bounds);
 }
 
 #if N_PULSES
@@ -31,12 +31,12 @@ typedef struct {
  * allowed_excess: of each term. The excess is bounded, and certain in the middle of the part. Called for each part that
  * find_undersampled_fraction() bisects.
  */
-static IntervalPart build_interval_part(double t, double h, double begin, double end, const Range *term_low,
-    const Range *term_high,
+static IntervalPart build_interval_part(double t, double h, double begin, double end, const Interval *term_low,
+    const Interval *term_high,
     const double *allowed_excess, const Parameters *p)
 {
     IntervalPart part = {begin, end, 0.0, 0.0};
-    Range bound[N_TERMS], middle[N_TERMS];
+    Interval bound[N_TERMS], middle[N_TERMS];
     bound_time_terms(t, h, begin, end, p, bound);
     bound_time_terms(t, h, 0.5 * (begin + end), 0.5 * (begin + end), p, middle);
     for (int k = 0; k < N_PULSES; k++) {
@@ -57,11 +57,11 @@ static IntervalPart build_interval_part(double t, double h, double begin, double
  */
 static int are_terms_monotone(double t, double h, double begin, double end, const Parameters *p)
 {
-    Range bound[N_TERMS];
+    Interval bound[N_TERMS];
     int monotone = 1;
     bound_time_terms(t, h, begin, end, p, bound);
     for (int k = 0; k < N_PULSES && monotone; k++)
-        monotone = bound[k].down >= 0.0 || bound[k].up <= 0.0;
+        monotone = bound[k].min_slope >= 0.0 || bound[k].max_slope <= 0.0;
     return monotone;
 }
 
@@ -71,8 +71,8 @@ static int are_terms_monotone(double t, double h, double begin, double end, cons
  * The part with the largest excess is bisected first. is_accurate(context, ...) is called at most MAX_HARMLESS_CHECKS
  * times.
  */
-static double find_undersampled_fraction(double t, double h, double begin, double end, const Range *term_low,
-    const Range *term_high,
+static double find_undersampled_fraction(double t, double h, double begin, double end, const Interval *term_low,
+    const Interval *term_high,
     const double *allowed_excess, AccuracyTest *is_accurate, void *context, const Parameters *p)
 {
     IntervalPart parts[MAX_INTERVAL_PARTS + 1];
@@ -112,7 +112,7 @@ static double find_undersampled_term(double t, double h, const double *node, int
     void *context,
     const Parameters *p)
 {
-    Range term_at[MAX_NODES][N_TERMS];
+    Interval term_at[MAX_NODES][N_TERMS];
     double allowed_excess[N_PULSES], fraction = 0.0;
     if (are_terms_monotone(t, h, 0.0, 1.0, p))
         return 0.0; /* its change shows at both ends */

@@ -79,12 +79,12 @@ static int is_below_uncertainty(Integrator *run, const Step *step, double fracti
  * ends are within rounding, and its bounds are within the tolerance, or narrow with the part because interval
  * arithmetic overestimates them. Return 0 if the function may be undefined in the part.
  */
-static int is_held_at_zero(const EventUncertainties *uncertainties, int index, Range bounds, double value_begin,
+static int is_held_at_zero(const EventUncertainties *uncertainties, int index, Interval bounds, double value_begin,
     double value_end,
     double width)
 {
     return fabs(value_begin) <= uncertainties->rounding[index] && fabs(value_end) <= uncertainties->rounding[index]
-        && !bounds.partly
+        && !bounds.may_be_undefined
         && (bounds.lo >= -uncertainties->tolerance[index]
             || is_bound_narrowing(bounds.lo, width, uncertainties->whole_lower[index]));
 }
@@ -133,7 +133,7 @@ static void expand_dense_output(const Integrator *run, const Step *step, DensePo
  * Compute bounds y (2 N_X) of coordinates and velocities, and of their slopes, over the fractions `begin` to `end` of a
  * step. The polynomial is shifted to the middle of the part, and each power is bounded by itself.
  */
-static void bound_state(const DensePolynomial *polynomial, double begin, double end, Range *y)
+static void bound_state(const DensePolynomial *polynomial, double begin, double end, Interval *y)
 {
     const double middle = 0.5 * (begin + end), half_width = 0.5 * (end - begin);
     for (int i = 0; i < 2 * N_X; i++) {
@@ -149,7 +149,7 @@ static void bound_state(const DensePolynomial *polynomial, double begin, double 
             lower += power * (j % 2 ? -fabs(c[j]) : min_of(c[j], 0.0));
             upper += power * (j % 2 ? fabs(c[j]) : max_of(c[j], 0.0));
         }
-        y[i] = (Range){c[0] + lower, c[0] + upper, c[1] - slope, c[1] + slope, 0};
+        y[i] = (Interval){c[0] + lower, c[0] + upper, c[1] - slope, c[1] + slope, 0};
     }
 }
 
@@ -158,15 +158,15 @@ static void bound_state(const DensePolynomial *polynomial, double begin, double 
  * Compute bounds (N_WATCHED) of all watched event functions from bounds of time t and of the state y. Each is
  * multiplied by the frozen branch of its switching function, or by the stored sign of its user event.
  */
-static void bound_event_functions_by_ranges(const Integrator *run, Range t, const Range *y, const Parameters *p,
-    Range *bounds)
+static void bound_event_functions_over_box(const Integrator *run, Interval t, const Interval *y, const Parameters *p,
+    Interval *bounds)
 {
     watched_ranges(t, y, y + N_X, &run->discrete, p, bounds);
     for (int i = 0; i < N_WATCHED; i++) {
         const int k = watched[i] - N_CLEARANCES;
         const double branch =
             k < N_SWITCHES ? run->discrete.branch[k] : run->discrete.event_sign[k - N_SWITCHES - N_FRICTIONS];
-        bounds[i] = range_times(only(branch), bounds[i]);
+        bounds[i] = interval_times(make_interval(branch), bounds[i]);
     }
 }
 
@@ -176,15 +176,15 @@ static void bound_event_functions_by_ranges(const Integrator *run, Range t, cons
  */
 static void bound_event_functions(
     const Integrator *run, const DensePolynomial *polynomial, double begin, double end, const Parameters *p,
-    Range *bounds)
+    Interval *bounds)
 {
-    const Range t = {
+    const Interval t = {
         polynomial->t + begin * polynomial->h, polynomial->t + end * polynomial->h, polynomial->h, polynomial->h, 0};
-    Range y[2 * N_X + 1] = { {0} };
+    Interval y[2 * N_X + 1] = { {0} };
 #if WATCHES_STATE
     bound_state(polynomial, begin, end, y);
 #endif
-    bound_event_functions_by_ranges(run, t, y, p, bounds);
+    bound_event_functions_over_box(run, t, y, p, bounds);
 }
 
 /* The search along a step: its dense output, and all event functions at the beginning of the current part. */
@@ -203,7 +203,8 @@ typedef struct {
  * to 0 if it is below its uncertainty. A function that is held at zero has none. Parts over which a user-defined event
  * may be undefined are halved until its NaN is recorded. is_small: the part is not halved further.
  */
-static int classify_event_function(WatchedStep *search, int index, Range bounds, double end, double width, int is_small,
+static int classify_event_function(WatchedStep *search, int index, Interval bounds, double end, double width,
+    int is_small,
     double *value_end)
 {
     const int event = watched[index] - N_CLEARANCES - N_SWITCHES - N_FRICTIONS;
@@ -218,7 +219,7 @@ static int classify_event_function(WatchedStep *search, int index, Range bounds,
         estimate_uncertainties(search->run, search->step, &search->uncertain, search->p);
         result = -!is_held_at_zero(&search->uncertain, index, bounds, search->at_a[index], *value_end, width);
     }
-    return bounds.partly && !is_small && event >= 0 && !search->run->events.no_number[event] ? -1 : result;
+    return bounds.may_be_undefined && !is_small && event >= 0 && !search->run->events.no_number[event] ? -1 : result;
 }
 
 /*
@@ -231,7 +232,7 @@ static int classify_event_functions(void *context, double begin, double end, int
     WatchedStep *search = context;
     Integrator *run = search->run;
     Step *step = search->step;
-    Range bounds[N_WATCHED];
+    Interval bounds[N_WATCHED];
     double values_end[N_WATCHED];
     int has_zero = 0;
     evaluate_event_functions_at(run, step, end, search->p, values_end);
@@ -267,18 +268,18 @@ static int classify_event_functions(void *context, double begin, double end, int
 static int is_clear_of_zeros_by_stages(Integrator *run, const Step *step, EventUncertainties *uncertainties,
     const Parameters *p)
 {
-    Range bounds[N_WATCHED], y[2 * N_X + 1] = { {0} };
-    const Range t = {step->t, step->t + step->h, -INFINITY, INFINITY, 0};
+    Interval bounds[N_WATCHED], y[2 * N_X + 1] = { {0} };
+    const Interval t = {step->t, step->t + step->h, -INFINITY, INFINITY, 0};
     for (int k = 0; k < 2 * N_X; k++) {
-        const double lower = min_of(step->least[k], min_of(run->y[k], step->y[k]));
-        const double upper = max_of(step->most[k], max_of(run->y[k], step->y[k])), beyond = 0.25 * (upper - lower);
-        y[k] = (Range){lower - beyond, upper + beyond, -INFINITY, INFINITY, 0};
+        const double lower = min_of(step->min_state[k], min_of(run->y[k], step->y[k]));
+        const double upper = max_of(step->max_state[k], max_of(run->y[k], step->y[k])), beyond = 0.25 * (upper - lower);
+        y[k] = (Interval){lower - beyond, upper + beyond, -INFINITY, INFINITY, 0};
     }
-    bound_event_functions_by_ranges(run, t, y, p, bounds);
+    bound_event_functions_over_box(run, t, y, p, bounds);
     for (int i = 0; i < N_WATCHED; i++) {
         const double from = event_function(&run->discrete, &run->rhs, watched[i]);
         const double to = event_function(&run->discrete, &step->rhs, watched[i]);
-        if (bounds[i].lo >= 0.0 && !bounds[i].partly && !(to < 0.0))
+        if (bounds[i].lo >= 0.0 && !bounds[i].may_be_undefined && !(to < 0.0))
             continue;
         estimate_uncertainties(run, step, uncertainties, p);
         if (!is_held_at_zero(uncertainties, i, bounds[i], from, to, 1.0))

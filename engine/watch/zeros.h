@@ -25,9 +25,9 @@
 #include "ranges.h"
 
 enum {
-    FAST_EVALUATIONS = 6, /* evaluations that usually locate a zero */
-    MAX_POINTS = 4,      /* samples through which a zero is interpolated */
-    DEEPEST = 64,         /* halvings of an interval */
+    FAST_EVALUATIONS = 6,   /* evaluations that usually locate a zero */
+    MAX_POINTS = 4,         /* samples through which a zero is interpolated */
+    MAX_PART_HALVINGS = 64, /* halvings of an interval */
     MAX_PARTS_SEEN = 2000
 };
 #define MIN_THIRD_DISTANCE 1e-4 /* of a bracket: a third point nearer to an end shows rounding only */
@@ -192,15 +192,16 @@ static inline int locate_zero(EvaluateEventFunction *evaluate, void *context, co
 
 /*
  * Classify the parts of an interval from `begin` to `end` in order, by bisection: classify(context, begin, end,
- * is_small) returns 1, 0 or -1 (ClassifyPart). Parts of at most `width`, beyond DEEPEST halvings or MAX_PARTS_SEEN
- * parts are small: they are not halved. Return 1 if a part ends the search, else 0.
+ * is_small) returns 1, 0 or -1 (ClassifyPart). Parts of at most `width`, beyond MAX_PART_HALVINGS halvings or
+ * MAX_PARTS_SEEN parts are small: they are not halved. Return 1 if a part ends the search, else 0.
  */
 static inline int bisect_parts(double begin, double end, double width, ClassifyPart *classify, void *context)
 {
-    double ends[DEEPEST + 2] = {end};
+    double ends[MAX_PART_HALVINGS + 2] = {end};
     for (int n_ends = 1, n_parts = 0; n_ends > 0;) {
         const double middle = begin + 0.5 * (ends[n_ends - 1] - begin);
-        const int is_small = ends[n_ends - 1] - begin <= width || n_ends > DEEPEST || ++n_parts > MAX_PARTS_SEEN
+        const int is_small = ends[n_ends - 1] - begin <= width || n_ends > MAX_PART_HALVINGS
+            || ++n_parts > MAX_PARTS_SEEN
             || !(begin < middle && middle < ends[n_ends - 1]);
         const int result = classify(context, begin, ends[n_ends - 1], is_small);
         if (result > 0)
@@ -219,19 +220,19 @@ static inline int bisect_parts(double begin, double end, double width, ClassifyP
  * not before, 0 if it is negative nowhere, -1 if that is not known (never if is_small). Bounds contain rounding errors:
  * the sign computed at the end has priority.
  */
-static inline int classify_zero(Range bounds, double value_begin, double value_end, double width, int is_small)
+static inline int classify_zero(Interval bounds, double value_begin, double value_end, double width, int is_small)
 {
     if (is_empty(bounds) || (bounds.lo >= 0.0 && !(value_end < 0.0)))
         return 0;
     if (is_small)
         return value_end < 0.0;
-    if (bounds.partly)
+    if (bounds.may_be_undefined)
         return -1;
-    if (bounds.down >= 0.0 || bounds.up <= 0.0)
+    if (bounds.min_slope >= 0.0 || bounds.max_slope <= 0.0)
         return value_end < 0.0;
     /* the lowest that a function of these slopes between these ends may reach */
-    const double lowest = value_begin + bounds.down
-        * (value_end - value_begin - bounds.up * width) / (bounds.down - bounds.up);
+    const double lowest = value_begin + bounds.min_slope
+        * (value_end - value_begin - bounds.max_slope * width) / (bounds.min_slope - bounds.max_slope);
     return value_begin >= 0.0 && value_end >= 0.0 && lowest >= 0.0 ? 0 : -1;
 }
 
@@ -273,13 +274,13 @@ static inline int detect_event_crossing(int event, signed char *sign, double val
 static inline void estimate_error_by_bounds(double t, const double *q, const double *v, const double *q_error,
     const double *v_error, int n_coordinates, const DiscreteState *discrete, const Parameters *p, double *uncertainty)
 {
-    Range q_bounds[N_Q + N_X], v_bounds[N_Q + N_X], bounds[N_WATCHED];
+    Interval q_bounds[N_Q + N_X], v_bounds[N_Q + N_X], bounds[N_WATCHED];
     const double t_error = 4.0 * DBL_EPSILON * fabs(t);
     for (int k = 0; k < n_coordinates; k++) {
-        q_bounds[k] = (Range){q[k] - q_error[k], q[k] + q_error[k], 0.0, 0.0, 0};
-        v_bounds[k] = (Range){v[k] - v_error[k], v[k] + v_error[k], 0.0, 0.0, 0};
+        q_bounds[k] = (Interval){q[k] - q_error[k], q[k] + q_error[k], 0.0, 0.0, 0};
+        v_bounds[k] = (Interval){v[k] - v_error[k], v[k] + v_error[k], 0.0, 0.0, 0};
     }
-    watched_ranges((Range){t - t_error, t + t_error, 0.0, 0.0, 0}, q_bounds, v_bounds, discrete, p, bounds);
+    watched_ranges((Interval){t - t_error, t + t_error, 0.0, 0.0, 0}, q_bounds, v_bounds, discrete, p, bounds);
     for (int i = 0; i < N_WATCHED; i++)
         uncertainty[i] = isfinite(bounds[i].hi - bounds[i].lo) ? 0.5 * (bounds[i].hi - bounds[i].lo) : 0.0;
 }

@@ -59,8 +59,8 @@ class Function:
     NumPy where NumPy has no such function. derivative: of a function of one argument, as files write it, of the
     argument `x` and the function's value `f`. far_derivative: the same without the square of an argument, which may
     overflow where the derivative matters. domain: outside it the function is undefined. bounds: None where
-    engine/watch/ranges.h has `range_` and the C name. has_vector_code: engine/batch/lane_functions.h has `lanes_` and
-    the C name; else lane after lane calls the library. jump_order: order of the lowest derivative that jumps at a
+    engine/watch/ranges.h has `interval_` and the C name. has_vector_code: engine/batch/lane_functions.h has `lanes_`
+    and the C name; else lane after lane calls the library. jump_order: order of the lowest derivative that jumps at a
     switching point; None: smooth in its domain. is_total: defined and finite for all numbers. saturates: finite where
     its argument is infinite. divides: by its last argument. hides_corners: a smooth argument may give a value whose
     slope jumps, as acos(cos t) does. copies: how many times the formula of generator/symbols holds the arguments.

@@ -45,11 +45,11 @@ def c_code() -> str:
     text = [C, of_lanes[of_lanes.index("#if defined(__AVX512F__)") : of_lanes.index('#include "lane')], LANES]
     plain = Readable(())
     for k, function in enumerate(FUNCTIONS.values()):
-        for kind, printer in (("double", CPrinter), ("Lanes", LanesPrinter), ("Range", RangesPrinter)):
+        for kind, printer in (("double", CPrinter), ("Lanes", LanesPrinter), ("Interval", RangesPrinter)):
             named = "".join(f"    const {kind} {name} = x[{i}];\n" for i, name in enumerate(names(function)))
             value = printer(plain).doprint(in_sympy(function))
             text.append(f"static {kind} {kind}_{k}(const {kind} *x)\n{{\n{named}    return {value};\n}}\n")
-    for kind in ("double", "Lanes", "Range"):
+    for kind in ("double", "Lanes", "Interval"):
         cases = ", ".join(f"{kind}_{k}" for k in range(len(FUNCTIONS)))
         text.append(f"static {kind} (*const of_{kind}[])(const {kind} *) = {{{cases}}};\n")
     return (
@@ -65,11 +65,11 @@ double lane(int k, const double *x, int n, int at)
 }
 void bounds(int k, const double *from, const double *way, int n, double *out)
 {
-    Range all[4];
+    Interval all[4];
     for (int i = 0; i < n; i++)
-        all[i] = (Range){min_of(from[i], from[i] + way[i]), max_of(from[i], from[i] + way[i]), way[i], way[i], 0};
-    const Range y = of_Range[k](all);
-    out[0] = y.lo, out[1] = y.hi, out[2] = y.down, out[3] = y.up, out[4] = y.partly;
+        all[i] = (Interval){min_of(from[i], from[i] + way[i]), max_of(from[i], from[i] + way[i]), way[i], way[i], 0};
+    const Interval y = of_Interval[k](all);
+    out[0] = y.lo, out[1] = y.hi, out[2] = y.min_slope, out[3] = y.max_slope, out[4] = y.may_be_undefined;
 }
 """
     )

@@ -90,7 +90,7 @@ def test_switches_of_driven_chains_that_nobody_evaluates(tmp_path: Path) -> None
     heading = "    /* directions, arms, drives */"
     ranges = part_of(right.source.files["watched.c"], "watched_ranges", heading, "}\n")
     values = part_of(right.source.files["reduced.c"], "void watched_functions", heading, "\n}")
-    garbage = "    out[0] = out[1] = (Range){-INFINITY, INFINITY, -INFINITY, INFINITY, 0};\n"  # whatever lies there
+    garbage = "    out[0] = out[1] = (Interval){-INFINITY, INFINITY, -INFINITY, INFINITY, 0};\n"  # whatever lies there
     stale = "    rhs->g[0] = rhs->g[1] = -1.0;"
     wrong = mutant(right, tmp_path, ("watched.c", ranges, garbage), ("reduced.c", values, stale))
     specified = reported(wrong, 6.0)  # whichever comes first

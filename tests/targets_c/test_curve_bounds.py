@@ -27,9 +27,10 @@ double value(int order, double x, double side) { return curve_on(CURVE_c_, order
 double knot(double x) { return knots(CURVE_c_, x); }
 void bounds(int order, double lo, double hi, double side, double *out)
 {
-    const Range x = {lo, hi, 1.0, 1.0, 0};
-    const Range y = order < 0 ? range_knots(CURVE_c_, x) : range_curve_on(CURVE_c_, order, x, only(side));
-    out[0] = y.lo, out[1] = y.hi, out[2] = y.down, out[3] = y.up;
+    const Interval x = {lo, hi, 1.0, 1.0, 0};
+    const Interval y = order < 0 ? interval_knots(CURVE_c_, x)
+        : interval_curve_on(CURVE_c_, order, x, make_interval(side));
+    out[0] = y.lo, out[1] = y.hi, out[2] = y.min_slope, out[3] = y.max_slope;
 }
 """
 

@@ -52,7 +52,7 @@ ANYWHERE = {
     "a name that another has taken": r"\b\w+_[xy]_2_\b",
 }
 IN_KERNELS = {
-    "a copy of an argument": r"const (?:double|Lanes|Range) (?:(\w+) = p->\1|\w+ = t);",
+    "a copy of an argument": r"const (?:double|Lanes|Interval) (?:(\w+) = p->\1|\w+ = t);",
     "a conditional in a conditional": r"\?[^;?{,]*\?[^;]*;",
     "a number of the run copied before it is kept": r"const double (\w+) = [^;]*;[^\n]*\n    p->\1 = \1;",
 }

@@ -17,12 +17,16 @@ _TEXT = """#include <float.h>
 enum { RATE_JUMPS = 0 };
 #include "engine/scene/numbers.h"
 #include "engine/watch/ranges.h"
-double value(double a, double b, double side) { return side == 2.0 ? period_branch(a, b) : mod_on(a, b, side); }
+double value(double a, double b, double side)
+{
+    return side == 2.0 ? period_branch(a, b) : mod_on(a, b, side);
+}
 void bounds(double lo, double hi, double b, double side, double *out)
 {
-    const Range a = {lo, hi, 1.0, 1.0, 0};
-    const Range y = side == 2.0 ? range_period_branch(a, only(b)) : range_mod_on(a, only(b), only(side));
-    out[0] = y.lo, out[1] = y.hi, out[2] = y.down, out[3] = y.up;
+    const Interval a = {lo, hi, 1.0, 1.0, 0};
+    const Interval y = side == 2.0 ? interval_period_branch(a, make_interval(b))
+        : interval_mod_on(a, make_interval(b), make_interval(side));
+    out[0] = y.lo, out[1] = y.hi, out[2] = y.min_slope, out[3] = y.max_slope;
 }
 """
 PERIODS = 2.0  # in place of a side: the function that tells sides

@@ -272,7 +272,7 @@ def _count_operations(program: Program) -> dict[str, int]:
 
 
 def print_start_comparison(kernels: Iterable[Kernel]) -> str:
-    """Return the C function `same_start`, which returns whether two runs have equal parameters for closing the linkage.
+    """Return the C function `same_start`: whether two runs have equal parameters for the closure.
 
     It compares the parameters that the `kernels` read. It returns 0 if the kernels read tables or pass on all
     parameters, since members cannot be listed then.

@@ -271,7 +271,7 @@ def _print_branch_arrays(branches: DeclareBranches) -> list[str]:
     `branch` is NULL if no branch is frozen. `g` is omitted, a local array, or part of the results, as `branches` says.
     """
     stored_branches = (
-        "discrete->held ? discrete->branch : NULL;"
+        "discrete->is_frozen ? discrete->branch : NULL;"
         if branches.held
         else "NULL; /* of corners within corners: as they are */"
     )

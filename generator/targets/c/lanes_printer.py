@@ -173,7 +173,7 @@ class LaneLines(functions.LinePrinter):
                 return ["const LaneParameters *const p = lin->p;"]
             case DeclareBranches():
                 stored_branches, local_array = (
-                    "held_branches(discrete)" if line.held else "NULL",
+                    "frozen_branches(discrete)" if line.held else "NULL",
                     "Lanes g[N_SWITCHES + 1];",
                 )
                 declarations_of_target = {

@@ -120,9 +120,10 @@ def _derive_dimension(value: sp.Expr, dimensions: dict[sp.Symbol, Dimension | No
 Sizes = dict[str, tuple[int | float, str]]
 
 _POSITION = {"vx": "x", "vy": "y", "omega": "theta"}  # coordinate of which each rate is the derivative
+_MAX_PENETRATION = "max_valid_penetration"
 _PARAMETER_MEANINGS = {
     "radial_clearance": "Radial clearance of joint i with play, m.",
-    "deepest": "The penetration beyond which contact laws mean nothing, m: a tenth of the bearing's radius.",
+    _MAX_PENETRATION: "The penetration beyond which contact laws mean nothing, m: a tenth of the bearing's radius.",
     "min_approach_speed": "The least velocity that counts as that of an impact, m/s.",
     "breakaway": "The deflection at which friction with an inner state slides, m; 0: not known.",
     "restitution_of": "Where surfaces do not give, speed of parting by speed of approach.",
@@ -457,7 +458,7 @@ def list_joint_parameters(model: Model) -> list[tuple[str, str, list[str]]]:
     """
     values = {
         "radial_clearance": [c.pair.c for c in model.clearances],
-        "deepest": [get_max_penetration(c) for c in model.clearances],
+        _MAX_PENETRATION: [get_max_penetration(c) for c in model.clearances],
         "min_approach_speed": [c.velocity_floor for c in model.clearances],
     }
     if model.law_states:
@@ -469,9 +470,9 @@ def list_joint_parameters(model: Model) -> list[tuple[str, str, list[str]]]:
         }
     meanings = dict(_PARAMETER_MEANINGS)
     if any(MAX_PENETRATION in c.constants for c in model.clearances):
-        meanings["deepest"] = meanings["deepest"].replace("radius.", "radius, or a law's own.")
+        meanings[_MAX_PENETRATION] = meanings[_MAX_PENETRATION].replace("radius.", "radius, or a law's own.")
     if any(c.wall for c in model.clearances):
-        meanings["deepest"] = meanings["deepest"].replace("radius", "radius, of half a guide's width", 1)
+        meanings[_MAX_PENETRATION] = meanings[_MAX_PENETRATION].replace("radius", "radius, of half a guide's width", 1)
     return [
         (
             meanings[name],

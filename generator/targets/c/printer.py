@@ -195,7 +195,7 @@ class CPrinter(CachedPrinter, C99CodePrinter):
     def _print_ContourOf(self, expr: ContourOf) -> str:
         """Print the depth of a contour or its derivative (symbols/curves.py)."""
         table, angle = self.get_name(Place(PARAMETERS)[expr.table]), self._print(expr.args[3])
-        return f"contour({table}, {expr.count}, {expr.order}, {angle})"
+        return f"evaluate_contour({table}, {expr.count}, {expr.order}, {angle})"
 
     def _print_ModOf(self, expr: sp.Expr) -> str:
         """Print a remainder (symbols/switches.py)."""

@@ -18,7 +18,7 @@ from gudgeon.generator.symbols.storage import Place
 from gudgeon.generator.targets.c import functions, printer
 from gudgeon.generator.targets.cached_printer import order_terms
 
-_TYPES: dict[Type, Type] = {Number.REAL: "Range", "RhsOutputs": "Range"}
+_TYPES: dict[Type, Type] = {Number.REAL: "Interval", "RhsOutputs": "Interval"}
 _NAMES = {"rhs": "out"}
 _RANGES = {"q", "v", "t"}  # arguments that are ranges; all others are numbers
 
@@ -29,24 +29,24 @@ class RangesPrinter(printer.CPrinter):
     def print_place(self, place: Place) -> str:
         """Return a place as C; a parameter becomes a range of one value."""
         text = super().print_place(place)
-        return f"only({text})" if place.is_parameter else text
+        return f"make_interval({text})" if place.is_parameter else text
 
     def _print_range(self, expr: sp.Expr) -> str:
         """Print an expression as a range; a constant becomes a range of one value."""
         text: str = self._print(expr)
-        return text if expr.free_symbols else f"only({text})"
+        return text if expr.free_symbols else f"make_interval({text})"
 
     def _print_call(self, function_name: str, *arguments: sp.Expr) -> str:
         """Print a call of a function of ranges; with constant arguments only, the call of the function of numbers."""
         if not any(argument.free_symbols for argument in arguments):
             return super()._print_call(function_name, *arguments)
-        return f"range_{function_name}({', '.join(map(self._print_range, arguments))})"
+        return f"interval_{function_name}({', '.join(map(self._print_range, arguments))})"
 
     def _print_chained_calls(self, function_name: str, arguments: tuple[sp.Expr, ...]) -> str:
         """Print a function of two ranges applied to all arguments, from the first on."""
         text = self._print_range(arguments[0])
         for argument in arguments[1:]:
-            text = f"range_{function_name}({text}, {self._print_range(argument)})"
+            text = f"interval_{function_name}({text}, {self._print_range(argument)})"
         return text
 
     def _print_Add(self, expr: sp.Expr, order: object = None) -> str:
@@ -81,7 +81,7 @@ class RangesPrinter(printer.CPrinter):
         if exponent in named:
             return self._print_call(named[exponent], base)
         if exponent == sp.Rational(-1, 2):
-            return f"range_inverse({self._print_call('sqrt', base)})"
+            return f"interval_inverse({self._print_call('sqrt', base)})"
         return self._print_call("pow", base, exponent)
 
     def _print_nested_calls(self, function_name: str, expr: sp.Expr) -> str:
@@ -96,7 +96,7 @@ class RangesPrinter(printer.CPrinter):
 
     def _print_BranchOf(self, expr: sp.Expr) -> str:
         """Print the active branch of a switching function of ranges."""
-        return f"range_branch(branch, {int(expr.args[0])}, {self._print_range(expr.args[1])})"
+        return f"interval_branch(branch, {int(expr.args[0])}, {self._print_range(expr.args[1])})"
 
     def _print_Slope(self, expr: sp.Expr) -> str:
         """Print a derivative without its replacement: for ranges 0 times infinity is 0."""
@@ -110,20 +110,20 @@ class RangesPrinter(printer.CPrinter):
         """Print the value of a curve over a range."""
         if not expr.free_symbols:
             return super()._print_CurveOf(expr)
-        return f"range_curve({make_curve_name(expr.name)}, {expr.order}, {self._print_range(expr.args[2])})"
+        return f"interval_curve({make_curve_name(expr.name)}, {expr.order}, {self._print_range(expr.args[2])})"
 
     def _print_CurveOn(self, expr: CurveOn) -> str:
         """Print the value of a curve over a range, on the piece that its branch selects."""
         x, side = map(self._print_range, expr.args[2:])
-        return f"range_curve_on({make_curve_name(expr.name)}, {expr.order}, {x}, {side})"
+        return f"interval_curve_on({make_curve_name(expr.name)}, {expr.order}, {x}, {side})"
 
     def _print_KnotsOf(self, expr: KnotsOf) -> str:
         """Print the event function of a curve's knots over a range."""
-        return f"range_knots({make_curve_name(expr.name)}, {self._print_range(expr.args[1])})"
+        return f"interval_knots({make_curve_name(expr.name)}, {self._print_range(expr.args[1])})"
 
     def _print_Pick(self, expr: sp.Expr) -> str:
         """Print a choice by the sign of a range."""
-        return self._print_call("pick", *expr.args)
+        return self._print_call("select", *expr.args)
 
 
 class _RangeLines(functions.LinePrinter):
@@ -136,7 +136,7 @@ class _RangeLines(functions.LinePrinter):
         if isinstance(value, sp.Basic):
             return self.printer._print_range(value)
         text = super().print_expression(value)
-        return text if value.names & _RANGES else f"only({text})"
+        return text if value.names & _RANGES else f"make_interval({text})"
 
 
 def print_kernel(kernel: Kernel) -> str:
@@ -150,5 +150,5 @@ def print_kernel(kernel: Kernel) -> str:
     range_kernel = replace(kernel, arguments=arguments)
     readable_lines = make_readable(range_kernel, name_branches=False)
     return functions.print_function(
-        range_kernel, _RangeLines(RangesPrinter(readable_lines), "Range"), readable_lines, is_called_by_engine=True
+        range_kernel, _RangeLines(RangesPrinter(readable_lines), "Interval"), readable_lines, is_called_by_engine=True
     )

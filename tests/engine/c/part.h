@@ -29,7 +29,7 @@ static int failures;
     ((mask) ? (void)0 : (void)(failures++, fprintf(stderr, "%s:%d: %s\n", __FILE__, __LINE__, #mask)))
 #define CLOSE(x, y, tolerance) (fabs((x) - (y)) <= (tolerance))
 
-int motion(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dy, RhsOutputs *rhs)
+int compute_motion_rates(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dy, RhsOutputs *rhs)
 {
     (void)t, (void)discrete;
     *rhs = (RhsOutputs){.clearance = {{.delta = y[0] - p->offset, .e = y[0], .deltadot = y[1]}}, .g = {NAN}};
@@ -43,9 +43,9 @@ int motion(double t, const double *y, DiscreteState *discrete, const Parameters 
 int evaluate_contacts(double t, const double *y, DiscreteState *discrete, const Parameters *p, RhsOutputs *rhs)
 {
     double dy[N_Y];
-    return motion(t, y, discrete, p, dy, rhs);
+    return compute_motion_rates(t, y, discrete, p, dy, rhs);
 }
 
 double radial_clearance(const Parameters *p, int i) { return (void)i, p->radius; }
-double deepest(const Parameters *p, int i) { return (void)i, p->radius; }
+double max_valid_penetration(const Parameters *p, int i) { return (void)i, p->radius; }
 double min_approach_speed(const Parameters *p, int i) { return (void)p, (void)i, 1e-3; }

@@ -8,7 +8,7 @@ static int steps_to_change(double stability, int most)
 {
     const Method *method = run.choice.method;
     for (int k = 1; k <= most; k++) {
-        record_stability(&run, stability);
+        store_stiffness_estimate(&run, stability);
         choose_method(&run, NULL);
         if (run.choice.method != method)
             return k;

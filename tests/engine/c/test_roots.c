@@ -14,7 +14,7 @@ static double event_on_cosine(double t, double h, double offset)
     set_time_resolution(&run, 1.0);
     run.norm.speed[0] = run.norm.speed[1] = run.norm.energy_scale = 1.0;
     update_error_weights(&run);
-    run.discrete.held = 1;
+    run.discrete.is_frozen = 1;
     run.discrete.branch[0] = 1.0;
     Step *step = &run.step;
     step->method = run.choice.method;

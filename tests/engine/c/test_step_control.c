@@ -40,9 +40,9 @@ int main(void)
     step.has_zero_bracket = 0;
 
     /* stability bounds an explicit step */
-    record_stability(&run, 2.0 * step.method->bounded);
+    store_stiffness_estimate(&run, 2.0 * step.method->bounded);
     CHECK(CLOSE(growth(1e-6, 1e-4), 0.5 * STABLE_GROWTH, 1e-12));
-    record_stability(&run, 0.0);
+    store_stiffness_estimate(&run, 0.0);
 
     /* where errors are h^(1/power), lengths converge to the fixed point of the formula: 0.9 e^(-0.6 power) = 1 */
     double h = 0.1;
