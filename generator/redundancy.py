@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from gudgeon.assembly.linkage import scale_rows
 from gudgeon.assembly.mobility import check_degrees_of_freedom, find_mobility
-from gudgeon.assembly.rank import RANK, SAMPLES, compute_dependence_shares, compute_rank, find_nearby_configurations
+from gudgeon.assembly.rank import RANK, SAMPLES, compute_left_null_maxima, compute_rank, find_nearby_configurations
 from gudgeon.assembly.start import search_start
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import BadValueError, GudgeonError
@@ -138,6 +138,6 @@ def _select_redundant_rows(rows: Sequence[Row], matrix: Array, rank_of_matrix: i
             basis = np.vstack([basis, remainder / np.linalg.norm(remainder)])
         else:
             redundant.append(r)
-    is_undetermined = compute_dependence_shares(matrix) > 1e-7
+    is_undetermined = compute_left_null_maxima(matrix) > 1e-7
     owners = dict.fromkeys(rows[r].owner for r in range(len(rows)) if is_undetermined[r])
     return Redundancy(tuple(rows[r].name for r in sorted(redundant)), tuple(owners))

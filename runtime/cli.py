@@ -324,11 +324,11 @@ def benchmark_methods(
 
     Example: gudgeon bench engine.yaml --scene worn --mark-step 0.1ms
     """
-    from gudgeon.commands.bench import bench_file
+    from gudgeon.commands.bench import benchmark_file
     from gudgeon.commands.studies import Request
 
     request = Request(file, tuple(scene or ()), tuple(set_ or ()), t_end, out, csv, quick, mark, json)
-    return bench_file(request, tuple(methods or ()))
+    return benchmark_file(request, tuple(methods or ()))
 
 
 @app.command("stress", hidden=True)

@@ -25,12 +25,12 @@ import numpy as np
 
 import gudgeon
 from gudgeon.assembly.large import solve_damped_least_squares, solve_minimum_norm
-from gudgeon.assembly.rank import compute_dependence_shares, compute_rank
+from gudgeon.assembly.rank import compute_left_null_maxima, compute_rank
 from gudgeon.assembly.start import search_start
 from gudgeon.mechanisms.n_four_bar import text as n_four_bar
 from gudgeon.results.batch import Batch
 from gudgeon.results.results import Result
-from gudgeon.studies.map import verdict_map
+from gudgeon.studies.map import compute_verdict_map
 from tests.assembly.test_large import squares
 from tests.simulation.kept import check_kept
 
@@ -143,7 +143,7 @@ def large(folder: Path) -> list[Activity]:
         solve_minimum_norm(matrix, target)
         solve_damped_least_squares(matrix[:, every % 3 != 2], target)
         solve_minimum_norm(np.vstack([matrix, matrix[:1]]), np.ones(len(matrix) + 1))
-        compute_dependence_shares(matrix), compute_rank(matrix), compute_rank(np.vstack([matrix, matrix[:1]]))
+        compute_left_null_maxima(matrix), compute_rank(matrix), compute_rank(np.vstack([matrix, matrix[:1]]))
 
     def check(run: object) -> None:
         assert run is None or isinstance(run, Result) and np.isfinite(run.q).all()
@@ -192,7 +192,7 @@ def activities(folder: Path) -> list[Activity]:
         batch_of("batch auto", dry),
         batch_of("batch lanes", dry, method="rk4", step=2e-6),
         Activity("horizon", lambda: dry.simulate(0.3, output=300, horizon=True), lambda _: None),
-        Activity("map", lambda: verdict_map(oil, t_long=0.05, quick=True), lambda _: None),
+        Activity("map", lambda: compute_verdict_map(oil, t_long=0.05, quick=True), lambda _: None),
         Activity("start", start_again, lambda _: None),
         Activity("save", lambda: long.save(folder / "run.nc"), check_saved),
         Activity("compile", compile_cold, check_cache),

@@ -13,7 +13,7 @@ from itertools import combinations
 
 import numpy as np
 
-from gudgeon.assembly.closure import Closure
+from gudgeon.assembly.closure import AssemblyProblem
 from gudgeon.assembly.guess_warnings import APART
 from gudgeon.assembly.linkage import Linkage
 from gudgeon.model.compiled import Array
@@ -45,40 +45,40 @@ def find_assemblies(
     """
     index_of = {name: k for k, name in enumerate(linkage.source.coordinates)}
     free = [name for name in movable_coordinates if name not in linkage.source.start_set]
-    closure = Closure(linkage, p, t, {name: float(q[index_of[name]]) for name in free})
+    problem = AssemblyProblem(linkage, p, t, {name: float(q[index_of[name]]) for name in free})
     with np.errstate(all="ignore"):
-        configurations = _find_distinct_configurations(closure, q)
-        names = [name for name in linkage.source.coordinates if closure.is_angle[index_of[name]]]
-        names += [name for name in linkage.source.coordinates if not closure.is_angle[index_of[name]]]
-        distinguishing = _select_distinguishing_coordinates(configurations, closure, [index_of[name] for name in names])
+        configurations = _find_distinct_configurations(problem, q)
+        names = [name for name in linkage.source.coordinates if problem.is_angle[index_of[name]]]
+        names += [name for name in linkage.source.coordinates if not problem.is_angle[index_of[name]]]
+        distinguishing = _select_distinguishing_coordinates(configurations, problem, [index_of[name] for name in names])
         coordinates = linkage.source.coordinates
         assemblies = [
             Assembly(
                 x,
-                {coordinates[k]: _reduce_coordinate(closure, x, k) for k in distinguishing},
-                _find_largest_guess_error(closure, x),
+                {coordinates[k]: _reduce_coordinate(problem, x, k) for k in distinguishing},
+                _find_largest_guess_error(problem, x),
             )
             for x in configurations
         ]
     return [replace(assembly, is_start=k == 0) for k, assembly in enumerate(assemblies)]
 
 
-def _find_distinct_configurations(closure: Closure, start: Array) -> list[Array]:
+def _find_distinct_configurations(problem: AssemblyProblem, start: Array) -> list[Array]:
     """Return the configurations found from random starts, without repetitions; `start` is the first.
 
     The search ends after MOST_TRIES starts, or IDLE successive ones without a new result. Angles that differ by full
     turns are the same.
     """
     rng, configurations, idle = np.random.default_rng(1), [start], 0
-    spread = np.where(closure.is_angle, np.pi, closure.size)
+    spread = np.where(problem.is_angle, np.pi, problem.size)
     for _ in range(MOST_TRIES):
         x = start + spread * rng.uniform(-1.0, 1.0, len(start))
-        x[closure.set_index] = closure.set
-        x = closure.solve_newton(closure.determine_angles(x))
+        x[problem.set_index] = problem.set
+        x = problem.solve_newton(problem.determine_angles(x))
         new = (
-            closure.is_closed(x)
-            and closure.has_bodies_in_range(x)
-            and not any(_are_same_configuration(closure, x, y) for y in configurations)
+            problem.is_closed(x)
+            and problem.has_bodies_in_range(x)
+            and not any(_are_same_configuration(problem, x, y) for y in configurations)
         )
         configurations, idle = ([*configurations, x], 0) if new else (configurations, idle + 1)
         if idle >= IDLE:
@@ -86,42 +86,42 @@ def _find_distinct_configurations(closure: Closure, start: Array) -> list[Array]
     return configurations
 
 
-def _compute_differences(closure: Closure, x: Array, y: Array) -> Array:
+def _compute_differences(problem: AssemblyProblem, x: Array, y: Array) -> Array:
     """Return the magnitudes (n,) of the differences of two configurations: angles in rad within half a turn, lengths
     over the size.
     """
     difference = x - y
-    return np.abs(np.where(closure.is_angle, (difference + np.pi) % (2.0 * np.pi) - np.pi, difference / closure.size))
+    return np.abs(np.where(problem.is_angle, (difference + np.pi) % (2.0 * np.pi) - np.pi, difference / problem.size))
 
 
-def compute_guess_distance(closure: Closure, x: Array, y: Array) -> float:
+def compute_guess_distance(problem: AssemblyProblem, x: Array, y: Array) -> float:
     """Return the largest difference of two configurations in guessed coordinates and points: rad, or relative to the
     size.
 
     It is 0 without guesses.
     """
     points = [
-        closure.compute_point_error(x, point, np.zeros(2)) - closure.compute_point_error(y, point, np.zeros(2))
-        for point, _ in closure.points
+        problem.compute_point_error(x, point, np.zeros(2)) - problem.compute_point_error(y, point, np.zeros(2))
+        for point, _ in problem.points
     ]
-    far = [float(np.linalg.norm(away)) / closure.size for away in points]
-    return max([*far, *_compute_differences(closure, x, y)[closure.guessed].tolist()], default=0.0)
+    far = [float(np.linalg.norm(away)) / problem.size for away in points]
+    return max([*far, *_compute_differences(problem, x, y)[problem.guessed].tolist()], default=0.0)
 
 
-def _are_same_configuration(closure: Closure, x: Array, y: Array) -> bool:
+def _are_same_configuration(problem: AssemblyProblem, x: Array, y: Array) -> bool:
     """Return whether two configurations differ by less than SAME in every coordinate."""
-    return bool(_compute_differences(closure, x, y).max(initial=0.0) < SAME)
+    return bool(_compute_differences(problem, x, y).max(initial=0.0) < SAME)
 
 
 def _select_distinguishing_coordinates(
-    configurations: Sequence[Array], closure: Closure, preferred_order: Sequence[int]
+    configurations: Sequence[Array], problem: AssemblyProblem, preferred_order: Sequence[int]
 ) -> list[int]:
     """Return the indices of few coordinates in which all configurations differ from each other.
 
     They are chosen greedily by the number of pairs that they separate; `preferred_order`: preference among equals.
     """
     selected: list[int] = []
-    pairs = [_compute_differences(closure, x, y) for x, y in combinations(configurations, 2)]
+    pairs = [_compute_differences(problem, x, y) for x, y in combinations(configurations, 2)]
     remaining = list(range(len(pairs)))
     while remaining:
         best = max(preferred_order, key=lambda k: sum(bool(pairs[i][k] > APART) for i in remaining))
@@ -133,23 +133,23 @@ def _select_distinguishing_coordinates(
     return selected
 
 
-def _reduce_coordinate(closure: Closure, x: Array, index: int) -> float:
+def _reduce_coordinate(problem: AssemblyProblem, x: Array, index: int) -> float:
     """Return coordinate k of a configuration; an angle is reduced to [−π, π)."""
     value = float(x[index])
-    return float((value + np.pi) % (2.0 * np.pi) - np.pi) if closure.is_angle[index] else value
+    return float((value + np.pi) % (2.0 * np.pi) - np.pi) if problem.is_angle[index] else value
 
 
-def _find_largest_guess_error(closure: Closure, x: Array) -> tuple[str, float]:
+def _find_largest_guess_error(problem: AssemblyProblem, x: Array) -> tuple[str, float]:
     """Return the name of the guessed angle that is furthest from its guess, and the difference (rad, positive).
 
     It is ("", 0) without guessed angles.
     """
-    away = {name: abs(value) for name, value in _compute_guess_differences(closure, x).items()}
+    away = {name: abs(value) for name, value in _compute_guess_differences(problem, x).items()}
     name = max(away, key=lambda key: away[key], default="")
     return name, away.get(name, 0.0)
 
 
-def _compute_guess_differences(closure: Closure, x: Array) -> dict[str, float]:
+def _compute_guess_differences(problem: AssemblyProblem, x: Array) -> dict[str, float]:
     """Return the differences (rad, within half a turn) of the guessed angles from the file's guesses, by name."""
-    angles = [(name, k) for name, k in zip(closure.guess, closure.guessed, strict=True) if closure.is_angle[k]]
-    return {name: (float(x[k]) - closure.guess[name] + np.pi) % (2.0 * np.pi) - np.pi for name, k in angles}
+    angles = [(name, k) for name, k in zip(problem.guess, problem.guessed, strict=True) if problem.is_angle[k]]
+    return {name: (float(x[k]) - problem.guess[name] + np.pi) % (2.0 * np.pi) - np.pi for name, k in angles}

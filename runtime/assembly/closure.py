@@ -33,8 +33,8 @@ GUESSED, FREE_ANGLE, FREE_POSITION = 1.0, 1e-2, 1e-4
 NOTHING: Mapping[str, float] = {}
 
 
-class Closure:
-    """Hold the closure problem: constraint equations of the closed linkage, `start.set`, and weights of coordinates."""
+class AssemblyProblem:
+    """Hold the assembly of a linkage: constraint equations (all joints without play), `start.set`, and weights."""
 
     def __init__(self, linkage: Linkage, p: Array, t: float, held_values: Mapping[str, float] = NOTHING) -> None:
         source = linkage.source
@@ -69,7 +69,7 @@ class Closure:
     def compute_residual(self, q: Array, p: Array | None = None) -> Array:
         """Return the residuals of all equations (constraint equations, then set coordinates) in m or rad.
 
-        p: other parameter values than those of the closure, or None.
+        p: other parameter values than those of the problem, or None.
         """
         phi = self.linkage.closed_phi(self.t, q, self.p if p is None else p)
         phi[self.eccentricity_rows] += self.start_eccentricities  # Φ of these joints is −e
@@ -81,7 +81,7 @@ class Closure:
         extra[np.arange(len(self.set_index)), self.set_index] = 1.0
         return np.concatenate([self.linkage.closed_phi_q(self.t, q, self.p if p is None else p), extra])
 
-    def find_least_residual(self, q: Array, p: Array) -> Array:
+    def find_least_squares_configuration(self, q: Array, p: Array) -> Array:
         """Return the configuration with the least sum of squared residuals for parameter values p, found from q."""
         return self._minimize_residual(
             q,
@@ -348,7 +348,7 @@ class Closure:
         return q
 
     def determine_angles(self, q: Array) -> Array:
-        """Return q with the angles that equations in angles alone (drives, sliders) determine, by one Newton step."""
+        """Return a copy of q with the angles that drives and sliders alone determine, by one Newton step."""
         rows = np.abs(self.compute_jacobian(q)[:, ~self.is_angle]).max(axis=1, initial=0.0) == 0.0
         matrix = self.compute_jacobian(q)[rows][:, self.is_angle] / self.weight[self.is_angle]
         q = q.copy()

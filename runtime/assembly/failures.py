@@ -13,9 +13,9 @@ from itertools import combinations, pairwise
 
 import numpy as np
 
-from gudgeon.assembly.closure import CLOSED, Closure
+from gudgeon.assembly.closure import CLOSED, AssemblyProblem
 from gudgeon.assembly.linkage import find_point_in_body
-from gudgeon.assembly.rank import compute_dependence_shares
+from gudgeon.assembly.rank import compute_left_null_maxima
 from gudgeon.errors import AssemblyError
 from gudgeon.model.compiled import Array, describe_mass_ratio
 from gudgeon.model.written import explain_undefined_value_after
@@ -29,21 +29,19 @@ ENDS = {"tail", "head"}
 MOST, LEAST = 4.0, -0.95  # limits of the relative change: a length beyond them is not the cause
 
 
-def make_velocity_error(closure: Closure, matrix: Array, residuals: Array) -> AssemblyError:
+def make_velocity_error(problem: AssemblyProblem, matrix: Array, residuals: Array) -> AssemblyError:
     """Return the error for a start whose velocities do not satisfy the equations.
 
     matrix: equations of drives, joints and rates for the velocities. residuals: what is left of each. The message
     names the cause: mass ratios, rates of closed joints, contradicting rates, a dead centre, or else the worst
     equation.
     """
-    source = closure.linkage.source
-    if mass_message := describe_mass_ratio(source, closure.linkage.mass(closure.p)):
+    source = problem.linkage.source
+    if mass_message := describe_mass_ratio(source, problem.linkage.mass(problem.p)):
         return AssemblyError(mass_message)
     rows = [row.name for row in source.start_rows] + list(source.start_rates)
     prescribed = {row.name for row in source.start_rows if row.kind == "drive"} | set(source.start_rates)
-    dependent = [
-        name for name, fraction in zip(rows, compute_dependence_shares(matrix), strict=True) if fraction > 1e-6
-    ]
+    dependent = [name for name, maximum in zip(rows, compute_left_null_maxima(matrix), strict=True) if maximum > 1e-6]
     dependent_motions = [name for name in dependent if name in prescribed]
     rates = [name for name in dependent if name in source.start_rates]
     play = {joint.joint: joint.is_corner for joint in source.clearances}
@@ -76,25 +74,25 @@ def make_velocity_error(closure: Closure, matrix: Array, residuals: Array) -> As
     return AssemblyError(f"no velocities fit the start: row {worst} is left with {residuals.max():.3g}")
 
 
-def make_closure_error(closure: Closure, q: Array) -> AssemblyError:
+def make_closure_error(problem: AssemblyProblem, q: Array) -> AssemblyError:
     """Return the error for a linkage that does not close: open equations with their residuals, and remedies.
 
     q: the best configuration that was found. The message may name lengths with a wrong unit, or a link whose change
     would close the linkage.
     """
-    scaled_residuals = np.abs(closure.compute_residual(q) / closure.row_scale)
+    scaled_residuals = np.abs(problem.compute_residual(q) / problem.row_scale)
     if not np.isfinite(scaled_residuals).all():
-        why = explain_undefined_value_after(closure.linkage.source, closure.p, closure.t, q, np.zeros_like(q))
+        why = explain_undefined_value_after(problem.linkage.source, problem.p, problem.t, q, np.zeros_like(q))
         message = f"{why}\n  expected a number at the start" if why else "the constraints are not finite at the guess"
         return AssemblyError(f"the start cannot be assembled: {message}")
     worst = np.argsort(-scaled_residuals)[:6]
     worst = worst[scaled_residuals[worst] > 1e-3 * scaled_residuals.max()]
-    rows = ", ".join(_format_open_equation(closure, q, k) for k in worst)
+    rows = ", ".join(_format_open_equation(problem, q, k) for k in worst)
     if more := int((scaled_residuals >= max(CLOSED, 1e-6 * scaled_residuals.max())).sum()) - len(worst):
         rows += f" and {more} more, less far,"
-    owners = ", ".join(dict.fromkeys(closure.owners[k] for k in worst if closure.owners[k] != "start"))
-    sets = "what start.set holds, " if len(closure.set_index) else ""
-    lengths = _describe_unit_mistake(closure) or _describe_wrong_lengths(closure, q)
+    owners = ", ".join(dict.fromkeys(problem.owners[k] for k in worst if problem.owners[k] != "start"))
+    sets = "what start.set holds, " if len(problem.set_index) else ""
+    lengths = _describe_unit_mistake(problem) or _describe_wrong_lengths(problem, q)
     return AssemblyError(
         f"the start cannot be assembled: rows {rows} stay open (joints {owners or 'none'}){lengths}\n"
         "  either the constraints contradict each other or the guess is far from every branch: check"
@@ -102,24 +100,24 @@ def make_closure_error(closure: Closure, q: Array) -> AssemblyError:
     )
 
 
-def _format_open_equation(closure: Closure, q: Array, index: int) -> str:
+def _format_open_equation(problem: AssemblyProblem, q: Array, index: int) -> str:
     """Return the name of an open equation with its residual and the line of its joint: "C.x (8.2 mm, line 14)"."""
     left, line = (
-        float(closure.compute_residual(q)[index]),
-        dict(closure.linkage.source.lines).get(closure.owners[index]),
+        float(problem.compute_residual(q)[index]),
+        dict(problem.linkage.source.lines).get(problem.owners[index]),
     )
-    amount = format_length(left) if closure.units[index] == "m" else f"{np.degrees(left):.3g} deg"
-    return f"{closure.names[index]} ({amount}{f', line {line}' if line else ''})"
+    amount = format_length(left) if problem.units[index] == "m" else f"{np.degrees(left):.3g} deg"
+    return f"{problem.names[index]} ({amount}{f', line {line}' if line else ''})"
 
 
-def _describe_wrong_lengths(closure: Closure, q: Array) -> str:
+def _describe_wrong_lengths(problem: AssemblyProblem, q: Array) -> str:
     """Return a text on up to three links, of which a change of one would close the linkage; "" if there is none.
 
     Nothing is searched for more than FEW coordinates.
     """
-    if closure.linkage.n > FEW:
+    if problem.linkage.n > FEW:
         return ""
-    wrong_lengths = find_wrong_lengths(closure, closure.find_least_residual(q, closure.p))[:3]
+    wrong_lengths = find_wrong_lengths(problem, problem.find_least_squares_configuration(q, problem.p))[:3]
     message = [
         f"{change.message} ({format_length(change.length)}) {'longer' if change.missing > 0.0 else 'shorter'} by"
         f" {format_length(abs(change.missing))}"
@@ -128,11 +126,11 @@ def _describe_wrong_lengths(closure: Closure, q: Array) -> str:
     return f"\n  one change would close it: {', or '.join(message)}" if message else ""
 
 
-def _describe_unit_mistake(closure: Closure) -> str:
+def _describe_unit_mistake(problem: AssemblyProblem) -> str:
     """Return a text on few lengths of a metre or more that are far larger than all others; "" if there are none."""
-    source = closure.linkage.source
+    source = problem.linkage.source
     sizes = {
-        slot.address: abs(float(closure.p[k]))
+        slot.address: abs(float(problem.p[k]))
         for k, slot in enumerate(source.slots)
         if slot.dimension == (1, 0, 0) and slot.address.startswith(("bodies.", "ground.", "joints."))
     }
@@ -167,40 +165,40 @@ class WrongLength:
         return self.body if {*self.points} == ENDS else f"{self.body}, {'–'.join(self.points)}"
 
 
-def find_wrong_lengths(closure: Closure, q: Array) -> list[WrongLength]:
+def find_wrong_lengths(problem: AssemblyProblem, q: Array) -> list[WrongLength]:
     """Return the bodies of which a change of length would close the equations, the least change first.
 
     q: the configuration with the least residuals.
     """
     with np.errstate(all="ignore"):
-        return sorted(_search_wrong_lengths(closure, q), key=lambda wrong: abs(wrong.missing))
+        return sorted(_search_wrong_lengths(problem, q), key=lambda wrong: abs(wrong.missing))
 
 
-def _search_wrong_lengths(closure: Closure, q: Array) -> Iterator[WrongLength]:
+def _search_wrong_lengths(problem: AssemblyProblem, q: Array) -> Iterator[WrongLength]:
     """Yield the bodies of which a change of length would close the equations, in the order of the file."""
-    source = closure.linkage.source
+    source = problem.linkage.source
     connected = {end for part in source.parts if part.section != "forces" for end in part.ends}
     for index, body in enumerate(source.bodies):
-        arms = [(p, find_point_in_body(closure.p, p)) for p in source.points if p.body == index and p.name in connected]
+        arms = [(p, find_point_in_body(problem.p, p)) for p in source.points if p.body == index and p.name in connected]
         distances = {(one, other): float(np.hypot(*(a - b))) for (one, a), (other, b) in combinations(arms, 2)}
         furthest_points = max(distances, key=distances.__getitem__, default=None)
         if furthest_points is not None and distances[furthest_points] > 0.0:
             one, other = (point.name.partition(".")[2] for point in furthest_points)
             parameter_indices = sorted({k for point, _ in arms for k in (point.x, point.y) if k >= 0})
-            relative_change = _find_closing_length_change(closure, q, parameter_indices)
+            relative_change = _find_closing_length_change(problem, q, parameter_indices)
             if relative_change is not None:
                 yield WrongLength(
                     body.name, (one, other), distances[furthest_points], relative_change * distances[furthest_points]
                 )
 
 
-def _find_closing_length_change(closure: Closure, q: Array, length_indices: list[int]) -> float | None:
+def _find_closing_length_change(problem: AssemblyProblem, q: Array, length_indices: list[int]) -> float | None:
     """Return the relative change of some lengths that just closes the equations; None if none does.
 
     length_indices: the lengths' indices in p. q: first configuration. Newton's method on the norm of the least residual
     is followed by bisection between open and closed. Changes outside LEAST to MOST are not considered.
     """
-    p, open_change, closing_change, change = closure.p, 0.0, None, 0.0
+    p, open_change, closing_change, change = problem.p, 0.0, None, 0.0
 
     def scale_lengths(relative_change: float) -> Array:
         """Return the parameter values with the lengths scaled by 1 + relative_change."""
@@ -209,8 +207,8 @@ def _find_closing_length_change(closure: Closure, q: Array, length_indices: list
         return changed
 
     for _ in range(STEPS):
-        least_squares_q = closure.find_least_residual(q, scale_lengths(change))
-        residual = closure.compute_residual(least_squares_q, scale_lengths(change)) / closure.row_scale
+        least_squares_q = problem.find_least_squares_configuration(q, scale_lengths(change))
+        residual = problem.compute_residual(least_squares_q, scale_lengths(change)) / problem.row_scale
         size = float(np.linalg.norm(residual))
         if not np.isfinite(size):
             return None
@@ -220,7 +218,7 @@ def _find_closing_length_change(closure: Closure, q: Array, length_indices: list
             closing_change, change = change, 0.5 * (open_change + change)
             continue
         residual_above, residual_below = (
-            closure.compute_residual(least_squares_q, scale_lengths(change + e)) / closure.row_scale
+            problem.compute_residual(least_squares_q, scale_lengths(change + e)) / problem.row_scale
             for e in (NUDGE, -NUDGE)
         )
         slope = float(residual @ (residual_above - residual_below)) / (2.0 * NUDGE)

@@ -144,8 +144,8 @@ def describe_contacts_without_onset(
 ) -> tuple[str, ...]:
     """Return a note on each dry contact that a run begins with while the surfaces do not approach (δ̇ ≤ 0).
 
-    Its approach speed δ̇⁻ at the onset is then a convention. q, v (n,) at time t (s). memory (n_memory,): contacts
-    resumed from another run know their onset and are left out, as are laws that do not depend on δ̇⁻.
+    Its approach speed δ̇⁻ at the onset is then a convention. q, v (n,) at time t (s). discrete_states (n_memory,):
+    contacts resumed from another run know their onset and are left out, as are laws that do not depend on δ̇⁻.
     """
     joints = [k for k, joint in enumerate(compiled.source.clearances) if joint.dry and math.isnan(discrete_states[k])]
     notes: list[str] = []
@@ -202,7 +202,7 @@ def _find_contour_depth(
 def find_eccentricity(
     compiled: CompiledModel, p: Array, t: float, q: Array, joint: ClearanceInfo
 ) -> tuple[list[int], Array]:
-    """Return the indices of a joint's equations in the closed linkage, and its eccentricity (2,), m, in ground axes."""
+    """Return the indices of a joint's equations in source.start_rows, and its eccentricity (2,), m, in ground axes."""
     rows = [k for k, row in enumerate(compiled.source.start_rows) if row.owner == joint.name]
     return rows, -compiled.closed_phi(t, q, p)[rows]  # physics.md, section 2: Φ of the joint is −e
 

@@ -90,11 +90,11 @@ def has_independent_rows(matrix: Array, relative_limit: float) -> bool:
     return growth * (relative_limit * _compute_norm_bound(matrix)) ** 2 < 1e-2
 
 
-def estimate_dependence_shares(matrix: Array, relative_limit: float) -> Array:
-    """Return for each row, (m,), about its share in vanishing combinations of rows.
+def estimate_left_null_maxima(matrix: Array, relative_limit: float) -> Array:
+    """Return for each row, (m,), an estimate of its magnitude in left null vectors of a large matrix.
 
-    They are those of singular values σ below `relative_limit` (at least 1e-7) times the largest. (ε/(AAᵀ + ε))ᵏ filters
-    them from random columns, with ε = σ² at the limit. All shares are 0 for numbers that are not finite.
+    They are left singular vectors of values σ below `relative_limit` (at least 1e-7) times the largest. (ε/(AAᵀ + ε))ᵏ
+    filters them from random columns, with ε = σ² at the limit. The result is 0 for numbers that are not finite.
     """
     rows, columns = matrix.shape
     if not rows or not np.isfinite(matrix).all():

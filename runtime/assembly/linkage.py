@@ -17,7 +17,7 @@ CLOSED = 1e-15  # m or rad: Φ that no further pass reduces
 
 
 class Linkage(Protocol):
-    """Provide Φ of the closed linkage (joints with play closed): m equations, n coordinates, p as from `prepare`."""
+    """Provide Φ with all joints without play (e = 0): m equations, n coordinates, p as from `prepare`."""
 
     source: KernelSource
     n: int

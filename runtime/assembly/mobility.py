@@ -1,4 +1,4 @@
-"""Compute the mobility of a closed linkage: degrees of freedom by count and by rank, and coordinates that describe
+"""Compute the mobility of a linkage without play: degrees of freedom by count and rank, and coordinates that describe
 them.
 
 Grübler's count is 3 bodies − equations; the rank of Φ_q is right also with redundant equations. It is evaluated at the
@@ -22,7 +22,7 @@ INDEPENDENT = 1e-6  # of a coordinate's largest motion: smallest motion that rem
 
 @dataclass(frozen=True)
 class Mobility:
-    """Hold the mobility of the closed linkage, whose constraint equations include its drives.
+    """Hold the mobility of a linkage without play, whose constraint equations include its drives.
 
     `freedoms` by rank, `gruebler` by count (n − equations); `along`: coordinates that describe the degrees of freedom;
     `loose`: bodies not connected to the ground; `redundant`: number of redundant equations; `aligned`: how many more

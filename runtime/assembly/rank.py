@@ -1,7 +1,7 @@
 """Compute the rank of Jacobians, dependent constraint equations, and branches at singular positions.
 
-- `compute_rank`, `compute_dependence_shares`: the rank of a matrix, and the share of each row in a vanishing
-combination.
+- `compute_rank`, `compute_left_null_maxima`: the rank of a matrix, and the largest entries of its left null
+vectors, which are nonzero for dependent rows.
 - `list_redundant_equations`: equations that generator/redundancy.py found redundant with the file's values. Other
 lengths or drives may make them independent again; that is checked here.
 - `compute_branch_velocities`: velocities with which a linkage may pass a singular position. Dependent equations leave
@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gudgeon.assembly.large import LARGE, compute_rank_by_rows, estimate_dependence_shares, has_independent_rows
+from gudgeon.assembly.large import LARGE, compute_rank_by_rows, estimate_left_null_maxima, has_independent_rows
 from gudgeon.assembly.linkage import Linkage, compute_mechanism_size, find_angles, scale_rows
 from gudgeon.errors import AssemblyError, SolverError
 from gudgeon.model.cached_values import cache_by_values
@@ -56,14 +56,15 @@ def compute_rank(matrix: Array, relative_limit: float = RANK) -> int:
     return _compute_rank_by_svd(matrix, relative_limit)
 
 
-def compute_dependence_shares(matrix: Array, relative_limit: float = RANK) -> Array:
-    """Return for each row, (m,), its largest share in a vanishing combination of rows; 0 for independent rows.
+def compute_left_null_maxima(matrix: Array, relative_limit: float = RANK) -> Array:
+    """Return for each row, (m,), its largest magnitude in left null vectors (unit vectors); 0 for independent rows.
 
-    relative_limit: singular values below this fraction of the largest vanish.
+    relative_limit: singular values below this fraction of the largest count as zero. From LARGE columns on the result
+    is an estimate, with a limit of at least DAMPED.
     """
     if matrix.shape[1] >= LARGE:
-        return estimate_dependence_shares(matrix, max(relative_limit, DAMPED))
-    return _compute_shares_by_svd(matrix, relative_limit)
+        return estimate_left_null_maxima(matrix, max(relative_limit, DAMPED))
+    return _compute_left_null_maxima_by_svd(matrix, relative_limit)
 
 
 def _compute_rank_by_svd(matrix: Array, relative_limit: float) -> int:
@@ -72,8 +73,8 @@ def _compute_rank_by_svd(matrix: Array, relative_limit: float) -> int:
     return int((values > relative_limit * values[0]).sum())
 
 
-def _compute_shares_by_svd(matrix: Array, relative_limit: float) -> Array:
-    """Return for each row of a small matrix its largest share in a vanishing combination, by singular vectors."""
+def _compute_left_null_maxima_by_svd(matrix: Array, relative_limit: float) -> Array:
+    """Return for each row of a small matrix, (m,), its largest magnitude in left null vectors, by singular vectors."""
     left, values, _ = np.linalg.svd(matrix)
     vanishing = left[:, int((values > relative_limit * values[0]).sum()) :]
     return np.asarray(np.abs(vanishing).max(axis=1, initial=0.0), dtype=np.float64)
@@ -125,10 +126,10 @@ def _find_dependent_rows(
 ) -> tuple[str, ...]:
     """Return the names of the rows that depend on each other, after scaling, so that units do not matter.
 
-    matrix: rows of Φ_q. relative_limit: as in `compute_dependence_shares`.
+    matrix: rows of Φ_q. relative_limit: as in `compute_left_null_maxima`.
     """
-    shares = compute_dependence_shares(scale_rows(compiled, p, matrix), relative_limit)
-    return tuple(name for name, fraction in zip(names, shares, strict=True) if fraction > 1e-6)
+    maxima = compute_left_null_maxima(scale_rows(compiled, p, matrix), relative_limit)
+    return tuple(name for name, maximum in zip(names, maxima, strict=True) if maximum > 1e-6)
 
 
 def find_nearby_configurations(
@@ -163,7 +164,7 @@ def find_nearby_configurations(
 
 @cache_by_values
 def list_redundant_equations(compiled: CompiledModel) -> list[int]:
-    """Return the indices of the closed linkage's equations that were found redundant and are not integrated.
+    """Return the indices in source.start_rows of equations that were found redundant and are not integrated.
 
     Equations of joints with play do not count.
     """

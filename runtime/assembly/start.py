@@ -1,6 +1,6 @@
 """Assemble a linkage at the start, near the file's guess: positions by Newton's method, then velocities.
 
-A scene with play starts from its closed linkage (e = 0), unless the file's `start.play` gives e and ė of a journal.
+A scene with play starts without it (e = 0), unless the file's `start.play` gives e and ė of a journal.
 Guessed angles have the largest weights, then other angles, then positions. Usually one call of C suffices
 (engine/scene/start.c). If C cannot close the linkage near the guess, `search_start` finds the nearest closed
 configuration. Its modules are imported only then, for a quick start.
@@ -21,7 +21,7 @@ from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.sizes import compute_norm_weights
 
 if TYPE_CHECKING:
-    from gudgeon.assembly.closure import Closure
+    from gudgeon.assembly.closure import AssemblyProblem
 
 MIN_RESOLVED = float(np.finfo(float).tiny / np.finfo(float).eps)  # smaller numbers may have fewer digits
 
@@ -52,46 +52,46 @@ def search_start(linkage: Linkage, p: Array, t: float = 0.0) -> Start:
 
     Raises AssemblyError with equations, joints and residual.
     """
-    from gudgeon.assembly.closure import Closure
+    from gudgeon.assembly.closure import AssemblyProblem
 
-    closure = Closure(linkage, p, t)
+    problem = AssemblyProblem(linkage, p, t)
     with np.errstate(all="ignore"):  # Newton handles undefined directions itself
-        q, closed = closure.find_nearest_configuration()
+        q, closed = problem.find_nearest_configuration()
     if not closed:
         from gudgeon.assembly.failures import make_closure_error
 
-        raise make_closure_error(closure, q)
-    return Start(q, compute_start_velocities(closure, q), float(np.abs(closure.compute_residual(q)).max(initial=0.0)))
+        raise make_closure_error(problem, q)
+    return Start(q, compute_start_velocities(problem, q), float(np.abs(problem.compute_residual(q)).max(initial=0.0)))
 
 
-def _choose_rate_time(closure: Closure) -> float:
+def _choose_rate_time(problem: AssemblyProblem) -> float:
     """Return the time (s) at which the drives' rates are evaluated: just after t if a rate jumps there, else t."""
-    more = max(32 * np.finfo(float).eps * abs(closure.t), 1e-100)
-    return closure.t + more if closure.linkage.source.rate_jumps else closure.t
+    more = max(32 * np.finfo(float).eps * abs(problem.t), 1e-100)
+    return problem.t + more if problem.linkage.source.rate_jumps else problem.t
 
 
-def compute_start_velocities(closure: Closure, q: Array) -> Array:
+def compute_start_velocities(problem: AssemblyProblem, q: Array) -> Array:
     """Return q̇ (n,) with Φ_q q̇ = ν and the start's rates; undetermined velocities are least in the norm of M.
 
     Raises AssemblyError if a rate is not finite or the equations contradict each other.
     """
     names = {"x": "vx", "y": "vy", "theta": "omega"}
-    expected = [f"{body}.{names[c]}" for body, c in (name.split(".") for name in closure.coordinate_index)]
-    index = [expected.index(name) for name in closure.linkage.source.start_rates]
+    expected = [f"{body}.{names[c]}" for body, c in (name.split(".") for name in problem.coordinate_index)]
+    index = [expected.index(name) for name in problem.linkage.source.start_rates]
     rate_rows = np.zeros((len(index), len(q)))
     rate_rows[np.arange(len(index)), index] = 1.0
-    matrix = np.concatenate([closure.linkage.closed_phi_q(closure.t, q, closure.p), rate_rows])
-    nu = closure.linkage.closed_nu(_choose_rate_time(closure), q, closure.p)
-    nu[closure.eccentricity_rows] -= closure.start_eccentricity_rates
-    target = np.concatenate([nu, closure.rates])
+    matrix = np.concatenate([problem.linkage.closed_phi_q(problem.t, q, problem.p), rate_rows])
+    nu = problem.linkage.closed_nu(_choose_rate_time(problem), q, problem.p)
+    nu[problem.eccentricity_rows] -= problem.start_eccentricity_rates
+    target = np.concatenate([nu, problem.rates])
     if not (np.isfinite(target).all() and np.isfinite(matrix).all()):
-        source = closure.linkage.source
+        source = problem.linkage.source
         rows = [row.name for row, x in zip(source.start_rows, target, strict=False) if not np.isfinite(x)]
         raise AssemblyError(
             f"the start has no velocities: the rate of {', '.join(rows) or 'the constraints'} is not finite at"
-            f" t = {closure.t:g} s\n  a root or a power has no slope where it begins: begin with smooth_step or later"
+            f" t = {problem.t:g} s\n  a root or a power has no slope where it begins: begin with smooth_step or later"
         )
-    root_of_mass = np.sqrt(compute_norm_weights(closure.linkage.source, closure.p, closure.linkage.mass(closure.p)))
+    root_of_mass = np.sqrt(compute_norm_weights(problem.linkage.source, problem.p, problem.linkage.mass(problem.p)))
     v = np.zeros_like(q)
     for _ in range(2):  # once more for the rounding of the first solution
         v += solve_minimum_norm(matrix / root_of_mass, target - matrix @ v) / root_of_mass
@@ -99,5 +99,5 @@ def compute_start_velocities(closure: Closure, q: Array) -> Array:
     if left.max(initial=0.0) > 1e-8 * float(np.abs(target).max(initial=0.0)) + MIN_RESOLVED:
         from gudgeon.assembly.failures import make_velocity_error
 
-        raise make_velocity_error(closure, matrix / root_of_mass, left)
+        raise make_velocity_error(problem, matrix / root_of_mass, left)
     return v

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gudgeon.assembly.branches import Assembly, compute_guess_distance, find_assemblies
-from gudgeon.assembly.closure import Closure
+from gudgeon.assembly.closure import AssemblyProblem
 from gudgeon.assembly.failures import make_closure_error
 from gudgeon.assembly.guess_warnings import describe_missing_assembly, find_unfollowed_guesses, format_guess_difference
 from gudgeon.assembly.journals import check_journal_positions, describe_journals_in_walls
@@ -34,7 +34,7 @@ MAX_GUESS_DIFFERENCE = math.radians(5.0)
 
 @dataclass(frozen=True)
 class AssembledScene:
-    """Hold the result of assembling one scene: position, mobility of the closed linkage and of the scene, and
+    """Hold the result of assembling one scene: position, mobility without play and of the scene, and
     deviations from guesses.
     """
 
@@ -55,23 +55,23 @@ class Findings:
 
     @property
     def equivalent_assemblies(self) -> list[Assembly]:
-        """Return the assemblies, other than the start, that follow the guesses of the file as well as the start
-        does.
-        """
+        """Return the assemblies that follow the file's guesses as well as the start does; [] if none are known."""
         first = next(iter(self.scenes.values()), None)
         if first is None or not self.assemblies:
             return []
-        closure = Closure(first.linkage, first.linkage.p, 0.0)
+        problem = AssemblyProblem(first.linkage, first.linkage.p, 0.0)
         start = self.assemblies[0].q
-        return [a for a in self.assemblies[1:] if compute_guess_distance(closure, a.q, start) < MAX_GUESS_DIFFERENCE]
+        return [a for a in self.assemblies[1:] if compute_guess_distance(problem, a.q, start) < MAX_GUESS_DIFFERENCE]
 
 
-def assemble_scenes(mechanism: Mechanism, branches: bool, given: Mapping[str, float | str] | None = None) -> Findings:
+def assemble_scenes(
+    mechanism: Mechanism, branches: bool, settings: Mapping[str, float | str] | None = None
+) -> Findings:
     """Assemble every scene of a mechanism; find its other assemblies if `branches` is set or the linkage is small.
 
-    given: values in place of the file's, by address. An address of one scene holds for that scene. An error of a scene
-    is stored in `errors` of the result. Raises UnknownNameError for an address that no scene has, and an error if the
-    file's `freedoms` are wrong.
+    settings: values in place of the file's, by address; an address of one scene holds for that scene. An error of a
+    scene is stored in `errors` of the returned Findings. Raises UnknownNameError for an address that no scene has, and
+    an error if the file's `freedoms` are wrong.
     """
     from gudgeon.generator.pipeline import build_closed_linkage
 
@@ -79,7 +79,7 @@ def assemble_scenes(mechanism: Mechanism, branches: bool, given: Mapping[str, fl
     errors: dict[str, GudgeonError] = {}
     assemblies: tuple[Assembly, ...] = ()
     linkages = {name: build_closed_linkage(mechanism, name) for name in mechanism.scenes}
-    settings = given or {}
+    settings = settings or {}
     check_addresses(settings, mechanism.file, [linkage.source for linkage, _ in linkages.values()])
     for name, (linkage, rows) in linkages.items():
         linkage = apply_settings(mechanism, linkage, settings)
@@ -106,12 +106,12 @@ def _assemble_scene(linkage: NumPyLinkage, rows: Sequence[int]) -> AssembledScen
     """
     p = linkage.p
     check_journal_positions(linkage, p)
-    closure = Closure(linkage, p, 0.0)
+    problem = AssemblyProblem(linkage, p, 0.0)
     with np.errstate(all="ignore"):
-        q, closed = closure.find_nearest_configuration()
+        q, closed = problem.find_nearest_configuration()
         if not closed:
-            raise make_closure_error(closure, q)
-        compute_start_velocities(closure, q)
+            raise make_closure_error(problem, q)
+        compute_start_velocities(problem, q)
         every = find_mobility(linkage, p, q)
         mobility = every if len(rows) == every.rows else find_mobility(linkage, p, q, rows)
     return AssembledScene(linkage, q, every, mobility, find_unfollowed_guesses(linkage, p, q))
@@ -187,7 +187,7 @@ def yield_remarks(mechanism: Mechanism, findings: Findings) -> Iterator[tuple[st
         count = f"{closed.freedoms} degree{'' if closed.freedoms == 1 else 's'} of freedom"
         meant = f"if that is meant, freedoms: {closed.freedoms}"
         yield "freedoms", f"{count} with all joints closed: {', '.join(closed.along)}; {meant}"
-        yield from _yield_shaft_remarks(mechanism, closed)
+        yield from _yield_unattached_body_remarks(mechanism, closed)
     yield from _yield_mass_remark(mechanism, findings)
     if closed.redundant:
         rows = f"{closed.redundant} row{'' if closed.redundant == 1 else 's'}"
@@ -213,7 +213,7 @@ def yield_remarks(mechanism: Mechanism, findings: Findings) -> Iterator[tuple[st
         yield from _yield_ambiguity_remark(findings)
 
 
-def _yield_shaft_remarks(mechanism: Mechanism, mobility: Mobility) -> Iterator[tuple[str, str]]:
+def _yield_unattached_body_remarks(mechanism: Mechanism, mobility: Mobility) -> Iterator[tuple[str, str]]:
     """Yield a remark for each driven body that can move away because no joint connects it to the drive's reference."""
     joined = {frozenset((joint.first.body, joint.second.body)) for joint in mechanism.joints.values()}
     for drive in mechanism.drives.values():

@@ -14,7 +14,7 @@ from gudgeon.studies.show.bench import report_bench
 EVERY = f"leave it out for all that fit; or {','.join(OFFERED)}"
 
 
-def bench_file(request: Request, methods: tuple[str, ...] = ()) -> int:
+def benchmark_file(request: Request, methods: tuple[str, ...] = ()) -> int:
     """Run `gudgeon bench`: measure all scenes of a request, print and write the table, and return the exit code.
 
     methods: names, separated by commas, or () for all. Scenes without degrees of freedom are measured without steps.
@@ -32,8 +32,11 @@ def bench_file(request: Request, methods: tuple[str, ...] = ()) -> int:
             )  # raises for an unknown method before anything is run
     table = request.find_table_path(simulations[0].source.mechanism, "bench")
 
-    def measure_one_scene(simulation: Simulation, report: Report | None) -> SceneBench:
-        """Measure one scene; its steps include the step of `--mark-step`."""
+    def measure_one_scene(simulation: Simulation, progress: Report | None) -> SceneBench:
+        """Measure one scene; its steps include the step of `--mark-step`.
+
+        Returns a SceneBench. `progress` is called with fraction and text.
+        """
         parameters, steps = request.select_parameters(simulation), None
         if step is not None and simulation.source.degrees_of_freedom != 0:
             steps = {*list_default_steps(simulation, parameters, request.quick), step}
@@ -44,7 +47,7 @@ def bench_file(request: Request, methods: tuple[str, ...] = ()) -> int:
             parameters=parameters,
             quick=request.quick,
             methods=method_names,
-            progress=report,
+            progress=progress,
         )
 
     measured_scenes, interrupted = measure_scenes(simulations, measure_one_scene, request.json)

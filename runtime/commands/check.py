@@ -329,11 +329,11 @@ def _make_log_table(steps: Sequence[tuple[int, int, str]], lines: Iterable[tuple
     return table
 
 
-def build_log_document(story: ReductionLog) -> dict[str, Any]:
+def build_log_document(log: ReductionLog) -> dict[str, Any]:
     """Return the reduction log for `--json`, each step with the numbers of coordinates and constraint equations
     left.
     """
-    left = [{"coordinates left": n, "rows left": m} for _, n, m in story.iterate_steps()]
-    data = asdict(story)
+    left = [{"coordinates left": n, "rows left": m} for _, n, m in log.iterate_steps()]
+    data = asdict(log)
     data["steps"] = [step | counts for step, counts in zip(data["steps"], left, strict=True)]
     return data

@@ -71,14 +71,14 @@ def parse_settings(texts: Iterable[str]) -> dict[str, float | str]:
     settings: dict[str, float | str] = {}
     written: dict[str, str] = {}  # a parameter may be called with its section or without
     for text in texts:
-        address, equals, given = (part.strip() for part in text.partition("="))
-        if not (equals and address and given):
+        address, equals, value_text = (part.strip() for part in text.partition("="))
+        if not (equals and address and value_text):
             raise BadValueError(f"--set {text}: expected ADDRESS=VALUE", hint="for example --set c=0.5mm")
         key = address.removeprefix("parameters.")
         if key in written:
             message = f"--set {text}: this number is set already, by --set {written[key]}"
             raise BadValueError(message, hint="set it once")
-        written[key], settings[address] = text, parse_typed_number(given)
+        written[key], settings[address] = text, parse_typed_number(value_text)
     return settings
 
 
@@ -101,21 +101,21 @@ def check_addresses(addresses: Iterable[str], file: str, sources: Sequence[Kerne
         raise make_missing_name_error(f"--set: no scene has a number {name!r}", name, known_addresses)
 
 
-def select_known_settings(source: KernelSource, given: Mapping[str, float | str]) -> dict[str, float | str]:
+def select_known_settings(source: KernelSource, settings: Mapping[str, float | str]) -> dict[str, float | str]:
     """Return those values of `--set` whose addresses the scene has; an ideal scene has no viscosity, for example."""
     known_addresses = set(list_addresses(source))
-    return {address: number for address, number in given.items() if address in known_addresses}
+    return {address: number for address, number in settings.items() if address in known_addresses}
 
 
-def apply_settings(mechanism: Mechanism, linkage: NumPyLinkage, given: Mapping[str, float | str]) -> NumPyLinkage:
-    """Return the closed linkage of a scene with the values `given` by --set; the same object if none of them matters.
+def apply_settings(mechanism: Mechanism, linkage: NumPyLinkage, settings: Mapping[str, float | str]) -> NumPyLinkage:
+    """Return a linkage without play with the `settings` of --set; the same object if none of them matters.
 
     Addresses of other scenes are ignored. Raises BadValueError for values out of range.
     """
     from gudgeon.generator.pipeline import build_closed_linkage
 
     source, count = linkage.source, len(linkage.source.slots) + len(linkage.source.derived)
-    known_settings, p = select_known_settings(source, given), linkage.p[:count].copy()
+    known_settings, p = select_known_settings(source, settings), linkage.p[:count].copy()
     values, is_given = read_given_parameters(source, known_settings)
     p[: len(values)][is_given] = values[is_given]
     check_parameter_values(source, p, is_given)  # before derived values are computed

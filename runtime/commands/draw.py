@@ -33,7 +33,7 @@ from gudgeon.model.parameters import insert_space_before_unit
 from gudgeon.waiting.cancellation import report_work
 
 if TYPE_CHECKING:
-    from gudgeon.assembly.closure import Closure
+    from gudgeon.assembly.closure import AssemblyProblem
     from gudgeon.drawing.posture import Posture
     from gudgeon.drawing.shapes import Sketch
     from gudgeon.generator.mechanism import Mechanism
@@ -166,7 +166,7 @@ def _draw_start(request: Request, file: Path, values: Mapping[str, float | str])
 
     An open linkage is drawn at the position nearest to closing. With --branches, all assemblies are drawn.
     """
-    from gudgeon.assembly.closure import Closure
+    from gudgeon.assembly.closure import AssemblyProblem
     from gudgeon.generator.pipeline import build_closed_linkage
     from gudgeon.generator.reader.read import read_mechanism
 
@@ -174,25 +174,25 @@ def _draw_start(request: Request, file: Path, values: Mapping[str, float | str])
     linkage, _ = build_closed_linkage(mechanism, request.scene)
     check_addresses(values, request.file, [linkage.source])
     linkage = apply_settings(mechanism, linkage, values)
-    closure = Closure(linkage, linkage.p, 0.0)
+    problem = AssemblyProblem(linkage, linkage.p, 0.0)
     with np.errstate(all="ignore"):
-        q, closed = closure.find_nearest_configuration()
+        q, closed = problem.find_nearest_configuration()
     caption = _format_caption(mechanism.title or mechanism.name, request.scene, 0.0)
     if not closed:
-        return _draw_unclosed_linkage(mechanism, closure, q, caption)
-    v, failure = _find_velocities(closure, q)
+        return _draw_unclosed_linkage(mechanism, problem, q, caption)
+    v, failure = _find_velocities(problem, q)
     if request.branches:
-        sketches, titles = _draw_assemblies(mechanism, closure, q)
+        sketches, titles = _draw_assemblies(mechanism, problem, q)
         return Picture(sketches, titles, caption), failure
-    return Picture(_make_sketches(mechanism, closure, [_make_posture(linkage, q, v)]), [""], caption), failure
+    return Picture(_make_sketches(mechanism, problem, [_make_posture(linkage, q, v)]), [""], caption), failure
 
 
-def _find_velocities(closure: Closure, q: Array) -> tuple[Array | None, AssemblyError | None]:
+def _find_velocities(problem: AssemblyProblem, q: Array) -> tuple[Array | None, AssemblyError | None]:
     """Return the velocities at the position q and None, or None and the AssemblyError if there are none."""
     from gudgeon.assembly.start import compute_start_velocities
 
     try:
-        return compute_start_velocities(closure, q), None
+        return compute_start_velocities(problem, q), None
     except AssemblyError as error:
         return None, error
 
@@ -206,7 +206,7 @@ def _make_posture(linkage: NumPyLinkage, q: Array, v: Array | None) -> Posture:
     return Posture(linkage.source, linkage.p, q, 0.0, v, loads)
 
 
-def _make_sketches(mechanism: Mechanism, closure: Closure, postures: Sequence[Posture]) -> list[Sketch]:
+def _make_sketches(mechanism: Mechanism, problem: AssemblyProblem, postures: Sequence[Posture]) -> list[Sketch]:
     """Return a sketch of each posture of a closed linkage, all with one scale.
 
     Unexpected degrees of freedom and loose bodies are marked.
@@ -217,14 +217,14 @@ def _make_sketches(mechanism: Mechanism, closure: Closure, postures: Sequence[Po
     from gudgeon.drawing.sketch import compute_common_box, make_sketch
 
     with np.errstate(all="ignore"):
-        mobility = find_mobility(closure.linkage, closure.p, postures[0].q)
+        mobility = find_mobility(problem.linkage, problem.p, postures[0].q)
     plans, sketches = [make_layout([posture], postures[0]) for posture in postures], []
     unit = min(plan.unit for plan in plans)
     plans = [replace(plan, unit=unit) for plan in plans]
     box = compute_common_box(postures, plans)
     marked = mobility.loose or (mobility.freedoms and mechanism.freedoms is None)
     for posture, plan in zip(postures, plans, strict=True):
-        shapes, labels = draw_free_motions(closure, posture, unit, mobility.loose) if marked else ([], [])
+        shapes, labels = draw_free_motions(problem, posture, unit, mobility.loose) if marked else ([], [])
         loose = frozenset(mobility.loose)
         sketches.append(
             make_sketch(posture, plan, shapes_on_top=shapes, labels=labels, unconnected_bodies=loose, box=box)
@@ -233,7 +233,7 @@ def _make_sketches(mechanism: Mechanism, closure: Closure, postures: Sequence[Po
 
 
 def _draw_unclosed_linkage(
-    mechanism: Mechanism, closure: Closure, q: Array, caption: str
+    mechanism: Mechanism, problem: AssemblyProblem, q: Array, caption: str
 ) -> tuple[Picture, GudgeonError]:
     """Return the picture of a linkage that does not close, with its gaps marked, and its error.
 
@@ -243,26 +243,26 @@ def _draw_unclosed_linkage(
     from gudgeon.drawing.failures import draw_gaps
     from gudgeon.drawing.sketch import make_sketch
 
-    failure = make_closure_error(closure, q)
-    if not (np.isfinite(q).all() and np.isfinite(closure.compute_residual(q)).all()):
+    failure = make_closure_error(problem, q)
+    if not (np.isfinite(q).all() and np.isfinite(problem.compute_residual(q)).all()):
         raise failure
-    posture = _make_posture(closure.linkage, q, None)  # type: ignore[arg-type]
-    shapes, labels = draw_gaps(closure, posture)
+    posture = _make_posture(problem.linkage, q, None)  # type: ignore[arg-type]
+    shapes, labels = draw_gaps(problem, posture)
     sketch = make_sketch(posture, shapes_on_top=shapes, labels=labels)
     return Picture([sketch], [""], f"{caption}: it does not close"), failure
 
 
-def _draw_assemblies(mechanism: Mechanism, closure: Closure, q: Array) -> tuple[list[Sketch], list[str]]:
+def _draw_assemblies(mechanism: Mechanism, problem: AssemblyProblem, q: Array) -> tuple[list[Sketch], list[str]]:
     """Return a sketch of each assembly, and as its title the guess that selects it; the start is the first."""
     from gudgeon.assembly.branches import find_assemblies
     from gudgeon.assembly.mobility import find_mobility
     from gudgeon.commands.assembly_report import format_guess
 
-    linkage: Any = closure.linkage
+    linkage: Any = problem.linkage
     with np.errstate(all="ignore"):
         coordinate_names = find_mobility(linkage, linkage.p, q).along
     assemblies = find_assemblies(linkage, linkage.p, q, coordinate_names)
-    postures = [_make_posture(linkage, assembly.q, _find_velocities(closure, assembly.q)[0]) for assembly in assemblies]
+    postures = [_make_posture(linkage, assembly.q, _find_velocities(problem, assembly.q)[0]) for assembly in assemblies]
     here = {True: " (as the file has it)", False: ""}
     titles = [f"{k}  {format_guess(assembly)}{here[assembly.is_start]}" for k, assembly in enumerate(assemblies, 1)]
-    return _make_sketches(mechanism, closure, postures), titles
+    return _make_sketches(mechanism, problem, postures), titles

@@ -120,13 +120,13 @@ def _write_folder(folder: Path, texts: dict[str, bytes]) -> None:
         for name, text in texts.items():
             atomic_files.write(name, text)
         atomic_files.write(LIST, _format_checksums(new))
-        atomic_files.move(1 + len(texts))
+        atomic_files.move_files(1 + len(texts))
         for name in old.keys() - new.keys():
-            atomic_files.remove(name, lambda data, sums=old[name]: sha256(data).hexdigest() in sums)  # type: ignore[misc]
+            atomic_files.remove_file(name, lambda data, sums=old[name]: sha256(data).hexdigest() in sums)  # type: ignore[misc]
         for path in folder.iterdir():
             if PART.fullmatch(path.name):  # a temporary file of a killed process
-                atomic_files.remove(path.name, lambda data: any(text.startswith(data) for text in texts.values()))
-        atomic_files.move()
+                atomic_files.remove_file(path.name, lambda data: any(text.startswith(data) for text in texts.values()))
+        atomic_files.move_files()
 
 
 def _format_checksums(sums: Mapping[str, set[str]]) -> bytes:

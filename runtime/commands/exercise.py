@@ -39,7 +39,7 @@ def write_exercise(mechanism: str, target: Path, scene: str, seed: int, at: str 
     with AtomicFiles(target.parent) as atomic_files:  # both files or neither: a sheet needs its own solutions
         for file, text in zip((target, solutions), texts, strict=True):
             atomic_files.write(file.name, text.encode())
-        atomic_files.move()
+        atomic_files.move_files()
     report_written_file("exercise", target)
     report_written_file("solutions", solutions)
     return 0

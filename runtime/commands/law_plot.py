@@ -244,34 +244,34 @@ def _draw_friction_force(ax: Axes, law: Function, selected_law: _SelectedLaw) ->
         for parameter in selected_law.law.parameters
         if _get_unit(parameter) == "m/s"
     ]
-    fastest = 3.0 * max(speeds, default=SPEED / 3.0)
+    max_slip_velocity = 3.0 * max(speeds, default=SPEED / 3.0)
     if not selected_law.law.states:
-        v_t = np.linspace(-fastest, fastest, 2 * POINTS)
+        v_t = np.linspace(-max_slip_velocity, max_slip_velocity, 2 * POINTS)
         _draw_curves(ax, v_t, iter([(law(1.0, v_t)["F_t"], "F_t/F_n")]), ("v_t", "m/s"), ("F_t/F_n", ""))
         ax.set_title("the force on the journal by the slip of its surface on the bearing's")
         return
     for amplitude in (2e-5, 2e-4):
-        v_t, force = _simulate_slip_oscillation(law, selected_law.law, fastest, amplitude)
+        v_t, force = _simulate_slip_oscillation(law, selected_law.law, max_slip_velocity, amplitude)
         text = f"to and fro, {format_quantity(2 * amplitude, 'm', 2)} apart"
         _draw_curves(ax, v_t, iter([(force, text)]), ("v_t", "m/s"), ("F_t/F_n", ""))
     ax.set_title("slip as a cosine, third time, F_n = 1 N: what is bent follows")
 
 
 def _simulate_slip_oscillation(
-    law: Function, law_description: Law, fastest: float, amplitude: float
+    law: Function, law_description: Law, max_slip_velocity: float, amplitude: float
 ) -> tuple[Any, Any]:
     """Return v_t (m/s) and F_t (N) of a friction law for a slip that oscillates like a cosine, in its third period.
 
-    fastest: largest slip velocity in m/s. amplitude: in m. The inner states start at 0. Raises BadValueError if they
+    max_slip_velocity: in m/s. amplitude: in m. The inner states start at 0. Raises BadValueError if they
     diverge.
     """
     from scipy.integrate import solve_ivp
 
-    omega = fastest / amplitude
+    omega = max_slip_velocity / amplitude
 
     def compute_state_rates(t: float, z: Any) -> list[float]:
         """Return the rates of the inner states z at the time t."""
-        solution = law(1.0, fastest * np.cos(omega * t), *z)
+        solution = law(1.0, max_slip_velocity * np.cos(omega * t), *z)
         return [float(solution[f"{state.name}_rate"]) for state in law_description.states]
 
     times = np.linspace(4.0 * np.pi, 6.0 * np.pi, 2 * POINTS) / omega
@@ -283,7 +283,7 @@ def _simulate_slip_oscillation(
     if solution is None or solution.y.shape[1] < len(times):
         names = ", ".join(state.name for state in law_description.states)
         raise BadValueError(f"nothing to draw: with these numbers {names} cannot be followed; its rate overflows")
-    v_t = fastest * np.cos(omega * times)
+    v_t = max_slip_velocity * np.cos(omega * times)
     return v_t, law(1.0, v_t, *solution.y)["F_t"]
 
 

@@ -17,7 +17,14 @@ from gudgeon.model.parameters import list_addresses, parse_typed_number, read_pa
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.studies.axes import GROUPS, SETTINGS, make_axis, parse_axis
 from gudgeon.studies.box import Range
-from gudgeon.studies.map import USUAL, VerdictBox, VerdictMap, list_default_steps, verdict_box, verdict_map
+from gudgeon.studies.map import (
+    USUAL,
+    VerdictBox,
+    VerdictMap,
+    compute_verdict_box,
+    compute_verdict_map,
+    list_default_steps,
+)
 from gudgeon.studies.runs import FIXED, Setting, find_default_step
 from gudgeon.studies.show.box import report_box
 from gudgeon.studies.show.map import PASCAL, report_map
@@ -49,25 +56,25 @@ def map_file(request: Request, map_options: MapOptions) -> int:
     _check_options(map_options, step)
     setting, simulations = _parse_fixed_setting(map_options), load_scenes(request)
     _check_axis_names(map_options, simulations)
-    moving = [simulation for simulation in simulations if simulation.source.degrees_of_freedom != 0]
+    dynamic_simulations = [simulation for simulation in simulations if simulation.source.degrees_of_freedom != 0]
     if not request.json:
         for simulation in simulations:
-            if simulation not in moving:
+            if simulation not in dynamic_simulations:
                 print(f"{simulation.source.scene}: no degree of freedom, nothing is integrated, no step to choose")
-    if not moving:
+    if not dynamic_simulations:
         return 0
-    table_path = request.find_table_path(moving[0].source.mechanism, "map")
+    table_path = request.find_table_path(dynamic_simulations[0].source.mechanism, "map")
     if map_options.box is not None:
-        return _map_box(request, map_options, moving, t_end, setting, table_path)
-    steps = sorted({*list_default_steps(moving, request.quick), *([] if step is None else [step])})
+        return _map_box(request, map_options, dynamic_simulations, t_end, setting, table_path)
+    steps = sorted({*list_default_steps(dynamic_simulations, request.quick), *([] if step is None else [step])})
 
-    def classify_scene(simulation: Simulation, report: Report | None) -> VerdictMap:
+    def classify_scene(simulation: Simulation, progress: Report | None) -> VerdictMap:
         """Return the map of one scene."""
         parameters = request.select_parameters(simulation)
         axes = [parse_axis(simulation, text, parameters) for text in map_options.axes]
         if map_options.fixed and not any(a.is_method_setting for a in axes) and len(axes) < 2:
             axes = [make_axis(simulation, "step", steps), *axes]
-        return verdict_map(
+        return compute_verdict_map(
             simulation,
             axes,
             method=map_options.method,
@@ -75,19 +82,19 @@ def map_file(request: Request, map_options: MapOptions) -> int:
             t_long=t_end,
             parameters=parameters,
             quick=request.quick,
-            progress=report,
+            progress=progress,
         )
 
-    measured_scenes, interrupted = measure_scenes(moving, classify_scene, request.json)
+    measured_scenes, interrupted = measure_scenes(dynamic_simulations, classify_scene, request.json)
     if measured_scenes:
-        report_map(moving[0].source, request.file, measured_scenes, table_path, step, request.json)
-    return find_exit_code(moving, measured_scenes, interrupted)
+        report_map(dynamic_simulations[0].source, request.file, measured_scenes, table_path, step, request.json)
+    return find_exit_code(dynamic_simulations, measured_scenes, interrupted)
 
 
 def _map_box(
     request: Request,
     map_options: MapOptions,
-    moving: Sequence[Simulation],
+    dynamic_simulations: Sequence[Simulation],
     t_end: float | None,
     setting: float | None,
     table_path: Path,
@@ -97,13 +104,13 @@ def _map_box(
     setting: step or tolerance of all runs, or None for the usual one; table_path: of the CSV file.
     """
 
-    def classify_box(simulation: Simulation, report: Report | None) -> VerdictBox:
+    def classify_box(simulation: Simulation, progress: Report | None) -> VerdictBox:
         """Return the box of one scene."""
         parameters = request.select_parameters(simulation)
         axes = {a.name: a for a in (parse_axis(simulation, text, parameters) for text in map_options.ranges)}
         ranges = [Range(a.name, a.values[0], a.values[-1], PASCAL.get(a.unit, a.unit)) for a in axes.values()]
         usual = find_default_step(simulation, parameters) if map_options.fixed else USUAL
-        return verdict_box(
+        return compute_verdict_box(
             simulation,
             ranges,
             map_options.box or 0,
@@ -112,13 +119,13 @@ def _map_box(
             parameters=parameters,
             addresses=axes,
             quick=request.quick,
-            progress=report,
+            progress=progress,
         )
 
-    measured_scenes, interrupted = measure_scenes(moving, classify_box, request.json)
+    measured_scenes, interrupted = measure_scenes(dynamic_simulations, classify_box, request.json)
     if measured_scenes:
-        report_box(moving[0].source, request.file, measured_scenes, table_path, request.json)
-    return find_exit_code(moving, measured_scenes, interrupted)
+        report_box(dynamic_simulations[0].source, request.file, measured_scenes, table_path, request.json)
+    return find_exit_code(dynamic_simulations, measured_scenes, interrupted)
 
 
 def _check_options(map_options: MapOptions, step: float | None) -> None:

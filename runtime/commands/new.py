@@ -34,7 +34,10 @@ def create_mechanism_file(name: str, like: str | None) -> int:
 
 
 def create_study_file(name: str, like: str | None) -> int:
-    """Write NAME.yaml from the study template, and return the exit code. Raises as new_mechanism."""
+    """Write NAME.yaml from the study template, and return the exit code.
+
+    Raises BadValueError for `like`, which is for mechanisms only, BadNameError, and InputError if the file exists.
+    """
     if like is not None:
         raise BadValueError("--like is of mechanisms", hint="gudgeon new NAME --study begins a study; then edit it")
     name = name.removesuffix(".yaml")

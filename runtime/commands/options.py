@@ -54,7 +54,10 @@ def parse_file_or_folder(text: str) -> Path:
 
 
 def _print_version(is_requested: bool) -> None:
-    """Print the version and exit if `--version` is given; otherwise do nothing."""
+    """Print the version and exit if `--version` is given; otherwise do nothing.
+
+    Raises typer.Exit.
+    """
     if is_requested:
         import gudgeon
 

@@ -38,7 +38,10 @@ def report_errors(command: Command) -> Command:
 
     @wraps(command)
     def wrapper(*args: Any, **kwargs: Any) -> None:
-        """Run the command and exit with its code."""
+        """Run the command, without the keywords `laws`, `quiet` and `files_as_json`, and exit with its code.
+
+        Files in `laws` are registered first. GudgeonError, MemoryError and Ctrl-C become a message and an exit code.
+        """
         listed = report_as_json(kwargs.pop("files_as_json", False))
         silence = suppress_output(keep_stdout=bool(kwargs.get("json"))) if kwargs.pop("quiet", False) else nullcontext()
         try:

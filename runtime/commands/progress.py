@@ -36,7 +36,7 @@ def show_progress_bars(quiet: bool = False) -> Iterator[Callable[[str], Report |
         task: list[Any] = []
 
         def report(fraction: float, text: str) -> None:
-            """Show the fraction done and a short text."""
+            """Show the fraction done and a short text; the first call creates the bar."""
             if not shown:
                 shown.append(_start_progress_display())
             if not task:

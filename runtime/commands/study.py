@@ -64,7 +64,11 @@ def report_study(folder: str, out: Path | None, json: bool) -> int:
 
 
 def run_study_file(request: Request) -> int:
-    """Run what is missing of a study, print the results, and return the exit code: 1 if every run failed."""
+    """Run what is missing of a study, print the results, and return the exit code: 1 if every run failed.
+
+    It is 130 after Ctrl-C. For the file "report" the page of the finished study is written; with `--runs` only
+    estimates are printed. Raises BadValueError for options that do not fit together.
+    """
     if request.finished is not None:
         if request.file != REPORT:
             hint = f"gudgeon study {REPORT} FOLDER writes a page of it"

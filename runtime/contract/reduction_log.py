@@ -1,6 +1,6 @@
 """Record how the equations of motion were reduced before integration; `gudgeon check -v` shows the record.
 
-The record begins with all coordinates and constraint equations of the closed linkage. Each step removes some and may
+The record begins with all coordinates and constraint equations, joints without play. Each step removes some and may
 add others; what remains is integrated. A step of elimination removes as many coordinates as equations, so that the
 degrees of freedom stay. Only play and redundant equations change the difference.
 """

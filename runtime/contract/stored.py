@@ -110,7 +110,7 @@ def _convert_tuples_to_lists(value: Any) -> Any:
 
 
 def _replace_row_by_index(rows: list[Data], row: Data) -> Any:
-    """Return the index of an equation of the motion among those of the closed linkage; else the equation itself."""
+    """Return the index of an equation of the motion among those of the start (`rows`); else the equation itself."""
     return rows.index(row) if row in rows else row
 
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from gudgeon.assembly.closure import Closure
+from gudgeon.assembly.closure import AssemblyProblem
 from gudgeon.assembly.failures import format_length
 from gudgeon.assembly.mobility import compute_free_motions
 from gudgeon.contract.kernel_source import PartInfo
@@ -21,25 +21,25 @@ ARROW_LENGTH = 4.0  # units, of an arrow to where a body may go
 MIN_MOTION_FRACTION = 1e-6  # fraction of the largest motion below which there is none
 
 
-def draw_gaps(closure: Closure, posture: Posture) -> tuple[list[Shape], list[Label]]:
+def draw_gaps(problem: AssemblyProblem, posture: Posture) -> tuple[list[Shape], list[Label]]:
     """Return red lines across the gaps of a linkage that does not close, and labels with the residuals of all open
     joints.
 
     Reported are residuals above MIN_REPORTED_FRACTION times the largest one. A length without a line and an angle have
     a label only.
     """
-    residual = closure.compute_residual(posture.q)
-    scaled = np.abs(residual / closure.row_scale)
+    residual = problem.compute_residual(posture.q)
+    scaled = np.abs(residual / problem.row_scale)
     max_residual = float(scaled.max(initial=0.0))
     open_rows: dict[str, list[int]] = {}
-    for row, owner in enumerate(closure.owners):
+    for row, owner in enumerate(problem.owners):
         if max_residual > 0.0 and scaled[row] > MIN_REPORTED_FRACTION * max_residual:
             open_rows.setdefault(owner, []).append(row)
     shapes, labels = list[Shape](), list[Label]()
     for owner, row_indices in open_rows.items():
         for part in posture.find_parts(owner):
-            part_lengths = [residual[row] for row in row_indices if closure.units[row] == "m"]
-            angles = [residual[row] for row in row_indices if closure.units[row] == "rad"]
+            part_lengths = [residual[row] for row in row_indices if problem.units[row] == "m"]
+            angles = [residual[row] for row in row_indices if problem.units[row] == "rad"]
             gap_line = _compute_gap_line(posture, part, part_lengths) if part_lengths else None
             if gap_line is not None:
                 shapes.append(Line(f"gap {owner}", "gap", gap_line))
@@ -73,14 +73,14 @@ def _compute_gap_line(posture: Posture, part: PartInfo, lengths: list[float]) ->
 
 
 def draw_free_motions(
-    closure: Closure, posture: Posture, unit: float, unconnected_bodies: tuple[str, ...]
+    problem: AssemblyProblem, posture: Posture, unit: float, unconnected_bodies: tuple[str, ...]
 ) -> tuple[list[Shape], list[Label]]:
     """Return arrows along the free motions of the bodies of a closed linkage, and labels.
 
     The names of bodies in `unconnected_bodies` get the label "nothing holds NAME". `unit` is half a bar's width in m.
     """
-    motions = compute_free_motions(closure.linkage, closure.p, posture.q, closure.t)
-    max_motion = float(np.abs(motions * np.where(closure.is_angle, closure.size, 1.0)[:, None]).max(initial=0.0))
+    motions = compute_free_motions(problem.linkage, problem.p, posture.q, problem.t)
+    max_motion = float(np.abs(motions * np.where(problem.is_angle, problem.size, 1.0)[:, None]).max(initial=0.0))
     shapes, labels = list[Shape](), list[Label]()
     for body, info in posture.bodies.items():
         body_motions = motions[info.index : info.index + 3]
@@ -91,7 +91,7 @@ def draw_free_motions(
                 body,
                 unit,
                 MIN_MOTION_FRACTION * max_motion,
-                closure.size,
+                problem.size,
             )
         )
         shapes += body_shapes

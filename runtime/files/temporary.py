@@ -27,7 +27,7 @@ class TemporaryFolder:
         self._lock: int | None = _lock_folder(self.path)
         _remove_abandoned_folders(root, os.stat(self.path).st_ctime - GRACE_S)
 
-    def remove(self) -> None:
+    def remove_folder(self) -> None:
         """Remove the folder and its contents; a second call does nothing."""
         shutil.rmtree(self.path, ignore_errors=True)
         if self._lock is not None:

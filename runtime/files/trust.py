@@ -20,7 +20,7 @@ class UntrustedPathError(Exception):
 
 
 def check_trusted_path(path: str | os.PathLike[str]) -> None:
-    """Raise Untrusted if another user may write the folder or replace it or a folder above it.
+    """Raise UntrustedPathError if another user may write the folder or replace it or a folder above it.
 
     The folder need not exist yet: then only the existing folders above it are checked.
     """
@@ -32,7 +32,7 @@ def check_trusted_path(path: str | os.PathLike[str]) -> None:
 
 
 def check_owner_and_permissions(path: str | os.PathLike[str], status: os.stat_result) -> None:
-    """Raise Untrusted if a file or folder is not the user's or root's, or if group or others may write it.
+    """Raise UntrustedPathError if a file or folder is not the user's or root's, or if group or others may write it.
 
     `status` is the result of os.stat. The permissions of a link do not count.
     """
@@ -44,7 +44,7 @@ def check_owner_and_permissions(path: str | os.PathLike[str], status: os.stat_re
 
 
 def check_trusted_folder(path: str | os.PathLike[str]) -> None:
-    """Raise Untrusted if a folder is not the user's or root's, or if group or others may write it.
+    """Raise UntrustedPathError if a folder is not the user's or root's, or if group or others may write it.
 
     Raises NotADirectoryError for a link or a file, OSError if there is nothing.
     """
@@ -55,7 +55,7 @@ def check_trusted_folder(path: str | os.PathLike[str]) -> None:
 
 
 def _check_path_component(path: str, status: os.stat_result) -> None:
-    """Raise Untrusted if another user may replace a folder or link on the path.
+    """Raise UntrustedPathError if another user may replace a folder or link on the path.
 
     All users may write in folders in which only the owners of files may rename them (/tmp).
     """
@@ -72,7 +72,7 @@ def _check_path_component(path: str, status: os.stat_result) -> None:
 def read_trusted_file(path: str | os.PathLike[str]) -> bytes:
     """Return the bytes of a regular file that only the user or root may write; links are not followed.
 
-    Raises Untrusted, and OSError for a file that cannot be opened or is not regular.
+    Raises UntrustedPathError, and OSError for a file that cannot be opened or is not regular.
     """
     descriptor = os.open(path, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC)
     with open(descriptor, "rb", buffering=0) as file:

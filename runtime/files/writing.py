@@ -79,8 +79,8 @@ class AtomicFiles:
     def open_file(self, name: str) -> Iterator[BinaryIO]:
         """Yield a binary file to write, which can be read and positioned, under a temporary name.
 
-        It is complete when the block ends without error; `move` then puts it in place. Raises OutputError for a target
-        that may not be replaced, and for each OSError.
+        It is complete when the block ends without error; `move_files` then puts it in place. Raises OutputError for a
+        target that may not be replaced, and for each OSError.
         """
         with convert_os_errors(self.folder / name):
             old_status = _check_replaceable_file(self.folder, name, self._fd)
@@ -105,7 +105,7 @@ class AtomicFiles:
         with self.open_file(name) as file:
             file.write(data)
 
-    def move(self, count: int | None = None) -> None:
+    def move_files(self, count: int | None = None) -> None:
         """Move the first `count` complete files into place, in the order in which they were written; None: all.
 
         Raises OutputError for the first that cannot be moved.
@@ -116,7 +116,7 @@ class AtomicFiles:
                 os.replace(temporary_name, name, src_dir_fd=self._fd, dst_dir_fd=self._fd)
                 self._temporary_names.remove(temporary_name)
 
-    def remove(self, name: str, is_accepted: Callable[[bytes], bool]) -> None:
+    def remove_file(self, name: str, is_accepted: Callable[[bytes], bool]) -> None:
         """Remove a regular file of the folder if `is_accepted` returns True for its bytes.
 
         An absent file is not an error. Raises OutputError.
@@ -137,7 +137,7 @@ def open_atomic(path: str | os.PathLike[str], *, sync: bool = False) -> Iterator
     with AtomicFiles(path.parent, sync=sync) as folder:
         with folder.open_file(path.name) as file:
             yield file
-        folder.move()
+        folder.move_files()
 
 
 def write_bytes(path: str | os.PathLike[str], data: bytes | memoryview) -> None:

@@ -256,7 +256,10 @@ class KinematicRun:
         return t, float(gained[0]), int(steps[0]), int(steps[1])
 
     def build_trajectory(self, interrupted: bool, stopped: SolverError | None) -> Trajectory:
-        """Return the complete samples as a Trajectory, with events up to the last one."""
+        """Return the complete samples as a Trajectory, with events up to the last one.
+
+        They are stored in it: whether Ctrl-C `interrupted` the run, and the error that `stopped` it or None.
+        """
         rows, first = slice(self.last_complete + 1), np.zeros(1)
         passed = self.compiled.lib.gudgeon_kinematic_count_interpolated(
             self.pointer(self.motion_struct, "void *"), self.pointer(first)

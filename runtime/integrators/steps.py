@@ -68,14 +68,14 @@ class StepLog:
 
     def _convert_rows_to_steps(self, rows: Array) -> Steps:
         """Convert rows that C wrote (head, state, discrete states, contact codes) to Steps."""
-        (head, y, memory, state), n = np.split(rows, np.cumsum(self.widths)[:-1], axis=1), self.compiled.n
+        (head, y, discrete_states, state), n = np.split(rows, np.cumsum(self.widths)[:-1], axis=1), self.compiled.n
         joints = len(self.compiled.source.clearances)
         return Steps(
             head[:, RECORD_T],
             y[:, :n],
             y[:, n : 2 * n],
             y[:, 2 * n :],
-            memory[:, : self.compiled.n_memory],
+            discrete_states[:, : self.compiled.n_memory],
             state[:, :joints].astype(np.int8),
             head[:, RECORD_JUMPED] > 0.0,
         )
@@ -88,14 +88,14 @@ class StepCollector:
         self.n, self.observer = compiled.n, observer
         self.waiting: list[Steps] = []
 
-    def add_states(self, t: Array, y: Array, memory: Array, state: NDArray[Any], is_after_jump: bool) -> None:
+    def add_states(self, t: Array, y: Array, discrete_states: Array, state: NDArray[Any], is_after_jump: bool) -> None:
         """Add states (k, 2n + 3) at times t (k,), all with the same discrete states and contact codes.
 
         `is_after_jump`: whether something jumped before the first. A full block is passed to the observer.
         """
         k, n = len(t), self.n
         first = np.arange(k) < int(is_after_jump)
-        repeated = np.tile(memory, (k, 1)), np.tile(state, (k, 1))
+        repeated = np.tile(discrete_states, (k, 1)), np.tile(state, (k, 1))
         self.waiting.append(Steps(t, y[:, :n], y[:, n : 2 * n], y[:, 2 * n :], *repeated, first))
         if sum(map(len, self.waiting)) >= ROWS:
             self.pass_steps()
@@ -146,7 +146,10 @@ class KinematicStepLog:
             self._pass_states(rows[first : first + ROWS], p)
 
     def _pass_states(self, rows: Array, p: Array) -> None:
-        """Compute the works of states (k, 1 + 2n), NaN after a failure, and pass them to the observer as Steps."""
+        """Compute the works of a block of states (k, 1 + 2n): t, q, q̇, and pass both to the observer as Steps.
+
+        Works continue those of the last state that was passed, and are NaN after a failure. The last state is stored.
+        """
         n, count, pointer = self.compiled.n, len(rows), self.compiled.pointer
         t, q, v = rows[:, 0].copy(), rows[:, 1 : 1 + n].copy(), rows[:, 1 + n :].copy()
         work, done = np.full((count + 1, N_WORK), np.nan), np.zeros(1, dtype=np.int_)

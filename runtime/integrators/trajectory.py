@@ -207,13 +207,13 @@ def fetch_events(compiled: CompiledModel, run: Any, times: Array) -> NDArray[Any
     """
     joints, rows = len(compiled.source.clearances), MAX_LISTED if compiled.source.events else 1
     t, event = np.zeros(rows), np.zeros(rows, dtype=np.intc)
-    y, memory = (np.zeros((rows, max(width, 1))) for width in (2 * compiled.n + N_WORK, compiled.n_memory))
+    y, discrete_states = (np.zeros((rows, max(width, 1))) for width in (2 * compiled.n + N_WORK, compiled.n_memory))
     state = np.zeros((rows, max(joints, 1)), dtype=np.int8)
     arrays = (
         compiled.pointer(t),
         compiled.pointer(event, "int *"),
         compiled.pointer(y),
-        compiled.pointer(memory),
+        compiled.pointer(discrete_states),
         compiled.pointer(state, "signed char *"),
     )
     parts, count = [make_empty_event_states(compiled)], rows
@@ -221,7 +221,7 @@ def fetch_events(compiled: CompiledModel, run: Any, times: Array) -> NDArray[Any
         count = compiled.lib.gudgeon_run_events(run, rows, *arrays)
         part = np.zeros(count, dtype=parts[0].dtype)
         part["event"], part["t"], part["y"] = event[:count], t[:count], y[:count]
-        part["memory"], part["state"] = memory[:count, : compiled.n_memory], state[:count, :joints]
+        part["memory"], part["state"] = discrete_states[:count, : compiled.n_memory], state[:count, :joints]
         parts.append(part)
     fetched = np.concatenate(parts)
     no_number = fetched["event"] >= len(compiled.source.events)

@@ -23,7 +23,7 @@ def parse_quantity(text: str, address: str, exponents: Sequence[float]) -> float
     where, expected = Location(f"value of {address}", 1, 1), make_dimension(*exponents)
 
     def parse_text(value: str) -> float:
-        """Return the value of a text without names, after checking its dimension."""
+        """Return the value of a text after checking its dimension; raise UnknownNameError if it contains a name."""
         expr = parse(value, where)
         name = next(iterate_names(expr), None)
         if name is not None:

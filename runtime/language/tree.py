@@ -110,7 +110,7 @@ def evaluate(expr: Expr, get_value: Callable[[str], Any]) -> Any:
 
 
 def iterate_names(expr: Expr) -> Iterator[Name]:
-    """Yield every Name in an expression, left to right, with repetitions."""
+    """Yield every Name in an expression, left to right, with repetitions; those in arguments of curves, too."""
     match expr:
         case Name():
             yield expr

@@ -94,22 +94,25 @@ class BackgroundCompilation:
             return engine
         return describe_engine_object(header, self._portable, quick=True)
 
-    def start_shared_object(self, shared: SharedObject) -> None:
+    def start_shared_object(self, shared_object: SharedObject) -> None:
         """Start to compile a shared object file unless it is being compiled or the cache has it.
 
         A compilation of the same file from other texts is stopped. Raises GudgeonError or OSError if it cannot be
         started.
         """
-        if self.is_compiling(shared.name, shared.command_line, shared.texts):
+        if self.is_compiling(shared_object.name, shared_object.command_line, shared_object.texts):
             return
-        if shared.name in self._compilations:  # it was foreseen wrongly
-            self._programs.stop(self._compilations.pop(shared.name)[2])
-            shutil.rmtree(self._get_folder(shared.name))
-        if not shared.is_cached(self._portable, self._cache or get_default_cache()):
-            self._start_compilation(shared.name, shared.command_line, shared.texts)
+        if shared_object.name in self._compilations:  # it was foreseen wrongly
+            self._programs.stop(self._compilations.pop(shared_object.name)[2])
+            shutil.rmtree(self._get_folder(shared_object.name))
+        if not shared_object.is_cached(self._portable, self._cache or get_default_cache()):
+            self._start_compilation(shared_object.name, shared_object.command_line, shared_object.texts)
 
     def _start_compilation(self, name: str, command_line: tuple[str, ...], texts: Mapping[str, str]) -> None:
-        """Write missing source texts into a temporary folder, and start the compiler there for object file `name`."""
+        """Write missing source texts into a temporary folder, and start the compiler there for object file `name`.
+
+        The compilation is recorded under its name. Raises OSError or GudgeonError.
+        """
         folder = self._get_folder(name)
         folder.mkdir(exist_ok=True)
         for file, text in texts.items():
@@ -127,7 +130,7 @@ class BackgroundCompilation:
             with DelayedCtrlC() as ctrl_c:  # so that every folder made is known
                 temporary = TemporaryFolder()
                 self._folder = temporary.path
-                self._clear = finalize(self, temporary.remove)  # at the latest
+                self._clear = finalize(self, temporary.remove_folder)  # at the latest
             ctrl_c.raise_delayed()
         return self._folder / name.partition("_")[0]
 
@@ -188,7 +191,7 @@ class SharedObject:
 
     def is_cached(self, portable: bool, cache: Cache) -> bool:
         """Return whether the cache has the object file."""
-        return cache.has(self.kind, self.compute_key(portable, cache))
+        return cache.has_entry(self.kind, self.compute_key(portable, cache))
 
     def fetch_file(self, portable: bool, cache: Cache, background: BackgroundCompilation, renew: bool = False) -> Path:
         """Return the path of the object file, compiled first if the cache lacks it or `renew` is set. Raise BuildError.
@@ -197,7 +200,7 @@ class SharedObject:
         """
 
         def compile_object(folder: Path) -> None:
-            """Compile the object file in a folder, or take it from the background compilation."""
+            """Compile the object file in a folder, or take it from the background compilation. Raise BuildError."""
             if background.fetch_object(folder / self.name, self.command_line, self.texts):
                 return
             for name, text in self.texts.items():

@@ -126,7 +126,7 @@ def is_compiled(source: KernelSource, *, portable: bool = False) -> bool:
     cache, command = get_default_cache(), compiler.find_compiler()
     flags = (*compiler.build_flags(portable, command), *compiler.build_link_flags())
     key = compute_library_key(source, command, flags, compiler.describe_compiler(command, cache), portable)
-    return key in _libraries or cache.has("libraries", key)
+    return key in _libraries or cache.has_entry("libraries", key)
 
 
 def compute_library_key(

@@ -72,7 +72,7 @@ class Cache:
             self._warn_unusable(error)
         return get_private_cache().fetch(kind, key, write_files, renew=renew)
 
-    def has(self, kind: str, key: str) -> bool:
+    def has_entry(self, kind: str, key: str) -> bool:
         """Return whether a complete entry exists."""
         try:
             self._check_trusted(kind)
@@ -85,7 +85,7 @@ class Cache:
         return os.path.exists(self.root / kind / key)  # False too where the system has no such long name
 
     def _check_trusted(self, *folders: str) -> None:
-        """Raise Untrusted if another user may have written the cache or its subfolders; folders may be absent.
+        """Raise UntrustedPathError if another user may have written the cache or its subfolders; folders may be absent.
 
         The path to a temporary (private) cache is not checked.
         """
@@ -207,7 +207,7 @@ def _is_usable(entry: Path) -> bool:
 def is_complete(entry: Path) -> bool:
     """Return whether a cache entry is complete: every listed file has the bytes stored under its kind and key.
 
-    Raises Untrusted if another user may have written it.
+    Raises UntrustedPathError if another user may have written it.
     """
     try:
         check_trusted_folder(entry)
@@ -296,7 +296,7 @@ def get_private_cache() -> Cache:
     def remove_folder() -> None:
         """Remove the folder at the end of the process that made it."""
         if os.getpid() == owner:  # not in a forked worker that ends before its parent
-            folder.remove()
+            folder.remove_folder()
 
     atexit.register(remove_folder)
     return Cache(folder.path, private=True)

@@ -120,7 +120,7 @@ def find_kernel_source(
     origin = "cache"
 
     def write_source(folder: Path) -> None:  # what tables and laws the file has is found out here
-        """Write the kernel source into a folder: the committed one, or a new derivation."""
+        """Write the kernel source into a folder, committed or newly derived; set `origin` to its kind."""
         nonlocal origin
         source = None
         if not (overrides or regenerate or formulation != FORMULATIONS[0]):
@@ -159,7 +159,7 @@ def is_source_cached(mechanism: str, scene: str, overrides: Overrides) -> bool:
         data = read_bytes(find_mechanism(mechanism))
     except InputError:
         return True
-    return get_default_cache().has("models", compute_model_key(data, scene, overrides, FORMULATIONS[0]))
+    return get_default_cache().has_entry("models", compute_model_key(data, scene, overrides, FORMULATIONS[0]))
 
 
 def _has_structural_overrides(data: bytes, file: Path, scene: str, overrides: Overrides) -> bool:
@@ -179,7 +179,7 @@ def hash_present_tables(source: KernelSource, file: Path) -> tuple[tuple[str, st
 
 
 def find_present_law_keys(source: KernelSource) -> tuple[tuple[str, str], ...]:
-    """Return the user-defined laws of a kernel source as pairs of name and present key; "" if not registered."""
+    """Return the user-defined laws of a kernel source as pairs of name and present key, "" if not registered."""
     if not source.laws:
         return ()
     from gudgeon.generator.kinds.laws.registered import find_law_key

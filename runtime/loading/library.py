@@ -46,12 +46,12 @@ class Library:
 
 
 class PendingLibrary(Protocol):
-    """Provide an optimized library that is being made (optimized_library.py); both methods pass it to `switch_to`."""
+    """Provide an optimized library that is being made (optimized_library.py), for `Functions.replace_functions`."""
 
-    def switch_if_ready(self, functions: Functions) -> bool:
+    def switch_if_library_is_ready(self, functions: Functions) -> bool:
         """Use the library if it exists; return whether it is still to come."""
 
-    def wait_and_switch(self, functions: Functions) -> None:
+    def wait_for_library_and_switch(self, functions: Functions) -> None:
         """Wait for the library and use it."""
 
 
@@ -76,7 +76,7 @@ class Functions:
         except FFI.error as error:
             raise AttributeError(str(error)) from None
         setattr(self, name, function)
-        if library is not self._libraries[-1]:  # another thread has called `switch_to`
+        if library is not self._libraries[-1]:  # another thread has called `replace_functions`
             vars(self).pop(name, None)
         return function
 
@@ -91,16 +91,16 @@ class Functions:
 
     def switch_library_if_ready(self) -> None:
         """Switch to the optimized library if it exists by now; called often during runs. Do nothing without one."""
-        if (pending_library := self._pending_library) and not pending_library.switch_if_ready(self):
+        if (pending_library := self._pending_library) and not pending_library.switch_if_library_is_ready(self):
             self._pending_library = None
 
     def wait_for_optimized_library(self) -> None:
         """Wait for the optimized library, if one is being made, and switch to it, before long computations."""
         if pending_library := self._pending_library:
-            pending_library.wait_and_switch(self)
+            pending_library.wait_for_library_and_switch(self)
             self._pending_library = None
 
-    def switch_to(self, functions: Functions) -> None:
+    def replace_functions(self, functions: Functions) -> None:
         """Use the functions of another library of the same texts from the next call on, even during a run.
 
         Structs have the same layout, and tables of the library in which a run began stay in memory.

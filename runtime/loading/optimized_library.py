@@ -82,7 +82,7 @@ class OptimizedLibrary:
         ctrl_c.raise_delayed()
         return self._process is not None
 
-    def switch_if_ready(self, functions: Functions) -> bool:
+    def switch_if_library_is_ready(self, functions: Functions) -> bool:
         """Switch `functions` to the optimized library if the cache has it; return whether it is still to come.
 
         False also means that the process failed. Another thread that is checking makes this one return True.
@@ -97,18 +97,18 @@ class OptimizedLibrary:
             entry = self._cache.root / "libraries" / self._key
             with suppress(GudgeonError, OSError, UntrustedPathError):  # the next start makes it anew, and tells
                 if is_complete(entry):
-                    self._switch_to(functions, entry)
+                    self._switch_functions(functions, entry)
             return False
         finally:
             lock.release()
 
-    def wait_and_switch(self, functions: Functions) -> None:
+    def wait_for_library_and_switch(self, functions: Functions) -> None:
         """Wait for the optimized library and switch `functions` to it; make it here if the other process did not.
 
         Raises BuildError.
         """
         with self._get_lock():
-            self._switch_to(functions, self._cache.fetch("libraries", self._key, self._build))
+            self._switch_functions(functions, self._cache.fetch("libraries", self._key, self._build))
 
     def _get_lock(self) -> Lock:
         """Return the lock. In a forked child it is replaced by a new one, because the parent may hold the old one."""
@@ -116,10 +116,10 @@ class OptimizedLibrary:
             self._owner, self._lock, self._process = os.getpid(), Lock(), None
         return self._lock
 
-    def _switch_to(self, functions: Functions, entry: Path) -> None:
+    def _switch_functions(self, functions: Functions, entry: Path) -> None:
         """Let `functions` call the library of a cache entry; keep the present one if it cannot be opened."""
         with suppress(ImportError):  # the next start tells
-            functions.switch_to(self._open(entry).lib)
+            functions.replace_functions(self._open(entry).lib)
 
 
 def make_optimized_library(request: str) -> None:

@@ -61,9 +61,9 @@ def as_c_array(
 ) -> NDArray[Any]:
     """Return `values` as C reads them: aligned, C-contiguous, native byte order, `dtype`; unchanged if they are so.
 
-    shape: required lengths, None for any. finite: refuse NaN and infinities. always_copy: later changes of `values`
-    have no effect. max_entries: largest number of entries. Raises ArrayError, which names the array and the entry, for
-    masked entries, text, booleans in place of numbers, complex numbers, other objects, or another shape.
+    shape: required lengths, None for any. require_finite: refuse NaN and infinities. always_copy: later changes of
+    `values` have no effect. max_entries: largest number of entries. Raises ArrayError, which names the array and the
+    entry, for masked entries, text, booleans in place of numbers, complex numbers, other objects, or another shape.
     """
     if type(values) is np.ndarray and values.dtype is dtype and not always_copy and values.flags.carray:
         array: NDArray[Any] = values

@@ -27,8 +27,11 @@ def cache_by_values(function: Callable[..., Value]) -> Callable[..., Value]:
     name = f"{function.__module__}.{function.__name__}"
 
     @wraps(function)
-    def call_or_look_up(owner: Any, *arguments: Any) -> Value:
-        """Return the cached result, or that of a call."""
+    def get_cached_result(owner: Any, *arguments: Any) -> Value:
+        """Return the cached result, or call the function and cache its result.
+
+        Nothing is cached for arrays of more than MAX_BYTES; beyond MAX_ENTRIES the oldest results are removed.
+        """
         key: list[Any] = [name]
         for argument in arguments:
             if type(argument) is np.ndarray:
@@ -49,4 +52,4 @@ def cache_by_values(function: Callable[..., Value]) -> Callable[..., Value]:
             cache[entry] = value
         return value
 
-    return call_or_look_up
+    return get_cached_result

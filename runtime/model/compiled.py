@@ -157,11 +157,11 @@ class CompiledModel:
         return out
 
     def closed_phi(self, t: float, q: ArrayLike, p: ArrayLike) -> Array:
-        """Return Φ of the closed linkage (all joints without play), in the order of source.start_rows."""
+        """Return Φ with all joints without play, in the order of source.start_rows."""
         return self._evaluate_constraint_function("gudgeon_phi", t, p, q)
 
     def closed_phi_q(self, t: float, q: ArrayLike, p: ArrayLike) -> Array:
-        """Return the Jacobian Φ_q of the closed linkage, (rows, n)."""
+        """Return the Jacobian Φ_q with all joints without play, (number of start_rows, n)."""
         out = np.empty((len(self.source.start_rows), self.n))
         self.lib.gudgeon_phi_q(
             check_time(t),
@@ -172,7 +172,7 @@ class CompiledModel:
         return out
 
     def closed_nu(self, t: float, q: ArrayLike, p: ArrayLike) -> Array:
-        """Return ν = −Φ_t of the closed linkage."""
+        """Return ν = −Φ_t with all joints without play, in the order of source.start_rows."""
         return self._evaluate_constraint_function("gudgeon_nu", t, p, q)
 
     def phi(self, t: float, q: ArrayLike, p: ArrayLike) -> Array:
@@ -192,7 +192,7 @@ class CompiledModel:
         return self.closed_gamma(t, q, v, p)[self._open_play_rows]
 
     def closed_gamma(self, t: float, q: ArrayLike, v: ArrayLike, p: ArrayLike) -> Array:
-        """Return γ of the closed linkage."""
+        """Return γ with all joints without play, in the order of source.start_rows."""
         return self._evaluate_constraint_function("gudgeon_gamma", t, p, q, v)
 
     def start_values(self, p: ArrayLike) -> tuple[Array, Array, Array]:
@@ -219,26 +219,29 @@ class CompiledModel:
         status = self.lib.gudgeon_start(*arguments, *(self._get_output_pointer(array) for array in (q, v, residual)))
         return None if status else (q, v, float(residual[0]))
 
-    def rhs(self, t: float, y: ArrayLike, p: ArrayLike, memory: ArrayLike | None = None) -> Array:
-        """Return (q̇, q̈, powers as in Evaluation), (2n + 3,), at y = (q, q̇), (2n,) or longer.
+    def rhs(self, t: float, y: ArrayLike, p: ArrayLike, discrete_states: ArrayLike | None = None) -> Array:
+        """Return (q̇, q̈, powers of drives, forces and joints with play), (2n + 3,), at y = (q, q̇), (2n,) or longer.
 
-        `memory` (n_clearances + n_frictions,) holds δ̇⁻ of closed contacts, NaN for free ones (the default), then the
-        modes of frictions. Raises ArrayError for another length.
+        `discrete_states` (n_memory,): δ̇⁻ of closed contacts, NaN for free ones (the default), modes of frictions, inner
+        states of laws. Raises ArrayError for another length, SingularError for a vanished pivot or a state that is not
+        finite.
         """
         out = np.empty(2 * self.n + N_WORK)
         status = self.lib.gudgeon_rhs(
-            check_time(t), *self._make_state_pointers(y, memory, p), self._get_output_pointer(out)
+            check_time(t), *self._make_state_pointers(y, discrete_states, p), self._get_output_pointer(out)
         )
         self.check_pivot(status, t, p=p)
         return out
 
-    def jacobian(self, t: float, y: ArrayLike, p: ArrayLike, memory: ArrayLike | None = None) -> tuple[Array, Array]:
+    def jacobian(
+        self, t: float, y: ArrayLike, p: ArrayLike, discrete_states: ArrayLike | None = None
+    ) -> tuple[Array, Array]:
         """Return the exact ∂f/∂y and ∂f/∂t of `rhs` f at y = (q, q̇); SI.
 
         The shapes are (2n + 3 + k, 2n + 3 + k) and (2n + 3 + k,). k is the number of inner states of laws: their rates
-        follow q̈ and the powers, the states follow the works. Their values are in `memory`, as in a sample. Contacts,
-        branches of switching functions and modes of friction are those of this state. Raises SingularError where
-        constraint equations depend on each other, ValueError where nothing is integrated.
+        follow q̈ and the powers, the states follow the works. Their values are in `discrete_states`, as in a sample.
+        Contacts, branches of switching functions and modes of friction are those of this state. Raises SingularError
+        where constraint equations depend on each other, ValueError where nothing is integrated.
         """
         if reason := self.source.reason_without_jacobian:
             raise ValueError(f"this scene has no Jacobian: {reason}")
@@ -246,7 +249,7 @@ class CompiledModel:
         J, f_t = np.empty((size, size)), np.empty(size)
         status = self.lib.gudgeon_jacobian(
             check_time(t),
-            *self._make_state_pointers(y, memory, p),
+            *self._make_state_pointers(y, discrete_states, p),
             self._get_output_pointer(J),
             self._get_output_pointer(f_t),
         )
@@ -254,7 +257,14 @@ class CompiledModel:
         return J, f_t
 
     def newton(
-        self, t: float, y: ArrayLike, p: ArrayLike, eta: float, s: float, r: ArrayLike, memory: ArrayLike | None = None
+        self,
+        t: float,
+        y: ArrayLike,
+        p: ArrayLike,
+        eta: float,
+        s: float,
+        r: ArrayLike,
+        discrete_states: ArrayLike | None = None,
     ) -> Array:
         """Return u, (2n + 3 + k,), with u/η − J u = r + s f_t: the linear solve of the implicit methods.
 
@@ -271,7 +281,7 @@ class CompiledModel:
         )
         status = self.lib.gudgeon_newton(
             check_time(t),
-            *self._make_state_pointers(y, memory, p),
+            *self._make_state_pointers(y, discrete_states, p),
             eta,
             s,
             right_hand_side,
@@ -297,27 +307,27 @@ class CompiledModel:
         t: ArrayLike,
         q: ArrayLike,
         v: ArrayLike,
-        memory: ArrayLike,
+        discrete_states: ArrayLike,
         p: ArrayLike,
         poll_cancellation: Callable[[], object] = lambda: None,
         field_names: Collection[str] = FIELD_NAMES,
     ) -> Evaluation:
-        """Return all quantities at N samples: t (N,), q and v (N, n), memory (N, n_clearances + n_frictions).
+        """Return all quantities at N samples: t (N,), q and v (N, n), discrete states (N, n_memory).
 
         `poll_cancellation` is called every few milliseconds, and its exceptions are passed on. `field_names`: the
         requested fields of Evaluation. Raises SingularError for a sample that has no accelerations.
         """
-        return evaluate(self, t, q, v, memory, p, poll_cancellation, field_names)
+        return evaluate(self, t, q, v, discrete_states, p, poll_cancellation, field_names)
 
-    def as_discrete_states(self, memory: ArrayLike | None) -> Array:
-        """Return the discrete states (n_memory,): δ̇⁻ per joint with play, mode per friction. Do not write to it.
+    def as_discrete_states(self, discrete_states: ArrayLike | None) -> Array:
+        """Return the discrete states (n_memory,): δ̇⁻ per joint with play, mode per friction, inner states of laws.
 
-        None: all joints free, modes unknown. In a scene without discrete states, an array of one number is accepted.
-        Raises ArrayError for another length.
+        None: all joints free, modes unknown; this array is shared and read-only. In a scene without discrete states, an
+        array of one number is accepted. Raises ArrayError for another length.
         """
-        if memory is None:
+        if discrete_states is None:
             return self._free_contact_states
-        array = as_c_array(memory, "memory")
+        array = as_c_array(discrete_states, "memory")
         return array if not self.n_memory and array.shape == (1,) else as_c_array(array, "memory", (self.n_memory,))
 
     def check_pivot(
@@ -342,7 +352,7 @@ class CompiledModel:
             )
 
     def _evaluate_constraint_function(self, function_name: str, t: float, p: ArrayLike, *states: ArrayLike) -> Array:
-        """Return an array of all rows of the closed linkage, computed by the C function named `function_name`.
+        """Return the values of all constraint equations in source.start_rows by the C function `function_name`.
 
         It is Φ, ν or γ. `states` are q, or q and v, (n,) each.
         """
@@ -353,7 +363,9 @@ class CompiledModel:
         )
         return out
 
-    def _make_state_pointers(self, y: ArrayLike, memory: ArrayLike | None, p: ArrayLike) -> tuple[Any, Any, Any]:
+    def _make_state_pointers(
+        self, y: ArrayLike, discrete_states: ArrayLike | None, p: ArrayLike
+    ) -> tuple[Any, Any, Any]:
         """Return C pointers to y, the discrete states and p, the arguments that every right-hand side takes.
 
         y: (2n,), or (2n + 3,) with the works. Raises ArrayError for another shape.
@@ -361,7 +373,11 @@ class CompiledModel:
         state = as_c_array(y, "y")
         if state.shape not in ((2 * self.n,), (2 * self.n + N_WORK,)):
             as_c_array(state, "y", (2 * self.n,))  # says so
-        return self.pointer(state), self.pointer(self.as_discrete_states(memory)), self._get_parameter_pointer(p)
+        return (
+            self.pointer(state),
+            self.pointer(self.as_discrete_states(discrete_states)),
+            self._get_parameter_pointer(p),
+        )
 
     def _get_parameter_pointer(self, p: ArrayLike) -> Any:
         """Return a pointer to the parameter values."""

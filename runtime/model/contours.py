@@ -136,10 +136,10 @@ def compute_corner_penetration(
 
     All contacts are open there. Both are NaN where the equations of motion have no solution.
     """
-    memory = np.zeros(compiled.n_memory)
-    memory[: len(compiled.source.clearances)] = math.nan
+    discrete_states = np.zeros(compiled.n_memory)
+    discrete_states[: len(compiled.source.clearances)] = math.nan
     try:
-        columns = compiled.evaluate([t], [q], [v], [memory], p, field_names=("clearance",)).clearance[
+        columns = compiled.evaluate([t], [q], [v], [discrete_states], p, field_names=("clearance",)).clearance[
             0, clearance_index
         ]
     except SingularError:

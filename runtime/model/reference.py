@@ -78,8 +78,8 @@ def _evaluate_library(compiled: CompiledModel, state: dict[str, Any], p: Array) 
     state: {"t", "q", "v", "memory"}; p: parameter values.
     """
     t, q, v = float(state["t"]), np.array(state["q"]), np.array(state["v"])
-    memory = np.array([np.nan if x is None else x for x in state["memory"]], dtype=float)
-    evaluation = compiled.evaluate([t], [q], [v], memory[None, :], p, lambda: None)
+    discrete_states = np.array([np.nan if x is None else x for x in state["memory"]], dtype=float)
+    evaluation = compiled.evaluate([t], [q], [v], discrete_states[None, :], p, lambda: None)
     values = {name: getattr(evaluation, name) for name in EVALUATED}
     values["clearance"] = evaluation.clearance[:, :, :2]
     values["phi"], values["nu"] = compiled.closed_phi(t, q, p), compiled.closed_nu(t, q, p)

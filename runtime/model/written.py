@@ -152,8 +152,7 @@ def find_undefined_value_at_switch(
 
     None if it always is one. t (N,): rising times between which the earliest such time is searched.
     """
-    empty = np.zeros(0)
-    messages_and_times = []
+    empty, messages_and_times = np.zeros(0), []
     for call in iterate_calls(tree, "where"):
         left, right = call.arguments[:2]
         difference = Binary("-", left, right)
@@ -194,10 +193,9 @@ def _explain_undefined_branch(
     left, right, first_branch, second_branch = (evaluate(part, values) for part in call.arguments)
     for k, (value, is_active) in enumerate(((first_branch, left <= right), (second_branch, left >= right))):
         if is_active and not math.isfinite(value):
-            location = f"line {info.line}, column {info.column}"
             explanation = explain_nonfinite_part(source, call.arguments[2 + k], values)
-            switching_point = f"at t = {t:.9g} s, where its where changes over"
-            return f"{info.address} ({location}): {switching_point}, a branch is {value}: {explanation}"
+            location = f"(line {info.line}, column {info.column}): at t = {t:.9g} s, where its where changes over"
+            return f"{info.address} {location}, a branch is {value}: {explanation}"
     return ""
 
 
@@ -215,10 +213,8 @@ def explain_undefined_value_between(source: KernelSource, p: Array, t0: float, t
         low, high = (float(times[k]) for k in (max(invalid_samples[0] - 1, 0), invalid_samples[0]))
         for _ in range(60):
             middle = 0.5 * (low + high)
-            if np.isfinite(evaluate_at_times(source, p, tree, np.array([middle])))[0]:
-                low = middle
-            else:
-                high = middle
+            is_finite = np.isfinite(evaluate_at_times(source, p, tree, np.array([middle])))[0]
+            low, high = (middle, high) if is_finite else (low, middle)
         if not message or high < first_time:
             first_time, message = high, _explain_undefined_at(source, [(info, tree)], p, high, empty, empty)
     return message, first_time
@@ -233,8 +229,7 @@ def explain_undefined_rate(compiled: CompiledModel, p: Array, times: Array, q: A
     v = np.zeros(compiled.n)
     for t in times.tolist() if drives else ():
         for order, rates in (("rate", compiled.closed_nu(t, q, p)), ("second rate", compiled.closed_gamma(t, q, v, p))):
-            invalid_rows = [k for k in drives if not np.isfinite(rates[k])]
-            if invalid_rows:
+            if invalid_rows := [k for k in drives if not np.isfinite(rates[k])]:
                 name = compiled.source.start_rows[invalid_rows[0]].name
                 return f"the {order} of drive {name} is {-rates[invalid_rows[0]]:g} at t = {t:.9g} s", t
     return "", float(times[-1])
@@ -447,7 +442,10 @@ def find_undefined_runs(source: KernelSource, p: Array, is_given: NDArray[np.gen
 
 
 def describe_undefined_number(source: KernelSource, p: Array, is_given: NDArray[np.generic]) -> str:
-    """Return a message on the first undefined value of a run, p (n_p,), is_given (n_parameters,); "" if none."""
+    """Return a message on the first expression of a run with an undefined part; "" if there is none.
+
+    p: (n_p,). Expressions of parameters that are given, by the mask is_given (n_parameters,), are skipped.
+    """
     for partial in _find_affected_expressions(source, p[np.newaxis]):
         values_by_name = {name: float(p[k]) for name, k in partial.slots.items()}
         if partial.slot >= 0 and is_given[partial.slot]:
@@ -462,13 +460,10 @@ def _find_affected_expressions(source: KernelSource, p: Array) -> list[PartialEx
     """Return the expressions with a parameter that differs from the file's in a run of p (n, n_p); cache its index."""
     cache = vars(source)
     if "partial_slots" not in cache:
-        cache["partial_slots"] = sorted(
-            {k for partial in find_partial_expressions(source) for k in partial.slots.values()}
-        )
-        cache["partial_defaults"] = np.array([source.slots[k].default for k in cache["partial_slots"]])
+        slot_indices = sorted({k for partial in find_partial_expressions(source) for k in partial.slots.values()})
+        cache["partial_slots"] = slot_indices
+        cache["partial_defaults"] = np.array([source.slots[k].default for k in slot_indices])
     slot_indices = cache["partial_slots"]
-    if not slot_indices:
-        return []
     is_changed = (p[:, slot_indices] != cache["partial_defaults"]).any(axis=0)
     if not is_changed.any():
         return []

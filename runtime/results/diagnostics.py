@@ -193,7 +193,7 @@ class Diagnostics:
         )
         data["audit"] = tuple(Finding(**_convert_to_floats(fields, Finding)) for fields in data.get("audit", ()))
         data["notes"] = tuple(data["notes"])
-        data["examined"] = _read_examined_json(data["examined"]) if data.get("examined") else None
+        data["examined"] = _read_examination_json(data["examined"]) if data.get("examined") else None
         return Diagnostics(**_convert_to_floats(data, Diagnostics))
 
     def __str__(self) -> str:
@@ -212,7 +212,7 @@ class Diagnostics:
         return "\n".join([*lines, *(f"{'note':>30}  {note}" for note in self.notes)])
 
 
-def extremes_to_json(extremes: tuple[Extremes, ...]) -> str:
+def convert_extremes_to_json(extremes: tuple[Extremes, ...]) -> str:
     """Return the extremes of one run as JSON, in the form of `Diagnostics.to_json`."""
     return json.dumps(
         _convert_to_json_values([asdict(series_extremes) for series_extremes in extremes]),
@@ -221,13 +221,13 @@ def extremes_to_json(extremes: tuple[Extremes, ...]) -> str:
     )
 
 
-def extremes_from_json(text: str) -> tuple[Extremes, ...]:
-    """Return the extremes from the text that `extremes_to_json` wrote, bit for bit."""
+def convert_extremes_from_json(text: str) -> tuple[Extremes, ...]:
+    """Return the extremes from the text that `convert_extremes_to_json` wrote, bit for bit."""
     return tuple(Extremes(**_convert_to_floats(fields, Extremes)) for fields in json.loads(text))
 
 
-def _read_examined_json(data: dict[str, Any]) -> Examination:
-    """Return the Examined from its part of the parsed JSON of `Diagnostics.to_json`, with words converted to floats."""
+def _read_examination_json(data: dict[str, Any]) -> Examination:
+    """Return the Examination from its part of the parsed JSON of `Diagnostics.to_json`; words become floats."""
     classes = {"joints": JointContactStatistics, "ideal": IdealForce, "differences": Difference}
     records = {
         name: tuple(cls(**_convert_to_floats(fields, cls)) for fields in data[name]) for name, cls in classes.items()

@@ -86,7 +86,7 @@ class Lyapunov:
 
     @cached_property
     def per_return_uncertainty(self) -> float:
-        """One standard error of `per_return`."""
+        """One standard error of `per_return`; NaN with fewer than two returns."""
         times, logs = self._section_returns
         if len(times) < 2:
             return math.nan

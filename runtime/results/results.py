@@ -204,7 +204,7 @@ class Result(NotebookDisplay):
             for parameter, x, is_given in given_slots
             if is_given
         }
-        q, v, state, memory = (array[-1].copy() for array in (self.q, self.v, self.state, self.memory))
+        q, v, state, discrete_states = (array[-1].copy() for array in (self.q, self.v, self.state, self.memory))
         return State(
             source.mechanism,
             source.scene,
@@ -212,7 +212,7 @@ class Result(NotebookDisplay):
             q,
             v,
             state,
-            memory,
+            discrete_states,
             MappingProxyType(overridden),
             source.whole_sha256,
             source.overrides,
@@ -428,7 +428,7 @@ def make_evaluated_samples(
     q: Array,
     v: Array,
     work: Array,
-    memory: Array,
+    discrete_states: Array,
     state: Array,
     parts: frozenset[str],
 ) -> EvaluatedSamples:
@@ -448,7 +448,7 @@ def make_evaluated_samples(
         v=v,
         accelerations=None,
         state=state,
-        memory=memory,
+        memory=discrete_states,
         work=np.full_like(work, np.nan) if source.massless else work,
         impacts=np.zeros(0, IMPACT_DTYPE),
         diagnostics=cast(Diagnostics, None),

@@ -171,8 +171,8 @@ def make_result_at_events(run: Result) -> Result:
             np.concatenate([run_array[:1], event_array])
             for run_array, event_array in zip(start_arrays, event_arrays, strict=True)
         ]
-    q, v, work, memory, state = arrays
-    return make_result_of_samples(run, run.events["t"], q, v, work, memory, state)
+    q, v, work, discrete_states, state = arrays
+    return make_result_of_samples(run, run.events["t"], q, v, work, discrete_states, state)
 
 
 def make_result_of_samples(run: Result, t: Array, *sample_arrays: Array) -> Result:
@@ -181,7 +181,7 @@ def make_result_of_samples(run: Result, t: Array, *sample_arrays: Array) -> Resu
     `sample_arrays` are q, v, works, memory and contact state at these samples, start included. Accelerations,
     envelope and computed series are dropped.
     """
-    q, v, work, memory, state = sample_arrays
+    q, v, work, discrete_states, state = sample_arrays
     return replace(
         run,
         t=np.concatenate([run.t[:1], t]),
@@ -189,7 +189,7 @@ def make_result_of_samples(run: Result, t: Array, *sample_arrays: Array) -> Resu
         v=v,
         accelerations=None,
         work=work,
-        memory=memory,
+        memory=discrete_states,
         state=state,
         trace=None,
         event_states=None,

@@ -169,7 +169,10 @@ class Wear:
         write_bytes(check_path(path, "path"), f"angle,bearing,journal\n{text}".encode())
 
     def plot(self, ax: Axes | None = None) -> Axes:
-        """Plot the depth over the angle in each body's own frame."""
+        """Plot the depth over the angle in each body's own frame.
+
+        Returns the axes, new ones if `ax` is None.
+        """
         from gudgeon.results.figures.run_plots import plot_wear
 
         return plot_wear(self, ax)
@@ -281,7 +284,10 @@ def compute_shortest_arc(depths: Array, fraction: float = WORN_FRACTION) -> floa
 
 
 def find_bearing_parameters(source: KernelSource, joint: str) -> tuple[int, int, int]:
-    """Return the indices in p of the radii of bearing and journal, and of the pin's length, for a joint with play."""
+    """Return the indices in p of the radii of bearing and journal, and of the pin's length, for a joint with play.
+
+    Raises StopIteration for another name.
+    """
     clearance = next(joint_info for joint_info in source.clearances if joint_info.name == joint)
     radius = clearance.constants["R_i"]
     address_of_bearing = source.slots[radius].address.rpartition(".")[0]

@@ -72,10 +72,12 @@ def check_eccentricity(ratio: float) -> None:
         raise BadValueError(given, hint="beyond it there is no film")
 
 
-def check_choice(value: object, name: str, allowed: Sequence[str]) -> str:
+def check_choice(value: object, name: str, allowed_values: Sequence[str]) -> str:
     """Return the value if it is one of the allowed texts, else raise BadValueError with the `name` of the argument."""
-    if not isinstance(value, str) or value not in allowed:
-        raise BadValueError(f"{name} is {shorten_value(value)}: expected {', '.join(allowed[:-1])} or {allowed[-1]}")
+    if not isinstance(value, str) or value not in allowed_values:
+        raise BadValueError(
+            f"{name} is {shorten_value(value)}: expected {', '.join(allowed_values[:-1])} or {allowed_values[-1]}"
+        )
     return value
 
 

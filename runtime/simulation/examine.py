@@ -396,7 +396,7 @@ def check_contacts(run: Result, n_intervals: int, progress: Progress | None = No
     """Check the contacts of a run at the ends of `n_intervals` equal intervals and at its samples; see Result.check.
 
     The run is repeated bit for bit for more samples. If it cannot be, only stored samples are checked, and a note says
-    so.
+    so. Returns a ContactCheck with the faults.
     """
     from gudgeon.simulation.simulation import Simulation
 

@@ -211,16 +211,16 @@ def _explain_second_run(source: KernelSource, method: str) -> str | None:
     return None if method == "tangent" or (method == "auto" and not reason) else reason
 
 
-def _build_run_settings(settings: dict[str, Any], is_twin: bool) -> dict[str, Any]:
+def _build_run_settings(settings: dict[str, Any], has_second_run: bool) -> dict[str, Any]:
     """Return the arguments of simulate for all runs, with the tolerance RTOL unless a tolerance or fixed step is given.
 
-    Raises BadValueError for a tolerance that is too loose for a second run (`is_twin`).
+    Raises BadValueError for a tolerance that is too loose for a second run (`has_second_run`).
     """
     given = {name: value for name, value in settings.items() if value is not None}
     if given.get("step") is not None or str(given.get("method")) == "rk4":
         return given
     given = {"rtol": RTOL} | given
-    if is_twin and parse_tolerance(given["rtol"], "auto", False) > MAX_RTOL_OF_SECOND_RUN:
+    if has_second_run and parse_tolerance(given["rtol"], "auto", False) > MAX_RTOL_OF_SECOND_RUN:
         message = f"rtol is {given['rtol']}: a twin is {INITIAL_DISTANCE:g} apart, and would measure what steps err by"
         raise BadValueError(message, hint=f"expected {MAX_RTOL_OF_SECOND_RUN:g} or less; without one it is {RTOL:g}")
     return given

@@ -110,10 +110,10 @@ def flatten_state(state: State) -> Array:
     return np.concatenate([state.q, state.v])
 
 
-def _replace_state_vector(state: State, y: Array, memory: Array) -> State:
-    """Return a copy of the state with (q, q̇) replaced by y (2n,), and the discrete states by `memory`."""
+def _replace_state_vector(state: State, y: Array, discrete_states: Array) -> State:
+    """Return a copy of the state with (q, q̇) replaced by y (2n,), and the discrete states by `discrete_states`."""
     n = len(state.q)
-    return replace(state, q=y[:n].copy(), v=y[n:].copy(), memory=memory)
+    return replace(state, q=y[:n].copy(), v=y[n:].copy(), memory=discrete_states)
 
 
 def _have_equal_modes(first: State, second: State) -> bool:
@@ -191,6 +191,6 @@ class SecondRun:
         """
         s, y = INITIAL_DISTANCE / self.distance, flatten_state(self.state)
         neighbour = self.measure.project_state(self.state.t, y + s * difference)
-        memory = self.state.memory + s * (self.neighbour_state.memory - self.state.memory)
-        self.neighbour_state = _replace_state_vector(self.neighbour_state, neighbour, memory)
+        discrete_states = self.state.memory + s * (self.neighbour_state.memory - self.state.memory)
+        self.neighbour_state = _replace_state_vector(self.neighbour_state, neighbour, discrete_states)
         self.distance = self.measure.compute_norm(neighbour - y)

@@ -46,15 +46,15 @@ def copy_checked_state(source: KernelSource, start: Any) -> State:
     state = as_c_array(start.state, "start.state", (clearances,), dtype=CODE, always_copy=True)
     if state.size and (state.min() < 0 or state.max() > 2):
         raise BadValueError("start.state: expected 0 (free), 1 (impact) or 2 (contact) for each joint with play")
-    memory = as_c_array(start.memory, "start.memory", (source.n_memory,), always_copy=True)
-    _check_discrete_states(source, state, memory)
+    discrete_states = as_c_array(start.memory, "start.memory", (source.n_memory,), always_copy=True)
+    _check_discrete_states(source, state, discrete_states)
     return replace(
         start,
         t=check_number(start.t, "start.t"),
         q=as_c_array(start.q, "start.q", (n,), require_finite=True, always_copy=True),
         v=as_c_array(start.v, "start.v", (n,), require_finite=True, always_copy=True),
         state=state,
-        memory=memory,
+        memory=discrete_states,
     )
 
 
@@ -81,12 +81,14 @@ def copy_checked_states(source: KernelSource, start: Any, n_runs: int) -> list[S
     return states * n_runs if len(states) == 1 else states
 
 
-def _check_discrete_states(source: KernelSource, state: Array, memory: Array) -> None:
+def _check_discrete_states(source: KernelSource, state: Array, discrete_states: Array) -> None:
     """Raise BadValueError if contact codes and discrete states of a state contradict each other.
 
     Closed contacts need a finite approach speed, open ones NaN. Inner states and friction modes are checked too.
     """
-    for k, (joint, code, rate) in enumerate(zip(source.clearances, state.tolist(), memory.tolist(), strict=False)):
+    for k, (joint, code, rate) in enumerate(
+        zip(source.clearances, state.tolist(), discrete_states.tolist(), strict=False)
+    ):
         if code == FREE and not math.isnan(rate):
             message, expected = f"remembers {rate:g} m/s while start.state[{k}] is 0 (free)", "NaN, or state 1 or 2"
         elif code != FREE and not math.isfinite(rate):
@@ -94,15 +96,15 @@ def _check_discrete_states(source: KernelSource, state: Array, memory: Array) ->
         else:
             continue
         raise BadValueError(f"start.memory[{k}] of joint {joint.name} {message}: expected {expected}", hint=HINT_FINAL)
-    first = len(memory) - len(source.states)
-    for k, (name, z) in enumerate(zip(source.states, memory[first:].tolist(), strict=True), first):
+    first = len(discrete_states) - len(source.states)
+    for k, (name, z) in enumerate(zip(source.states, discrete_states[first:].tolist(), strict=True), first):
         joint_of = (k - first) * len(state) // max(len(source.states), 1)
         if name and not math.isfinite(z) and not (math.isnan(z) and state[joint_of] == FREE):
             message = f"start.memory[{k}], the inner state {name}, is {z:g}: expected a length (m), or NaN while free"
             raise BadValueError(message, hint=HINT_FINAL)
-    if np.isinf(memory).any():
-        k = int(np.isinf(memory).argmax())
-        message = f"start.memory[{k}] is {memory[k]:g}: expected the mode of a friction, or NaN"
+    if np.isinf(discrete_states).any():
+        k = int(np.isinf(discrete_states).argmax())
+        message = f"start.memory[{k}] is {discrete_states[k]:g}: expected the mode of a friction, or NaN"
         raise BadValueError(message, hint=HINT_FINAL)
 
 

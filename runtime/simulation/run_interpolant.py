@@ -227,12 +227,12 @@ class RunInterpolant:
         x = self.steps
         s = ((t - x.t[k]) / (x.t[k + 1] - x.t[k]))[:, None]
         q, v = self._interpolate_motion(k, t, s)
-        memory = np.repeat(x.memory[k : k + 1], len(t), axis=0)
-        states = slice(memory.shape[1] - len(self.source.states), None)
-        memory[:, states] += s * (x.memory[k + 1, states] - x.memory[k, states])
+        discrete_states = np.repeat(x.memory[k : k + 1], len(t), axis=0)
+        states = slice(discrete_states.shape[1] - len(self.source.states), None)
+        discrete_states[:, states] += s * (x.memory[k + 1, states] - x.memory[k, states])
         codes = np.repeat(x.state[k : k + 1], len(t), axis=0)
         works = self._interpolate_works(k, s) if self.needs_works else np.full((len(t), N_WORK), np.nan)
-        return Steps(t, q, v, works, memory, codes, s[:, 0] < 0.5)  # from where rates come
+        return Steps(t, q, v, works, discrete_states, codes, s[:, 0] < 0.5)  # from where rates come
 
     def _interpolate_motion(self, k: int, t: Array, s: Array) -> tuple[Array, Array]:
         """Return q and q̇ (T, n) at times t and fractions s (T, 1) between states k and k + 1.

@@ -84,9 +84,9 @@ def build_samples(runs: Runs, i: int, parts: frozenset[str]) -> EvaluatedSamples
     if not runs.arrays["done"][i]:
         return None
     n, source, p = runs.compiled.n, runs.compiled.source, runs.arrays["p"][i]
-    t, y, memory, state = runs.get_samples(i)
+    t, y, discrete_states, state = runs.get_samples(i)
     result = make_evaluated_samples(
-        source, runs.compiled, p, t, y[:, :n], y[:, n : 2 * n], y[:, 2 * n :], memory, state, parts
+        source, runs.compiled, p, t, y[:, :n], y[:, n : 2 * n], y[:, 2 * n :], discrete_states, state, parts
     )
     result.accelerations = runs.get_accelerations(i)
     return result
@@ -101,11 +101,11 @@ def _concatenate_samples(
     """
     compiled, n, samples_of_runs = runs.compiled, runs.compiled.n, [runs.get_samples(i) for i in indices]
     counts = [len(samples[0]) for samples in samples_of_runs]
-    t, y, memory, state = (np.concatenate(arrays) for arrays in zip(*samples_of_runs, strict=True))
+    t, y, discrete_states, state = (np.concatenate(arrays) for arrays in zip(*samples_of_runs, strict=True))
     q, v = y[:, :n], y[:, n : 2 * n]
     no_parameters = np.full(compiled.n_p, np.nan)
     result = make_evaluated_samples(
-        compiled.source, compiled, no_parameters, t, q, v, y[:, 2 * n :], memory, state, parts
+        compiled.source, compiled, no_parameters, t, q, v, y[:, 2 * n :], discrete_states, state, parts
     )
     if parts:
         numbers = runs.arrays["p"][indices]
@@ -114,5 +114,5 @@ def _concatenate_samples(
             t = np.concatenate(
                 [find_evaluation_times(compiled, t, y[:, :n], y[:, n : 2 * n], p) for (t, y, *_), p in last]
             )
-        result.evaluation = evaluate_runs(compiled, counts, t, q, v, memory, numbers, parts)
+        result.evaluation = evaluate_runs(compiled, counts, t, q, v, discrete_states, numbers, parts)
     return counts, result

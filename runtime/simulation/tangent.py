@@ -118,38 +118,39 @@ class Flow:
         """
         return (self.expand_state(t, y + h * d, q_dep) - self.expand_state(t, y - h * d, q_dep)) / (2.0 * h)
 
-    def compute_rates(self, t: float, y: Array, q_dep: Array, memory: Array) -> Array:
-        """Return ẏ (2m,) of the integrated state with dependent coordinates and discrete states `memory`.
+    def compute_rates(self, t: float, y: Array, q_dep: Array, discrete_states: Array) -> Array:
+        """Return ẏ (2m,) of the integrated state with dependent coordinates and `discrete_states`.
 
         Raises SingularError where the equations cannot be solved. The C buffers are overwritten.
         """
         if not self.is_reduced:
-            return self.compiled.rhs(t, y, self.p, memory)[: 2 * self.m]
+            return self.compiled.rhs(t, y, self.p, discrete_states)[: 2 * self.m]
         m, size, (q, v, held) = self.m, self.m + self.n_dep, self._state
-        q[:m], q[m:size], v[:m], v[m:size], held[: len(memory)] = (y[:m], q_dep[0], y[m:], q_dep[1], memory)
+        q[:m], q[m:size], v[:m], v[m:size] = y[:m], q_dep[0], y[m:], q_dep[1]
+        held[: len(discrete_states)] = discrete_states
         status = self.compiled.lib.gudgeon_reduced_rhs(t, *self._rhs)
         if status:
             self.compiled.check_pivot(status, t, self.compiled.source.motion_pivots or None)
         return np.concatenate([y[m:], self._a[:m]])
 
-    def compute_jacobian(self, t: float, y: Array, q_dep: Array, memory: Array) -> Array:
+    def compute_jacobian(self, t: float, y: Array, q_dep: Array, discrete_states: Array) -> Array:
         """Return the Jacobian of the rates of (y, δ̇⁻, t), (2m + n_clearances + 1) square; the rows of δ̇⁻ and t are 0.
 
         Columns of y and t come from C. Columns of the approach speeds δ̇⁻ of closed contacts are central differences.
         """
         m, node, J = self.m, self._node, self._J
         A = np.zeros((2 * m + self.joints + 1,) * 2)
-        node[: 2 * m], node[2 * m + N_WORK :], self._state[2][: len(memory)] = y, q_dep[0], memory
+        node[: 2 * m], node[2 * m + N_WORK :], self._state[2][: len(discrete_states)] = y, q_dep[0], discrete_states
         status = self.compiled.lib.gudgeon_jacobian(t, *self._jacobian)
         self.compiled.check_linearization(status, t)
         A[: 2 * m, : 2 * m], A[: 2 * m, -1] = J[: 2 * m, : 2 * m], self._f_t[: 2 * m]
-        for k in (k for k in range(self.joints) if np.isfinite(memory[k])):
+        for k in (k for k in range(self.joints) if np.isfinite(discrete_states[k])):
             ends = []
             for factor in (1.0 - RELATIVE_STEP, 1.0 + RELATIVE_STEP):
-                changed = memory.copy()
+                changed = discrete_states.copy()
                 changed[k] *= factor
                 ends.append(self.compute_rates(t, y, q_dep, changed))
-            A[: 2 * m, 2 * m + k] = (ends[1] - ends[0]) / (2.0 * RELATIVE_STEP * memory[k])
+            A[: 2 * m, 2 * m + k] = (ends[1] - ends[0]) / (2.0 * RELATIVE_STEP * discrete_states[k])
         return A
 
     def compute_dependent_coordinates(self, t: float, q_dep: Array) -> Array:
@@ -168,7 +169,7 @@ class Flow:
         )
         return np.stack([q, rates[: self.n_dep]])
 
-    def compute_gap(self, joint: int, t: float, y: Array, q_dep: Array) -> tuple[float, float]:
+    def compute_penetration(self, joint: int, t: float, y: Array, q_dep: Array) -> tuple[float, float]:
         """Return the penetration δ (m) and its rate δ̇ (m/s) of a joint with play at the integrated state.
 
         `joint`: index of the joint, which may be a corner at a wall or have a bearing with a contour.
@@ -180,16 +181,16 @@ class Flow:
         rate = self.compiled.closed_phi_q(t, full[:n], self.p)[rows] @ full[n:]
         rate -= self.compiled.closed_nu(t, full[:n], self.p)[rows]
         length = float(np.hypot(*e))
-        gap, approach = length - self.radial_clearances[joint], float(e @ rate) / length
+        penetration, approach = length - self.radial_clearances[joint], float(e @ rate) / length
         depths = self.depths[joint]
         if depths is None:
-            return gap, approach
+            return penetration, approach
         index = self.bearing[joint]
         theta, omega = (full[index + 2], full[n + index + 2]) if index >= 0 else (0.0, 0.0)
         angle = np.arctan2(-e[1], -e[0]) - theta
         turning = float(e[0] * rate[1] - e[1] * rate[0]) / length**2 - omega
         depth, slope = (float(interpolate_depth(depths, angle, order)) for order in (0, 1))
-        return gap - depth, approach - slope * turning
+        return penetration - depth, approach - slope * turning
 
     def make_pointers(self, *arrays: Array, is_written: bool = False) -> list[Any]:
         """Return C pointers to arrays, for C to write into if `is_written`; those to empty arrays have length 1."""
@@ -234,9 +235,7 @@ class Panel:
         return Panel(*times, self.s, h, self.depth + 1), Panel(*times, self.s + h, h, self.depth + 1)
 
     def compose_propagator(self) -> tuple[Array, float]:
-        """Return the propagator of the panel, composed of its halves if there are any, and the sum of the remaining
-        changes.
-        """
+        """Return the propagator of the panel, composed of its halves if it has any, and the sum of `halving_change`."""
         if not self.halves:
             assert self.P is not None
             return self.P, self.halving_change
@@ -376,10 +375,10 @@ class Tangent:
                 self._compute_transport_error(P, *(self._compute_rates(t, *states[t]) for t in panel.ends)),
             )
 
-    def _compute_rates(self, t: float, qv: Array, memory: Array) -> Array:
-        """Return ẏ (2m,) at the state (q, q̇), (2n,), of all bodies with discrete states `memory`."""
+    def _compute_rates(self, t: float, qv: Array, discrete_states: Array) -> Array:
+        """Return ẏ (2m,) at the state (q, q̇), (2n,), of all bodies with `discrete_states`."""
         y, q_dep = self.flow.reduce_state(t, qv)
-        return self.flow.compute_rates(t, y, q_dep, memory)
+        return self.flow.compute_rates(t, y, q_dep, discrete_states)
 
     def _compute_transport_error(self, P: Array, rates_at_begin: Array, rates_at_end: Array) -> float:
         """Return the relative error with which P maps the rates ẏ at the begin of a panel to those at its end."""
@@ -390,10 +389,10 @@ class Tangent:
             largest, 1e-9 / self.measure.crossing_time
         )
 
-    def _compute_jacobian(self, t: float, qv: Array, memory: Array) -> Array:
+    def _compute_jacobian(self, t: float, qv: Array, discrete_states: Array) -> Array:
         """Return the Jacobian at the state (q, q̇), (2n,), of all bodies; see Flow.compute_jacobian."""
         y, q_dep = self.flow.reduce_state(t, qv)
-        return self.flow.compute_jacobian(t, y, q_dep, memory)
+        return self.flow.compute_jacobian(t, y, q_dep, discrete_states)
 
     def _compute_scales(self) -> Array:
         """Return the scales of y and of δ̇⁻, (2m + n_clearances,): differences that count as 1."""
@@ -419,12 +418,12 @@ class Tangent:
         (y, q_dep), d = flow.reduce_state(t, state_at_t[0]), z[:size]
         closed, free = state_at_t[1].copy(), state_at_t[1].copy()
         closed[joint], free[joint] = approach_speed, np.nan
-        gap, rate = flow.compute_gap(joint, t, y, q_dep)
+        penetration, rate = flow.compute_penetration(joint, t, y, q_dep)
         h = DIFFERENCE_STEP / self.measure.compute_norm(self._expand_difference(t, y, q_dep, d))
-        ends = [np.array(flow.compute_gap(joint, t, y + s * h * d, q_dep)) for s in (1.0, -1.0)]
-        gap_slope, rate_slope = (ends[0] - ends[1]) / (2.0 * h)
-        time_shift = -gap_slope / rate
-        offset = (CLEARANCE_OFFSET * flow.radial_clearances[joint] + 2.0 * abs(gap)) / abs(rate)  # s
+        ends = [np.array(flow.compute_penetration(joint, t, y + s * h * d, q_dep)) for s in (1.0, -1.0)]
+        penetration_slope, rate_slope = (ends[0] - ends[1]) / (2.0 * h)
+        time_shift = -penetration_slope / rate
+        offset = (CLEARANCE_OFFSET * flow.radial_clearances[joint] + 2.0 * abs(penetration)) / abs(rate)  # s
         drift = flow.compute_rates(t, y, q_dep, free)
         drift[flow.m :] = 0.0
         f = [
@@ -432,19 +431,20 @@ class Tangent:
                 t + s * offset,
                 y + s * offset * drift,
                 flow.compute_dependent_coordinates(t + s * offset, q_dep),
-                memory,
+                discrete_states,
             )
-            for s, memory in ((-1.0, free if is_onset else closed), (1.0, closed if is_onset else free))
+            for s, discrete_states in ((-1.0, free if is_onset else closed), (1.0, closed if is_onset else free))
         ]
         z_after = z.copy()
         z_after[:size] -= (f[1] - f[0]) * time_shift
         z_after[size + joint] = 0.0
         if is_onset and approach_speed < rate * (1.0 + 1e-6):  # else the floor of δ̇⁻, which does not move
-            z_after[size + joint] = rate_slope + self._compute_gap_acceleration(joint, t, y, q_dep, f[0]) * time_shift
+            acceleration = self._compute_penetration_acceleration(joint, t, y, q_dep, f[0])
+            z_after[size + joint] = rate_slope + acceleration * time_shift
         return z_after
 
-    def _compute_gap_acceleration(self, joint: int, t: float, y: Array, q_dep: Array, f: Array) -> float:
-        """Return the second derivative g̈ (m/s²) of the gap of a joint along the rates f (2m,), by central
+    def _compute_penetration_acceleration(self, joint: int, t: float, y: Array, q_dep: Array, f: Array) -> float:
+        """Return the second derivative δ̈ (m/s²) of a joint's penetration along the rates f (2m,), by central
         differences in time.
         """
         flow, n = self.flow, len(y) // 2
@@ -452,7 +452,7 @@ class Tangent:
         difference[self.measure.n :] = 0.0
         h = DIFFERENCE_STEP / max(self.measure.compute_norm(difference), 1.0 / self.measure.crossing_time)
         rates = [
-            flow.compute_gap(
+            flow.compute_penetration(
                 joint,
                 t + s,
                 y + s * f + 0.5 * s * s * np.append(f[n:], np.zeros(n)),

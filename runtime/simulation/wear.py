@@ -242,10 +242,10 @@ class WearObserver:
         t = begin[:, None] + h * NODES
         s = ((t - x.t[k, None]) / (x.t[k + 1] - x.t[k])[:, None])[:, :, None]
         q, v = self._interpolate_motion(k, s)
-        memory = np.repeat(x.memory[k][:, None], len(NODES), axis=1)
-        states = slice(memory.shape[2] - len(self.compiled.source.states), None)
-        memory[:, :, states] += s * (x.memory[k + 1, states] - x.memory[k, states])[:, None]
-        q_flat, v_flat, latched = (array.reshape(t.size, -1) for array in (q, v, memory))
+        discrete_states = np.repeat(x.memory[k][:, None], len(NODES), axis=1)
+        states = slice(discrete_states.shape[2] - len(self.compiled.source.states), None)
+        discrete_states[:, :, states] += s * (x.memory[k + 1, states] - x.memory[k, states])[:, None]
+        q_flat, v_flat, latched = (array.reshape(t.size, -1) for array in (q, v, discrete_states))
         evaluation = self.compiled.evaluate(t.ravel(), q_flat, v_flat, latched, self.p, field_names=("clearance",))
         columns = dict(zip(CLEARANCE_COLUMNS, evaluation.clearance[:, self.joint_index].T, strict=True))
         F_n, F_t, e_x, e_y, e, v_t, delta = (

@@ -233,7 +233,7 @@ def _measure_settings(
     def run_setting(index: int, setting: Setting) -> Attempt:
         """Run one setting and report progress; `index` is its number among references and settings.
 
-        Cross-checks by solvers in Python are stopped after CROSS_CHECK_LIMIT_S seconds.
+        Cross-checks by solvers in Python are stopped after CROSS_CHECK_LIMIT_S seconds. Returns the attempt.
         """
         text = f"{setting.method} {setting}"
         limited = replace(window, limit=CROSS_CHECK_LIMIT_S) if setting.method in python_driver.NAMES else window
@@ -365,6 +365,7 @@ def _measure_kinematic_scene(
 
     The error is the residual of the constraint equations after Newton's method, divided by the size of the mechanism.
     t_end (s): by default the end of a plain run; None or 0 mean the default. A failed run gets a row with the failure.
+    Returns a SceneBench.
     """
     window = SceneWindow(simulation, t_end or evaluate_end(simulation.compiled, parameters), parameters)
     rows = []

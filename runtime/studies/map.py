@@ -120,7 +120,7 @@ class VerdictBox(_Verdicts):
     full: bool = False
 
 
-def verdict_map(
+def compute_verdict_map(
     simulation: Simulation,
     axes: Sequence[Axis] = (),
     *,
@@ -162,7 +162,9 @@ def verdict_map(
     )
     max_window = t_short or SHORT * shortest_step / FINER / (10 if quick else 1)
     with Pool[_MapJob, list[Cell]](progress or (lambda fraction, text: None), len(jobs)) as pool:
-        cell_lists = pool.map(lambda job, report: _judge_job(simulation, job, t_long, max_window, limits, report), jobs)
+        cell_lists = pool.map(
+            lambda job, progress: _judge_job(simulation, job, t_long, max_window, limits, progress), jobs
+        )
     missing = ([make_missing_cell(job.parameters, setting) for setting in job.settings] for job in jobs)
     cells = tuple(
         cell
@@ -199,7 +201,7 @@ def arrange_axes(
     return method_axes[0], parameter_axes[0] if parameter_axes else _build_clearance_axis(simulation, parameters, quick)
 
 
-def verdict_box(
+def compute_verdict_box(
     simulation: Simulation,
     ranges: Sequence[Range],
     count: int,
@@ -215,9 +217,9 @@ def verdict_box(
     """Judge all corners of the box of parameters `ranges` and `count` Sobol points in it, and return the verdicts.
 
     `setting`: by default method auto at tolerance USUAL. `addresses`: axes for names of ranges that are groups.
-    `quick`: over a tenth of the time. Other arguments are as in `verdict_map`. After Ctrl-C the cells so far are
-    returned. Raises BadValueError for invalid arguments or a point outside the valid parameters, MemoryError for too
-    many points.
+    `quick`: over a tenth of the time. Other arguments are as in `compute_verdict_map`. After Ctrl-C the cells so far
+    are returned. Raises BadValueError for invalid arguments or a point outside the valid parameters, MemoryError for
+    too many points.
     """
     _check_dynamic(simulation)
     ranges, count = (
@@ -252,9 +254,9 @@ def verdict_box(
             address: value for parameter_values in settings for address, value in parameter_values.items()
         }
 
-    def judge_one_point(point: Mapping[str, float], report: Report) -> Cell:
+    def judge_one_point(point: Mapping[str, float], progress: Report) -> Cell:
         """Return the verdict on one point, and report the progress of its runs."""
-        return judge_point(simulation, find_point_parameters(point), t_long, setting, limits, LIMIT, report)
+        return judge_point(simulation, find_point_parameters(point), t_long, setting, limits, LIMIT, progress)
 
     check_memory_of_cells(2.0 ** len(ranges) + count)
     points = [*list_corners(ranges), *sample_sobol_points(ranges, count)]
@@ -377,20 +379,20 @@ def _build_jobs(
 
 
 def _judge_job(
-    simulation: Simulation, job: _MapJob, t_long: float, max_window: float, limits: Limits | None, report: Report
+    simulation: Simulation, job: _MapJob, t_long: float, max_window: float, limits: Limits | None, progress: Report
 ) -> list[Cell]:
     """Return the cells of a job: fixed steps are judged together, a tolerance is judged like a point of a box.
 
     t_long (s): end of the long runs. max_window (s): bound of the window of comparison, for fixed steps only. Progress
-    goes to `report`.
+    goes to `progress`.
     """
     if job.settings[0].has_fixed_step:
-        return _judge_steps(simulation, job, t_long, max_window, limits, report)
-    return [judge_point(simulation, job.parameters, t_long, job.settings[0], limits, LIMIT, report)]
+        return _judge_steps(simulation, job, t_long, max_window, limits, progress)
+    return [judge_point(simulation, job.parameters, t_long, job.settings[0], limits, LIMIT, progress)]
 
 
 def _judge_steps(
-    simulation: Simulation, job: _MapJob, t_long: float, max_window: float, limits: Limits | None, report: Report
+    simulation: Simulation, job: _MapJob, t_long: float, max_window: float, limits: Limits | None, progress: Report
 ) -> list[Cell]:
     """Return the cells of a job with fixed steps, each from a long run and a comparison with a tenth of the step.
 
@@ -409,7 +411,7 @@ def _judge_steps(
     attempts: dict[tuple[SceneWindow, Setting], Attempt] = {}
     for window, step in runs:
         fraction = window.t_end / step.value / total_cost
-        attempts[window, step] = window.run(step, _scale_progress(report, completed, fraction))
+        attempts[window, step] = window.run(step, _scale_progress(progress, completed, fraction))
         completed += fraction
     cells = []
     for step in steps:
@@ -422,9 +424,9 @@ def _judge_steps(
     return cells
 
 
-def _scale_progress(report: Report, begin: float, length: float) -> Report:
+def _scale_progress(progress: Report, begin: float, length: float) -> Report:
     """Return a progress function for one run of a job, which maps its progress to [begin, begin + length].
 
-    report: the progress function of the whole job, which receives the mapped progress.
+    progress: the progress function of the whole job, which receives the mapped progress.
     """
-    return lambda fraction, text: report(begin + length * fraction, text)
+    return lambda fraction, text: progress(begin + length * fraction, text)

@@ -39,16 +39,17 @@ def make_questions(subject: Subject) -> list[Question]:
 
     Without chosen constraint equations, only those on degrees of freedom and play remain.
     """
-    questions = [_ask_freedoms(subject)]
+    questions = [_make_mobility_question(subject)]
     if subject.selected_rows:
-        questions += [_ask_constraints(subject), _ask_jacobian(subject), _ask_gamma(subject)]
+        questions += [_make_constraint_question(subject), _make_jacobian_question(subject)]
+        questions.append(_make_gamma_question(subject))
         if subject.model.degrees_of_freedom == 0:
-            questions.append(ask_acceleration(subject))
-        questions += ask_reaction(subject)
-    return [*questions, *_ask_play(subject)]
+            questions.append(_make_acceleration_question(subject))
+        questions += _make_reaction_question(subject)
+    return [*questions, *_make_play_question(subject)]
 
 
-def _ask_freedoms(subject: Subject) -> Question:
+def _make_mobility_question(subject: Subject) -> Question:
     """Build the question for the degrees of freedom by Grübler's count, and by the rank of Φ_q.
 
     The solution explains redundant constraints if there are any.
@@ -89,7 +90,7 @@ def _format_owners(subject: Subject) -> str:
     return ", ".join(subject.owners[:-1]) + (" and " if len(subject.owners) > 1 else "") + subject.owners[-1]
 
 
-def _ask_constraints(subject: Subject) -> Question:
+def _make_constraint_question(subject: Subject) -> Question:
     """Build the question for the constraint equations of the chosen joints and drives."""
     requested = make_paragraph(
         "Write the rows of ",
@@ -123,7 +124,7 @@ def _define_new_abbreviations(subject: Subject, quantity: str) -> list[Block]:
     )
 
 
-def _ask_jacobian(subject: Subject) -> Question:
+def _make_jacobian_question(subject: Subject) -> Question:
     """Build the question for the entries of Φ_q in the chosen constraint equations at the sheet's position.
 
     Long formulas are shown below the table, very long ones not at all.
@@ -149,7 +150,7 @@ def _ask_jacobian(subject: Subject) -> Question:
             rows.append(make_row(left, formula, shown, _find_entry_unit(row.unit, column_of[q] % 3)))
     requested = [
         make_paragraph(f"At {drawn.t:g} s the bodies are at"),
-        *tabulate_positions(subject, rates=False),
+        *tabulate_positions(subject, shows_rates=False),
         make_paragraph(
             "What entries of ",
             PHI_Q,
@@ -169,7 +170,7 @@ def _find_entry_unit(row_unit: str, axis: int) -> str:
     return {("m", 2): "m/rad", ("rad", 0): "rad/m", ("rad", 1): "rad/m"}.get((row_unit, axis), "1")
 
 
-def _ask_gamma(subject: Subject) -> Question:
+def _make_gamma_question(subject: Subject) -> Question:
     """Build the question for γ, the right-hand side of the acceleration constraints, in the chosen equations.
 
     Very long formulas are left out of the solution.
@@ -194,13 +195,13 @@ def _ask_gamma(subject: Subject) -> Question:
         )
     requested = [
         make_paragraph(f"At the same {drawn.t:g} s the rates are"),
-        *tabulate_positions(subject, rates=True),
+        *tabulate_positions(subject, shows_rates=True),
         make_paragraph("Find ", GAMMA, f" in the rows of {_format_owners(subject)}: its formula, and its value."),
     ]
     return Question("γ", tuple(requested), tuple(solved), numbers)
 
 
-def _ask_play(subject: Subject) -> Iterator[Question]:
+def _make_play_question(subject: Subject) -> Iterator[Question]:
     """Yield the question for the eccentricity of one randomly chosen revolute joint with play; nothing without one."""
     drawn = subject.drawn
     journals = [c.name for c in subject.model.clearances if c.wall is None]
@@ -330,23 +331,23 @@ def make_indexed_symbol(quantity: str, index: int) -> Name:
     return Name(f"{name.latex}_{{{index}}}", f"{name.text}_{index}")
 
 
-def tabulate_positions(subject: Subject, rates: bool, of_other_bodies: bool = False) -> list[Block]:
-    """Return a table of positions or rates of bodies in the chosen equations (of_other_bodies: of all others)."""
+def tabulate_positions(subject: Subject, shows_rates: bool, of_other_bodies: bool = False) -> list[Block]:
+    """Return a table of positions (shows_rates: rates) of bodies in the chosen equations (of_other_bodies: others)."""
     model, drawn = subject.model, subject.drawn
     selected_coordinates = {s for _, row in subject.selected_rows for s in row.phi_q}
     header = ("body", "x, m", "y, m", "angle, rad", "angle, degrees")
-    if rates:
+    if shows_rates:
         header = ("body", "x, m/s", "y, m/s", "angle, rad/s", "")
-    values, rows = drawn.v if rates else drawn.q, []
+    values, rows = drawn.v if shows_rates else drawn.q, []
     for body in model.bodies:
         if bool(selected_coordinates & set(body.q)) != of_other_bodies:
             body_values = values[body.index : body.index + 3]
-            angle = "" if rates else subject.format_number(float(np.degrees(body_values[2])), 5)
+            angle = "" if shows_rates else subject.format_number(float(np.degrees(body_values[2])), 5)
             rows.append(make_row(body.name, *(subject.format_number(float(x), 9) for x in body_values), angle))
     return make_tables(make_row(*header), rows)
 
 
-def ask_acceleration(subject: Subject) -> Question:
+def _make_acceleration_question(subject: Subject) -> Question:
     """Build the question for the largest angular acceleration, or else the largest acceleration of a coordinate."""
     model, drawn, compiled = subject.model, subject.drawn, subject.simulation.compiled
     a, driven = drawn.run.a[-1], {q for row in model.rows if len(row.phi_q) == 1 for q in row.phi_q}
@@ -356,10 +357,10 @@ def ask_acceleration(subject: Subject) -> Question:
     k = max(turning, key=lambda k: abs(a[k]))
     name = model.bodies[k // 3].name
     what = "angular acceleration of" if k % 3 == 2 else f"acceleration in {'xy'[k % 3]} of the centre of"
-    others = tabulate_positions(subject, rates=False, of_other_bodies=True)
+    others = tabulate_positions(subject, shows_rates=False, of_other_bodies=True)
     requested = [
         *([make_paragraph("The other bodies are at"), *others, make_paragraph("with the rates")] if others else []),
-        *tabulate_positions(subject, rates=True, of_other_bodies=True),
+        *tabulate_positions(subject, shows_rates=True, of_other_bodies=True),
         make_paragraph(
             "Drives determine the whole motion. Write all rows of ",
             ACCELERATIONS,
@@ -409,7 +410,7 @@ def _make_linear_equation(subject: Subject, left: Name, factors: Array, symbols_
     )
 
 
-def ask_reaction(subject: Subject) -> Iterator[Question]:
+def _make_reaction_question(subject: Subject) -> Iterator[Question]:
     """Yield the question for the reaction of a randomly chosen joint without play.
 
     Nothing is yielded without masses, or if redundancy leaves all reactions undetermined.
@@ -456,7 +457,7 @@ def ask_reaction(subject: Subject) -> Iterator[Question]:
 
 
 def _make_balance_blocks(subject: Subject, requested: list[int]) -> list[Block]:
-    """Return the equations of motion of the coordinates as blocks, from which the multipliers follow."""
+    """Return the equations of motion as blocks; requested: indices of the multipliers that follow from them."""
     model, drawn, compiled = subject.model, subject.drawn, subject.simulation.compiled
     phi_q = compiled.phi_q(drawn.t, drawn.q, drawn.p)
     left = _compute_applied_forces(subject) - np.asarray(compiled.mass(drawn.p)) * drawn.run.a[-1]

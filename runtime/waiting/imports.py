@@ -38,8 +38,8 @@ def import_modules_completely(*module_names: str) -> None:
         raise errors[0]
 
 
-def _import_modules(names: tuple[str, ...], errors: list[BaseException], finished: threading.Event) -> None:
-    """Import modules in this thread; append an exception to `errors`, and set `finished` at the end."""
+def _import_modules(names: tuple[str, ...], errors: list[BaseException], finished_event: threading.Event) -> None:
+    """Import modules in this thread; append an exception to `errors`, and set `finished_event` at the end."""
     try:
         with (
             pause_garbage_collector()
@@ -49,7 +49,7 @@ def _import_modules(names: tuple[str, ...], errors: list[BaseException], finishe
     except BaseException as error:
         errors.append(error)
     finally:
-        finished.set()
+        finished_event.set()
 
 
 def _is_imported(name: str) -> bool:

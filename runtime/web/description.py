@@ -193,8 +193,8 @@ def _compute_stored_start(compiled: CompiledModel) -> dict[str, Any] | None:
     """
     p = prepare_values(compiled, {})[0]
     if compiled.n < LARGE:
-        closure = compiled.close_linkage(0.0, p, compute_mechanism_size(compiled, p))
-        if closure is not None and np.isfinite(closure[1]).all():
+        start_position = compiled.close_linkage(0.0, p, compute_mechanism_size(compiled, p))
+        if start_position is not None and np.isfinite(start_position[1]).all():
             return None
     start, is_large = assemble_start(compiled, p), compiled.n >= LARGE  # neither a page nor Python calls C then
     array_sizes = [max(len(array), 1) for array in compiled.start_values(p)]

@@ -48,7 +48,8 @@ def build_parameter_sections(simulation: Simulation, p: Array) -> list[dict[str,
     """Return the sections of parameters for the panel, `parameters` first: [{title, numbers: [{k, name, unit, factor,
     low, high}]}].
 
-    Choices have k and name only; points of contours are left out. `p` are the file's values.
+    k is the parameter's index in `p`, the file's values; factor is the unit's value in SI. low and high (SI) are the
+    slider's range. Choices have k and name only; points of contours are left out.
     """
     source, units = simulation.source, _Units(simulation)
     mechanism_length, entries_by_section = (

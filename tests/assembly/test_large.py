@@ -47,8 +47,8 @@ def test_rank_and_tied_rows_are_those_of_a_dense_decomposition(angle: float, lea
         == rank._compute_rank_by_svd(matrix, least)
         == len(matrix) - (N if angle == 0.0 else 0)
     )
-    dense = rank._compute_shares_by_svd(matrix, least) > 1e-6
-    assert (rank.compute_dependence_shares(matrix, least) > 1e-6).tolist() == dense.tolist()
+    dense = rank._compute_left_null_maxima_by_svd(matrix, least) > 1e-6
+    assert (rank.compute_left_null_maxima(matrix, least) > 1e-6).tolist() == dense.tolist()
     assert dense.any() == (angle == 0.0)
 
 
@@ -57,7 +57,7 @@ def test_rows_beyond_the_columns_or_no_numbers_are_not_taken_for_independent() -
     assert large.has_independent_rows(matrix, 1e-9)
     assert not large.has_independent_rows(np.vstack([matrix, matrix[:3]]), 1e-9)
     assert not large.has_independent_rows(np.where(matrix == 1.0, np.nan, matrix), 1e-9)
-    assert not large.estimate_dependence_shares(np.where(matrix == 1.0, np.nan, matrix), 1e-6).any()
+    assert not large.estimate_left_null_maxima(np.where(matrix == 1.0, np.nan, matrix), 1e-6).any()
 
 
 @pytest.mark.parametrize("angle", [1.5, 0.0])
@@ -83,9 +83,9 @@ def test_no_configuration_costs_a_dense_decomposition(monkeypatch: pytest.Monkey
     redundant, target = np.vstack([matrix, matrix[:3]]), matrix @ np.ones(matrix.shape[1])
     monkeypatch.setattr(np.linalg, "svd", dense)
     monkeypatch.setattr(np.linalg, "lstsq", dense)
-    assert rank.compute_rank(matrix) == len(matrix) and rank.compute_dependence_shares(matrix).max() < 1e-12
-    assert rank.compute_dependence_shares(flat, 1e-6).any()  # of a dead centre too
-    assert rank.compute_rank(redundant) == len(matrix) and (rank.compute_dependence_shares(redundant) > 1e-6).sum() >= 6
+    assert rank.compute_rank(matrix) == len(matrix) and rank.compute_left_null_maxima(matrix).max() < 1e-12
+    assert rank.compute_left_null_maxima(flat, 1e-6).any()  # of a dead centre too
+    assert rank.compute_rank(redundant) == len(matrix) and (rank.compute_left_null_maxima(redundant) > 1e-6).sum() >= 6
     assert redundant @ solve_minimum_norm(redundant, np.append(target, target[:3])) == pytest.approx(
         np.append(target, target[:3]), abs=1e-12
     )

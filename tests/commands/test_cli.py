@@ -243,7 +243,7 @@ def test_stress_is_another_name_of_map(call: Gudgeon, pump: str) -> None:
         2,
         2,
     ]
-    assert (stress.stress, stress.stress_box) == (maps.verdict_map, maps.verdict_box)
+    assert (stress.stress, stress.stress_box) == (maps.compute_verdict_map, maps.compute_verdict_box)
 
 
 def test_schema_is_json_schema(call: Gudgeon) -> None:

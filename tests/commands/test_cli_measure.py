@@ -17,7 +17,7 @@ from gudgeon.errors import BadValueError
 from gudgeon.integrators.peers import driver as python_driver
 from gudgeon.studies.axes import make_axis
 from gudgeon.studies.bench import measure_scene
-from gudgeon.studies.map import verdict_map
+from gudgeon.studies.map import compute_verdict_map
 from gudgeon.studies.methods import ADAPTIVE, select_methods
 from gudgeon.studies.show.bench import describe_bench
 from tests.programs import needs_compiler
@@ -113,12 +113,12 @@ def test_gains_act_in_the_full_formulation() -> None:
     """With a long step the constraints drift, and stronger terms pull back more of it."""
     dry = gudgeon.load("nine_bar_press", scene="dry")
     axes = [make_axis(dry, "gains", [0.1, 100.0]), make_axis(dry, "step", [2e-5])]
-    found = verdict_map(dry, axes, method="rk4", t_long=5e-3, t_short=2e-3)
+    found = compute_verdict_map(dry, axes, method="rk4", t_long=5e-3, t_short=2e-3)
     weak, strong = (found.get_cell(2e-5, gain) for gain in (0.1, 100.0))
     assert found.full and weak.energy != strong.energy
-    assert not verdict_map(dry, axes[1:], method="rk4", t_long=5e-3, t_short=2e-3, quick=True).full
+    assert not compute_verdict_map(dry, axes[1:], method="rk4", t_long=5e-3, t_short=2e-3, quick=True).full
     with pytest.raises(BadValueError, match="dop853"):
-        verdict_map(dry, axes[:1], method="dop853")
+        compute_verdict_map(dry, axes[:1], method="dop853")
 
 
 def test_marked_step_is_a_row(call: Gudgeon, pump: str, tmp_path: Path) -> None:

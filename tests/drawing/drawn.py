@@ -13,7 +13,7 @@ import pytest
 
 pytest.importorskip("matplotlib")
 
-from gudgeon.assembly.closure import Closure  # noqa: E402
+from gudgeon.assembly.closure import AssemblyProblem  # noqa: E402
 from gudgeon.drawing.labels import NameLabels  # noqa: E402
 from gudgeon.drawing.picture import build_figure  # noqa: E402
 from gudgeon.drawing.posture import Posture  # noqa: E402
@@ -29,7 +29,7 @@ ROOT = Path(__file__).resolve().parents[2]
 class Drawn:
     mechanism: Any
     linkage: Any
-    closure: Closure
+    problem: AssemblyProblem
     posture: Posture
 
 
@@ -39,10 +39,10 @@ def drawn(file: Path | str) -> Drawn:
     text = file.encode() if isinstance(file, str) else file.read_bytes()
     mechanism = read_mechanism(text, "drawn.yaml", None)
     linkage, _ = build_closed_linkage(mechanism, list(mechanism.scenes)[-1])
-    closure = Closure(linkage, linkage.p, 0.0)
+    problem = AssemblyProblem(linkage, linkage.p, 0.0)
     with np.errstate(all="ignore"):
-        q, _ = closure.find_nearest_configuration()
-    return Drawn(mechanism, linkage, closure, Posture(linkage.source, linkage.p, q))
+        q, _ = problem.find_nearest_configuration()
+    return Drawn(mechanism, linkage, problem, Posture(linkage.source, linkage.p, q))
 
 
 def boxes(picture: Any) -> Iterator[tuple[str, tuple[float, ...]]]:

@@ -127,10 +127,10 @@ start: {set: {beam.theta: 10 deg}}
 def test_a_gap_is_as_long_as_the_linkage_is_open(text: str) -> None:
     """Of each joint or drive the length of its rows' residual, joined at one end; no other has a gap."""
     found = drawn(text)
-    residual, closure = found.closure.compute_residual(found.posture.q), found.closure
-    shapes, labels = draw_gaps(closure, found.posture)
+    residual, problem = found.problem.compute_residual(found.posture.q), found.problem
+    shapes, labels = draw_gaps(problem, found.posture)
     lengths = dict[str, list[float]]()
-    for owner, unit, left in zip(closure.owners, closure.units, residual, strict=True):
+    for owner, unit, left in zip(problem.owners, problem.units, residual, strict=True):
         if unit == "m" and owner != "start":
             lengths.setdefault(owner, []).append(left)
     sizes = {f"gap {owner}": float(np.linalg.norm(left)) for owner, left in lengths.items()}
@@ -175,7 +175,7 @@ def test_what_may_move_is_told_by_arrows_along_it() -> None:
     mobility = find_mobility(linkage, linkage.p, posture.q)
     assert motions.shape[1] == mobility.freedoms == 5 and mobility.loose == ("stray",)
     assert np.abs(linkage.closed_phi_q(0.0, posture.q, linkage.p) @ motions).max() < 1e-12
-    shapes, labels = draw_free_motions(found.closure, posture, 1e-3, mobility.loose)
+    shapes, labels = draw_free_motions(found.problem, posture, 1e-3, mobility.loose)
     heads = {part: [s for s in shapes if s.part == part and s.role == "free head"] for part in {s.part for s in shapes}}
     assert {part: len(found) for part, found in heads.items()} == {"free coupler": 2, "free stray": 5, "free block": 2}
     assert [label.part for label in labels] == ["free stray"]

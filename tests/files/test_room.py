@@ -22,7 +22,7 @@ from gudgeon.model.evaluation import compute_evaluation_bytes, compute_sample_by
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.studies.axes import make_axis
 from gudgeon.studies.box import Range
-from gudgeon.studies.map import verdict_box, verdict_map
+from gudgeon.studies.map import compute_verdict_box, compute_verdict_map
 from tests.programs import needs_compiler
 from tests.pump import Gudgeon
 
@@ -171,11 +171,11 @@ def test_maps_of_more_cells_than_fit(pendulum: Simulation) -> None:
     axes = [make_axis(pendulum, "rtol", np.geomspace(1e-12, 1e-4, 460).tolist())]
     axes.append(make_axis(pendulum, "g", np.linspace(1.0, 2.0, 1000).tolist()))
     with pytest.raises(MemoryError, match=r"^460000 cells would take 942 MB, and 1 GB are free$"):
-        verdict_map(pendulum, axes)
+        compute_verdict_map(pendulum, axes)
     edges = [Range(f"p{k}", 1.0, 2.0) for k in range(19)]
     known = {edge.name: make_axis(pendulum, "g", (1.0, 2.0)) for edge in edges}
     with pytest.raises(MemoryError, match="^524290 cells"):
-        verdict_box(pendulum, edges, 2, addresses=known)
+        compute_verdict_box(pendulum, edges, 2, addresses=known)
 
 
 @needs_compiler

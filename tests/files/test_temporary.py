@@ -45,7 +45,7 @@ def test_a_killed_process_leaves_its_folder_until_the_next_one(tmp_path: Path) -
     second = TemporaryFolder()
     assert not left.exists() and first.path.exists() and other.exists()
     for folder in (first, second, second):
-        folder.remove()
+        folder.remove_folder()
     assert list(tmp_path.iterdir()) == [other]
 
 
@@ -54,5 +54,5 @@ def test_what_is_young_is_left_alone(tmp_path: Path, monkeypatch: pytest.MonkeyP
     monkeypatch.setattr(temporary, "GRACE_S", 60.0)
     young = tmp_path / "gudgeon-tmp-abcdefgh"
     young.mkdir()
-    TemporaryFolder().remove()
+    TemporaryFolder().remove_folder()
     assert young.exists()

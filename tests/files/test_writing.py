@@ -121,12 +121,12 @@ def test_files_move_in_together_or_not_at_all(tmp_path: Path) -> None:
     with limited(10), pytest.raises(OutputError), AtomicFiles(tmp_path) as aside:
         aside.write("a", b"new")
         aside.write("b", bytes(11))
-        aside.move()
+        aside.move_files()
     assert (tmp_path / "a").read_bytes() == b"older" and os.listdir(tmp_path) == ["a"]
     with AtomicFiles(tmp_path) as aside:
         aside.write("a", b"new")
         aside.write("b", b"b")
-        aside.move(1)
+        aside.move_files(1)
     assert (tmp_path / "a").read_bytes() == b"new" and os.listdir(tmp_path) == ["a"]
 
 

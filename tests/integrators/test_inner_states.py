@@ -87,7 +87,7 @@ def test_the_functions_of_numpy_agree(two: Simulation) -> None:
     p, bent = model.prepare(), np.array([[7e-6], [-1.2e-5]])
     q, v = start.q + rng.normal(0, 3e-4, start.q.size), start.v + rng.normal(0, 0.1, start.v.size)
     got = model.dynamics(0.1, q, v, p, [0.05, 0.2], states=bent)
-    want = two.compiled.rhs(0.1, np.concatenate([q, v]), two.p, memory=[0.05, 0.2, *bent.ravel()])
+    want = two.compiled.rhs(0.1, np.concatenate([q, v]), two.p, discrete_states=[0.05, 0.2, *bent.ravel()])
     np.testing.assert_allclose(got.a, want[q.size : 2 * q.size], rtol=0, atol=1e-12 * abs(got.a).max())
     assert any(joint.delta > 0 for joint in got.clearance)
     for joint, (z,) in zip(got.clearance, bent, strict=True):

@@ -141,5 +141,5 @@ def test_the_functions_of_numpy(discs: Discs, scene: str) -> None:
     for _ in range(20):
         turn, deep = rng.uniform(0, 2 * math.pi), rng.uniform(-1e-5, 3e-4)
         q, v = np.array([(C + deep) * math.cos(turn), (C + deep) * math.sin(turn), 0.3]), rng.normal(0, 0.5, 3)
-        want = disc.compiled.rhs(0.0, np.concatenate([q, v]), disc.p, memory=[0.4])[3:6]
+        want = disc.compiled.rhs(0.0, np.concatenate([q, v]), disc.p, discrete_states=[0.4])[3:6]
         np.testing.assert_allclose(model.dynamics(0.0, q, v, p, [0.4]).a, want, atol=1e-12 * (1 + abs(want).max()))

@@ -93,8 +93,8 @@ def test_it_is_drawn_by_its_own_symbol_or_by_squares() -> None:
 def test_its_gap_is_what_its_row_lacks() -> None:
     """Of the roller a line along the normal, of the other one a number: the distance of its points means nothing."""
     found = drawn(OPEN)
-    residual = dict(zip(found.closure.names, found.closure.compute_residual(found.posture.q), strict=True))
-    shapes, labels = draw_gaps(found.closure, found.posture)
+    residual = dict(zip(found.problem.names, found.problem.compute_residual(found.posture.q), strict=True))
+    shapes, labels = draw_gaps(found.problem, found.posture)
     texts = {label.part: label.text for label in labels}
     lines = {shape.part: shape for shape in shapes}
     face, even = residual["face.distance"], residual["even.height"]

@@ -175,7 +175,7 @@ def test_a_folder_that_cannot_be_made_falls_back_with_a_warning(tmp_path: Path) 
 
 def test_a_name_that_the_system_has_not_falls_back(tmp_path: Path) -> None:
     cache = Cache(tmp_path / ("a" * 300))
-    assert not cache.has_folder("kind", "key") and not cache.has("kind", "key")
+    assert not cache.has_folder("kind", "key") and not cache.has_entry("kind", "key")
     with pytest.warns(RuntimeWarning, match="GUDGEON_CACHE"):
         assert is_complete(cache.fetch("kind", "key", Writer()))
 

@@ -20,7 +20,7 @@ from gudgeon.studies import bench as benches
 from gudgeon.studies import map as maps
 from gudgeon.studies.bench import measure_scene
 from gudgeon.studies.box import Range
-from gudgeon.studies.map import verdict_box, verdict_map
+from gudgeon.studies.map import compute_verdict_box, compute_verdict_map
 from gudgeon.studies.verdicts import Status
 from tests.programs import needs_compiler
 from tests.pump import Gudgeon, written
@@ -122,9 +122,9 @@ def test_nothing_computed_is_told_so(call: Gudgeon, pump: str, tmp_path: Path, m
 
 def test_what_a_box_has_judged_is_kept(one_thread: None, monkeypatch: pytest.MonkeyPatch) -> None:
     edges, whole = [Range("omega", 5.0, 20.0)], None
-    whole = verdict_box(press("dry"), edges, 2, t_long=0.01)
+    whole = compute_verdict_box(press("dry"), edges, 2, t_long=0.01)
     monkeypatch.setattr(maps, "judge_point", ctrl_c_at(3, maps.judge_point))
-    found = verdict_box(press("dry"), edges, 2, t_long=0.01)
+    found = compute_verdict_box(press("dry"), edges, 2, t_long=0.01)
     assert found.interrupted and found.done == (2, 4) and not whole.interrupted
     assert [cell.status for cell in found.cells[:2]] == [cell.status for cell in whole.cells[:2]]
     assert [cell.error for cell in found.cells[:2]] == [cell.error for cell in whole.cells[:2]]
@@ -135,7 +135,7 @@ def test_what_a_box_has_judged_is_kept(one_thread: None, monkeypatch: pytest.Mon
 def test_where_nothing_was_judged_there_is_nothing_to_keep(one_thread: None, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(maps, "judge_point", ctrl_c_at(1, maps.judge_point))
     with pytest.raises(KeyboardInterrupt):
-        verdict_box(press("dry"), [Range("omega", 5.0, 20.0)], 2, t_long=0.01)
+        compute_verdict_box(press("dry"), [Range("omega", 5.0, 20.0)], 2, t_long=0.01)
 
 
 def test_a_box_is_written_as_a_part(
@@ -170,7 +170,7 @@ def test_a_box_is_written_as_a_part(
 
 def test_a_map_keeps_its_shape(one_thread: None, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(maps, "judge_point", ctrl_c_at(2, maps.judge_point))
-    found = verdict_map(press("lubricated"), t_long=0.005, quick=True)
+    found = compute_verdict_map(press("lubricated"), t_long=0.005, quick=True)
     assert found.done == (1, 2) and found.interrupted
     assert found.get_cell(1e-8, C).status is Status.STABLE and found.get_cell(1e-6, C).status is Status.MISSING
 

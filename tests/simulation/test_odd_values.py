@@ -357,7 +357,7 @@ class _NoPool:
 def test_map(pendulum: Simulation, name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(maps, "Pool", _NoPool)
     good: dict[str, Any] = {"quick": True}
-    refused_or_used(lambda value: maps.verdict_map(pendulum, **(good | {name: value})))
+    refused_or_used(lambda value: maps.compute_verdict_map(pendulum, **(good | {name: value})))
 
 
 @pytest.mark.parametrize("name", BOX)
@@ -365,7 +365,7 @@ def test_stress_box(pendulum: Simulation, name: str, monkeypatch: pytest.MonkeyP
     monkeypatch.setattr(maps, "Pool", _NoPool)
     ranges = [box.Range(pendulum.source.slots[0].address, 1.0, 2.0)]
     good: dict[str, Any] = {"ranges": ranges, "count": 2}
-    refused_or_used(lambda value: maps.verdict_box(pendulum, **(good | {name: value})))
+    refused_or_used(lambda value: maps.compute_verdict_box(pendulum, **(good | {name: value})))
 
 
 def test_axes(pendulum: Simulation) -> None:

@@ -23,7 +23,7 @@ from gudgeon.studies.box import (
     list_corners,
     sample_sobol_points,
 )
-from gudgeon.studies.map import VerdictBox, verdict_box
+from gudgeon.studies.map import VerdictBox, compute_verdict_box
 from gudgeon.studies.runs import ONSETS, Error, SceneWindow, Setting, compare_runs
 from gudgeon.studies.show.box import (
     MAX_WORST_POINTS,
@@ -64,11 +64,11 @@ def test_corners_and_sobol_points_fill_the_box_and_are_the_same_every_time() -> 
 @needs_compiler
 def test_box_judges_every_corner_and_point() -> None:
     dry = press("dry")
-    found = verdict_box(dry, [Range("omega", 5.0, 20.0)], 2, t_long=0.02)
+    found = compute_verdict_box(dry, [Range("omega", 5.0, 20.0)], 2, t_long=0.02)
     assert [cell.parameters["omega"] for cell in found.cells[:2]] == [5.0, 20.0] and len(found.cells) == 4
     assert not any(cell.failed for cell in found.cells)
     with pytest.raises(BadValueError, match="radius"):
-        verdict_box(dry, [Range("c", 1e-3, 0.02)], 0)
+        compute_verdict_box(dry, [Range("c", 1e-3, 0.02)], 0)
 
 
 @needs_compiler

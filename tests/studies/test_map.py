@@ -16,7 +16,7 @@ from gudgeon.cli import app
 from gudgeon.errors import BadValueError, UnknownNameError
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.studies.axes import Axis, make_axis, make_clearance_axis, parse_axis
-from gudgeon.studies.map import VerdictMap, list_default_clearances, list_default_steps, verdict_map
+from gudgeon.studies.map import VerdictMap, compute_verdict_map, list_default_clearances, list_default_steps
 from gudgeon.studies.runs import Attempt, Error, SceneWindow, Setting
 from gudgeon.studies.show.map import describe_marked_step, format_run_command
 from gudgeon.studies.show.tables import format_fraction, format_seconds
@@ -35,7 +35,7 @@ def press(scene: str) -> Simulation:
 def by_step(scene: str, steps: list[float], play: list[float], **options: Any) -> VerdictMap:
     """Steps of rk4 × clearance."""
     axes = [make_axis(press(scene), "step", steps), make_clearance_axis(press(scene), play)]
-    return verdict_map(press(scene), axes, method="rk4", **options)
+    return compute_verdict_map(press(scene), axes, method="rk4", **options)
 
 
 def rk4(step: float) -> Setting:
@@ -157,7 +157,7 @@ def test_axis_of_steps_starts_at_the_shortest_scene() -> None:
 @needs_compiler
 def test_scene_without_freedom_has_no_step_to_choose() -> None:
     with pytest.raises(BadValueError, match="no degree of freedom"):
-        verdict_map(press("ideal"))
+        compute_verdict_map(press("ideal"))
 
 
 @needs_compiler
@@ -169,7 +169,7 @@ def test_clearance_beyond_the_radius_is_refused() -> None:
 @needs_compiler
 def test_scene_without_play_has_one_column() -> None:
     pendulum = gudgeon.load(PENDULUM, scene="ideal")
-    found = verdict_map(pendulum, [make_axis(pendulum, "step", [1e-3, 2e-1])], method="rk4", t_long=2.0)
+    found = compute_verdict_map(pendulum, [make_axis(pendulum, "step", [1e-3, 2e-1])], method="rk4", t_long=2.0)
     assert len(found.columns.values) == 1 and math.isnan(found.columns.values[0])
     assert found.get_cell(1e-3, math.nan).status is Status.STABLE
     assert found.get_cell(2e-1, math.nan).status is not Status.STABLE
@@ -188,7 +188,7 @@ def test_interruption_ends_all_threads() -> None:
 
 @needs_compiler
 def test_tolerance_times_clearance_is_the_usual_map() -> None:
-    found = verdict_map(press("lubricated"), t_long=0.01, quick=True)
+    found = compute_verdict_map(press("lubricated"), t_long=0.01, quick=True)
     assert found.rows.name == "rtol" and found.columns.name == "clearance" and not found.setting.has_fixed_step
     assert all(cell.status is Status.STABLE for cell in found.cells)
     assert found.get_cell(1e-8, C).error.path < found.get_cell(1e-6, C).error.path
@@ -199,7 +199,7 @@ def test_tolerance_times_clearance_is_the_usual_map() -> None:
 def test_two_axes_of_numbers_take_one_tolerance_and_give_what_runs_them_again() -> None:
     dry = press("dry")
     axes = [parse_axis(dry, "omega=20,60"), parse_axis(dry, "stiffness=1GPa..400GPa:2")]
-    found = verdict_map(dry, axes, t_long=0.02)
+    found = compute_verdict_map(dry, axes, t_long=0.02)
     assert found.columns.values == (20.0, 60.0) and found.rows.values == (1e9, 4e11)
     soft, hard = found.get_cell(1e9, 60.0), found.get_cell(4e11, 20.0)
     assert soft.status is Status.OUTSIDE and hard.status is Status.STABLE
@@ -224,7 +224,7 @@ def test_axes_that_do_not_fit_are_refused() -> None:
         ([make_axis(dry, "rtol", [0.0])], "auto"),
     ):
         with pytest.raises(BadValueError, match="axis|axes"):
-            verdict_map(dry, axes, method=method)
+            compute_verdict_map(dry, axes, method=method)
     for text in ("omega", "omega=2..1", "omega=1..2:x"):
         with pytest.raises(BadValueError, match="expected"):
             parse_axis(dry, text)

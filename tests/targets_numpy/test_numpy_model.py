@@ -87,7 +87,7 @@ def check(simulation: Simulation) -> None:
         for rate, mode in ((np.nan, 1.0), (0.05, -1.0), (0.2, 0.0)) if joints or frictions else ((np.nan, 1.0),):
             latches, modes = np.full(joints, rate), np.full(frictions, mode)
             got = model.dynamics(t, q, v, numbers, latches, modes)
-            want = c.rhs(t, np.concatenate([q, v]), p, memory=np.concatenate([latches, modes]))
+            want = c.rhs(t, np.concatenate([q, v]), p, discrete_states=np.concatenate([latches, modes]))
             assert got.status == 0
             close(got.a, want[q.size : 2 * q.size], 1e-12)
 
@@ -144,7 +144,7 @@ def test_modes_of_friction_must_be_given() -> None:
     with pytest.raises(ArrayError, match=r"modes of shape \(0,\): expected \(1,\)\n.*one each for rub"):
         model.dynamics(0.0, start.q, start.v, numbers)
     for mode in (-1.0, 0.0, 1.0):
-        want = simulation.compiled.rhs(0.0, y, p, memory=np.array([mode]))
+        want = simulation.compiled.rhs(0.0, y, p, discrete_states=np.array([mode]))
         got = model.dynamics(0.0, start.q, start.v, numbers, modes=[mode])
         close(got.a, want[start.q.size : 2 * start.q.size], 1e-12)
 

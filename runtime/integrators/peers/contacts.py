@@ -68,16 +68,18 @@ class ContactQuantities:
 
 
 class Contacts:
-    """Track the contact states of the joints with play in a run. `memory` (n_clearances,): δ̇⁻, NaN while free."""
+    """Track the contact states of the joints with play in a run; `discrete_states` (n_clearances,): δ̇⁻, NaN if free."""
 
-    def __init__(self, compiled: CompiledModel, p: Array, memory: Array, state: NDArray[np.int8] | None) -> None:
+    def __init__(
+        self, compiled: CompiledModel, p: Array, discrete_states: Array, state: NDArray[np.int8] | None
+    ) -> None:
         self.compiled, self.p = compiled, p
         joints = compiled.source.clearances
         self.count = len(joints)
         self.c = p[[joint.clearance for joint in joints]]
         self.R = p[[joint.constants["R_i"] for joint in joints]]
         self.floor = _find_velocity_floor(compiled, p)
-        self.memory = np.array(memory[: self.count], dtype=np.float64)
+        self.discrete_states = np.array(discrete_states[: self.count], dtype=np.float64)
         self.compressing = np.zeros(self.count, dtype=bool) if state is None else np.asarray(state) == CODE_IMPACT
         self.open = [(np.nan, 0.0, np.nan)] * self.count  # onset, largest force and its time of the present contact
         self.impacts: list[tuple[int, float, float, float, float, float]] = []
@@ -89,7 +91,7 @@ class Contacts:
     @property
     def closed(self) -> NDArray[np.bool_]:
         """Return a mask (n_clearances,) of the closed contacts."""
-        return ~np.isnan(self.memory)
+        return ~np.isnan(self.discrete_states)
 
     @property
     def codes(self) -> NDArray[np.int8]:
@@ -102,8 +104,8 @@ class Contacts:
         contacts.
         """
         n = self.compiled.n
-        memory = np.broadcast_to(self.memory, (len(t), self.count))
-        columns = self.compiled.evaluate(t, y[:, :n], y[:, n : 2 * n], memory, self.p).clearance
+        discrete_states = np.broadcast_to(self.discrete_states, (len(t), self.count))
+        columns = self.compiled.evaluate(t, y[:, :n], y[:, n : 2 * n], discrete_states, self.p).clearance
         force = np.hypot(columns[..., CLEARANCE_Fn], columns[..., CLEARANCE_Ft])
         return ContactQuantities(
             columns[..., CLEARANCE_delta], columns[..., CLEARANCE_deltadot], force, columns[..., CLEARANCE_e]
@@ -118,7 +120,7 @@ class Contacts:
         now = self.evaluate_quantities(np.array([t]), y[None])
         self.open = [(t, 0.0, t)] * self.count
         began = np.flatnonzero(~self.closed & (now.delta[0] >= 0.0)).tolist()
-        onset_speeds = compute_onset_speeds() if began else self.memory
+        onset_speeds = compute_onset_speeds() if began else self.discrete_states
         for k in began:
             self._close_contact(k, t, float(onset_speeds[k]))
 
@@ -140,7 +142,7 @@ class Contacts:
         """Close the contact of joint k at t (s) with the approach speed `deltadot` (m/s), or the smallest allowed
         one.
         """
-        self.memory[k] = max(deltadot, self.floor)
+        self.discrete_states[k] = max(deltadot, self.floor)
         self.compressing[k] = True
         self.onsets += 1
         self.open[k] = (t, 0.0, t)
@@ -148,8 +150,8 @@ class Contacts:
     def _open_contact(self, k: int, t: float) -> None:
         """Open the contact of joint k at t (s), and add it to the list of impacts."""
         onset, F, t_peak = self.open[k]
-        self.impacts.append((k, onset, t, float(self.memory[k]), F, t_peak))
-        self.memory[k] = np.nan
+        self.impacts.append((k, onset, t, float(self.discrete_states[k]), F, t_peak))
+        self.discrete_states[k] = np.nan
 
     def update_peaks(self, t: Array, quantities: ContactQuantities) -> None:
         """Update the largest forces and eccentricities of all joints by `quantities` at accepted states at times t."""
@@ -173,7 +175,7 @@ class Contacts:
         now = self.evaluate_quantities(np.array([t]), y[None])
         self.update_peaks(np.array([t]), now)
         closed = self.closed
-        for ratio in (now.deltadot[0] / self.memory)[closed]:
+        for ratio in (now.deltadot[0] / self.discrete_states)[closed]:
             self.ratio = min(self.ratio[0], float(ratio)), max(self.ratio[1], float(ratio))
             self.ratio_outside += abs(ratio) > 1.0
         self.compressing &= closed & (now.deltadot[0] > 0.0)

@@ -162,7 +162,11 @@ class _Driver:
         self.stepper.restart(self.t, self.y, self.atol)
 
     def _advance_step(self) -> None:
-        """Advance by one step of the solver, or by its part up to an event."""
+        """Advance by one step of the solver, or by its part up to an event.
+
+        Samples before its end are stored, steps passed to the observer, and contacts switched. Raises SolverError, also
+        for contacts that change without end, and NonFiniteError.
+        """
         t1 = self.stepper.step()
         step = AcceptedStep(
             self.t, t1, self.stepper.interpolate, lambda t: self.equations.project_state(t, self.stepper.interpolate(t))
@@ -201,7 +205,7 @@ class _Driver:
             times = np.append(nodes[nodes < t_new], t_new)
             states = [step.evaluate_projected(t) for t in times.tolist()]
             self.step_collector.add_states(
-                times, np.array(states), self.contacts.memory, self.contacts.codes, self.is_after_change
+                times, np.array(states), self.contacts.discrete_states, self.contacts.codes, self.is_after_change
             )
         self.is_after_change = False
 
@@ -263,9 +267,9 @@ class _Driver:
 
         Its right-hand side is evaluated for output and is not counted.
         """
-        dy = self.problem.compiled.rhs(t, y, self.equations.p, self.contacts.memory)
+        dy = self.problem.compiled.rhs(t, y, self.equations.p, self.contacts.discrete_states)
         self.times.append(t)
-        self.samples.append((y, dy[self.n : 2 * self.n], self.contacts.memory.copy(), self.contacts.codes))
+        self.samples.append((y, dy[self.n : 2 * self.n], self.contacts.discrete_states.copy(), self.contacts.codes))
 
     def _build_trajectory(self, interrupted: bool, stopped: SolverError | None) -> Trajectory:
         """Return the samples and counts as a Trajectory; contacts that are still closed are added to the list.
@@ -278,14 +282,14 @@ class _Driver:
         self.step_collector.pass_steps()
         if not self.samples:  # the start at least
             self.times.append(self.t)
-            self.samples.append((self.y, np.full(n, np.nan), contacts.memory.copy(), contacts.codes))
+            self.samples.append((self.y, np.full(n, np.nan), contacts.discrete_states.copy(), contacts.codes))
         count = len(self.samples)
         closed_contacts = [
-            (k, contacts.open[k][0], math.nan, float(contacts.memory[k]), *contacts.open[k][1:])
+            (k, contacts.open[k][0], math.nan, float(contacts.discrete_states[k]), *contacts.open[k][1:])
             for k in np.flatnonzero(contacts.closed)
         ]
         impacts = np.array([*contacts.impacts, *closed_contacts], dtype=IMPACT_DTYPE)
-        y, a, memory, state = (np.array([row[i] for row in self.samples]).reshape(count, -1) for i in range(4))
+        y, a, discrete_states, state = (np.array([row[i] for row in self.samples]).reshape(count, -1) for i in range(4))
         ratio = contacts.ratio if contacts.ratio[0] <= contacts.ratio[1] else (math.nan, math.nan)
         counts = Counts(
             self.steps,
@@ -303,7 +307,7 @@ class _Driver:
             y[:, :n].copy(),
             y[:, n : 2 * n].copy(),
             a,
-            memory,
+            discrete_states,
             state.astype(np.int8),
             y[:, 2 * n :].copy(),
             impacts[np.argsort(impacts["t_on"], kind="stable")],

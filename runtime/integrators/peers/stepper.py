@@ -42,7 +42,7 @@ class Equations:
         if self.poll_cancellation:
             self.poll_cancellation()
         try:
-            return self.compiled.rhs(t, y, self.p, self.contacts.memory)
+            return self.compiled.rhs(t, y, self.p, self.contacts.discrete_states)
         except SolverError as error:
             self.failure = error
             return np.full(self.size, np.nan)
@@ -50,7 +50,7 @@ class Equations:
     def _jacobian(self, t: float, y: Array) -> Array:
         """Return the exact Jacobian ∂ẏ/∂y, and count the call."""
         self.jacobians += 1
-        return self.compiled.jacobian(t, y, self.p, self.contacts.memory)[0]
+        return self.compiled.jacobian(t, y, self.p, self.contacts.discrete_states)[0]
 
     def project_state(self, t: float, y: Array) -> Array:
         """Return the state projected onto the constraints; the works stay."""

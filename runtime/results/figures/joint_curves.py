@@ -95,7 +95,8 @@ def get_curve(run: Result, name: str) -> tuple[Array, Array]:
 def find_peaks(run: Result, name: str) -> Iterator[tuple[float, float]]:
     """Yield time and value of the peak of a series over all steps, if it is known.
 
-    It is known for forces in joints with play, and for series whose peaks were requested.
+    It is known for forces in joints with play, and for series whose peaks were requested: of these, the maximum or
+    minimum with the larger magnitude is yielded, with its sign.
     """
     yield from ((peak.t, peak.F) for peak in run.diagnostics.peaks if f"{peak.joint}.F" == name)
     for extremes in run.diagnostics.extremes:

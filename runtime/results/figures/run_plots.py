@@ -119,7 +119,8 @@ class Plot:
     def forces(self, ax: Axes | None = None) -> Axes:
         """Plot the magnitudes of the forces at the joints with play, with the extremes of all steps.
 
-        The sums of a slider's corners are at samples. An ideal scene has the forces at all joints.
+        The sums of a slider's corners are at samples. An ideal scene has the forces at all joints. Returns the axes,
+        new ones if `ax` is None.
         """
         source = self.run.source
         joints = [*(joint.name for joint in source.clearances or source.joints), *source.guides]
@@ -128,7 +129,7 @@ class Plot:
     def orbit(self, joint: str, ax: Axes | None = None) -> Axes:
         """Plot the path of the journal's centre in its clearance circle, in units of the clearance.
 
-        Raises UnknownNameError for a name that is not a journal with play.
+        Raises UnknownNameError for a name that is not a journal with play. Returns the axes, new ones if `ax` is None.
         """
         joints = [clearance.name for clearance in self.run.source.clearances if not clearance.is_corner]
         if not isinstance(joint, str) or joint not in joints:
@@ -147,7 +148,8 @@ class Plot:
     def section(self, event: str, x: str, y: str | None = None, ax: Axes | None = None) -> Axes:
         """Plot a Poincaré section: one series over another at the located times of an event.
 
-        Without `y` it is the rate of x. Raises BadValueError if the event did not happen.
+        Without `y` it is the rate of x. Raises BadValueError if the event did not happen. Returns the axes, new ones if
+        `ax` is None.
         """
         y, states = self._find_rate_name(x) if y is None else y, self.run.at_events(event)
         if not len(states):
@@ -191,7 +193,7 @@ class Plot:
 
         window: boxcar, hann, hamming, blackman, blackmanharris or flattop, divided by its mean, so that a sine of
         amplitude A on a line of the spectrum has A (between lines the error of flattop is smallest). Raises
-        BadValueError for uneven samples, or values that are not finite.
+        BadValueError for uneven samples, or values that are not finite. Returns the axes, new ones if `ax` is None.
         """
         from gudgeon.results.series import compute_spectrum
 
@@ -208,7 +210,7 @@ class Plot:
         series itself.
 
         causal: as in an amplifier, with its delay; False: forwards and backwards, without phase. Raises BadValueError
-        for uneven samples, or a cutoff above half their rate.
+        for uneven samples, or a cutoff above half their rate. Returns the axes, new ones if `ax` is None.
         """
         from gudgeon.results.series import apply_low_pass
 
@@ -237,7 +239,7 @@ class Plot:
 
         `velocities`: arrows in m/s at its points, to one scale for the run; `forces`: in N at its joints, on the second
         body. Between samples the position lies on the cubic through both. Raises BadValueError for a time outside the
-        run.
+        run. Returns the axes, new ones if `ax` is None.
         """
         from gudgeon.drawing.picture import draw_sketch
         from gudgeon.results.figures.mechanism_plots import draw_sketch_at_time
@@ -255,7 +257,8 @@ class Plot:
         """Draw the paths of points over the run ("coupler.tracer"; "S9" is its centre of mass), with the mechanism in
         grey.
 
-        Raises UnknownNameError with the nearest point.
+        Raises UnknownNameError with the nearest point, BadValueError without points. Returns the axes, new ones if `ax`
+        is None.
         """
         from gudgeon.results.figures.mechanism_plots import check_points, draw_path, draw_path_sketch
 

@@ -98,7 +98,7 @@ def write_tables(tables: Iterator[Table], path: str | os.PathLike[str]) -> None:
     """Write a file with these tables under a temporary name, then move it into place.
 
     The tables are computed one after the other, and Ctrl-C is handled in between. Raises OutputError if the disk is too
-    small or writing fails.
+    small or writing fails. Raises GudgeonError without h5py.
     """
     try:
         import h5py  # noqa: F401

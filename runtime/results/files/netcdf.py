@@ -284,12 +284,12 @@ def read_result(file: File, source: KernelSource, names: tuple[str, ...]) -> Res
         stored=stored,
         trace=_read_envelope(file, source),
     )
-    if file.has(START):
+    if file.has_entry(START):
         run.start_row = read_start_row(file, run)
         check_times(np.append(run.start_row.t, t[0]))
-    if file.has(GIVEN_START):
+    if file.has_entry(GIVEN_START):
         run.begun = _read_given_start(file, run.final)
-    if file.has(STATES):
+    if file.has_entry(STATES):
         run.__dict__["states_at_events"] = read_states_at_events(file, run)
     _ = run.names, run.parameters, run.constants, run.final  # what these need is there, or it is no result
     check_extremes(diagnostics.extremes, run.names)
@@ -340,7 +340,7 @@ def _check_names_and_units(source: KernelSource) -> None:
 
 def _has_series(file: File, name: str) -> bool:
     """Return whether a series is in the file; older files lack the drift."""
-    return name not in DRIFT or file.has(name)
+    return name not in DRIFT or file.has_entry(name)
 
 
 def _read_series(file: File, name: str, n_samples: int) -> Array:
@@ -349,7 +349,7 @@ def _read_series(file: File, name: str, n_samples: int) -> Array:
         f"output.{name}" if file.is_old and name in OLD_NAMES else name if file.is_old else name_variable(name)
     )
     # an output that is called like a group that older files have not
-    stored_name = stored_name if file.has(stored_name) else name
+    stored_name = stored_name if file.has_entry(stored_name) else name
     values = file.read_numbers(stored_name, n_samples, "i1" if name.endswith(".state") else "f8")
     values.flags.writeable = False
     return values
@@ -389,7 +389,7 @@ def read_events(file: File, source: KernelSource) -> Array:
 def _read_records(file: File, kind: str, dtype: np.dtype[Any], names: list[str]) -> Array:
     """Return impacts or events as an array of `dtype`; empty without a group. Raises ValueError for unknown names."""
     owner_column, *other_columns = dtype.names or ()
-    if not file.has(f"{kind}.{owner_column}" if file.is_old else f"{kind}s"):
+    if not file.has_entry(f"{kind}.{owner_column}" if file.is_old else f"{kind}s"):
         return np.zeros(0, dtype)
     if file.is_old:
         owner_indices = file.read_numbers(f"{kind}.{owner_column}", None, "i4")
@@ -407,7 +407,7 @@ def _read_records(file: File, kind: str, dtype: np.dtype[Any], names: list[str])
 
 def _read_envelope(file: File, source: KernelSource) -> Envelope | None:
     """Return the envelope over the steps; None if the run had none or the file is older."""
-    if not file.has(TRACE):
+    if not file.has_entry(TRACE):
         return None
     t = file.read_numbers(f"{TRACE}/t")
     names = [[f"{TRACE}/{joint.name}.{name}" for name in TRACE_COLUMNS] for joint in source.clearances]
@@ -425,7 +425,7 @@ def rebuild_samples(source: KernelSource, stored_series: Mapping[str, Array], n_
         "state": _read_columns(
             stored_series, [f"{joint.name}.state" for joint in source.clearances], n_samples, np.int8
         ),
-        "memory": _read_columns(stored_series, _list_memory_series(source), n_samples),
+        "memory": _read_columns(stored_series, _list_discrete_state_series(source), n_samples),
         "work": _read_works(source, stored_series, n_samples),
     }
 
@@ -456,7 +456,7 @@ def _read_works(source: KernelSource, stored_series: Mapping[str, Array], n_samp
     return _read_columns(stored_series, ["work.drives", "work.forces", "work.clearances"], n_samples)
 
 
-def _list_memory_series(source: KernelSource) -> list[str]:
+def _list_discrete_state_series(source: KernelSource) -> list[str]:
     """Return the names of the series that contain the discrete states, in the order of Result.memory."""
     approach_speeds = [f"{joint.name}.deltadot_minus" for joint in source.clearances]
     return [*approach_speeds, *(f"{friction}.mode" for friction in source.frictions), *source.states]
@@ -488,8 +488,8 @@ def read_start_row(file: File, run: Result) -> Result:
 def _read_given_start(file: File, final_state: State) -> State:
     """Return the state that a run was given as `start`; identity and parameters are those of its final state."""
     offsets = np.cumsum([1, len(final_state.q), len(final_state.v), len(final_state.state), len(final_state.memory)])
-    t, q, v, state, memory = np.split(file.read_numbers(f"{GIVEN_START}/value", int(offsets[-1])), offsets[:-1])
-    return replace(final_state, t=float(t[0]), q=q, v=v, state=state.astype(np.int8), memory=memory)
+    t, *motion, state, memory = np.split(file.read_numbers(f"{GIVEN_START}/value", int(offsets[-1])), offsets[:-1])
+    return replace(final_state, t=float(t[0]), q=motion[0], v=motion[1], state=state.astype(np.int8), memory=memory)
 
 
 def read_provenance(file: File) -> dict[str, str]:

@@ -28,7 +28,7 @@ from gudgeon.results.batch import (
     make_failures,
     name_series_column,
 )
-from gudgeon.results.diagnostics import Extremes, extremes_from_json, extremes_to_json
+from gudgeon.results.diagnostics import Extremes, convert_extremes_from_json, convert_extremes_to_json
 from gudgeon.results.files import netcdf
 from gudgeon.results.files.hdf5 import Table, Variable
 from gudgeon.results.files.netcdf import (
@@ -175,17 +175,15 @@ def build_batch_dataset(batch: Batch, names: Iterable[str] | str = (), part: str
     for k, joint in enumerate(batch.source.clearances):
         columns |= {f"{joint.name}.peak.{name}": ("run", batch.peaks[name][:, k]) for name in PEAK_DTYPE.names or ()}
     columns |= {name: ("run", values, {"units": unit}) for name, unit, values in build_extreme_columns(batch.extremes)}
-    columns |= _iterate_sample_variables(batch, names)
+    columns |= _collect_sample_variables(batch, names)
     coordinates: dict[str, Any] = {"time": ("time", batch.t, {"units": "s"})} if batch.t.ndim == 1 else {}
     coordinates |= {name: ("run", values) for name, values in collect_given_columns(batch).items()}
     attributes = {"mechanism": batch.source.mechanism, "scene": batch.source.scene, "title": batch.source.title}
     return xarray.Dataset(columns, coordinates, attributes)
 
 
-def _iterate_sample_variables(batch: Batch, names: Iterable[str]) -> dict[str, Any]:
-    """Return the variables over run and time by name: coordinates, velocities, works, stored series and those of
-    `names`. Each is (dimensions, values) or (dimensions, values, attributes).
-    """
+def _collect_sample_variables(batch: Batch, names: Iterable[str]) -> dict[str, Any]:
+    """Return (dimensions, values, or attributes too) by name of motion, works, stored series and `names`, (n, N)."""
     dimensions, variables = ("run", "time"), dict[str, Any]()
     if batch.t.ndim == 2:
         variables["t"] = dimensions, batch.t, {"units": "s"}
@@ -224,7 +222,7 @@ def _iterate_run_variables(batch: Batch, runs: Mapping[int, Result]) -> Iterator
         texts = [runs[i].diagnostics.to_json() if i in runs else "" for i in range(len(batch))]
         yield Variable("diagnostics", np.array(texts, dtype=object), "", "what the run says of itself, JSON")
     elif batch.extremes:
-        texts = [extremes_to_json(run_extremes) for run_extremes in batch.extremes]
+        texts = [convert_extremes_to_json(run_extremes) for run_extremes in batch.extremes]
         yield Variable(EXTREMES, np.array(texts, dtype=object), "", "peaks over all steps, JSON")
     texts = [_convert_error_to_json(errors_by_run[i]) if i in errors_by_run else "" for i in range(len(batch))]
     yield Variable("failure", np.array(texts, dtype=object), "", "why it did not come to its end, JSON")
@@ -270,9 +268,10 @@ class _RunRows(File):
         """Store the file of the batch and the number of the run."""
         self.long_tables, self.run, self.is_old = long_tables, run, False
 
-    def has(self, group: str) -> bool:
+    def has_entry(self, group: str) -> bool:
         """Return whether the run has rows in a group, or the file has a series of that name."""
-        return self.long_tables.count_rows(group, self.run) > 0 or self.long_tables.file.has(f"{netcdf.SERIES}/{group}")
+        tables = self.long_tables
+        return tables.count_rows(group, self.run) > 0 or tables.file.has_entry(f"{netcdf.SERIES}/{group}")
 
     def read_text_attribute(self, key: str, group: str = "") -> str:
         """Return the diagnostics of the run, JSON."""
@@ -307,7 +306,7 @@ class LongTables:
         self.begins: dict[str, Array] = {}
         for group in (netcdf.SERIES, *netcdf.PARTS, netcdf.START, netcdf.GIVEN_START, netcdf.COMPILED, KEPT, TIMES):
             run_numbers, needs_run_numbers = np.zeros(0, np.int32), group not in (netcdf.COMPILED, TIMES)
-            if file.has(group) and (needs_run_numbers or file.has(f"{group}/{OWNER}")):
+            if file.has_entry(group) and (needs_run_numbers or file.has_entry(f"{group}/{OWNER}")):
                 run_numbers = file.read_numbers(f"{group}/{OWNER}", None, "i4")
             if len(run_numbers) and (
                 run_numbers[0] < 0 or run_numbers[-1] >= n_runs or (np.diff(run_numbers) < 0).any()
@@ -439,7 +438,7 @@ def read_stored_series(
     series_by_name = {}
     for name in stored_names:
         dataset_name = f"{KEPT}/{name_column(_format_stored_name(name))}"
-        column = long_tables.file.read_numbers(dataset_name) if long_tables.file.has(KEPT) else np.zeros(0)
+        column = long_tables.file.read_numbers(dataset_name) if long_tables.file.has_entry(KEPT) else np.zeros(0)
         series_by_name[name] = _unroll_column(long_tables, KEPT, column, len(samples), n_columns)
     return series_by_name
 
@@ -450,9 +449,9 @@ def _read_extremes(file: File, source: KernelSource, n_runs: int, runs: Mapping[
     """
     if runs is not None:
         return tuple(runs[i].diagnostics.extremes if i in runs else () for i in range(n_runs))
-    if not file.has(f"{RUNS}/{EXTREMES}"):
+    if not file.has_entry(f"{RUNS}/{EXTREMES}"):
         return ()
-    extremes = tuple(map(extremes_from_json, file.read_texts(f"{RUNS}/{EXTREMES}", n_runs)))
+    extremes = tuple(map(convert_extremes_from_json, file.read_texts(f"{RUNS}/{EXTREMES}", n_runs)))
     check_type(extremes, tuple[tuple[Extremes, ...], ...], EXTREMES)
     return tuple(check_extremes(run_extremes, get_catalogue(source)) for run_extremes in extremes)
 
@@ -470,9 +469,9 @@ def _pad_samples(runs: Mapping[int, Result], name: str, n_runs: int, n_samples: 
 
 def _read_parameters(file: File, source: KernelSource, n_runs: int, runs: Mapping[int, Result]) -> dict[str, Array]:
     """Return the given parameters of the runs, (n,) each, by address. Raises ValueError for invalid ones."""
-    if not file.has(GIVEN):
+    if not file.has_entry(GIVEN):
         return {}
-    given_slots = {slot.address: slot for slot in source.slots if file.has(f"{GIVEN}/{slot.address}")}
+    given_slots = {slot.address: slot for slot in source.slots if file.has_entry(f"{GIVEN}/{slot.address}")}
     if unknown_names := sorted({*file.list_names(GIVEN)} - {*given_slots, NUMBER}):
         raise ValueError(f"{unknown_names[0][:64]!r} was given, and is no number of its scene")
     given = {
@@ -492,7 +491,7 @@ def _read_parameters(file: File, source: KernelSource, n_runs: int, runs: Mappin
 
 
 def _read_peaks(file: File, source: KernelSource, n_runs: int) -> Array:
-    """Return the peak forces of all runs from the table `runs`, PEAK_DTYPE (n, n_clearances)."""
+    """Return the peak forces of all runs from the table `runs`, PEAK_DTYPE (n, n_clearances). Raises ValueError."""
     peaks = np.full((n_runs, len(source.clearances)), np.nan, dtype=PEAK_DTYPE)
     for k, joint in enumerate(source.clearances):
         for name in PEAK_DTYPE.names or ():

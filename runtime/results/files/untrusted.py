@@ -79,7 +79,7 @@ class File:
             raise ValueError(f"expected the attribute gudgeon = {formats[0]!r}, found {stored_format!r}")
         self.is_old = stored_format == OLD_FORMAT
 
-    def has(self, group: str) -> bool:
+    def has_entry(self, group: str) -> bool:
         """Return whether the file contains a group or dataset."""
         return group in self._file
 

@@ -375,7 +375,7 @@ def _format_event_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[s
     """Return the rows of events: their number and first time; a dash in scenes that do not have the event."""
 
     def format_event_cell(times: tuple[float, ...] | None) -> str:
-        """Return number and first time of an event as a cell."""
+        """Return number and first time of an event as a cell; "none" without times, "–" for None."""
         if not times:
             return "–" if times is None else "none"
         return f"at {times[0]:.7g} s" if len(times) == 1 else f"{len(times)}, first at {times[0]:.7g} s"

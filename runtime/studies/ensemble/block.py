@@ -209,7 +209,7 @@ class RunTable:
     def _evaluate_windows(
         self, windows: Mapping[str, tuple[Expr | None, ...]], known_values: Mapping[str, Array]
     ) -> Spans:
-        """Return begin and end of each window, (n,) s each; None for an end that the study leaves open.
+        """Return begin and end of each window by name, (n,) s each; None for an end that the study leaves open.
 
         known_values: names besides parameters in the expressions, such as t_end. A run that does not contain its window
         is entered in `invalid_runs`.
@@ -443,8 +443,9 @@ def run_wear_rounds(
 ) -> tuple[dict[str, Array], Progress | None]:
     """Run the rounds of wear; return the worn contours by joint, and the progress function for the measured runs.
 
-    wear: None, or no joint of the scene with a contour, returns no contours and `progress` itself. parameters, ends
-    (s): of each run. options: further arguments of `simulate_many`. Each round takes an equal part of the progress.
+    wear: None, or no joint of the scene with a contour, returns no contours and `progress` itself. parameters,
+    end_times (s): of each run. options: further arguments of `simulate_many`. Each round takes an equal part of the
+    progress.
     """
     joints_with_contour = {contour.joint for contour in simulation.source.contours}
     if wear is None or not joints_with_contour.intersection(wear.joints):

@@ -17,7 +17,7 @@ from gudgeon.model.evaluation import compute_evaluation_bytes, compute_sample_by
 from gudgeon.results.batch import find_evaluation_parts
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.studies.ensemble.block import Block, Job, run_block
-from gudgeon.studies.ensemble.folder import block_to_bytes
+from gudgeon.studies.ensemble.folder import encode_block
 from gudgeon.studies.ensemble.loop import MAX_CONCURRENT_BLOCKS
 from gudgeon.studies.ensemble.measures import list_sampled_series
 from gudgeon.studies.ensemble.plan import Part, Plan, Plans
@@ -103,7 +103,7 @@ def estimate_study(plan: Plan, threads: int | None) -> Estimate:
             block, used = _run_timed_block(job, part.simulation)
         seconds += used * plan.each / len(runs)
         numbers = len(plan.run_settings.measures) + 3 + (len(plan.run_settings.keep) + 1) * block.t.shape[-1]
-        more = max(0, len(block_to_bytes(block, plan.digest)) - 8 * numbers * len(runs))  # overhead of a file
+        more = max(0, len(encode_block(block, plan.digest)) - 8 * numbers * len(runs))  # overhead of a file
         size += 2 * 8 * numbers * plan.each + more * math.ceil(plan.each / part.block)  # in blocks, and in the dataset
         failures += filter(None, block.failures)
     reasons = tuple(dict.fromkeys(failures))

@@ -90,7 +90,7 @@ def compute_neighbour_measures(
 
     t_last (n,) s: end of each run, at an event or as requested. The reason of a failure is entered in `failures`. Runs
     are spread over threads. All values are NaN in a scene without degrees of freedom; the result is empty without such
-    measures.
+    measures. `progress` is called meanwhile.
     """
     measures = [measure for measure in job.run_settings.measures if measure.statistic in NEIGHBOUR_STATISTICS]
     values = {measure.name: np.full(job.n, np.nan) for measure in measures}

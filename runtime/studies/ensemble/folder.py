@@ -114,7 +114,7 @@ class StudyFolder:
 
         Small blocks also stay in memory, up to MAX_RECENT_BYTES bytes in total.
         """
-        data = block_to_bytes(block, self.plan.digest)
+        data = encode_block(block, self.plan.digest)
         with open_atomic(self._get_block_path(block.number), sync=True) as file:
             file.write(data)
         if self.held + block.nbytes <= MAX_RECENT_BYTES:
@@ -130,7 +130,7 @@ class StudyFolder:
             return self.recent[number]
         with suppress(OSError, ValueError, KeyError, TypeError, RuntimeError):
             if (data := read_regular_file(path)) is not None:
-                return block_from_bytes(data, self.plan, number)
+                return decode_block(data, self.plan, number)
         return None
 
     def _get_block_path(self, number: int) -> Path:
@@ -236,7 +236,7 @@ def import_h5py() -> Any:
     return h5py
 
 
-def block_to_bytes(block: Block, digest: str) -> bytes:
+def encode_block(block: Block, digest: str) -> bytes:
     """Return a block as the bytes of an HDF5 file with checksums and the plan's digest.
 
     Measures and end times are one array, failures and notes one array of JSON, since each array costs time.
@@ -254,8 +254,8 @@ def block_to_bytes(block: Block, digest: str) -> bytes:
     return buffer.getvalue()
 
 
-def block_from_bytes(data: bytes, plan: Plan, number: int) -> Block | None:
-    """Return the block that `block_to_bytes` wrote; None if digest or number are of another plan.
+def decode_block(data: bytes, plan: Plan, number: int) -> Block | None:
+    """Return the block that `encode_block` wrote; None if digest or number are of another plan.
 
     Raises OSError, ValueError, KeyError or TypeError for damaged bytes.
     """

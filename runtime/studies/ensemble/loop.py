@@ -139,7 +139,10 @@ def _run_blocks_by_executor(
     """
 
     def submit_block(block: BlockRange) -> Future[Block]:
-        """Submit one block to the executor and return its future."""
+        """Submit one block to the executor and return its future.
+
+        Raises GudgeonError if the executor accepts no work.
+        """
         try:
             return executor.submit(run_block, folder.plan.make_block_job(block, threads or 1))
         except RuntimeError as error:  # one that was shut down, or that cannot

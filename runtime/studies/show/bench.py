@@ -50,8 +50,8 @@ def report_bench(
 
         return draw_bench_figure(source.title or source.mechanism, scene_benches, marked_step)
 
-    written, failed = write_table_and_figure(table_path, rows, draw_figure)
-    _print_bench(source, scene_benches, written, marked_step, as_json)
+    written_paths, failed = write_table_and_figure(table_path, rows, draw_figure)
+    _print_bench(source, scene_benches, written_paths, marked_step, as_json)
     if failed:
         raise failed
 
@@ -59,7 +59,7 @@ def report_bench(
 def _print_bench(
     source: KernelSource,
     scene_benches: Sequence[SceneBench],
-    written: Sequence[Path],
+    written_paths: Sequence[Path],
     marked_step: float | None,
     as_json: bool,
 ) -> None:
@@ -74,7 +74,7 @@ def _print_bench(
             }
             for scene_bench in scene_benches
         ]
-        files = [str(path) for path in written]
+        files = [str(path) for path in written_paths]
         print_json(
             {"mechanism": source.mechanism, "scenes": scenes, "rows": list_bench_rows(scene_benches), "files": files}
         )
@@ -96,7 +96,7 @@ def _print_bench(
     if any(scene_bench.rhs for scene_bench in scene_benches):
         out.print("one right-hand side", style="bold")
         out.print(_build_rhs_table(scene_benches))
-    for path in written:
+    for path in written_paths:
         out.print(f"wrote {format_path(path)}")
 
 

@@ -55,14 +55,14 @@ def report_box(
 
         return draw_box_figure(source.title or source.mechanism, boxes)
 
-    written, failed = write_table_and_figure(table_path, rows, draw_figure)
-    _print_box(source, mechanism, boxes, written, as_json)
+    written_paths, failed = write_table_and_figure(table_path, rows, draw_figure)
+    _print_box(source, mechanism, boxes, written_paths, as_json)
     if failed:
         raise failed
 
 
 def _print_box(
-    source: KernelSource, mechanism: str, boxes: Sequence[VerdictBox], written: Sequence[Path], as_json: bool
+    source: KernelSource, mechanism: str, boxes: Sequence[VerdictBox], written_paths: Sequence[Path], as_json: bool
 ) -> None:
     """Print counts, tables of verdicts, the worst points with their commands, and written files; or one JSON
     document.
@@ -74,7 +74,7 @@ def _print_box(
                 "mechanism": source.mechanism,
                 "interrupted": any(box.interrupted for box in boxes),
                 "cells": rows,
-                "files": [str(path) for path in written],
+                "files": [str(path) for path in written_paths],
             }
         )
         return
@@ -91,7 +91,7 @@ def _print_box(
         if worst := select_worst_cells(box.cells):
             out.print("  the worst points, and what runs them again")
             print_failures(out, mechanism, box, worst)
-    for path in written:
+    for path in written_paths:
         out.print(f"wrote {format_path(path)}")
 
 

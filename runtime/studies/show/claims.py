@@ -163,7 +163,7 @@ def _choose_unit(claims: list[list[Row]]) -> tuple[float, str]:
 def _format_number_cells(
     rows: list[Row], ensembles: list[str], claim_names: _ClaimNames, factor: float, unit: str
 ) -> list[str]:
-    """Return the cells of the table row of a published number.
+    """Return the cells of a published number: claim, figure, description, printed value, medians, deviation, note.
 
     rows: one for each ensemble. ensembles: their names, with a column each. factor, unit: of all values.
     """
@@ -303,7 +303,7 @@ def _draw_claims(claims: list[list[Row]], claim_names: _ClaimNames) -> Axes:
     """Draw the medians with quartiles of each ensemble for several claims, with printed values as black marks, on new
     axes.
 
-    The axis of values is logarithmic if magnitudes differ by more than LOG_SCALE_RATIO.
+    The axis of values is logarithmic if magnitudes differ by more than LOG_SCALE_RATIO. Returns the axes.
     """
     import matplotlib
 

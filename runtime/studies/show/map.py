@@ -78,8 +78,8 @@ def report_map(
 
         return draw_map_figure(source.title or source.mechanism, maps, marked_step)
 
-    written, failed = write_table_and_figure(table_path, rows, draw_figure)
-    _print_maps(source, mechanism, maps, written, marked_step, as_json)
+    written_paths, failed = write_table_and_figure(table_path, rows, draw_figure)
+    _print_maps(source, mechanism, maps, written_paths, marked_step, as_json)
     if failed:
         raise failed
 
@@ -88,7 +88,7 @@ def _print_maps(
     source: KernelSource,
     mechanism: str,
     maps: Sequence[VerdictMap],
-    written: Sequence[Path],
+    written_paths: Sequence[Path],
     marked_step: float | None,
     as_json: bool,
 ) -> None:
@@ -102,7 +102,7 @@ def _print_maps(
                 "mechanism": source.mechanism,
                 "interrupted": any(verdict_map.interrupted for verdict_map in maps),
                 "cells": rows,
-                "files": [str(path) for path in written],
+                "files": [str(path) for path in written_paths],
             }
         )
         return
@@ -128,7 +128,7 @@ def _print_maps(
         out.print(f"  {line}")
     for line in describe_marked_step(maps, marked_step):
         out.print(line)
-    for path in written:
+    for path in written_paths:
         out.print(f"wrote {format_path(path)}")
 
 

@@ -58,7 +58,8 @@ class StudyPlot:
 
         Lines are medians over all other runs, bands their quartiles and extremes; over texts, zips and starts dots and
         bars. published: marks of published values, {coordinate: value, SI}; True: the numbers that the study's file
-        claims of these runs, in the lines' colours, except those about a part of the runs of a median.
+        claims of these runs, in the lines' colours, except those about a part of the runs of a median. Returns the
+        axes, new ones if `ax` is None. `at` selects runs: {name: value}.
         """
         values = self.data.select_measure(name, at)
         axis = self.data.choose_axis_dimension(values) if over is None else over
@@ -102,7 +103,8 @@ class StudyPlot:
         """Plot a stored series over time: median, quartiles and extremes of all runs, or of each value of `by`.
 
         share: over fractions of each run's duration, 0 to 1, at the samples of the longest run; other runs are
-        interpolated linearly. Raises BadValueError for runs with different times without share.
+        interpolated linearly. Raises BadValueError for runs with different times without share. Returns the axes, new
+        ones if `ax` is None. `at` selects runs: {name: value}.
         """
         t, values = self.data.select_series(series, at)
         if check_flag(share, "share"):
@@ -152,7 +154,7 @@ class StudyPlot:
         """Plot amplitudes of a stored series over frequency (Hz), as in `run.plot.spectrum`, for each value of `by`.
 
         Median, quartiles and extremes over its runs. Raises BadValueError for uneven samples, or for runs of one value
-        with different times.
+        with different times. Returns the axes, new ones if `ax` is None. `at` selects runs: {name: value}.
         """
         t, values = self.data.select_series(series, at)
         by = self.data.find_dimension(values, by) if by is not None else None
@@ -183,7 +185,7 @@ class StudyPlot:
         """Plot a stored series as an accelerometer shows it, after a Butterworth low-pass with −3 dB at `cutoff` (Hz).
 
         There is a curve for every run, in the colour of its value of `by`; `order`, `causal`: as in
-        `run.plot.low_pass`.
+        `run.plot.low_pass`. Returns the axes, new ones if `ax` is None. `at` selects runs: {name: value}.
         """
         t, values = self.data.select_series(series, at)
         cutoff = check_positive(cutoff, "cutoff")
@@ -194,7 +196,10 @@ class StudyPlot:
         return ax
 
     def phase(self, x: str, y: str, by: str | None = None, *, at: Coords | None = None, ax: Axes | None = None) -> Axes:
-        """Plot one stored series over another with a curve for every run, in the colour of its value of `by`."""
+        """Plot one stored series over another with a curve for every run, in the colour of its value of `by`.
+
+        Returns the axes, new ones if `ax` is None. `at` selects runs: {name: value}.
+        """
         (_, xs), (_, ys) = self.data.select_series(x, at), self.data.select_series(y, at)
         factor, unit = choose_plot_unit(find_largest_magnitude(xs.values), xs.attrs.get("units", ""))
         return self._plot_curves(xs.values * factor, ys, format_label(self.data.get_title(x), unit), y, by, at, ax)
@@ -246,6 +251,7 @@ class StudyPlot:
         time.
 
         Between samples all series are monotone cubics (PCHIP); `run.plot.section` has the located states of an event.
+        Returns the axes, new ones if `ax` is None. `at` selects runs: {name: value}.
         """
         section_values = self.data.find_section_values(section, [x, y], level, falling, after, at)
         xs, ys = (
@@ -276,7 +282,10 @@ class StudyPlot:
         at: Coords | None = None,
         ax: Axes | None = None,
     ) -> Axes:
-        """Plot the values of a stored series in a section (see `section`) as dots over a parameter."""
+        """Plot the values of a stored series in a section (see `section`) as dots over a parameter.
+
+        Returns the axes, new ones if `ax` is None. `at` selects runs: {name: value}.
+        """
         _, found = self.data.select_series(series, at)
         dim_index = found.dims.index(self.data.find_dimension(found, over))
         x, x_label, ticks = self.data.describe_axis(over)
@@ -295,7 +304,11 @@ class StudyPlot:
         return ax
 
     def heat_map(self, name: str, x: str, y: str, *, at: Coords | None = None, ax: Axes | None = None) -> Axes:
-        """Plot the median of a measure over two dimensions as a map; a cell without a number stays empty."""
+        """Plot the median of a measure over two dimensions as a map; a cell without a number stays empty.
+
+        Returns the axes, new ones if `ax` is None. `at` selects runs: {name: value}. Raises BadValueError if x and y
+        are one dimension.
+        """
         values = self.data.select_measure(name, at)
         x, y = self.data.find_dimension(values, x), self.data.find_dimension(values, y)
         if x == y:
