@@ -21,7 +21,7 @@ from gudgeon.generator.targets.latex.letters import make_symbol_name
 from gudgeon.generator.targets.latex.notation import get_field_letter
 from gudgeon.generator.targets.latex.play import PAIR
 from gudgeon.generator.targets.latex.play_letters import GUIDE as GUIDE_LETTERS
-from gudgeon.generator.targets.latex.play_letters import LAW_LETTERS, NAMES, get_latex_symbol
+from gudgeon.generator.targets.latex.play_letters import LAW_SYMBOL_NAMES, NAMES, get_latex_symbol
 from gudgeon.language.plot_units import format_unit
 from gudgeon.language.units import find_si_unit
 from gudgeon.results.series import CLEARANCE
@@ -241,7 +241,7 @@ def _of_laws() -> Iterator[tuple[str, ...]]:
 
 def _of_derived() -> Iterator[tuple[str, ...]]:
     for name, meaning, laws, unit in DERIVED:
-        letter = LAW_LETTERS.get(name) or make_symbol_name(name)
+        letter = LAW_SYMBOL_NAMES.get(name) or make_symbol_name(name)
         yield f"${letter.latex}$", meaning, laws, f"`{name}`", unit
 
 

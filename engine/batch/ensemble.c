@@ -31,7 +31,7 @@ static int has_equal_start(const Batch *batch, long i, long j)
         && batch->status[j] != STOPPED;
     return is_closed && !batch->started[j] && batch->size[j] == batch->size[i]
         && get_sample_times(batch, j)[0] == get_sample_times(batch, i)[0]
-        && same_start((const Parameters *)(batch->p + i * batch->numbers),
+        && has_equal_start_parameters((const Parameters *)(batch->p + i * batch->numbers),
             (const Parameters *)(batch->p + j * batch->numbers));
 }
 

@@ -40,11 +40,11 @@ static inline Lanes lanes_mod_on(Lanes a, Lanes b, Lanes branch)
         a[k] = mod_on(a[k], b[k], branch[k]);
     return a;
 }
-/* Return period_branch() of each lane. */
-static inline Lanes lanes_period_branch(Lanes a, Lanes b)
+/* Return mod_switching_function() of each lane. */
+static inline Lanes lanes_mod_switching_function(Lanes a, Lanes b)
 {
     for (int k = 0; k < LANES; k++)
-        a[k] = period_branch(a[k], b[k]);
+        a[k] = mod_switching_function(a[k], b[k]);
     return a;
 }
 
@@ -199,7 +199,7 @@ static inline Lanes lanes_pow(Lanes x, Lanes y)
 /*
  * Compute sine and cosine of the angle in each lane; lanes with angles beyond TURN_LIMIT are added to the mask `rare`.
  */
-static inline void sines_and_cosines(Lanes angle, Lanes *sine, Lanes *cosine, LaneBits *rare)
+static inline void compute_sines_and_cosines(Lanes angle, Lanes *sine, Lanes *cosine, LaneBits *rare)
 {
 #define SINES_OF Lanes
 #define SINES_BITS LaneBits

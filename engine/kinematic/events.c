@@ -321,7 +321,7 @@ static int may_have_hidden_zero(Search *search, SampledPosition *b)
     const double h = b->position.t - a->position.t;
     Interval q[N_Q], v[N_Q], out[N_WATCHED];
     bound_motion(&a->position, &b->position, q, v);
-    watched_ranges((Interval){a->position.t, b->position.t, h, h, 0}, q, v, &(DiscreteState){0},
+    bound_watched_functions((Interval){a->position.t, b->position.t, h, h, 0}, q, v, &(DiscreteState){0},
         search->run->p, out);
     for (int i = 0; i < N_USER_EVENTS; i++) {
         const Interval f = out[N_WATCHED - N_USER_EVENTS + i];

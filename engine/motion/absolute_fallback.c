@@ -5,7 +5,7 @@
  * tree vanishes. Return 0 or a status. Return NEAR near a singular position if such positions are to be detected. If
  * they are, and this is none, the reduced equations are solved with the usual limits of pivots.
  */
-int solve_by_absolute(double t, const double *q, const double *v, const DiscreteState *discrete,
+int solve_by_absolute_equations(double t, const double *q, const double *v, const DiscreteState *discrete,
     const Parameters *p, double *a, RhsOutputs *rhs)
 {
     double all_q[N_Q], all_v[N_Q], all_a[N_Q];

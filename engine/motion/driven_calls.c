@@ -96,7 +96,7 @@ int gudgeon_reduced_rescue(
     TreeState tree;
     read_discrete_state(discrete, &now);
     const int status = solve_tree_state(t, q, v, &now, (const Parameters *)p, &tree);
-    return status ? status : solve_by_absolute(t, tree.q, tree.v, &now, (const Parameters *)p, a, &rhs);
+    return status ? status : solve_by_absolute_equations(t, tree.q, tree.v, &now, (const Parameters *)p, a, &rhs);
 }
 
 #endif

@@ -56,7 +56,7 @@ int gudgeon_reduced_rescue(
     DiscreteState now = {0};
     RhsOutputs rhs;
     read_discrete_state(discrete, &now);
-    return solve_by_absolute(t, q, v, &now, (const Parameters *)p, a, &rhs);
+    return solve_by_absolute_equations(t, q, v, &now, (const Parameters *)p, a, &rhs);
 }
 
 #endif

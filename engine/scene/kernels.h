@@ -32,7 +32,7 @@ void velocity_rhs(double t, const double *q, const Parameters *p, double *nu);
 void acceleration_rhs(double t, const double *q, const double *v, const Parameters *p, double *gamma_rows);
 void start_values(const Parameters *p, double *guess, double *set, double *rates);
 #if INTEGRATES
-int same_start(const Parameters *p, const Parameters *other);
+int has_equal_start_parameters(const Parameters *p, const Parameters *other);
 #endif
 /* dynamics: accelerations of all bodies (N_Q) and further outputs. outputs: the results at a sample. */
 int dynamics(double t, const double *q, const double *v, const DiscreteState *discrete, const Parameters *p, double *a,
@@ -126,9 +126,9 @@ int project(double t, const double *q, const double *r, const Parameters *p, dou
 
 /* Equations with a vanishing pivot: in absolute coordinates (singular.c), in tree coordinates
  * (motion/absolute_fallback.c). */
-int solve_dependent(double t, const double *q, const Parameters *p, const double *force, const double *rhs,
+int solve_dependent_equations(double t, const double *q, const Parameters *p, const double *force, const double *rhs,
     double *a, double *lambda, int pivot, const DiscreteState *discrete);
-int solve_by_absolute(double t, const double *q, const double *v, const DiscreteState *discrete,
+int solve_by_absolute_equations(double t, const double *q, const double *v, const DiscreteState *discrete,
     const Parameters *p, double *a, RhsOutputs *rhs);
 /* Factorization and solution of a small dense block (block.c). */
 int factor_block(int n, double *A, int *order);
@@ -155,7 +155,7 @@ void compute_velocity_residuals(double t, const double *q, const double *v, doub
 /* Watched functions of a step; their bounds, and those of terms of time, over ranges of time and state. */
 void watched_functions(double t, const double *q, const double *v, const DiscreteState *discrete, const Parameters *p,
     RhsOutputs *rhs);
-void watched_ranges(
+void bound_watched_functions(
     Interval t, const Interval *q, const Interval *v, const DiscreteState *discrete, const Parameters *p,
     Interval *out);
 void time_terms(Interval t, const Parameters *p, Interval *out);

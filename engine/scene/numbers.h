@@ -31,7 +31,7 @@ static inline int all_finite(const double *x, int n)
 }
 
 /* Return whether two numbers are equal to the last bit; NaN equals nothing. */
-static inline int same_number(double x, double y) { return x == y && !signbit(x) == !signbit(y); }
+static inline int is_same_number(double x, double y) { return x == y && !signbit(x) == !signbit(y); }
 
 /*
  * Return the distance, s, below which a sample coincides with the end t of a step of length h: both contain rounding
@@ -101,7 +101,7 @@ static inline double mod_on(double a, double b, double branch)
  * Return the continuous switching function of mod(a, b), whose zeros are the multiples of b: parabolas of height 1 in
  * even periods of a/b and -1 in odd ones.
  */
-static inline double period_branch(double a, double b)
+static inline double mod_switching_function(double a, double b)
 {
     const double n_periods = mod_of(a, 2.0 * b) / b;
     return n_periods < 1.0 ? 4.0 * n_periods * (1.0 - n_periods)
@@ -118,13 +118,13 @@ static inline double branch_of(const double *branch, double *g, int switch_index
     return branch ? branch[switch_index] : sign_of(value);
 }
 
-#define TURN_SMALL 0.01 /* rad: below it the series of turn_back are exact to rounding */
+#define TURN_SMALL 0.01 /* rad: below it the series of rotate_back_by_small_angle are exact to rounding */
 
 /*
  * Update cosine and sine, direction[2], of an angle that is reduced by a small angle (less than TURN_SMALL, rad), by
  * series.
  */
-static inline void turn_back(double *direction, double angle)
+static inline void rotate_back_by_small_angle(double *direction, double angle)
 {
     const double angle_squared = angle * angle, c = direction[0], s = direction[1];
     const double sine = angle * (1.0 - (1.0 / 6.0) * angle_squared * (1.0 - 0.05 * angle_squared));

@@ -163,7 +163,7 @@ static void compute_mass_norm(Workspace *workspace)
  * Initialize the workspace before a selection of independent equations: rows of Phi_q scaled by the norm, their order,
  * and the right-hand sides rhs - Phi_q M^-1 g. If a mass or moment of inertia is small (workspace->light), M^-1 g is
  * left out of them; add_free_motion() adds the free motion later. force: g; rhs: right-hand sides of the acceleration
- * constraints. Called by solve_dependent() for each pass.
+ * constraints. Called by solve_dependent_equations() for each pass.
  */
 static void initialize_workspace(Workspace *workspace, double t, const double *q, const Parameters *p,
     const double *force,
@@ -313,7 +313,7 @@ static int solve_independent_equations(Workspace *workspace, double min_square, 
  * if the constraints are contradictory, accelerations are not finite, or memory is short. Called by the equations of
  * motion after their factorization has failed.
  */
-int solve_dependent(double t, const double *q, const Parameters *p, const double *force, const double *rhs,
+int solve_dependent_equations(double t, const double *q, const Parameters *p, const double *force, const double *rhs,
     double *a, double *lambda, int pivot, const DiscreteState *discrete)
 {
     static const double min_squares[] = {NEARLY_SINGULAR, SINGULAR}, tolerances[] = {1e-3, 1e-6};

@@ -20,7 +20,7 @@ static void compute_sines_by_library(const Four *angles, Four *sines, Four *cosi
 }
 
 /* Compute sines and cosines of four angles (rad) at once in a vector; if one is large, all use the C library. */
-static inline void sines_and_cosines(const Four *angles, Four *sine, Four *cosine)
+static inline void compute_sines_and_cosines(const Four *angles, Four *sine, Four *cosine)
 {
     const Four angle = *angles;
 #define SINES_OF Four
@@ -58,7 +58,7 @@ static void compute_sine_and_cosine(double angle, double *sine, double *cosine)
 }
 
 /* Compute sines and cosines of four angles (rad), one after the other, by the operations of the vector form. */
-static void sines_and_cosines(const Four *angles, Four *sine, Four *cosine)
+static void compute_sines_and_cosines(const Four *angles, Four *sine, Four *cosine)
 {
     for (int k = 0; k < 4; k++)
         compute_sine_and_cosine((*angles)[k], &(*sine)[k], &(*cosine)[k]);
@@ -69,8 +69,8 @@ static void sines_and_cosines(const Four *angles, Four *sine, Four *cosine)
  * Compute sines and cosines of n_groups groups of four angles (rad). Called by emitted code for all angles of a
  * linkage.
  */
-static inline void many_sines_and_cosines(int n_groups, const Four *angles, Four *sines, Four *cosines)
+static inline void compute_sine_and_cosine_groups(int n_groups, const Four *angles, Four *sines, Four *cosines)
 {
     for (int i = 0; i < n_groups; i++)
-        sines_and_cosines(&angles[i], &sines[i], &cosines[i]);
+        compute_sines_and_cosines(&angles[i], &sines[i], &cosines[i]);
 }

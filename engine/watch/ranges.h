@@ -280,28 +280,28 @@ static inline int contains_sequence_point(double lower, double upper, double fir
 }
 
 /*
- * Return the derivative by x of period_branch(x, 1), the switching function of mod(x, 1). It has the
+ * Return the derivative by x of mod_switching_function(x, 1), the switching function of mod(x, 1). It has the
  * period 2: 4 at even integers x, -4 at odd ones, and linear between. Called for the bounds of
  * slopes.
  */
-static inline double compute_period_slope(double x)
+static inline double compute_mod_switching_slope(double x)
 {
     const double rest = mod_of(x, 2.0);
     return rest < 1.0 ? 4.0 - 8.0 * rest : 8.0 * rest - 12.0;
 }
 
 /*
- * Return bounds of period_branch(a, b), the continuous switching function of mod(a, b): parabolas of
+ * Return bounds of mod_switching_function(a, b), the continuous switching function of mod(a, b): parabolas of
  * height 1 in even periods of a/b and -1 in odd ones, with the slope 4 or -4 at multiples of b.
  * Empty if a/b is.
  */
-static inline Interval interval_period_branch(Interval a, Interval b)
+static inline Interval interval_mod_switching_function(Interval a, Interval b)
 {
     const Interval x = interval_times(a, interval_inverse(b));
     if (is_empty(x))
         return x;
-    const double value_lower = period_branch(x.lo, 1.0), value_upper = period_branch(x.hi, 1.0);
-    const double slope_lower = compute_period_slope(x.lo), slope_upper = compute_period_slope(x.hi);
+    const double value_lower = mod_switching_function(x.lo, 1.0), value_upper = mod_switching_function(x.hi, 1.0);
+    const double slope_lower = compute_mod_switching_slope(x.lo), slope_upper = compute_mod_switching_slope(x.hi);
     return apply_chain_rule(x, contains_sequence_point(x.lo, x.hi, 1.5) ? -1.0 : min_of(value_lower, value_upper),
         contains_sequence_point(x.lo, x.hi, 0.5) ? 1.0 : max_of(value_lower, value_upper),
             contains_sequence_point(x.lo, x.hi, 1.0) ? -4.0

@@ -161,7 +161,7 @@ static void bound_state(const DensePolynomial *polynomial, double begin, double 
 static void bound_event_functions_over_box(const Integrator *run, Interval t, const Interval *y, const Parameters *p,
     Interval *bounds)
 {
-    watched_ranges(t, y, y + N_X, &run->discrete, p, bounds);
+    bound_watched_functions(t, y, y + N_X, &run->discrete, p, bounds);
     for (int i = 0; i < N_WATCHED; i++) {
         const int k = watched[i] - N_CLEARANCES;
         const double branch =

@@ -280,7 +280,7 @@ static inline void estimate_error_by_bounds(double t, const double *q, const dou
         q_bounds[k] = (Interval){q[k] - q_error[k], q[k] + q_error[k], 0.0, 0.0, 0};
         v_bounds[k] = (Interval){v[k] - v_error[k], v[k] + v_error[k], 0.0, 0.0, 0};
     }
-    watched_ranges((Interval){t - t_error, t + t_error, 0.0, 0.0, 0}, q_bounds, v_bounds, discrete, p, bounds);
+    bound_watched_functions((Interval){t - t_error, t + t_error, 0.0, 0.0, 0}, q_bounds, v_bounds, discrete, p, bounds);
     for (int i = 0; i < N_WATCHED; i++)
         uncertainty[i] = isfinite(bounds[i].hi - bounds[i].lo) ? 0.5 * (bounds[i].hi - bounds[i].lo) : 0.0;
 }

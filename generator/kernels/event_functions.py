@@ -27,7 +27,7 @@ from gudgeon.generator.symbols.storage import Place
 from gudgeon.generator.symbols.switches import BranchOf, ModOn, PeriodsOf, Pick
 from gudgeon.generator.symbols.unevaluated import Whole
 
-WATCHED, _RANGES = "watched_functions", "watched_ranges"
+WATCHED, _RANGES = "watched_functions", "bound_watched_functions"
 _WATCHED_DOC = ("Event functions: the scene's own switching functions in rhs->g, the user's events in rhs->event.",)
 _RANGES_DOC = ("Ranges of the scene's own switching functions and of the user's events over ranges of t, q and v.",)
 _FORCE_OUTPUTS = RHS.name  # what reads this is known only once forces or accelerations are

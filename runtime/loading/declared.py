@@ -2,7 +2,7 @@
 
 from _cffi_backend import FFI
 
-OF = "5e09a6a427c7e73c407ebb37b84d4a01f581e3b5730d3282457cd6eb5d310e8a"  # SHA-256 of these declarations
+OF = "cb6d10cdabee2fee7ee80b544de14534b67dd53137826ef5ae25202a94ea93ce"  # SHA-256 of these declarations
 ffi = FFI(
     "gudgeon",
     _version=0x2601,

@@ -88,7 +88,7 @@ def test_switches_of_driven_chains_that_nobody_evaluates(tmp_path: Path) -> None
     right = loader(tmp_path)(CYLINDER, "worn")
     assert not reported(right, 6.0)
     heading = "    /* directions, arms, drives */"
-    ranges = part_of(right.source.files["watched.c"], "watched_ranges", heading, "}\n")
+    ranges = part_of(right.source.files["watched.c"], "bound_watched_functions", heading, "}\n")
     values = part_of(right.source.files["reduced.c"], "void watched_functions", heading, "\n}")
     garbage = "    out[0] = out[1] = (Interval){-INFINITY, INFINITY, -INFINITY, INFINITY, 0};\n"  # whatever lies there
     stale = "    rhs->g[0] = rhs->g[1] = -1.0;"

@@ -66,7 +66,7 @@ FILLED: Mapping[str, Mapping[str, str]] = {
     "project": {"x": "N_Q"},
     "time_terms": {"out": "N_TERMS"},
     "watched_functions": {"rhs->event": "N_USER_EVENTS"},
-    "watched_ranges": {"out": "N_WATCHED"},
+    "bound_watched_functions": {"out": "N_WATCHED"},
 }
 
 

@@ -19,12 +19,12 @@ enum { RATE_JUMPS = 0 };
 #include "engine/watch/ranges.h"
 double value(double a, double b, double side)
 {
-    return side == 2.0 ? period_branch(a, b) : mod_on(a, b, side);
+    return side == 2.0 ? mod_switching_function(a, b) : mod_on(a, b, side);
 }
 void bounds(double lo, double hi, double b, double side, double *out)
 {
     const Interval a = {lo, hi, 1.0, 1.0, 0};
-    const Interval y = side == 2.0 ? interval_period_branch(a, make_interval(b))
+    const Interval y = side == 2.0 ? interval_mod_switching_function(a, make_interval(b))
         : interval_mod_on(a, make_interval(b), make_interval(side));
     out[0] = y.lo, out[1] = y.hi, out[2] = y.min_slope, out[3] = y.max_slope;
 }

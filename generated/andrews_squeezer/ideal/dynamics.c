@@ -699,7 +699,7 @@ int dynamics(const double t, const double *q, const double *v, const DiscreteSta
         gamma_stab[17] = rhs_G_y_;
         gamma_stab[18] = rhs_H_x_;
         gamma_stab[19] = rhs_H_y_;
-        pivot = solve_dependent(t, q, p, force, gamma_stab, a, rhs->lambda, pivot, discrete);
+        pivot = solve_dependent_equations(t, q, p, force, gamma_stab, a, rhs->lambda, pivot, discrete);
     }
     powers:
     rhs->power[0] = 0.0;

@@ -47,10 +47,10 @@ void expand(const double t, const double *q, const double *v, const Parameters *
     /* directions, arms, drives */
     const Four angles_0 = {OF_theta_, BDE_theta_, AG_theta_, AH_theta_};
     Four sines_0, cosines_0;
-    sines_and_cosines(&angles_0, &sines_0, &cosines_0);
+    compute_sines_and_cosines(&angles_0, &sines_0, &cosines_0);
     const Four angles_1 = {FE_theta_, HE_theta_, EG_theta_, EG_theta_};
     Four sines_1, cosines_1;
-    sines_and_cosines(&angles_1, &sines_1, &cosines_1);
+    compute_sines_and_cosines(&angles_1, &sines_1, &cosines_1);
     const double cos_theta_OF_ = cosines_0[0];
     const double sin_theta_OF_ = sines_0[0];
     const double cos_theta_BDE_ = cosines_0[1];
@@ -241,10 +241,10 @@ void closures(const double t, const double *q, const Parameters *p, double *out)
     /* directions, arms, drives */
     const Four angles_0 = {OF_theta_, BDE_theta_, AG_theta_, AH_theta_};
     Four sines_0, cosines_0;
-    sines_and_cosines(&angles_0, &sines_0, &cosines_0);
+    compute_sines_and_cosines(&angles_0, &sines_0, &cosines_0);
     const Four angles_1 = {FE_theta_, HE_theta_, EG_theta_, EG_theta_};
     Four sines_1, cosines_1;
-    sines_and_cosines(&angles_1, &sines_1, &cosines_1);
+    compute_sines_and_cosines(&angles_1, &sines_1, &cosines_1);
     const double cos_theta_OF_ = cosines_0[0];
     const double sin_theta_OF_ = sines_0[0];
     const double cos_theta_BDE_ = cosines_0[1];
@@ -308,10 +308,10 @@ void closure_rates(const double t, const double *q, const double *v, const Param
     /* directions, arms, drives */
     const Four angles_0 = {OF_theta_, BDE_theta_, AG_theta_, AH_theta_};
     Four sines_0, cosines_0;
-    sines_and_cosines(&angles_0, &sines_0, &cosines_0);
+    compute_sines_and_cosines(&angles_0, &sines_0, &cosines_0);
     const Four angles_1 = {FE_theta_, HE_theta_, EG_theta_, EG_theta_};
     Four sines_1, cosines_1;
-    sines_and_cosines(&angles_1, &sines_1, &cosines_1);
+    compute_sines_and_cosines(&angles_1, &sines_1, &cosines_1);
     const double cos_theta_OF_ = cosines_0[0];
     const double sin_theta_OF_ = sines_0[0];
     const double cos_theta_BDE_ = cosines_0[1];
@@ -382,10 +382,10 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Dis
     /* directions, arms, drives */
     const Four angles_0 = {OF_theta_, BDE_theta_, AG_theta_, AH_theta_};
     Four sines_0, cosines_0;
-    sines_and_cosines(&angles_0, &sines_0, &cosines_0);
+    compute_sines_and_cosines(&angles_0, &sines_0, &cosines_0);
     const Four angles_1 = {FE_theta_, HE_theta_, EG_theta_, EG_theta_};
     Four sines_1, cosines_1;
-    sines_and_cosines(&angles_1, &sines_1, &cosines_1);
+    compute_sines_and_cosines(&angles_1, &sines_1, &cosines_1);
     const double cos_theta_OF_ = cosines_0[0];
     const double sin_theta_OF_ = sines_0[0];
     const double cos_theta_BDE_ = cosines_0[1];
@@ -675,7 +675,7 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Dis
 
     /* a pivot vanished: constraint equations depend on each other here */
     dependent:
-    pivot = solve_by_absolute(t, q, v, discrete, p, a, rhs);
+    pivot = solve_by_absolute_equations(t, q, v, discrete, p, a, rhs);
     powers:
     rhs->power[0] = 0.0;
     rhs->power[1] = OF_omega_*p->motor_value_;
@@ -703,10 +703,10 @@ int reduced_project(const double t, const double *q, const double *r, const Para
     /* directions, arms, drives */
     const Four angles_0 = {OF_theta_, BDE_theta_, AG_theta_, AH_theta_};
     Four sines_0, cosines_0;
-    sines_and_cosines(&angles_0, &sines_0, &cosines_0);
+    compute_sines_and_cosines(&angles_0, &sines_0, &cosines_0);
     const Four angles_1 = {FE_theta_, HE_theta_, EG_theta_, EG_theta_};
     Four sines_1, cosines_1;
-    sines_and_cosines(&angles_1, &sines_1, &cosines_1);
+    compute_sines_and_cosines(&angles_1, &sines_1, &cosines_1);
     const double cos_theta_OF_ = cosines_0[0];
     const double sin_theta_OF_ = sines_0[0];
     const double cos_theta_BDE_ = cosines_0[1];

@@ -106,9 +106,9 @@ void outputs(const double t, const double *q, const double *v, const Parameters 
 }
 
 /* Whether a start with these numbers is that with the others: what closing the linkage reads. */
-int same_start(const Parameters *p, const Parameters *other)
+int has_equal_start_parameters(const Parameters *p, const Parameters *other)
 {
-    return same_number(p->block_mass_, other->block_mass_)
-        && same_number(p->block_inertia_, other->block_inertia_)
-        && same_number(p->set_block_x_, other->set_block_x_);
+    return is_same_number(p->block_mass_, other->block_mass_)
+        && is_same_number(p->block_inertia_, other->block_inertia_)
+        && is_same_number(p->set_block_x_, other->set_block_x_);
 }

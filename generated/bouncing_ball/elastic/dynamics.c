@@ -10,7 +10,7 @@ int dynamics(const double t, const double *q, const double *v, const DiscreteSta
 {
     (void)t;
     /* branches of switching functions that are held, if any */
-    const double *const branch = discrete->held ? discrete->branch : NULL;
+    const double *const branch = discrete->is_frozen ? discrete->branch : NULL;
     double *const g = rhs->g;
 
     /* coordinates, velocities, time */

@@ -96,8 +96,8 @@ void outputs(const double t, const double *q, const double *v, const Parameters 
 }
 
 /* Whether a start with these numbers is that with the others: what closing the linkage reads. */
-int same_start(const Parameters *p, const Parameters *other)
+int has_equal_start_parameters(const Parameters *p, const Parameters *other)
 {
-    return same_number(p->ball_mass_, other->ball_mass_)
-        && same_number(p->ball_inertia_, other->ball_inertia_);
+    return is_same_number(p->ball_mass_, other->ball_mass_)
+        && is_same_number(p->ball_inertia_, other->ball_inertia_);
 }

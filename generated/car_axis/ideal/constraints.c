@@ -235,19 +235,19 @@ void outputs(const double t, const double *q, const double *v, const Parameters 
 }
 
 /* Whether a start with these numbers is that with the others: what closing the linkage reads. */
-int same_start(const Parameters *p, const Parameters *other)
+int has_equal_start_parameters(const Parameters *p, const Parameters *other)
 {
-    return same_number(p->axle_mass_, other->axle_mass_)
-        && same_number(p->axle_inertia_, other->axle_inertia_)
-        && same_number(p->road_mass_, other->road_mass_)
-        && same_number(p->road_inertia_, other->road_inertia_)
-        && same_number(p->length_, other->length_)
-        && same_number(p->r_, other->r_)
-        && same_number(p->omega_, other->omega_)
-        && same_number(p->axle_head_s_x_, other->axle_head_s_x_)
-        && same_number(p->road_head_s_x_, other->road_head_s_x_)
-        && same_number(p->set_axle_y_, other->set_axle_y_)
-        && same_number(p->set_axle_theta_, other->set_axle_theta_)
-        && same_number(p->rates_axle_vy_, other->rates_axle_vy_)
-        && same_number(p->rates_axle_omega_, other->rates_axle_omega_);
+    return is_same_number(p->axle_mass_, other->axle_mass_)
+        && is_same_number(p->axle_inertia_, other->axle_inertia_)
+        && is_same_number(p->road_mass_, other->road_mass_)
+        && is_same_number(p->road_inertia_, other->road_inertia_)
+        && is_same_number(p->length_, other->length_)
+        && is_same_number(p->r_, other->r_)
+        && is_same_number(p->omega_, other->omega_)
+        && is_same_number(p->axle_head_s_x_, other->axle_head_s_x_)
+        && is_same_number(p->road_head_s_x_, other->road_head_s_x_)
+        && is_same_number(p->set_axle_y_, other->set_axle_y_)
+        && is_same_number(p->set_axle_theta_, other->set_axle_theta_)
+        && is_same_number(p->rates_axle_vy_, other->rates_axle_vy_)
+        && is_same_number(p->rates_axle_omega_, other->rates_axle_omega_);
 }

@@ -185,7 +185,7 @@ int dynamics(const double t, const double *q, const double *v, const DiscreteSta
         gamma_stab[1] = rhs_foot_y_;
         gamma_stab[2] = rhs_slot_offset_;
         gamma_stab[3] = rhs_bump_;
-        pivot = solve_dependent(t, q, p, force, gamma_stab, a, rhs->lambda, pivot, discrete);
+        pivot = solve_dependent_equations(t, q, p, force, gamma_stab, a, rhs->lambda, pivot, discrete);
     }
     powers:
     rhs->power[0] = -bump_rate_*rhs->lambda[3];

@@ -32,7 +32,7 @@ void expand(const double t, const double *q, const double *v, const Parameters *
     const double bump_value_ = asin(p->r_*sin(p->omega_*t)/p->length_);
     const Four angles_0 = {bump_value_, bump_value_, bump_value_, bump_value_};
     Four sines_0, cosines_0;
-    sines_and_cosines(&angles_0, &sines_0, &cosines_0);
+    compute_sines_and_cosines(&angles_0, &sines_0, &cosines_0);
     const double cos_theta_road_ = cosines_0[0];
     const double sin_theta_road_ = sines_0[0];
     const double bump_rate_ = p->omega_*p->r_*cos(p->omega_*t)/(p->length_*sqrt(1.0
@@ -107,7 +107,7 @@ void closures(const double t, const double *q, const Parameters *p, double *out)
     const double bump_value_ = asin(p->r_*sin(p->omega_*t)/p->length_);
     const Four angles_0 = {bump_value_, axle_theta_, axle_theta_, axle_theta_};
     Four sines_0, cosines_0;
-    sines_and_cosines(&angles_0, &sines_0, &cosines_0);
+    compute_sines_and_cosines(&angles_0, &sines_0, &cosines_0);
     const double cos_theta_road_ = cosines_0[0];
     const double sin_theta_road_ = sines_0[0];
     const double cos_theta_axle_ = cosines_0[1];
@@ -138,7 +138,7 @@ void closure_rates(const double t, const double *q, const double *v, const Param
     const double bump_value_ = asin(p->r_*sin(p->omega_*t)/p->length_);
     const Four angles_0 = {bump_value_, axle_theta_, axle_theta_, axle_theta_};
     Four sines_0, cosines_0;
-    sines_and_cosines(&angles_0, &sines_0, &cosines_0);
+    compute_sines_and_cosines(&angles_0, &sines_0, &cosines_0);
     const double cos_theta_road_ = cosines_0[0];
     const double sin_theta_road_ = sines_0[0];
     const double cos_theta_axle_ = cosines_0[1];
@@ -178,7 +178,7 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Dis
     const double bump_value_ = asin(p->r_*sin(p->omega_*t)/p->length_);
     const Four angles_0 = {bump_value_, axle_theta_, axle_theta_, axle_theta_};
     Four sines_0, cosines_0;
-    sines_and_cosines(&angles_0, &sines_0, &cosines_0);
+    compute_sines_and_cosines(&angles_0, &sines_0, &cosines_0);
     const double cos_theta_road_ = cosines_0[0];
     const double sin_theta_road_ = sines_0[0];
     const double cos_theta_axle_ = cosines_0[1];
@@ -260,7 +260,7 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Dis
 
     /* a pivot vanished: constraint equations depend on each other here */
     dependent:
-    pivot = solve_by_absolute(t, q, v, discrete, p, a, rhs);
+    pivot = solve_by_absolute_equations(t, q, v, discrete, p, a, rhs);
     powers:
     rhs->power[0] = bump_rate_*(bump_acceleration_*p->mass_bump_bump_ - cos_theta_road_*p->weight_road_across_
         + right_pull_*right_span_x_*span_road_head_y_ - right_pull_*right_span_y_*span_road_head_x_)
@@ -285,7 +285,7 @@ int reduced_project(const double t, const double *q, const double *r, const Para
     const double bump_value_ = asin(p->r_*sin(p->omega_*t)/p->length_);
     const Four angles_0 = {bump_value_, axle_theta_, axle_theta_, axle_theta_};
     Four sines_0, cosines_0;
-    sines_and_cosines(&angles_0, &sines_0, &cosines_0);
+    compute_sines_and_cosines(&angles_0, &sines_0, &cosines_0);
     const double cos_theta_road_ = cosines_0[0];
     const double sin_theta_road_ = sines_0[0];
     const double cos_theta_axle_ = cosines_0[1];

@@ -31,7 +31,7 @@ void expand(const double t, const double *q, const double *v, const Parameters *
     const double motor_value_ = p->omega_*t + PI/2.0;
     const Four angles_0 = {motor_value_, rocker_theta_, coupler_theta_, coupler_theta_};
     Four sines_0, cosines_0;
-    sines_and_cosines(&angles_0, &sines_0, &cosines_0);
+    compute_sines_and_cosines(&angles_0, &sines_0, &cosines_0);
     const double cos_theta_crank_ = cosines_0[0];
     const double sin_theta_crank_ = sines_0[0];
     const double cos_theta_rocker_ = cosines_0[1];
@@ -124,7 +124,7 @@ void closures(const double t, const double *q, const Parameters *p, double *out)
     const double motor_value_ = p->omega_*t + PI/2.0;
     const Four angles_0 = {motor_value_, rocker_theta_, coupler_theta_, coupler_theta_};
     Four sines_0, cosines_0;
-    sines_and_cosines(&angles_0, &sines_0, &cosines_0);
+    compute_sines_and_cosines(&angles_0, &sines_0, &cosines_0);
     const double cos_theta_crank_ = cosines_0[0];
     const double sin_theta_crank_ = sines_0[0];
     const double cos_theta_rocker_ = cosines_0[1];
@@ -158,7 +158,7 @@ void closure_rates(const double t, const double *q, const double *v, const Param
     const double motor_value_ = p->omega_*t + PI/2.0;
     const Four angles_0 = {motor_value_, rocker_theta_, coupler_theta_, coupler_theta_};
     Four sines_0, cosines_0;
-    sines_and_cosines(&angles_0, &sines_0, &cosines_0);
+    compute_sines_and_cosines(&angles_0, &sines_0, &cosines_0);
     const double cos_theta_crank_ = cosines_0[0];
     const double sin_theta_crank_ = sines_0[0];
     const double cos_theta_rocker_ = cosines_0[1];
@@ -200,7 +200,7 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Dis
     const double motor_value_ = p->omega_*t + PI/2.0;
     const Four angles_0 = {motor_value_, rocker_theta_, coupler_theta_, coupler_theta_};
     Four sines_0, cosines_0;
-    sines_and_cosines(&angles_0, &sines_0, &cosines_0);
+    compute_sines_and_cosines(&angles_0, &sines_0, &cosines_0);
     const double cos_theta_crank_ = cosines_0[0];
     const double sin_theta_crank_ = sines_0[0];
     const double cos_theta_rocker_ = cosines_0[1];
@@ -294,7 +294,7 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Dis
 
     /* a pivot vanished: constraint equations depend on each other here */
     dependent:
-    pivot = solve_by_absolute(t, q, v, discrete, p, a, rhs);
+    pivot = solve_by_absolute_equations(t, q, v, discrete, p, a, rhs);
     powers:
     rhs->power[0] = -motor_rate_*rhs->lambda[0]*span_crank_head_y_ + motor_rate_*rhs->lambda[1]*span_crank_head_x_
         + motor_rate_*(a[1]*dot_crank_coupler_ - cos_theta_crank_*p->weight_crank_across_
@@ -319,7 +319,7 @@ int reduced_project(const double t, const double *q, const double *r, const Para
     /* directions, arms, drives */
     const Four angles_0 = {rocker_theta_, coupler_theta_, coupler_theta_, coupler_theta_};
     Four sines_0, cosines_0;
-    sines_and_cosines(&angles_0, &sines_0, &cosines_0);
+    compute_sines_and_cosines(&angles_0, &sines_0, &cosines_0);
     const double cos_theta_rocker_ = cosines_0[0];
     const double sin_theta_rocker_ = sines_0[0];
     const double cos_theta_coupler_ = cosines_0[1];

@@ -468,7 +468,7 @@ int dynamics(const double t, const double *q, const double *v, const DiscreteSta
         gamma_stab[11] = rhs_A1_y_;
         gamma_stab[12] = rhs_B2_x_;
         gamma_stab[13] = rhs_B2_y_;
-        pivot = solve_dependent(t, q, p, force, gamma_stab, a, rhs->lambda, pivot, discrete);
+        pivot = solve_dependent_equations(t, q, p, force, gamma_stab, a, rhs->lambda, pivot, discrete);
     }
     powers:
     rhs->power[0] = 0.0;

@@ -40,10 +40,10 @@ void expand(const double t, const double *q, const double *v, const Parameters *
     /* directions, arms, drives */
     const Four angles_0 = {crank0_theta_, crank1_theta_, crank2_theta_, coupler1_theta_};
     Four sines_0, cosines_0;
-    sines_and_cosines(&angles_0, &sines_0, &cosines_0);
+    compute_sines_and_cosines(&angles_0, &sines_0, &cosines_0);
     const Four angles_1 = {coupler2_theta_, coupler2_theta_, coupler2_theta_, coupler2_theta_};
     Four sines_1, cosines_1;
-    sines_and_cosines(&angles_1, &sines_1, &cosines_1);
+    compute_sines_and_cosines(&angles_1, &sines_1, &cosines_1);
     const double cos_theta_crank0_ = cosines_0[0];
     const double sin_theta_crank0_ = sines_0[0];
     const double cos_theta_crank1_ = cosines_0[1];
@@ -185,10 +185,10 @@ void closures(const double t, const double *q, const Parameters *p, double *out)
     /* directions, arms, drives */
     const Four angles_0 = {crank0_theta_, crank1_theta_, crank2_theta_, coupler1_theta_};
     Four sines_0, cosines_0;
-    sines_and_cosines(&angles_0, &sines_0, &cosines_0);
+    compute_sines_and_cosines(&angles_0, &sines_0, &cosines_0);
     const Four angles_1 = {coupler2_theta_, coupler2_theta_, coupler2_theta_, coupler2_theta_};
     Four sines_1, cosines_1;
-    sines_and_cosines(&angles_1, &sines_1, &cosines_1);
+    compute_sines_and_cosines(&angles_1, &sines_1, &cosines_1);
     const double cos_theta_crank0_ = cosines_0[0];
     const double sin_theta_crank0_ = sines_0[0];
     const double cos_theta_crank1_ = cosines_0[1];
@@ -238,10 +238,10 @@ void closure_rates(const double t, const double *q, const double *v, const Param
     /* directions, arms, drives */
     const Four angles_0 = {crank0_theta_, crank1_theta_, crank2_theta_, coupler1_theta_};
     Four sines_0, cosines_0;
-    sines_and_cosines(&angles_0, &sines_0, &cosines_0);
+    compute_sines_and_cosines(&angles_0, &sines_0, &cosines_0);
     const Four angles_1 = {coupler2_theta_, coupler2_theta_, coupler2_theta_, coupler2_theta_};
     Four sines_1, cosines_1;
-    sines_and_cosines(&angles_1, &sines_1, &cosines_1);
+    compute_sines_and_cosines(&angles_1, &sines_1, &cosines_1);
     const double cos_theta_crank0_ = cosines_0[0];
     const double sin_theta_crank0_ = sines_0[0];
     const double cos_theta_crank1_ = cosines_0[1];
@@ -304,10 +304,10 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Dis
     /* directions, arms, drives */
     const Four angles_0 = {crank0_theta_, crank1_theta_, crank2_theta_, coupler1_theta_};
     Four sines_0, cosines_0;
-    sines_and_cosines(&angles_0, &sines_0, &cosines_0);
+    compute_sines_and_cosines(&angles_0, &sines_0, &cosines_0);
     const Four angles_1 = {coupler2_theta_, coupler2_theta_, coupler2_theta_, coupler2_theta_};
     Four sines_1, cosines_1;
-    sines_and_cosines(&angles_1, &sines_1, &cosines_1);
+    compute_sines_and_cosines(&angles_1, &sines_1, &cosines_1);
     const double cos_theta_crank0_ = cosines_0[0];
     const double sin_theta_crank0_ = sines_0[0];
     const double cos_theta_crank1_ = cosines_0[1];
@@ -509,7 +509,7 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Dis
 
     /* a pivot vanished: constraint equations depend on each other here */
     dependent:
-    pivot = solve_by_absolute(t, q, v, discrete, p, a, rhs);
+    pivot = solve_by_absolute_equations(t, q, v, discrete, p, a, rhs);
     powers:
     rhs->power[0] = 0.0;
     rhs->power[1] = 0.0;
@@ -535,10 +535,10 @@ int reduced_project(const double t, const double *q, const double *r, const Para
     /* directions, arms, drives */
     const Four angles_0 = {crank0_theta_, crank1_theta_, crank2_theta_, coupler1_theta_};
     Four sines_0, cosines_0;
-    sines_and_cosines(&angles_0, &sines_0, &cosines_0);
+    compute_sines_and_cosines(&angles_0, &sines_0, &cosines_0);
     const Four angles_1 = {coupler2_theta_, coupler2_theta_, coupler2_theta_, coupler2_theta_};
     Four sines_1, cosines_1;
-    sines_and_cosines(&angles_1, &sines_1, &cosines_1);
+    compute_sines_and_cosines(&angles_1, &sines_1, &cosines_1);
     const double cos_theta_crank0_ = cosines_0[0];
     const double sin_theta_crank0_ = sines_0[0];
     const double cos_theta_crank1_ = cosines_0[1];

@@ -15,7 +15,7 @@ int dynamics(const double t, const double *q, const double *v, const DiscreteSta
     double *a, RhsOutputs *rhs)
 {
     /* branches of switching functions that are held, if any */
-    const double *const branch = discrete->held ? discrete->branch : NULL;
+    const double *const branch = discrete->is_frozen ? discrete->branch : NULL;
     double *const g = rhs->g;
 
     /* coordinates, velocities, time */
@@ -571,7 +571,7 @@ int dynamics(const double t, const double *q, const double *v, const DiscreteSta
         gamma_stab[17] = rhs_guide_angle_;
         gamma_stab[18] = rhs_crank1_;
         gamma_stab[19] = rhs_crank4_;
-        pivot = solve_dependent(t, q, p, force, gamma_stab, a, rhs->lambda, pivot, discrete);
+        pivot = solve_dependent_equations(t, q, p, force, gamma_stab, a, rhs->lambda, pivot, discrete);
     }
     powers:
     rhs->power[0] = -crank1_rate_*rhs->lambda[18] - crank4_rate_*rhs->lambda[19];

@@ -46,10 +46,10 @@ void expand(const double t, const double *q, const double *v, const Parameters *
     const double crank4_value_ = p->omega4_*t + 3.4814082589530893;
     const Four angles_0 = {crank1_value_, crank4_value_, L6_theta_, L7_theta_};
     Four sines_0, cosines_0;
-    sines_and_cosines(&angles_0, &sines_0, &cosines_0);
+    compute_sines_and_cosines(&angles_0, &sines_0, &cosines_0);
     const Four angles_1 = {L8_theta_, L2_theta_, L3_theta_, L3_theta_};
     Four sines_1, cosines_1;
-    sines_and_cosines(&angles_1, &sines_1, &cosines_1);
+    compute_sines_and_cosines(&angles_1, &sines_1, &cosines_1);
     const double cos_theta_L1_ = cosines_0[0];
     const double sin_theta_L1_ = sines_0[0];
     const double cos_theta_L4_ = cosines_0[1];
@@ -234,7 +234,7 @@ void closures(const double t, const double *q, const Parameters *p, double *out)
     /* directions, arms, drives */
     const Four angles_0 = {L6_theta_, L8_theta_, L8_theta_, L8_theta_};
     Four sines_0, cosines_0;
-    sines_and_cosines(&angles_0, &sines_0, &cosines_0);
+    compute_sines_and_cosines(&angles_0, &sines_0, &cosines_0);
     const double cos_theta_L6_ = cosines_0[0];
     const double cos_theta_L8_ = cosines_0[1];
     const double span_L6_head_x_ = p->L6_head_span_x_*cos_theta_L6_;
@@ -259,7 +259,7 @@ void closure_rates(const double t, const double *q, const double *v, const Param
     /* directions, arms, drives */
     const Four angles_0 = {L6_theta_, L8_theta_, L8_theta_, L8_theta_};
     Four sines_0, cosines_0;
-    sines_and_cosines(&angles_0, &sines_0, &cosines_0);
+    compute_sines_and_cosines(&angles_0, &sines_0, &cosines_0);
     const double sin_theta_L6_ = sines_0[0];
     const double sin_theta_L8_ = sines_0[1];
     const double span_L6_head_y_ = p->L6_head_span_x_*sin_theta_L6_;
@@ -280,7 +280,7 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Dis
     const Parameters *p, double *a, RhsOutputs *rhs)
 {
     /* branches of switching functions that are held, if any */
-    const double *const branch = discrete->held ? discrete->branch : NULL;
+    const double *const branch = discrete->is_frozen ? discrete->branch : NULL;
     double *const g = rhs->g;
 
     /* coordinates, velocities, time */
@@ -300,10 +300,10 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Dis
     const double crank4_value_ = p->omega4_*t + 3.4814082589530893;
     const Four angles_0 = {crank1_value_, crank4_value_, L6_theta_, L7_theta_};
     Four sines_0, cosines_0;
-    sines_and_cosines(&angles_0, &sines_0, &cosines_0);
+    compute_sines_and_cosines(&angles_0, &sines_0, &cosines_0);
     const Four angles_1 = {L8_theta_, L2_theta_, L3_theta_, L3_theta_};
     Four sines_1, cosines_1;
-    sines_and_cosines(&angles_1, &sines_1, &cosines_1);
+    compute_sines_and_cosines(&angles_1, &sines_1, &cosines_1);
     const double cos_theta_L1_ = cosines_0[0];
     const double sin_theta_L1_ = sines_0[0];
     const double cos_theta_L4_ = cosines_0[1];
@@ -507,7 +507,7 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Dis
 
     /* a pivot vanished: constraint equations depend on each other here */
     dependent:
-    pivot = solve_by_absolute(t, q, v, discrete, p, a, rhs);
+    pivot = solve_by_absolute_equations(t, q, v, discrete, p, a, rhs);
     powers:
     rhs->power[0] = crank1_rate_*(-F_A_x_*span_L1_head_y_ + F_A_y_*span_L1_head_x_ - M_A_first_
         - cos_theta_L1_*p->weight_L1_across_ + crank1_acceleration_*p->mass_crank1_crank1_)
@@ -536,10 +536,10 @@ int reduced_project(const double t, const double *q, const double *r, const Para
     /* directions, arms, drives */
     const Four angles_0 = {L6_theta_, L7_theta_, L8_theta_, L2_theta_};
     Four sines_0, cosines_0;
-    sines_and_cosines(&angles_0, &sines_0, &cosines_0);
+    compute_sines_and_cosines(&angles_0, &sines_0, &cosines_0);
     const Four angles_1 = {L3_theta_, L3_theta_, L3_theta_, L3_theta_};
     Four sines_1, cosines_1;
-    sines_and_cosines(&angles_1, &sines_1, &cosines_1);
+    compute_sines_and_cosines(&angles_1, &sines_1, &cosines_1);
     const double cos_theta_L6_ = cosines_0[0];
     const double sin_theta_L6_ = sines_0[0];
     const double cos_theta_L7_ = cosines_0[1];

@@ -698,7 +698,7 @@ int dynamics(const double t, const double *q, const double *v, const DiscreteSta
         gamma_stab[21] = rhs_guide_angle_;
         gamma_stab[22] = rhs_crank1_;
         gamma_stab[23] = rhs_crank4_;
-        pivot = solve_dependent(t, q, p, force, gamma_stab, a, rhs->lambda, pivot, discrete);
+        pivot = solve_dependent_equations(t, q, p, force, gamma_stab, a, rhs->lambda, pivot, discrete);
     }
     powers:
     rhs->power[0] = -crank1_rate_*rhs->lambda[22] - crank4_rate_*rhs->lambda[23];

@@ -16,10 +16,10 @@ int close_step(const double t, const double *q, const Parameters *p, double *ste
     const double crank4_value_ = p->omega4_*t + 3.4814082589530893;
     const Four angles_0 = {crank1_value_, crank4_value_, L6_theta_, L2_theta_};
     Four sines_0, cosines_0;
-    sines_and_cosines(&angles_0, &sines_0, &cosines_0);
+    compute_sines_and_cosines(&angles_0, &sines_0, &cosines_0);
     const Four angles_1 = {L3_theta_, L7_theta_, L8_theta_, L8_theta_};
     Four sines_1, cosines_1;
-    sines_and_cosines(&angles_1, &sines_1, &cosines_1);
+    compute_sines_and_cosines(&angles_1, &sines_1, &cosines_1);
     const double cos_theta_L1_ = cosines_0[0];
     const double sin_theta_L1_ = sines_0[0];
     const double cos_theta_L4_ = cosines_0[1];
@@ -160,10 +160,10 @@ int compute_body_motion(const double t, const double *q, const double *v, const 
     const double crank4_value_ = p->omega4_*t + 3.4814082589530893;
     const Four angles_0 = {crank1_value_, crank4_value_, L6_theta_, L2_theta_};
     Four sines_0, cosines_0;
-    sines_and_cosines(&angles_0, &sines_0, &cosines_0);
+    compute_sines_and_cosines(&angles_0, &sines_0, &cosines_0);
     const Four angles_1 = {L3_theta_, L7_theta_, L8_theta_, L8_theta_};
     Four sines_1, cosines_1;
-    sines_and_cosines(&angles_1, &sines_1, &cosines_1);
+    compute_sines_and_cosines(&angles_1, &sines_1, &cosines_1);
     const double cos_theta_L1_ = cosines_0[0];
     const double sin_theta_L1_ = sines_0[0];
     const double cos_theta_L4_ = cosines_0[1];

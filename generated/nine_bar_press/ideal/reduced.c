@@ -45,10 +45,10 @@ void expand(const double t, const double *q, const double *v, const Parameters *
     const double crank4_value_ = p->omega4_*t + 3.4814082589530893;
     const Four angles_0 = {crank1_value_, crank4_value_, L6_theta_, L2_theta_};
     Four sines_0, cosines_0;
-    sines_and_cosines(&angles_0, &sines_0, &cosines_0);
+    compute_sines_and_cosines(&angles_0, &sines_0, &cosines_0);
     const Four angles_1 = {L3_theta_, L7_theta_, L8_theta_, L8_theta_};
     Four sines_1, cosines_1;
-    sines_and_cosines(&angles_1, &sines_1, &cosines_1);
+    compute_sines_and_cosines(&angles_1, &sines_1, &cosines_1);
     const double cos_theta_L1_ = cosines_0[0];
     const double sin_theta_L1_ = sines_0[0];
     const double cos_theta_L4_ = cosines_0[1];
@@ -240,10 +240,10 @@ void closures(const double t, const double *q, const Parameters *p, double *out)
     const double crank4_value_ = p->omega4_*t + 3.4814082589530893;
     const Four angles_0 = {crank1_value_, crank4_value_, L6_theta_, L2_theta_};
     Four sines_0, cosines_0;
-    sines_and_cosines(&angles_0, &sines_0, &cosines_0);
+    compute_sines_and_cosines(&angles_0, &sines_0, &cosines_0);
     const Four angles_1 = {L3_theta_, L7_theta_, L8_theta_, L8_theta_};
     Four sines_1, cosines_1;
-    sines_and_cosines(&angles_1, &sines_1, &cosines_1);
+    compute_sines_and_cosines(&angles_1, &sines_1, &cosines_1);
     const double cos_theta_L1_ = cosines_0[0];
     const double sin_theta_L1_ = sines_0[0];
     const double cos_theta_L4_ = cosines_0[1];
@@ -301,10 +301,10 @@ void closure_rates(const double t, const double *q, const double *v, const Param
     const double crank4_value_ = p->omega4_*t + 3.4814082589530893;
     const Four angles_0 = {crank1_value_, crank4_value_, L6_theta_, L2_theta_};
     Four sines_0, cosines_0;
-    sines_and_cosines(&angles_0, &sines_0, &cosines_0);
+    compute_sines_and_cosines(&angles_0, &sines_0, &cosines_0);
     const Four angles_1 = {L3_theta_, L7_theta_, L8_theta_, L8_theta_};
     Four sines_1, cosines_1;
-    sines_and_cosines(&angles_1, &sines_1, &cosines_1);
+    compute_sines_and_cosines(&angles_1, &sines_1, &cosines_1);
     const double cos_theta_L1_ = cosines_0[0];
     const double sin_theta_L1_ = sines_0[0];
     const double cos_theta_L4_ = cosines_0[1];
@@ -378,10 +378,10 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Dis
     const double crank4_value_ = p->omega4_*t + 3.4814082589530893;
     const Four angles_0 = {crank1_value_, crank4_value_, L6_theta_, L2_theta_};
     Four sines_0, cosines_0;
-    sines_and_cosines(&angles_0, &sines_0, &cosines_0);
+    compute_sines_and_cosines(&angles_0, &sines_0, &cosines_0);
     const Four angles_1 = {L3_theta_, L7_theta_, L8_theta_, L8_theta_};
     Four sines_1, cosines_1;
-    sines_and_cosines(&angles_1, &sines_1, &cosines_1);
+    compute_sines_and_cosines(&angles_1, &sines_1, &cosines_1);
     const double cos_theta_L1_ = cosines_0[0];
     const double sin_theta_L1_ = sines_0[0];
     const double cos_theta_L4_ = cosines_0[1];
@@ -646,7 +646,7 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Dis
 
     /* a pivot vanished: constraint equations depend on each other here */
     dependent:
-    pivot = solve_by_absolute(t, q, v, discrete, p, a, rhs);
+    pivot = solve_by_absolute_equations(t, q, v, discrete, p, a, rhs);
     powers:
     rhs->power[0] = -crank1_rate_*rhs->lambda[3]*span_L1_head_y_ + crank1_rate_*rhs->lambda[4]*span_L1_head_x_
         + crank1_rate_*(-(L2_omega_ * L2_omega_)*cross_L1_L2_ + a[1]*dot_L1_L2_ - cos_theta_L1_*p->weight_L1_across_
@@ -677,10 +677,10 @@ int reduced_project(const double t, const double *q, const double *r, const Para
     /* directions, arms, drives */
     const Four angles_0 = {L6_theta_, L2_theta_, L3_theta_, L7_theta_};
     Four sines_0, cosines_0;
-    sines_and_cosines(&angles_0, &sines_0, &cosines_0);
+    compute_sines_and_cosines(&angles_0, &sines_0, &cosines_0);
     const Four angles_1 = {L8_theta_, L8_theta_, L8_theta_, L8_theta_};
     Four sines_1, cosines_1;
-    sines_and_cosines(&angles_1, &sines_1, &cosines_1);
+    compute_sines_and_cosines(&angles_1, &sines_1, &cosines_1);
     const double cos_theta_L6_ = cosines_0[0];
     const double sin_theta_L6_ = sines_0[0];
     const double cos_theta_L2_ = cosines_0[1];

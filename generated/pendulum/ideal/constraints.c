@@ -108,13 +108,13 @@ void outputs(const double t, const double *q, const double *v, const Parameters 
 }
 
 /* Whether a start with these numbers is that with the others: what closing the linkage reads. */
-int same_start(const Parameters *p, const Parameters *other)
+int has_equal_start_parameters(const Parameters *p, const Parameters *other)
 {
-    return same_number(p->bob_mass_, other->bob_mass_)
-        && same_number(p->bob_inertia_, other->bob_inertia_)
-        && same_number(p->rod_length_, other->rod_length_)
-        && same_number(p->rod_half_inverse_length_, other->rod_half_inverse_length_)
-        && same_number(p->set_bob_x_, other->set_bob_x_)
-        && same_number(p->set_bob_theta_, other->set_bob_theta_)
-        && same_number(p->rates_bob_omega_, other->rates_bob_omega_);
+    return is_same_number(p->bob_mass_, other->bob_mass_)
+        && is_same_number(p->bob_inertia_, other->bob_inertia_)
+        && is_same_number(p->rod_length_, other->rod_length_)
+        && is_same_number(p->rod_half_inverse_length_, other->rod_half_inverse_length_)
+        && is_same_number(p->set_bob_x_, other->set_bob_x_)
+        && is_same_number(p->set_bob_theta_, other->set_bob_theta_)
+        && is_same_number(p->rates_bob_omega_, other->rates_bob_omega_);
 }

@@ -63,7 +63,7 @@ int dynamics(const double t, const double *q, const double *v, const DiscreteSta
         force[1] = p->weight_bob_y_;
         force[2] = 0.0;
         gamma_stab[0] = rhs_rod_length_;
-        pivot = solve_dependent(t, q, p, force, gamma_stab, a, rhs->lambda, pivot, discrete);
+        pivot = solve_dependent_equations(t, q, p, force, gamma_stab, a, rhs->lambda, pivot, discrete);
     }
     powers:
     rhs->power[0] = 0.0;

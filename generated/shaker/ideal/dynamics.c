@@ -332,7 +332,7 @@ int dynamics(const double t, const double *q, const double *v, const DiscreteSta
         gamma_stab[8] = rhs_pivot_x_;
         gamma_stab[9] = rhs_pivot_y_;
         gamma_stab[10] = rhs_motor_;
-        pivot = solve_dependent(t, q, p, force, gamma_stab, a, rhs->lambda, pivot, discrete);
+        pivot = solve_dependent_equations(t, q, p, force, gamma_stab, a, rhs->lambda, pivot, discrete);
     }
     powers:
     rhs->power[0] = -motor_rate_*rhs->lambda[10];

@@ -35,7 +35,7 @@ void expand(const double t, const double *q, const double *v, const Parameters *
     /* directions, arms, drives */
     const Four angles_0 = {arm_theta_, arm_theta_, arm_theta_, arm_theta_};
     Four sines_0, cosines_0;
-    sines_and_cosines(&angles_0, &sines_0, &cosines_0);
+    compute_sines_and_cosines(&angles_0, &sines_0, &cosines_0);
     const double cos_theta_arm_ = cosines_0[0];
     const double sin_theta_arm_ = sines_0[0];
     const double motor_value_ = p->omega_*t;
@@ -158,7 +158,7 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Dis
     /* directions, arms, drives */
     const Four angles_0 = {arm_theta_, arm_theta_, arm_theta_, arm_theta_};
     Four sines_0, cosines_0;
-    sines_and_cosines(&angles_0, &sines_0, &cosines_0);
+    compute_sines_and_cosines(&angles_0, &sines_0, &cosines_0);
     const double cos_theta_arm_ = cosines_0[0];
     const double sin_theta_arm_ = sines_0[0];
     const double motor_rate_ = p->omega_;
@@ -229,7 +229,7 @@ void evaluate_loop_directions(const double t, const double *q, const DiscreteSta
     /* directions */
     const Four angles_0 = {motor_value_, rod_theta_, rod_theta_, rod_theta_};
     Four sines_0, cosines_0;
-    sines_and_cosines(&angles_0, &sines_0, &cosines_0);
+    compute_sines_and_cosines(&angles_0, &sines_0, &cosines_0);
     out[2] = cosines_0[0];  /* cos_theta_crank_ */
     out[3] = sines_0[0];  /* sin_theta_crank_ */
     out[4] = cosines_0[1];  /* cos_theta_rod_ */
@@ -381,5 +381,5 @@ double get_loop_step_scale(const Parameters *p, int k)
 void turn_directions(double *q, const double *step, const Parameters *p)
 {
     (void)p;
-    turn_back(q + 4, step[0]);
+    rotate_back_by_small_angle(q + 4, step[0]);
 }

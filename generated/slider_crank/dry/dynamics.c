@@ -12,7 +12,7 @@ int dynamics(const double t, const double *q, const double *v, const DiscreteSta
     double *a, RhsOutputs *rhs)
 {
     /* branches of switching functions that are held, if any */
-    const double *const branch = discrete->held ? discrete->branch : NULL;
+    const double *const branch = discrete->is_frozen ? discrete->branch : NULL;
     double *const g = rhs->g;
 
     /* coordinates, velocities, time */
@@ -208,7 +208,7 @@ int dynamics(const double t, const double *q, const double *v, const DiscreteSta
         gamma_stab[4] = rhs_cylinder_offset_;
         gamma_stab[5] = rhs_cylinder_angle_;
         gamma_stab[6] = rhs_motor_;
-        pivot = solve_dependent(t, q, p, force, gamma_stab, a, rhs->lambda, pivot, discrete);
+        pivot = solve_dependent_equations(t, q, p, force, gamma_stab, a, rhs->lambda, pivot, discrete);
     }
     powers:
     rhs->power[0] = -motor_rate_*rhs->lambda[6];

@@ -77,7 +77,7 @@ double radial_clearance(const Parameters *p, int i)
 }
 
 /* The penetration beyond which contact laws mean nothing, m: a tenth of the bearing's radius. */
-double deepest(const Parameters *p, int i)
+double max_valid_penetration(const Parameters *p, int i)
 {
     (void)p;
     switch (i) {

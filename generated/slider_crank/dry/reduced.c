@@ -33,7 +33,7 @@ void expand(const double t, const double *q, const double *v, const Parameters *
     const double motor_value_ = p->omega_*t;
     const Four angles_0 = {motor_value_, rod_theta_, rod_theta_, rod_theta_};
     Four sines_0, cosines_0;
-    sines_and_cosines(&angles_0, &sines_0, &cosines_0);
+    compute_sines_and_cosines(&angles_0, &sines_0, &cosines_0);
     const double cos_theta_crank_ = cosines_0[0];
     const double sin_theta_crank_ = sines_0[0];
     const double cos_theta_rod_ = cosines_0[1];
@@ -127,7 +127,7 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Dis
     const Parameters *p, double *a, RhsOutputs *rhs)
 {
     /* branches of switching functions that are held, if any */
-    const double *const branch = discrete->held ? discrete->branch : NULL;
+    const double *const branch = discrete->is_frozen ? discrete->branch : NULL;
     double *const g = rhs->g;
 
     /* coordinates, velocities, time */
@@ -140,7 +140,7 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Dis
     const double motor_value_ = p->omega_*t;
     const Four angles_0 = {motor_value_, rod_theta_, rod_theta_, rod_theta_};
     Four sines_0, cosines_0;
-    sines_and_cosines(&angles_0, &sines_0, &cosines_0);
+    compute_sines_and_cosines(&angles_0, &sines_0, &cosines_0);
     const double cos_theta_crank_ = cosines_0[0];
     const double sin_theta_crank_ = sines_0[0];
     const double cos_theta_rod_ = cosines_0[1];

@@ -234,7 +234,7 @@ int dynamics(const double t, const double *q, const double *v, const DiscreteSta
         gamma_stab[6] = rhs_cylinder_offset_;
         gamma_stab[7] = rhs_cylinder_angle_;
         gamma_stab[8] = rhs_motor_;
-        pivot = solve_dependent(t, q, p, force, gamma_stab, a, rhs->lambda, pivot, discrete);
+        pivot = solve_dependent_equations(t, q, p, force, gamma_stab, a, rhs->lambda, pivot, discrete);
     }
     powers:
     rhs->power[0] = -motor_rate_*rhs->lambda[8];

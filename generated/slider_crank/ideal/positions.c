@@ -11,7 +11,7 @@ int close_step(const double t, const double *q, const Parameters *p, double *ste
     const double motor_value_ = p->omega_*t;
     const Four angles_0 = {motor_value_, rod_theta_, rod_theta_, rod_theta_};
     Four sines_0, cosines_0;
-    sines_and_cosines(&angles_0, &sines_0, &cosines_0);
+    compute_sines_and_cosines(&angles_0, &sines_0, &cosines_0);
     const double cos_theta_crank_ = cosines_0[0];
     const double sin_theta_crank_ = sines_0[0];
     const double cos_theta_rod_ = cosines_0[1];
@@ -61,7 +61,7 @@ int compute_body_motion(const double t, const double *q, const double *v, const 
     const double motor_value_ = p->omega_*t;
     const Four angles_0 = {motor_value_, rod_theta_, rod_theta_, rod_theta_};
     Four sines_0, cosines_0;
-    sines_and_cosines(&angles_0, &sines_0, &cosines_0);
+    compute_sines_and_cosines(&angles_0, &sines_0, &cosines_0);
     const double cos_theta_crank_ = cosines_0[0];
     const double sin_theta_crank_ = sines_0[0];
     const double cos_theta_rod_ = cosines_0[1];

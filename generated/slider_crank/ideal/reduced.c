@@ -29,7 +29,7 @@ void expand(const double t, const double *q, const double *v, const Parameters *
     const double motor_value_ = p->omega_*t;
     const Four angles_0 = {motor_value_, rod_theta_, rod_theta_, rod_theta_};
     Four sines_0, cosines_0;
-    sines_and_cosines(&angles_0, &sines_0, &cosines_0);
+    compute_sines_and_cosines(&angles_0, &sines_0, &cosines_0);
     const double cos_theta_crank_ = cosines_0[0];
     const double sin_theta_crank_ = sines_0[0];
     const double cos_theta_rod_ = cosines_0[1];
@@ -117,7 +117,7 @@ void closures(const double t, const double *q, const Parameters *p, double *out)
     const double motor_value_ = p->omega_*t;
     const Four angles_0 = {motor_value_, rod_theta_, rod_theta_, rod_theta_};
     Four sines_0, cosines_0;
-    sines_and_cosines(&angles_0, &sines_0, &cosines_0);
+    compute_sines_and_cosines(&angles_0, &sines_0, &cosines_0);
     const double sin_theta_crank_ = sines_0[0];
     const double sin_theta_rod_ = sines_0[1];
     const double span_crank_head_y_ = p->crank_head_span_x_*sin_theta_crank_;
@@ -140,7 +140,7 @@ void closure_rates(const double t, const double *q, const double *v, const Param
     const double motor_value_ = p->omega_*t;
     const Four angles_0 = {motor_value_, rod_theta_, rod_theta_, rod_theta_};
     Four sines_0, cosines_0;
-    sines_and_cosines(&angles_0, &sines_0, &cosines_0);
+    compute_sines_and_cosines(&angles_0, &sines_0, &cosines_0);
     const double cos_theta_crank_ = cosines_0[0];
     const double cos_theta_rod_ = cosines_0[1];
     const double motor_rate_ = p->omega_;
@@ -169,7 +169,7 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Dis
     const double motor_value_ = p->omega_*t;
     const Four angles_0 = {motor_value_, rod_theta_, rod_theta_, rod_theta_};
     Four sines_0, cosines_0;
-    sines_and_cosines(&angles_0, &sines_0, &cosines_0);
+    compute_sines_and_cosines(&angles_0, &sines_0, &cosines_0);
     const double cos_theta_crank_ = cosines_0[0];
     const double sin_theta_crank_ = sines_0[0];
     const double cos_theta_rod_ = cosines_0[1];
@@ -221,7 +221,7 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Dis
 
     /* a pivot vanished: constraint equations depend on each other here */
     dependent:
-    pivot = solve_by_absolute(t, q, v, discrete, p, a, rhs);
+    pivot = solve_by_absolute_equations(t, q, v, discrete, p, a, rhs);
     powers:
     rhs->power[0] = motor_rate_*rhs->lambda[0]*span_crank_head_x_
         + motor_rate_*(a[0]*dot_crank_rod_ - cross_crank_rod_*(rod_omega_ * rod_omega_)
@@ -245,7 +245,7 @@ int reduced_project(const double t, const double *q, const double *r, const Para
     /* directions, arms, drives */
     const Four angles_0 = {rod_theta_, rod_theta_, rod_theta_, rod_theta_};
     Four sines_0, cosines_0;
-    sines_and_cosines(&angles_0, &sines_0, &cosines_0);
+    compute_sines_and_cosines(&angles_0, &sines_0, &cosines_0);
     const double cos_theta_rod_ = cosines_0[0];
     const double span_rod_head_x_ = cos_theta_rod_*p->rod_head_span_x_;
 

@@ -210,16 +210,16 @@ void outputs(const double t, const double *q, const double *v, const Parameters 
 }
 
 /* Whether a start with these numbers is that with the others: what closing the linkage reads. */
-int same_start(const Parameters *p, const Parameters *other)
+int has_equal_start_parameters(const Parameters *p, const Parameters *other)
 {
-    return same_number(p->crank_mass_, other->crank_mass_)
-        && same_number(p->crank_inertia_, other->crank_inertia_)
-        && same_number(p->rod_mass_, other->rod_mass_)
-        && same_number(p->rod_inertia_, other->rod_inertia_)
-        && same_number(p->crank_length_, other->crank_length_)
-        && same_number(p->rod_points_crankpin_x_, other->rod_points_crankpin_x_)
-        && same_number(p->guess_rod_theta_, other->guess_rod_theta_)
-        && same_number(p->guess_rod_x_, other->guess_rod_x_)
-        && same_number(p->set_crank_theta_, other->set_crank_theta_)
-        && same_number(p->rates_crank_omega_, other->rates_crank_omega_);
+    return is_same_number(p->crank_mass_, other->crank_mass_)
+        && is_same_number(p->crank_inertia_, other->crank_inertia_)
+        && is_same_number(p->rod_mass_, other->rod_mass_)
+        && is_same_number(p->rod_inertia_, other->rod_inertia_)
+        && is_same_number(p->crank_length_, other->crank_length_)
+        && is_same_number(p->rod_points_crankpin_x_, other->rod_points_crankpin_x_)
+        && is_same_number(p->guess_rod_theta_, other->guess_rod_theta_)
+        && is_same_number(p->guess_rod_x_, other->guess_rod_x_)
+        && is_same_number(p->set_crank_theta_, other->set_crank_theta_)
+        && is_same_number(p->rates_crank_omega_, other->rates_crank_omega_);
 }

@@ -189,7 +189,7 @@ int dynamics(const double t, const double *q, const double *v, const DiscreteSta
         gamma_stab[2] = rhs_pin_x_;
         gamma_stab[3] = rhs_pin_y_;
         gamma_stab[4] = rhs_slider_offset_;
-        pivot = solve_dependent(t, q, p, force, gamma_stab, a, rhs->lambda, pivot, discrete);
+        pivot = solve_dependent_equations(t, q, p, force, gamma_stab, a, rhs->lambda, pivot, discrete);
     }
     powers:
     rhs->power[0] = 0.0;

@@ -30,7 +30,7 @@ void expand(const double t, const double *q, const double *v, const Parameters *
     /* directions, arms, drives */
     const Four angles_0 = {crank_theta_, rod_theta_, rod_theta_, rod_theta_};
     Four sines_0, cosines_0;
-    sines_and_cosines(&angles_0, &sines_0, &cosines_0);
+    compute_sines_and_cosines(&angles_0, &sines_0, &cosines_0);
     const double cos_theta_crank_ = cosines_0[0];
     const double sin_theta_crank_ = sines_0[0];
     const double cos_theta_rod_ = cosines_0[1];
@@ -109,7 +109,7 @@ void closures(const double t, const double *q, const Parameters *p, double *out)
     /* directions, arms, drives */
     const Four angles_0 = {crank_theta_, rod_theta_, rod_theta_, rod_theta_};
     Four sines_0, cosines_0;
-    sines_and_cosines(&angles_0, &sines_0, &cosines_0);
+    compute_sines_and_cosines(&angles_0, &sines_0, &cosines_0);
     const double sin_theta_crank_ = sines_0[0];
     const double sin_theta_rod_ = sines_0[1];
     const double span_crank_head_y_ = p->crank_length_*sin_theta_crank_;
@@ -134,7 +134,7 @@ void closure_rates(const double t, const double *q, const double *v, const Param
     /* directions, arms, drives */
     const Four angles_0 = {crank_theta_, rod_theta_, rod_theta_, rod_theta_};
     Four sines_0, cosines_0;
-    sines_and_cosines(&angles_0, &sines_0, &cosines_0);
+    compute_sines_and_cosines(&angles_0, &sines_0, &cosines_0);
     const double cos_theta_crank_ = cosines_0[0];
     const double cos_theta_rod_ = cosines_0[1];
     const double span_crank_head_x_ = cos_theta_crank_*p->crank_length_;
@@ -163,7 +163,7 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Dis
     /* directions, arms, drives */
     const Four angles_0 = {crank_theta_, rod_theta_, rod_theta_, rod_theta_};
     Four sines_0, cosines_0;
-    sines_and_cosines(&angles_0, &sines_0, &cosines_0);
+    compute_sines_and_cosines(&angles_0, &sines_0, &cosines_0);
     const double cos_theta_crank_ = cosines_0[0];
     const double sin_theta_crank_ = sines_0[0];
     const double cos_theta_rod_ = cosines_0[1];
@@ -255,7 +255,7 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Dis
 
     /* a pivot vanished: constraint equations depend on each other here */
     dependent:
-    pivot = solve_by_absolute(t, q, v, discrete, p, a, rhs);
+    pivot = solve_by_absolute_equations(t, q, v, discrete, p, a, rhs);
     powers:
     rhs->power[0] = 0.0;
     rhs->power[1] = -p->coil_damping_*(coil_length_rate_ * coil_length_rate_) + p->push_value_x_*rod_tip_vx_;
@@ -278,7 +278,7 @@ int reduced_project(const double t, const double *q, const double *r, const Para
     /* directions, arms, drives */
     const Four angles_0 = {crank_theta_, rod_theta_, rod_theta_, rod_theta_};
     Four sines_0, cosines_0;
-    sines_and_cosines(&angles_0, &sines_0, &cosines_0);
+    compute_sines_and_cosines(&angles_0, &sines_0, &cosines_0);
     const double cos_theta_crank_ = cosines_0[0];
     const double sin_theta_crank_ = sines_0[0];
     const double cos_theta_rod_ = cosines_0[1];

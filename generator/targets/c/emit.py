@@ -191,7 +191,9 @@ def _print_parameters_file(program: Program) -> str:
 
 
 def _print_constraints_file(program: Program) -> str:
-    """Return the text of constraints.c: functions of all constraint equations, and `same_start` if integrated."""
+    """Return the text of constraints.c: functions of all constraint equations, and `has_equal_start_parameters` if
+    integrated.
+    """
     at_start = (kernel for kernel in program.closed_linkage if kernel.name not in NOT_AT_START)
     return _print_kernels(*program.closed_linkage) + (print_start_comparison(at_start) if program.integrates else "")
 
@@ -272,7 +274,7 @@ def _count_operations(program: Program) -> dict[str, int]:
 
 
 def print_start_comparison(kernels: Iterable[Kernel]) -> str:
-    """Return the C function `same_start`: whether two runs have equal parameters for the closure.
+    """Return the C function `has_equal_start_parameters`: whether two runs have equal parameters for the closure.
 
     It compares the parameters that the `kernels` read. It returns 0 if the kernels read tables or pass on all
     parameters, since members cannot be listed then.
@@ -280,7 +282,7 @@ def print_start_comparison(kernels: Iterable[Kernel]) -> str:
     lines = [line for kernel in kernels for section in kernel.sections for line in section.statements]
     parameters_read = [name for line in lines for name in _list_parameters_read(line)]
     members = [*dict.fromkeys(parameters_read)]
-    tests = "\n        && ".join(f"same_number(p->{name}, other->{name})" for name in members)
+    tests = "\n        && ".join(f"is_same_number(p->{name}, other->{name})" for name in members)
     is_comparable = all(name.isidentifier() for name in members)
     function_body = (
         f"    return {tests};\n"
@@ -289,7 +291,7 @@ def print_start_comparison(kernels: Iterable[Kernel]) -> str:
     )
     return (
         "\n/* Whether a start with these numbers is that with the others: what closing the linkage reads. */\n"
-        f"int same_start(const Parameters *p, const Parameters *other)\n{{\n{function_body}}}\n"
+        f"int has_equal_start_parameters(const Parameters *p, const Parameters *other)\n{{\n{function_body}}}\n"
     )
 
 

@@ -81,7 +81,7 @@ CALLED_BY_ENGINE = frozenset(
         "compute_body_motion",
         "project",
         "watched_functions",
-        "watched_ranges",
+        "bound_watched_functions",
         "time_terms",
     }
 )
@@ -205,11 +205,11 @@ class LinePrinter(ValuePrinter):
         """Return the declarations and the call that compute sines and cosines of several angles in vectors of four.
 
         In lanes one call computes one angle of all runs. Otherwise four angles share a call, and `sines.count` groups
-        of four share one call of many_sines_and_cosines.
+        of four share one call of compute_sine_and_cosine_groups.
         """
         angles, suffix = [self.print_expression(angle) for angle in sines.angles], sines.suffix
         if sines.lanes:
-            lanes_call = f"sines_and_cosines({angles[0]}, &sines_{suffix}, &cosines_{suffix}, rare);"
+            lanes_call = f"compute_sines_and_cosines({angles[0]}, &sines_{suffix}, &cosines_{suffix}, rare);"
             return [f"Lanes sines_{suffix}, cosines_{suffix};", lanes_call]
         groups = [", ".join(angles[k : k + 4]) for k in range(0, len(angles), 4)]
         if sines.count:
@@ -217,12 +217,12 @@ class LinePrinter(ValuePrinter):
             return [
                 f"const Four angles_{suffix}[{sines.count}] = {{{values}}};",
                 f"Four sines_{suffix}[{sines.count}], cosines_{suffix}[{sines.count}];",
-                f"many_sines_and_cosines({sines.count}, angles_{suffix}, sines_{suffix}, cosines_{suffix});",
+                f"compute_sine_and_cosine_groups({sines.count}, angles_{suffix}, sines_{suffix}, cosines_{suffix});",
             ]
         return [
             f"const Four angles_{suffix} = {{{groups[0]}}};",
             f"Four sines_{suffix}, cosines_{suffix};",
-            f"sines_and_cosines(&angles_{suffix}, &sines_{suffix}, &cosines_{suffix});",
+            f"compute_sines_and_cosines(&angles_{suffix}, &sines_{suffix}, &cosines_{suffix});",
         ]
 
     def _print_dependent_solution(self, solution: SolveDependentRows) -> list[str]:
@@ -232,14 +232,14 @@ class LinePrinter(ValuePrinter):
         cases.
         """
         if not solution.force:
-            return ["dependent:", "pivot = solve_by_absolute(t, q, v, discrete, p, a, rhs);", "powers:"]
+            return ["dependent:", "pivot = solve_by_absolute_equations(t, q, v, discrete, p, a, rhs);", "powers:"]
         arrays = (("force", solution.force), ("gamma_stab", solution.rhs))
         stores = (f"{name}[{k}] = {self.print_expression(x)};" for name, values in arrays for k, x in enumerate(values))
         return [
             "dependent: {",
             "    double force[N_Q], gamma_stab[N_ROWS];",
             *("\n".join(break_code(f"        {code}"))[4:] for code in stores),
-            "    pivot = solve_dependent(t, q, p, force, gamma_stab, a, rhs->lambda, pivot, discrete);",
+            "    pivot = solve_dependent_equations(t, q, p, force, gamma_stab, a, rhs->lambda, pivot, discrete);",
             "}",
             "powers:",
         ]

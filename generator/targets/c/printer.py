@@ -207,7 +207,7 @@ class CPrinter(CachedPrinter, C99CodePrinter):
 
     def _print_PeriodsOf(self, expr: sp.Expr) -> str:
         """Print the event function of a remainder's periods."""
-        return self._print_call("period_branch", *expr.args)
+        return self._print_call("mod_switching_function", *expr.args)
 
     def _print_Slope(self, expr: sp.Expr) -> str:
         """Print a derivative, or a difference quotient where it is not finite (symbols/finite_slopes.py)."""

@@ -50,7 +50,7 @@ const mod_on = (a, b) => mod_of(a, b), isfinite = isFinite;
 const turned = ({n, t, M_i, M_j}, n_x, n_y, of) => Object.assign(of, {
     force: {Fx: n * n_x - t * n_y, Fy: n * n_y + t * n_x, F_n: n, F_t: t, moment_first: M_i, moment_second: M_j},
 });
-const period_branch = (a, b) => sin(PI * a / b);
+const mod_switching_function = (a, b) => sin(PI * a / b);
 """
 )
 CONTOUR = """\

@@ -66,11 +66,11 @@ def make_document(model: Model, functions: Functions) -> Document:
     return Document(
         format_one_line(mechanism.title or mechanism.name),
         facts,
-        add_paper_section(add_letters_section(sections, notation)),
+        add_paper_section(add_symbols_section(sections, notation)),
     )
 
 
-def add_letters_section(sections: Sequence[Section], notation: Notation) -> tuple[Section, ...]:
+def add_symbols_section(sections: Sequence[Section], notation: Notation) -> tuple[Section, ...]:
     """Return the sections, preceded by a table of the primed symbols and their meaning if there are any."""
     table_blocks = make_primes_table(
         notation, (name for section in sections for block in section.blocks for name in _list_formulas(block))

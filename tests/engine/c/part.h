@@ -18,7 +18,7 @@
 #pragma weak newton_factor
 #pragma weak newton_solve
 #pragma weak read_discrete_state
-#pragma weak same_start
+#pragma weak has_equal_start_parameters
 #pragma weak start_values
 #pragma weak convert_to_absolute
 #pragma weak compute_velocity_residuals
