@@ -102,8 +102,8 @@ def test_events_that_are_rounding(method: str, tmp_path: Path) -> None:
     """Fault 07: velocities that stick are not put at rest and have no uncertainty: changes of their sign are events."""
     right = loader(tmp_path)(STUCK)
     assert not reported(right, 2.5, method=method)
-    known = "    estimate_watched_errors(run, t, y, error, p, change);\n"
-    exact = "    for (int i = 0; i < N_WATCHED; i++)\n        change[i] = 0.0;\n"
+    known = "    estimate_watched_errors(run, t, y, error, p, uncertainty);\n"
+    exact = "    for (int i = 0; i < N_WATCHED; i++)\n        uncertainty[i] = 0.0;\n"
     drifts = ("engine/run/slips.c", "fabs(v) <= MIN_SLIP", "fabs(v) <= INFINITY")
     wrong = mutant(right, tmp_path, ("engine/run/uncertainty.c", known, exact), drifts)
     assert "check event" in reported(wrong, 2.5, method=method)
@@ -183,8 +183,8 @@ def test_a_step_control_that_is_too_loose(tmp_path: Path) -> None:
     assert not reported(right, 0.02, audit="full")
     edit = (
         "engine/scalar_simd/dop853.h",
-        "three = real_max(real_abs(of_3) * by",
-        "three = real_max(real_abs(of_3) + by",
+        "error_3 = real_max(real_abs(sum_3) * weight",
+        "error_3 = real_max(real_abs(sum_3) + weight",
     )
     assert "check step" in reported(mutant(right, tmp_path, edit), 0.02, audit="full")
 
@@ -195,7 +195,11 @@ def test_a_step_control_that_is_too_loose(tmp_path: Path) -> None:
         ("rodas5p", ("engine/scalar_simd/rodas5p.h", "real_abs(step->k[7][i])", "1e-4 * real_abs(step->k[7][i])")),
         (
             "dop853",
-            ("engine/scalar_simd/dop853.h", "five = real_max(real_abs(of_5)", "five = real_max(1e-4 * real_abs(of_5)"),
+            (
+                "engine/scalar_simd/dop853.h",
+                "error_5 = real_max(real_abs(sum_5)",
+                "error_5 = real_max(1e-4 * real_abs(sum_5)",
+            ),
         ),
     ],
 )
