@@ -197,10 +197,10 @@ def test_equations(pendulum: Simulation, method: str, name: str) -> None:
 
 
 COMPILED: dict[str, tuple[str, ...]] = {
-    "rhs": ("t", "y", "p", "memory"),
-    "jacobian": ("t", "y", "p", "memory"),
-    "evaluate": ("t", "q", "v", "memory", "p"),
-    "newton": ("t", "y", "p", "eta", "s", "r", "memory"),
+    "rhs": ("t", "y", "p", "discrete_states"),
+    "jacobian": ("t", "y", "p", "discrete_states"),
+    "evaluate": ("t", "q", "v", "discrete_states", "p"),
+    "newton": ("t", "y", "p", "eta", "s", "r", "discrete_states"),
     "prepare": ("given", "is_given"),
     "mass": ("p",),
     "closed_phi": ("t", "q", "p"),
@@ -219,7 +219,7 @@ def test_compiled(pendulum: Simulation, method: str, name: str) -> None:
         "y": np.zeros(2 * n),
         "q": np.zeros(n),
         "v": np.zeros(n),
-        "memory": None,
+        "discrete_states": None,
         "p": pendulum.full.p,
         "eta": 1.0,
         "s": 0.0,
@@ -229,7 +229,7 @@ def test_compiled(pendulum: Simulation, method: str, name: str) -> None:
         "is_given": np.zeros(slots),
     }
     if method == "evaluate":
-        good |= {"t": [0.0], "q": np.zeros((1, n)), "v": np.zeros((1, n)), "memory": np.zeros((1, 1))}
+        good |= {"t": [0.0], "q": np.zeros((1, n)), "v": np.zeros((1, n)), "discrete_states": np.zeros((1, 1))}
     given = {argument: good[argument] for argument in COMPILED[method]}
     refused_or_used(lambda value: getattr(compiled, method)(**(given | {name: value})))
 
