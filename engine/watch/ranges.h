@@ -70,7 +70,7 @@ static inline Interval interval_add(Interval x, Interval y)
 }
 
 /* Return bounds of the product x y and of its slope, by the product rule. Empty if x or y is. */
-static inline Interval interval_times(Interval x, Interval y)
+static inline Interval interval_mul(Interval x, Interval y)
 {
     Interval z = {0.0, 0.0, 0.0, 0.0, x.may_be_undefined | y.may_be_undefined};
     double slope_lower, slope_upper;
@@ -147,7 +147,7 @@ static inline Interval interval_pow(Interval x, Interval exponent)
     if (exponent.lo == exponent.hi && exponent.min_slope == 0.0 && exponent.max_slope == 0.0)
         return exponent.lo == rint(exponent.lo) ? interval_integer_power(x, exponent.lo)
             : interval_noninteger_power(x, exponent.lo);
-    return interval_exp(interval_times(exponent, interval_log(x)));
+    return interval_exp(interval_mul(exponent, interval_log(x)));
 }
 
 /*
@@ -182,7 +182,7 @@ static inline Interval interval_cos(Interval x) { return interval_shifted_sine(x
 /* Return bounds of tan x. */
 static inline Interval interval_tan(Interval x)
 {
-    return interval_times(interval_sin(x), interval_inverse(interval_cos(x)));
+    return interval_mul(interval_sin(x), interval_inverse(interval_cos(x)));
 }
 
 /*
@@ -214,7 +214,7 @@ RISING_FUNCTIONS(RANGE_OF_RISING)
 /* Return bounds of arccos x = pi/2 - arcsin x; it may be undefined if x exceeds [-1, 1]. */
 static inline Interval interval_acos(Interval x)
 {
-    return interval_add(make_interval(1.5707963267948966), interval_times(make_interval(-1.0), interval_asin(x)));
+    return interval_add(make_interval(1.5707963267948966), interval_mul(make_interval(-1.0), interval_asin(x)));
 }
 
 /* Return bounds of cosh x, whose minimum 1 is at zero. */
@@ -236,8 +236,8 @@ static inline Interval interval_atan2(Interval y, Interval x)
         return (Interval){-PI, PI, -INFINITY, INFINITY, x.may_be_undefined | y.may_be_undefined};
     const double a = atan2(y.lo, x.lo), b = atan2(y.lo, x.hi), c = atan2(y.hi, x.lo), d = atan2(y.hi, x.hi);
     const Interval square = interval_add(interval_square(x), interval_square(y));
-    const Interval by_x = interval_times(x, interval_inverse(square)),
-        by_y = interval_times(y, interval_inverse(square));
+    const Interval by_x = interval_mul(x, interval_inverse(square)),
+        by_y = interval_mul(y, interval_inverse(square));
     Interval z = {min_of(min_of(a, b), min_of(c, d)), max_of(max_of(a, b), max_of(c, d)), 0.0, 0.0,
         x.may_be_undefined | y.may_be_undefined};
     double slope_lower, slope_upper;
@@ -255,7 +255,7 @@ static inline Interval interval_atan2(Interval y, Interval x)
  */
 static inline Interval interval_mod_on(Interval a, Interval b, Interval branch)
 {
-    const Interval x = interval_times(a, interval_inverse(b));
+    const Interval x = interval_mul(a, interval_inverse(b));
     const double frozen = branch.lo == branch.hi ? branch.lo : 0.0, offset = frozen < 0.0 ? 1.0 : 0.0;
     const double period_step = frozen == 0.0 ? 1.0 : 2.0, extension = frozen == 0.0 ? 0.0 : 0.5;
     const double first = period_step * floor((x.lo + extension - offset) / period_step) + offset;
@@ -263,8 +263,8 @@ static inline Interval interval_mod_on(Interval a, Interval b, Interval branch)
     if (is_empty(x))
         return x;
     if (first == last)
-        return interval_add(a, interval_times(make_interval(-first), b));
-    Interval y = interval_times((Interval){-extension, 1.0 + extension, 0.0, 0.0, x.may_be_undefined}, b);
+        return interval_add(a, interval_mul(make_interval(-first), b));
+    Interval y = interval_mul((Interval){-extension, 1.0 + extension, 0.0, 0.0, x.may_be_undefined}, b);
     y.min_slope = -INFINITY;
     y.max_slope = INFINITY;
     return y;
@@ -297,7 +297,7 @@ static inline double compute_mod_switching_slope(double x)
  */
 static inline Interval interval_mod_switching_function(Interval a, Interval b)
 {
-    const Interval x = interval_times(a, interval_inverse(b));
+    const Interval x = interval_mul(a, interval_inverse(b));
     if (is_empty(x))
         return x;
     const double value_lower = mod_switching_function(x.lo, 1.0), value_upper = mod_switching_function(x.hi, 1.0);
@@ -340,11 +340,11 @@ static inline Interval interval_max_of(Interval x, Interval y)
 static inline Interval interval_min_of(Interval x, Interval y)
 {
     const Interval minus_one = make_interval(-1.0);
-    return interval_times(minus_one, interval_max_of(interval_times(minus_one, x), interval_times(minus_one, y)));
+    return interval_mul(minus_one, interval_max_of(interval_mul(minus_one, x), interval_mul(minus_one, y)));
 }
 
 /* Return bounds of |x|. */
-static inline Interval interval_fabs(Interval x) { return interval_max_of(x, interval_times(make_interval(-1.0), x)); }
+static inline Interval interval_fabs(Interval x) { return interval_max_of(x, interval_mul(make_interval(-1.0), x)); }
 /* Return bounds of the sign of x. */
 static inline Interval interval_sign_of(Interval x) { return interval_branch(NULL, 0, x); }
 /* Return bounds of |x| + 1e-150, which never vanishes. */

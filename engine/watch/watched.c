@@ -166,7 +166,7 @@ static void bound_event_functions_over_box(const Integrator *run, Interval t, co
         const int k = watched[i] - N_CLEARANCES;
         const double branch =
             k < N_SWITCHES ? run->discrete.branch[k] : run->discrete.event_sign[k - N_SWITCHES - N_FRICTIONS];
-        bounds[i] = interval_times(make_interval(branch), bounds[i]);
+        bounds[i] = interval_mul(make_interval(branch), bounds[i]);
     }
 }
 

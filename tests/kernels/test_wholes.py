@@ -93,14 +93,14 @@ def read(text: str) -> sp.Expr:
         (
             "(0.01*x)**161",
             "pow((0.01*x), 161.0)",
-            "interval_pow((interval_times(make_interval(0.01), x)), make_interval(161.0))",
+            "interval_pow((interval_mul(make_interval(0.01), x)), make_interval(161.0))",
             r"\left(0.01 \, x\right)^{161}",
             "(0.01·x)^161",
         ),
         (
             "(0.01*x)**3",
             "1.0000000000000002e-06*(x * x * x)",
-            "interval_times(make_interval(1.0000000000000002e-06), interval_pow(x, make_interval(3.0)))",
+            "interval_mul(make_interval(1.0000000000000002e-06), interval_pow(x, make_interval(3.0)))",
             None,
             None,
         ),

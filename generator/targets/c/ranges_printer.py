@@ -56,7 +56,7 @@ class RangesPrinter(printer.CPrinter):
         return self._print_chained_calls("add", order_terms(expr))
 
     def _print_Mul(self, expr: sp.Expr) -> str:
-        """Print a product of ranges as chained calls of "times"; one without symbols is printed as a number.
+        """Print a product of ranges as chained calls of "mul"; one without symbols is printed as a number.
 
         A coefficient that binary64 cannot hold as a normal number is split into two factors.
         """
@@ -66,8 +66,8 @@ class RangesPrinter(printer.CPrinter):
         factors = other_factors.as_ordered_factors()
         if not printer.is_normal(number):
             first, last = printer.split_number(number)
-            return self._print_chained_calls("times", (first, *factors, last))
-        return self._print_chained_calls("times", (number, *factors) if number != 1 else tuple(factors))
+            return self._print_chained_calls("mul", (first, *factors, last))
+        return self._print_chained_calls("mul", (number, *factors) if number != 1 else tuple(factors))
 
     def _print_Pow(self, expr: sp.Pow) -> str:
         """Print a power of a range as a call: exponents −1, 2, ±1/2 by functions of their own, others by range_pow.

@@ -74,7 +74,7 @@ static int judge(void *context, double a, double b, int small)
 {
     Parabola *of = context;
     const Interval s = {a - of->middle, b - of->middle, 1.0, 1.0, 0};
-    const Interval f = interval_add(interval_times(s, s), make_interval(-of->depth));
+    const Interval f = interval_add(interval_mul(s, s), make_interval(-of->depth));
     const int found = classify_zero(f, s.lo * s.lo - of->depth, s.hi * s.hi - of->depth, b - a, small);
     of->parts++;
     of->a = found > 0 ? a : of->a;
