@@ -21,8 +21,8 @@ typedef struct {
     int loaded_run[LANES];    /* run whose parameters a lane holds; -1: none */
     LaneParameters p;
     Lanes h; /* lengths of the next steps, s */
-#if LOCAL_STEPS
-    LocalSteps local_steps;
+#if LANE_LOCAL_STEPS
+    LaneLocalSteps local_steps;
 #endif
     LaneIntegrator integrator;
     LaneStep step;
@@ -77,11 +77,12 @@ static void gather_state(LaneGroup *group, int k)
 {
     Integrator *run = group->run[group->loaded_run[k]];
     LaneIntegrator *lanes = &group->integrator;
-#if LOCAL_STEPS
+#if LANE_LOCAL_STEPS
     if (has_run(group, k) && group->local_steps.has_state[k])
         return;
     if (has_run(group, k))
-        load_local_steps(&group->local_steps, lanes, k, group->batch, group->run_number[k], group->single_run, run);
+        load_lane_local_steps(
+            &group->local_steps, lanes, k, group->batch, group->run_number[k], group->single_run, run);
 #endif
     group->h[k] = run->control.attempt.h;
     lanes->t[k] = run->t;
@@ -146,8 +147,10 @@ static void scatter_rhs(const LaneRhsOutputs *lane_rhs, int k, RhsOutputs *rhs)
 }
 
 /*
- * Copy an accepted step of lane k to a single run's step, as that run itself would have computed it. Stages, values at
- * stages and the dense output stay in the lane: the step points to them with the stride LANES.
+ * Copy an accepted step of lane k to a single run's step, as that run itself would have computed it: the end state and
+ * its rates, right-hand side, rates of contacts, nodes, minima of event functions, bounds of the state. Stages, values
+ * at stages and the dense output stay in the lane: the step points to them with the stride LANES. Clears step->passed.
+ * Time, length and error of the step are set by scatter_result(), the caller.
  */
 static void scatter_step(const LaneGroup *group, int k, Step *step)
 {

@@ -24,9 +24,9 @@ static int record_run_result(LaneGroup *group, int i, int result)
 /* Copy the steps that lane i accepted itself to run i of the group, before the run is used; else do nothing. */
 static void flush_lane(LaneGroup *group, int i)
 {
-#if LOCAL_STEPS
+#if LANE_LOCAL_STEPS
     if (has_run(group, i) && group->local_steps.has_state[i])
-        flush_local_steps(&group->local_steps, &group->integrator, i, group->h[i], group->run[i]);
+        flush_lane_local_steps(&group->local_steps, &group->integrator, i, group->h[i], group->run[i]);
 #else
     (void)group, (void)i;
 #endif
@@ -109,8 +109,8 @@ static int try_lane_steps(LaneGroup *group, int method, int *lists_full)
         gather_state(group, k);
     }
     try_lanes(&group->integrator, method, group->h, &group->p, &group->step);
-#if LOCAL_STEPS
-    local_steps = accept_local_steps(&group->local_steps, &group->integrator, &group->step, &group->h);
+#if LANE_LOCAL_STEPS
+    local_steps = accept_lane_local_steps(&group->local_steps, &group->integrator, &group->step, &group->h);
 #endif
     for (int k = 0; k < LANES; k++) {
         if (!requested[k] || local_steps[k])

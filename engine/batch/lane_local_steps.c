@@ -1,10 +1,12 @@
 /*
  * Fast acceptance of steps of runs in SIMD lanes, where no sample, observer or projection needs the step. They are
  * accepted in the lanes as accept_step() of methods/adaptive.c does. Their run is updated later, before its next call.
+ * Such a step is called lane-local: it changes the vectors of its lane and not yet its run. Steps of different lanes
+ * have different lengths in any case.
  */
-#define LOCAL_STEPS (TAYLOR && !N_LOOPS && !N_USER_EVENTS && !N_WATCHED && !N_PULSES && !DRIVE_IMPULSES)
+#define LANE_LOCAL_STEPS (TAYLOR && !N_LOOPS && !N_USER_EVENTS && !N_WATCHED && !N_PULSES && !DRIVE_IMPULSES)
 
-#if LOCAL_STEPS
+#if LANE_LOCAL_STEPS
 #include "../scalar_simd/error_weights.h"
 
 /* Of each lane: the time of its run's next sample and its end, s; the longest step of the last series, s. */
@@ -13,16 +15,16 @@ typedef struct {
     LaneBits may_accept;             /* whether steps may be accepted here */
     long steps[LANES], max_local_steps[LANES]; /* steps accepted here; allowed number */
     int has_state[LANES]; /* whether the lane has the run's state */
-} LocalSteps;
+} LaneLocalSteps;
 
 /*
  * Load the part of run i's state into lane k that only steps accepted in the lane need: scales, limits, sample times.
  * The lane may accept as many steps as single->max_local_steps() returns; none with fixed steps or after a
  * rejected attempt.
  */
-static void load_local_steps(
-    LocalSteps *local_steps, LaneIntegrator *lanes, int k, const Batch *batch, long i, const SingleRunFunctions *single,
-    const Integrator *run)
+static void load_lane_local_steps(
+    LaneLocalSteps *local_steps, LaneIntegrator *lanes, int k, const Batch *batch, long i,
+    const SingleRunFunctions *single, const Integrator *run)
 {
     const double *t = get_sample_times(batch, i);
     local_steps->next_sample[k] = t[batch->done[i]];
@@ -44,7 +46,7 @@ static void load_local_steps(
 }
 
 /* Return the magnitude of the times in each lane, s, for rounding, as open_attempt() does for a single run. */
-static Lanes compute_time_scale(const LocalSteps *local_steps, const LaneIntegrator *lanes)
+static Lanes compute_time_scale(const LaneLocalSteps *local_steps, const LaneIntegrator *lanes)
 {
     return lanes_max_of(lanes_min_of(lanes_fabs(local_steps->t_end), broadcast(MAX_RUN_SCALE_S)), lanes_fabs(lanes->t));
 }
@@ -54,7 +56,8 @@ static Lanes compute_time_scale(const LocalSteps *local_steps, const LaneIntegra
  * mask. These steps end before the next sample and the end of the run, are not too short and are finite. State, speeds,
  * energy scale and error weights of the lanes are updated as after a single step.
  */
-static LaneBits accept_local_steps(LocalSteps *local_steps, LaneIntegrator *lanes, const LaneStep *step, Lanes *h)
+static LaneBits accept_lane_local_steps(
+    LaneLocalSteps *local_steps, LaneIntegrator *lanes, const LaneStep *step, Lanes *h)
 {
     const Lanes t = lanes->t + step->h;
     const LaneBits accepted = local_steps->may_accept & step->is_accepted & (step->error <= lanes->control.accept)
@@ -85,7 +88,8 @@ static LaneBits accept_local_steps(LocalSteps *local_steps, LaneIntegrator *lane
  * Copy the steps accepted in lane k to its run, with their counts, and open the run's next attempt with length h (s).
  * Copies nothing if the lane has accepted no step since it was loaded.
  */
-static void flush_local_steps(LocalSteps *local_steps, const LaneIntegrator *lanes, int k, double h, Integrator *run)
+static void flush_lane_local_steps(
+    LaneLocalSteps *local_steps, const LaneIntegrator *lanes, int k, double h, Integrator *run)
 {
     const long steps = local_steps->steps[k];
     local_steps->has_state[k] = 0;

@@ -45,11 +45,11 @@ int evaluate_contacts(double t, const double *y, DiscreteState *discrete, const 
 }
 
 /*
- * Compute the driven loops at a time t at which a loop lies flat, so that its closures do not determine it. They are
- * extrapolated from the nearest time at which they can be solved, within 0.05 of the fastest coordinate's motion. If
- * there is none, they are those of the last accepted state. The result is in `tree`.
+ * Compute the driven loops at a time t at which a loop is in a singular position (a dead centre), so that its closures
+ * do not determine it. They are extrapolated from the nearest time at which they can be solved, within 0.05 of the
+ * fastest coordinate's motion. If there is none, they are those of the last accepted state. The result is in `tree`.
  */
-static void extrapolate_flat_loops(
+static void extrapolate_singular_loops(
     double t, const double *y, const DiscreteState *discrete, const Parameters *p, TreeState *tree)
 {
     double fastest = 1e-300;
@@ -73,7 +73,7 @@ static void extrapolate_flat_loops(
 
 /*
  * Compute the state of all bodies, (q, v, works) in `absolute_state`, from the integrated state y; driven loops are
- * solved at time t. If they cannot be solved, they are extrapolated (extrapolate_flat_loops()).
+ * solved at time t. If they cannot be solved, they are extrapolated (extrapolate_singular_loops()).
  */
 void convert_to_absolute(double t, const double *y, const DiscreteState *discrete, const Parameters *p,
     double *absolute_state)
@@ -81,7 +81,7 @@ void convert_to_absolute(double t, const double *y, const DiscreteState *discret
     TreeState tree;
     DiscreteState now = *discrete;
     if (build_tree_state(t, y, &now, p, &tree))
-        extrapolate_flat_loops(t, y, discrete, p, &tree);
+        extrapolate_singular_loops(t, y, discrete, p, &tree);
     expand(t, tree.q, tree.v, p, absolute_state, absolute_state + N_Q);
     for (int k = 0; k < N_WORK; k++)
         absolute_state[2 * N_Q + k] = y[2 * N_X + k];

@@ -3,10 +3,10 @@
  * Chebyshev's method solves their closures, from their positions at the last accepted state. The motion thus keeps its
  * branch, and the right-hand side remains a function of time and state.
  */
-enum { MAX_LOOP_ITERATIONS = 8, MAX_LOOP_PARTS = 60, FLAT_NODES = 4 };
+enum { MAX_LOOP_ITERATIONS = 8, MAX_LOOP_PARTS = 60, SINGULAR_NODES = 4 };
 #define MAX_LOOP_MOVE 0.1    /* rad, or fraction of the size: longer moves are made in parts */
-#define FLAT_TURN 1e-2     /* the same: motion of the fastest coordinate between nodes near a flat loop */
-#define FLAT_TOL 1e-8   /* the same: largest difference of polynomials through the nodes */
+#define SINGULAR_MOVE 1e-2 /* the same: motion of the fastest coordinate between nodes near a singular position */
+#define INTERPOLATION_TOL 1e-8   /* the same: largest difference of polynomials through the nodes */
 #define LOOP_POSITION_TOL 1e-3 /* the same: largest difference of positions from the integral of the rates */
 
 /*
@@ -141,11 +141,12 @@ static int follow_driven_loops_in_parts(double t, const DiscreteState *discrete,
 }
 
 /*
- * Interpolate the driven loops at a time at which a loop lies flat and its closures do not determine it. Polynomials in
- * time pass through regular states before and after; the result is in `loops`, without directions. Return 0, or
+ * Interpolate the driven loops at a time at which a loop is in a singular position (a dead centre: links in one line),
+ * where its closures do not determine it. Polynomials in time pass through SINGULAR_NODES regular states before and as
+ * many after; the result is in `loops`, without directions. Return 0, or
  * nonzero if nothing moves, a node cannot be solved or the polynomials do not agree.
  */
-static int interpolate_flat_loops(double t, const DiscreteState *discrete, const Parameters *p, DrivenLoops *loops)
+static int interpolate_singular_loops(double t, const DiscreteState *discrete, const Parameters *p, DrivenLoops *loops)
 {
     double fastest = 0.0, lower[N_DEPENDENT];
     int status = discrete->chain.failed;
@@ -156,40 +157,40 @@ static int interpolate_flat_loops(double t, const DiscreteState *discrete, const
     *loops = (DrivenLoops){.t = t};
     for (int i = 0; i < N_DEPENDENT; i++)
         lower[i] = 0.0;
-    for (int j = 0; j < 2 * FLAT_NODES && !status; j++) {
+    for (int j = 0; j < 2 * SINGULAR_NODES && !status; j++) {
         const int k = j / 2 + 1;
-        const double t_node = t + (j % 2 ? -k : k) * FLAT_TURN / fastest;
+        const double t_node = t + (j % 2 ? -k : k) * SINGULAR_MOVE / fastest;
         TreeState tree;
         if (advance_driven_loops(t_node, &discrete->chain, discrete, p, &tree))
             status = follow_driven_loops_in_parts(t_node, discrete, p, &tree);
         if (!status)
             status = compute_third_loop_rates(t_node, tree.q, tree.v, discrete, p, tree.v + N_X + 2 * N_DEPENDENT);
         for (int i = 0; i < N_DEPENDENT && !status; i++) {
-            loops->q[i] += compute_lagrange_weight(FLAT_NODES, k) * tree.q[N_X + i];
-            lower[i] += k < FLAT_NODES ? compute_lagrange_weight(FLAT_NODES - 1, k) * tree.q[N_X + i] : 0.0;
+            loops->q[i] += compute_lagrange_weight(SINGULAR_NODES, k) * tree.q[N_X + i];
+            lower[i] += k < SINGULAR_NODES ? compute_lagrange_weight(SINGULAR_NODES - 1, k) * tree.q[N_X + i] : 0.0;
         }
         for (int i = 0; i < 3 * N_DEPENDENT && !status; i++)
-            loops->v[i] += compute_lagrange_weight(FLAT_NODES, k) * tree.v[N_X + i];
+            loops->v[i] += compute_lagrange_weight(SINGULAR_NODES, k) * tree.v[N_X + i];
     }
     for (int i = 0; i < N_DEPENDENT && !status; i++)
-        status = !(fabs(loops->q[i] - lower[i]) * get_loop_step_scale(p, i) <= FLAT_TOL);
+        status = !(fabs(loops->q[i] - lower[i]) * get_loop_step_scale(p, i) <= INTERPOLATION_TOL);
     return status;
 }
 
 /*
  * Store the driven loops of an accepted state in `discrete`, with third rates; they are followed from there. If third
- * rates cannot be solved, as where a loop lies flat, the loops are interpolated. Return 0, or the number of a closure
+ * rates cannot be solved, as in a singular position, the loops are interpolated. Return 0, or the number of a closure
  * that fails.
  */
 static int accept_driven_loops(double t, const TreeState *tree, DiscreteState *discrete, const Parameters *p)
 {
-    DrivenLoops loops = {0}, flat;
+    DrivenLoops loops = {0}, interpolated;
     store_driven_loops(t, tree, &loops);
     loops.failed = compute_third_loop_rates(t, tree->q, tree->v, discrete, p, loops.v + 2 * N_DEPENDENT);
-    if (loops.failed && !interpolate_flat_loops(t, discrete, p, &flat)) {
+    if (loops.failed && !interpolate_singular_loops(t, discrete, p, &interpolated)) {
         for (int k = N_DEPENDENT; k < N_LED; k++)
-            flat.q[k] = loops.q[k];
-        loops = flat;
+            interpolated.q[k] = loops.q[k];
+        loops = interpolated;
     }
     discrete->chain = discrete->recent = loops;
     return loops.failed;
@@ -213,10 +214,10 @@ static inline int follow_driven_loops(double t, const DiscreteState *discrete, c
     if (!advance_driven_loops(t, &discrete->chain, discrete, p, tree))
         return 0;
     const int status = follow_driven_loops_in_parts(t, discrete, p, tree);
-    DrivenLoops flat;
-    if (!status || interpolate_flat_loops(t, discrete, p, &flat))
+    DrivenLoops interpolated;
+    if (!status || interpolate_singular_loops(t, discrete, p, &interpolated))
         return status;
-    restore_driven_loops(&flat, tree);
+    restore_driven_loops(&interpolated, tree);
     evaluate_loop_directions(t, tree->q, discrete, p, tree->q);
     return 0;
 }

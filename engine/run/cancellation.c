@@ -63,7 +63,8 @@ static double estimate_remaining_steps(const ProgressMonitor *monitor, double t,
 }
 
 /*
- * Return whether the steps shrink so fast that the run never ends, as where a drive grows exponentially. The test runs
+ * Return whether the number of steps grows exponentially with time, so that the run never ends, as where the frequency
+ * of a drive grows exponentially. The test runs
  * when the number of steps has doubled. That doubling gained no more time than the one DOUBLINGS before, and the
  * extrapolated number of steps exceeds MAX_STEPS_LEFT. Updates the monitor.
  */
@@ -86,8 +87,13 @@ static int is_step_count_exponential(ProgressMonitor *monitor, double t, double 
 
 /*
  * Count a step that ends at time t (s) and return whether the run no longer advances towards t_end. Gains of time are
- * compared every MONITOR_STEPS steps; MAX_SLOW_CHECKS successive slow comparisons, or an exponential growth, end the
- * run. Steps that become longer again reset the count, because a fast motion may decay. Called once per step.
+ * compared every MONITOR_STEPS steps. A comparison is slow in two cases: more than MAX_STEPS_LEFT steps are estimated
+ * to remain, or more than MAX_STEPS_LEFT_SLOW, and the gain is below MIN_GAIN_RATIO of the mean of earlier ones that
+ * were not slow. In the second case monitor->crawls becomes 1, else 0.
+ *
+ * MAX_SLOW_CHECKS successive slow comparisons end the run, and so does a number of steps that grows exponentially with
+ * time: monitor->crawls is then GROWTH_DOUBLINGS. Steps that become longer again reset the count, because a fast motion
+ * may decay. Called once per step.
  */
 int has_stalled(ProgressMonitor *monitor, double t, double t_end)
 {

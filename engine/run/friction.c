@@ -149,8 +149,9 @@ static int initialize_friction_modes(Integrator *run, const Parameters *p)
 static int update_friction_modes(Integrator *run, const Parameters *p) { return iterate_friction_modes(run, p); }
 
 /*
- * Set the modes of friction elements after an impact and evaluate the right-hand side: an element with a slip above
- * AT_REST slips in its direction, others keep their mode. Return 0 or a status.
+ * Evaluate the right-hand side after an impact with the present modes of friction elements, then set the modes by its
+ * slips: an element with a slip above AT_REST slips in its direction, others keep their mode. run->dy and run->rhs are
+ * not evaluated again with the new modes. Return 0, or the status of the evaluation; the modes are then unchanged.
  */
 static int update_modes_after_impact(Integrator *run, const Parameters *p)
 {

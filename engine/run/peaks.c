@@ -1,4 +1,7 @@
-/* Peaks of forces and eccentricities in joints with play between the ends of a step, from its dense output. */
+/*
+ * Peaks of forces and eccentricities in joints with play between the ends of a step, from its dense output. Inner: at a
+ * time inside the step, not at its ends.
+ */
 enum { MAX_PARABOLAS = 20, MIN_INNER_STAGES = 2 /* with fewer stages inside, the dense output is evaluated */ };
 #define MAX_BEND 0.25 /* of the last chord's slope: largest correction by a parabola that leaves the sign certain */
 #define MIN_FORCE_CHANGE 0.1 /* of the force: smallest change since the last stage that shows a trend */
@@ -287,7 +290,8 @@ static int may_have_inner_maximum(const Step *step, double fraction, int joint, 
  * contact continues and few stages are inside, the force in the middle is evaluated on the dense output as well. 0:
  * none.
  */
-static double find_largest_inner_force(Integrator *run, Step *step, double fraction, int joint, const Parameters *p)
+static double find_largest_force_within_step(
+    Integrator *run, Step *step, double fraction, int joint, const Parameters *p)
 {
     const double force_begin = compute_force_magnitude(&run->rhs.clearance[joint]),
         force_end = compute_force_magnitude(&step->rhs.clearance[joint]);
@@ -336,7 +340,7 @@ static void find_inner_peaks(Integrator *run, Step *step, double fraction, const
 #endif
         const int has_force = run->discrete.contact[i].closed || has_film(i);
         const double larger_end = max_of(force_begin[i], force_end[i]),
-                     largest_inner = has_force ? find_largest_inner_force(run, step, fraction, i, p) : 0.0;
+                     largest_inner = has_force ? find_largest_force_within_step(run, step, fraction, i, p) : 0.0;
         has_inner_peak[i] = is_compliant(i) && largest_inner > (step->method->stiff ? MAXIMUM_RATIO_STIFF
             : MAXIMUM_RATIO) * larger_end;
         const double candidate = !is_compliant(i) ? 0.0 : has_inner_peak[i] ? largest_inner : larger_end;

@@ -67,8 +67,10 @@ static void compute_jacobian_column(const Linear *linearization, int column, con
 }
 
 /*
- * Linearize the equations of motion at a state and factorize Newton's matrix for eta. discrete: discrete state as in a
- * sample. Return 0, the number of a vanished pivot of dynamics(), or -1 - the node of newton_factor().
+ * Linearize the equations of motion at a state and factorize Newton's matrix, by which (1/eta - J) u = r is solved for
+ * accelerations and multipliers. eta: h gamma of the method, s; with 0 it is the KKT matrix, for the Jacobian J alone.
+ * discrete: discrete state as in a sample. Return 0, the number of a vanished pivot of dynamics(), or minus the number
+ * (from 1) of the coordinate, constraint equation, stick or inner state whose pivot vanished in newton_factor().
  */
 static int linearize_and_factorize_equations(double t, const double *y, const double *discrete, const Parameters *p,
     double eta, Linear *linearization)
@@ -89,7 +91,7 @@ static int linearize_and_factorize_equations(double t, const double *y, const do
 /*
  * Compute the Jacobian J = df/dy, by rows (N_Y x N_Y), and f_t of the state equation: a linear solve per column, with
  * the factors of the KKT matrix. Contacts, branches and modes of friction are frozen. Inner states are read from
- * `discrete` only. Return a status.
+ * `discrete` only. Return 0, or the nonzero result of linearize_and_factorize_equations().
  */
 int gudgeon_jacobian(double t, const double *y, const double *discrete, const double *p, double *J, double *f_t)
 {
@@ -109,7 +111,7 @@ int gudgeon_jacobian(double t, const double *y, const double *discrete, const do
 
 /*
  * Solve (1/eta - J) u = r + s f_t for u (N_Y) at a state, as a test of Newton's matrix. discrete: as in a sample.
- * Return a status.
+ * Return 0, or the nonzero result of linearize_and_factorize_equations().
  */
 int gudgeon_newton(double t, const double *y, const double *discrete, const double *p, double eta, double s,
     const double *r, double *u)

@@ -2,6 +2,8 @@
  * Search for switching points and user events in a step by sampling, for functions without interval bounds. They depend
  * on forces or on driven loops. Stages of a long step may miss an oscillation. Where a function may have a zero, it is
  * sampled on the dense output; a step that does not resolve it is repeated shorter. Scenes with bounds use watched.c.
+ * Watched functions are the N_WATCHED event functions that are searched: switching functions and user events;
+ * watched[i] is the number of function i among all event functions.
  */
 #if N_WATCHED
 /* Evaluate the outputs of the right-hand side at a state y and time t (s); rates and status are discarded. */
@@ -48,8 +50,9 @@ static void estimate_event_function_uncertainty(Integrator *run, const Step *ste
 }
 
 /*
- * Estimate the interpolation error at an end of a row of n_intervals + 1 samples f[0], f[stride], ..., from
- * their difference of order 4 at most. Return 0 for n_intervals = 0.
+ * Estimate the interpolation error at the end f[0] of n_intervals + 1 samples f[0], f[stride], ...; stride 1 runs
+ * forwards from f[0], -1 backwards. It is |difference of order k|/2^k with k = 4, or n_intervals if less. Return 0 for
+ * n_intervals = 0. Called for the samples before and for those after a jump.
  */
 static double estimate_end_error(const double *f, int stride, int n_intervals)
 {

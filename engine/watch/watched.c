@@ -3,6 +3,10 @@
  * may miss an oscillation of such a function. Bounds of the dense output over any part of it give bounds of the
  * functions (ranges.h). Parts over which a function may be negative are bisected until it is monotone or clear of zero.
  * No zero of the dense output is missed.
+ *
+ * Watched functions are the N_WATCHED event functions that this search monitors: switching functions and user events;
+ * watched[i] is the number of function i among all event functions. WATCHES_STATE: whether any of them depends on more
+ * than time. The functions are evaluated at the projected dense output.
  */
 /* The dense output of a step in powers of the fraction s, for its bounds; begin t and length h of the step, s. */
 typedef struct {
@@ -48,7 +52,8 @@ static void estimate_uncertainties(
  * Compute the projected state y (N_Y) at a fraction of a step, from the dense output. At the ends, and if watched
  * functions depend on time alone, no evaluation is needed: y is then the state at the beginning or end.
  */
-static void compute_watched_state(Integrator *run, const Step *step, double fraction, const Parameters *p, double *y)
+static void interpolate_projected_state(
+    Integrator *run, const Step *step, double fraction, const Parameters *p, double *y)
 {
     memcpy(y, fraction < 1.0 ? run->y : step->y, N_Y * sizeof *y);
 #if WATCHES_STATE
@@ -69,7 +74,7 @@ static int is_below_uncertainty(Integrator *run, const Step *step, double fracti
     const Parameters *p)
 {
     double y[N_Y], error[N_WATCHED];
-    compute_watched_state(run, step, fraction, p, y);
+    interpolate_projected_state(run, step, fraction, p, y);
     estimate_uncertainty(run, step->t + fraction * step->h, y, p, error);
     return fabs(value) <= error[index];
 }
@@ -99,7 +104,7 @@ static void evaluate_event_functions_at(Integrator *run, const Step *step, doubl
     RhsOutputs rhs = fraction < 1.0 ? run->rhs : step->rhs;
     if (fraction > 0.0 && fraction < 1.0) {
         double y[N_Y];
-        compute_watched_state(run, step, fraction, p, y);
+        interpolate_projected_state(run, step, fraction, p, y);
         watched_functions(step->t + fraction * step->h, y, y + N_X, &run->discrete, p, &rhs);
     }
     for (int i = 0; i < N_WATCHED; i++)

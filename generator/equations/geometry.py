@@ -147,8 +147,8 @@ class Geometry(Freezable):
     def _derive_unit_inertia(self) -> sp.Expr:
         """Return the moment of inertia of every body of a massless mechanism as a parameter.
 
-        It is that of 1 kg at the mean squared distance of all points, and defines only the metric in which the closed
-        linkage (all joints without play) is solved.
+        Its value is 1 kg times the mean square of all nonzero components of the points' local vectors, plus
+        _MIN_SQUARED_RADIUS. It defines only the metric in which the closed linkage (all joints without play) is solved.
         """
         components = [component for vector in self.local_vectors.values() for component in vector if component != 0]
         mean_square = sp.Add(*(component**2 for component in components)) / max(len(components), 1)

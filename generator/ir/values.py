@@ -1,7 +1,7 @@
 """Values that statements assign: SymPy expressions, and the few forms that SymPy does not have.
 
 Names are those of locals and arguments; a symbol may also stand for a place, and then reads the argument that contains
-it.
+it. Each form has `expressions`, its SymPy parts, and `names`, the names that it reads in addition to theirs.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ class Threshold(float):
 
 @dataclass(frozen=True)
 class Test:
-    """A comparison `value relation bound`, the bound a product, or a flag alone.
+    """A comparison `value relation bound`, the bound a product, or a flag alone; used by guards and conditionals.
 
     `compares_magnitude`: the magnitude of the value is compared.
     """
@@ -57,9 +57,9 @@ class Test:
 
     @property
     def names(self) -> Names:
-        """Return the names of the arguments from which thresholds in the bound are read.
+        """Return the arguments from which C reads the thresholds in the bound of this test (of a pivot, for example).
 
-        There are none if the bound is a fraction of the value itself.
+        There are none if the bound is a fraction of the value itself, since no threshold is then printed.
         """
         if self.is_relative_to_value:
             return NO_NAMES

@@ -58,7 +58,10 @@ class Frame:
 
 
 class Motions:
-    """Values and rates of affine quantities, with the rules by which their symbols are differentiated."""
+    """Values and rates of affine quantities, with the rules by which their symbols are differentiated.
+
+    An affine quantity is an angle or a slide: a linear combination of coordinates plus a constant.
+    """
 
     def __init__(self, symbols: Symbols, parameter_table: ParameterTable, t: sp.Symbol) -> None:
         """Begin without coordinates and arms; the caller adds to `coordinates`.
@@ -69,7 +72,7 @@ class Motions:
         self.coordinates: dict[str, Coordinate] = {}
         self._arms: dict[tuple[str, sp.Expr, sp.Expr], Pair] = {}
 
-    def hoist_coefficients(self, name: str, affine: Affine) -> Affine:
+    def derive_coefficients(self, name: str, affine: Affine) -> Affine:
         """Return an affine expression with its coefficients as derived parameters; `name`: base of their names."""
         return {k: self.parameter_table.derive_parameter(f"{name}_by_{k or 'constant'}", c) for k, c in affine.items()}
 

@@ -1,6 +1,7 @@
 """Positions of bodies and points in tree coordinates: sums of rotated arms and displacements.
 
-Each term T is a frame with, or without, a slide along a direction fixed in it; w_T is constant. So every
+A slide is a translational coordinate: the displacement s along a direction fixed in a frame, of a translational joint
+or of a free body. Each term T is a frame with, or without, a slide; w_T is constant. So every
 derivative of a position is again such a sum: ∂r/∂s_k = Σ_T (∂θ_T/∂s_k value_T ẑ + ∂value_T/∂s_k) A(θ_T) w_T.
 """
 
@@ -95,14 +96,16 @@ class TreeGeometry(Geometry):
     def place_bodies(self, motions: Motions, slides: Mapping[str, Affine]) -> None:
         """Make coordinates and frames, then position body by body along the tree.
 
-        Called once. `slides`: slides that are functions of other coordinates.
+        Called once. `motions`: makes the symbols of coordinates, frames and their rates, and derived parameters of
+        coefficients; it gets an entry in `coordinates` for each independent coordinate, in q and v by their order along
+        the tree. `slides`: slides that drives or other slides determine; they get no coordinate.
         """
         self.motions = motions
         n_coordinates = 0
         free_bodies = set(self.tree.free)
         for link in self.tree.links:
             for name in link.coordinates:
-                self.slides[name] = motions.hoist_coefficients(name, slides.get(name, {name: ONE}))
+                self.slides[name] = motions.derive_coefficients(name, slides.get(name, {name: ONE}))
                 n_coordinates += self._add_coordinate(name, n_coordinates) if name not in slides else 0
             if link.body in free_bodies:
                 n_coordinates += self._add_coordinate(link.body, n_coordinates)
@@ -124,7 +127,7 @@ class TreeGeometry(Geometry):
 
         The constant angle between body and frame is stored.
         """
-        affine = self.motions.hoist_coefficients(f"{body}_theta", self.tree.angles[body])
+        affine = self.motions.derive_coefficients(f"{body}_theta", self.tree.angles[body])
         constant = affine.get(CONSTANT, ZERO)
         angle_coefficients = {k: c for k, c in affine.items() if k != CONSTANT}
         frame = next((f for f in self.frames.values() if f.angle_coefficients == angle_coefficients), None)

@@ -24,6 +24,7 @@ Pairs = Sequence[tuple[int, int]]  # coordinate, row
 class DependentCoordinates:
     """Places the bodies from the ground on, each by equations whose other coordinates are placed already.
 
+    To place a coordinate is to assign it the equation that gives it from placed ones; both form one pivot block.
     `groups`, in the order of placing: a coordinate and its equation, or x, y and the equation of a line. No equation
     depends on a coordinate that is placed after its own.
     """
@@ -56,7 +57,7 @@ class DependentCoordinates:
             return set(entries)
         return {k for k, entry in entries.items() if k % 3 < 2 and is_unit(entry)}
 
-    def _find_open_coordinates(self, r: int) -> set[int]:
+    def _find_unplaced_coordinates(self, r: int) -> set[int]:
         """Return the coordinates with a constant entry in equation r that are not placed yet."""
         return self._constant_coordinates[r] - self._placed
 
@@ -66,9 +67,9 @@ class DependentCoordinates:
         Only the best of the candidates are used.
         """
         candidates = [
-            (min(self._find_open_coordinates(r)), r)
+            (min(self._find_unplaced_coordinates(r)), r)
             for r in range(len(self.rows))
-            if len(self._find_open_coordinates(r)) == 1
+            if len(self._find_unplaced_coordinates(r)) == 1
         ]
         for k, r in self._select_candidates(candidates):
             if k not in self._placed:
@@ -93,10 +94,10 @@ class DependentCoordinates:
             *self._constant_coordinates,
             *({k for k in entries if k % 3 < 2} for entries in self._entries),
         ]
-        first_open = next((k for coordinates in tied_coordinates for k in sorted(coordinates - self._placed)), None)
-        if first_open is not None:
-            self._placed |= _add_sibling_coordinate(first_open)
-        return first_open is not None
+        first_unplaced = next((k for coordinates in tied_coordinates for k in sorted(coordinates - self._placed)), None)
+        if first_unplaced is not None:
+            self._placed |= _add_sibling_coordinate(first_unplaced)
+        return first_unplaced is not None
 
     def _record_group(self, coordinates: tuple[int, ...], r: int) -> None:
         """Record coordinates as placed by equation r.

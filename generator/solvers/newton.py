@@ -198,14 +198,18 @@ class Newton:
     def _find_scale(self, node: int) -> sp.Symbol:
         """Return the factor η or η/κ by which the change of an equation is multiplied.
 
-        κ differs for constraints and sticks.
+        η for equations of coordinates and inner states, η/κ for constraints and sticks, whose κ differ.
         """
         if node < self.n or node >= self.first_state:
             return ETA
         return ETA_ROW if node < self.n + self.m else ETA_STICK
 
     def _append_scales(self, builder: KernelBuilder, scales: Collection[sp.Symbol]) -> None:
-        """Append η/κ of constraints and of sticks to the function, if they are among the `scales` that it reads."""
+        """Append η/κ to the function, the factors of changes of equations, if among the `scales` that it reads.
+
+        η = h γ of the method. κ = 1 + 2αη + β²η² for constraints (Baumgarte's α and β), 1 + 2αη for sticks, with α of
+        `derive_stick_gain`. The section "eta/kappa" begins also without a factor.
+        """
         alpha, beta = self.model.baumgarte
         derive = self.model.parameter_table.derive_parameter
         two_alpha, beta_squared = derive("two_alpha", 2 * alpha), derive("beta_squared", beta**2)

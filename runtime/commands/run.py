@@ -244,9 +244,10 @@ def _simulate_scenes(
 
 
 def _write_results(request: Request, simulations: Mapping[str, Simulation], outcome: RunOutcome) -> None:
-    """Save, verify, compare, report, draw and show the results.
+    """Verify the results if requested, then save, compare, report, draw and show them.
 
-    They are saved first, so that a later failure loses none.
+    `--verify` precedes, since it adds notes to the runs; its errors are stored as failures. All else follows the first
+    saving, so that a later failure loses no result. A report changes diagnostics and saves again.
     """
     from gudgeon.results.reports.comparison import compute_scene_report
     from gudgeon.results.series import choose_watched_series

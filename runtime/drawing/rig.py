@@ -321,8 +321,10 @@ def _iterate_candidate_frames(posture: Posture, part: str) -> Iterator[MovingFra
 def _list_axis_directions(posture: Posture, parts: Sequence[Any]) -> list[tuple[Any, ...]]:
     """Return the angles φ of moving frames along parts' axes: ("axis", index of x, index of y, index in q).
 
-    There is one in the frame of each of the two bodies of a part. Directions whose components are all absent from the
-    parameters are left out.
+    A part is a joint or a force element (PartInfo). The first two indices are those of the
+    direction's components in p, −1 for a component that is no parameter. The last is that of the body's angle, −1 for
+    the ground. There is one φ in the frame of each of a part's bodies; equal ones are listed once. Directions without a
+    parameter are left out.
     """
     parameter_indices, turns = (
         {parameter.address: k for k, parameter in enumerate(posture.source.slots)},

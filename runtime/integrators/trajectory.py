@@ -1,4 +1,4 @@
-"""Define the input and output of every integration method: initial value problem, trajectory, counts, events."""
+"""Define the input and output of every integration method: initial value problem, trajectory, step counts, events."""
 
 from __future__ import annotations
 

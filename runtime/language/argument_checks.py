@@ -1,4 +1,4 @@
-"""Check arguments other than arrays: texts, flags, functions, mappings, counts, files.
+"""Check arguments other than arrays: texts, flags, functions, mappings, whole numbers, files.
 
 Each function returns the checked value or raises BadValueError with its name, the given and the expected value.
 """

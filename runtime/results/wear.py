@@ -127,9 +127,10 @@ class Wear:
         return f"<Wear of {self.joint} by {self.law}: bearing {bearing}, journal {journal} at most>"
 
     def to_xarray(self) -> xarray.Dataset:
-        """Return a Dataset of the depths of both surfaces (m) over the angle (rad).
+        """Return a Dataset of the depths of both surfaces (m), `bearing` and `journal`, over `angle` (rad).
 
-        Its attributes are joint, law, time span, slip, and volume and arc of each surface.
+        Its attributes are joint, law, t_begin, t_end, slip, and of each surface volume, arc and deepest_angle, for
+        example bearing_volume.
         """
         import xarray
 

@@ -89,9 +89,10 @@ def compute_horizon(
 
 
 def _yield_compared_times(t0: float, t1: float) -> Iterator[Array]:
-    """Yield arrays of TIMES increasing times (s), each ending four times as far from t0 as the array before.
+    """Yield arrays of TIMES equidistant times (s), each ending four times as far from t0 as the array before.
 
-    The last array reaches t1 or goes beyond it.
+    An array covers the interval from the end of the one before, or t0, which it excludes, to its own end. The first
+    ends at t0 + 4^k s, with the largest k for which 4^k ≤ MIN_INTERVAL (t1 − t0). The last reaches t1 or beyond.
     """
     top = 4.0 ** math.floor(math.log(MIN_INTERVAL * (t1 - t0), 4.0))
     low, last = 0.0, False

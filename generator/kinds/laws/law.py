@@ -114,7 +114,7 @@ class Law:
     fields: tuple[Field, ...]  # the keys beside `law`
     build: Callable[..., Any]
     states: tuple[State, ...] = ()
-    also: Mapping[str, Mapping[str, str]] = field(default_factory=dict)  # other names -> the options that they fix
+    also: Mapping[str, Mapping[str, str]] = field(default_factory=dict)  # aliases -> the options that they fix
     instead: Mapping[str, str] = field(default_factory=dict)  # a choice that says something only without a number
     equation: tuple[str, ...] = ()  # LaTeX, a line each: the law as its source writes it, for docs/laws.md
     reference: str = ""  # the source as far as it is sure: author, title, journal, year, doi
@@ -165,10 +165,10 @@ class Law:
                     raise BadValueError(f"{field_of_law.name} is {value:g}: {hint}")
 
     def list_fields_of_name(self, name: str) -> tuple[Field, ...]:
-        """Return the keys of the law under one of its names.
+        """Return the keys of the law under one of its names, its own or an alias (`also`).
 
-        Another name fixes some options, which are left out, and requires the restitution. Raises KeyError for an
-        unknown name.
+        An alias fixes some options, which are left out, and requires the restitution. Raises KeyError for an unknown
+        name.
         """
         if name == self.name:
             return self.fields

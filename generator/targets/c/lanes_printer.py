@@ -107,7 +107,10 @@ class LanesPrinter(printer.CPrinter):
         return f"lanes_knots({make_curve_name(expr.name)}, {self._print_vector(expr.args[1])})"
 
     def _print_Pick(self, expr: sp.Expr) -> str:
-        """Print a choice by the signs of a vector."""
+        """Print Pick(branch, a, b), a select by the sign of a vector: a for branch ≥ 0, b for branch < 0.
+
+        If `of.branches` holds the expression, its variable's name is printed. SymPy calls the method by this name.
+        """
         if expr in self.of.branches:
             return self.of.branches[expr]
         branch, a, b = map(self._print_vector, expr.args)

@@ -97,7 +97,10 @@ def locate_stores(
 
 
 def locate_text(text: str, files: Mapping[str, str]) -> tuple[str, range]:
-    """Return the file that contains a text, and its lines there, counted from 1; ("", empty range) if none does."""
+    """Return the file that contains a text, and its lines there, counted from 1; ("", empty range) if none does.
+
+    The text is first wrapped as emitted files are (`wrap_file`). An empty text is in no file.
+    """
     wrapped = wrap_file(text)
     file = next((name for name, file_text in files.items() if wrapped in file_text), "")
     if not file or not wrapped.strip():

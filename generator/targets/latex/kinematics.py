@@ -63,9 +63,11 @@ def make_equation_block(
     selection_token: str = "",
     value_name: str = "",
 ) -> Block:
-    """Return the equation left = right as a block; the arguments are those of `make_equation`.
+    """Return the equation left = right as a block, or a sentence about its length above LONGEST operations.
 
-    One with more than LONGEST operations is replaced by a sentence about its length.
+    tokens: names of highlighting groups; blocks that share one are highlighted together. selection_token: the one that
+    selecting the equation highlights, "" for all. value_name: name of the value that a page shows, "" for none. A
+    sentence has neither selection token nor value.
     """
     n_operations = sp.count_ops(right)
     if n_operations <= LONGEST:

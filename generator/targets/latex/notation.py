@@ -1,4 +1,4 @@
-"""Names the symbols of one scene in a document of equations, and selects those that are written out."""
+"""Names the symbols of one scene in a document of equations, and replaces derived ones by their expressions."""
 
 from __future__ import annotations
 
@@ -77,7 +77,7 @@ class Notation:
         return replace(self, names={**self.names, **names})
 
     def expand_symbols(self, expression: sp.Expr) -> sp.Expr:
-        """Return an expression with derived symbols written out, except those in `shown_symbols`."""
+        """Return an expression with derived symbols replaced by their definitions, except those in `shown_symbols`."""
         definitions = self.symbols.definitions
         while replacements := {
             s: definitions[s] for s in expression.free_symbols if s in definitions and s not in self.shown_symbols

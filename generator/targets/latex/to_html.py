@@ -50,7 +50,7 @@ def print_formula(name: Name) -> str:
 
 
 def _split_formula(latex: str) -> Iterator[str]:
-    """Return a formula split at each \\allowbreak outside of braces."""
+    """Yield the parts of a formula, split at each \\allowbreak outside of braces and of pairs \\left … \\right."""
     piece = ""
     for part in latex.split(r"\allowbreak "):
         piece += part

@@ -1,4 +1,7 @@
-"""Writes the values of a file as cells of tables: symbol, value, unit, and the expression that gives the value."""
+"""Writes the values of a file as cells of tables.
+
+One cell has symbol, expression, value and unit together, for example "y = −l_5 = −0.3 m".
+"""
 
 from __future__ import annotations
 
@@ -169,7 +172,7 @@ class ValueFormatter:
         ]
 
     def list_densities(self) -> list[tuple[Text, ...]]:
-        """Return the table rows of the densities of materials."""
+        """Return the table rows of the densities of materials, with two cells: the material and its density."""
         entries_with_path = [(e, e.address.split(".")) for e in self._slots.entries.values() if not e.choice_words]
         return [
             make_row(path[1], self.format_parameter(e))

@@ -218,8 +218,9 @@ def _evaluate_functions(
 ) -> dict[str, Array] | None:
     """Return {name in Evaluation: array} of all functions at a state (t, q, v).
 
-    discrete_states: approach speeds, friction modes, inner states. None is returned where a pivot vanishes or C has
-    an infinity.
+    compute_outputs: the compiled function `outputs`, called with (t, q, v, p, multipliers) and arrays that it fills:
+    reactions, torques of drives, series of force elements, energies. p: parameters (SI). discrete_states: approach
+    speeds, friction modes, inner states. None is returned where a pivot vanishes or C has an infinity.
     """
     t, q, v = state
     try:

@@ -27,8 +27,9 @@ def get_force_curve(run: Result, joint: str) -> tuple[Array, Array]:
     """Return times and magnitudes of the force at a joint by time, (k,) each: samples, and extremes of the steps
     between.
 
-    The extremes are those of the envelope, or without one the peaks of all impacts with a duration. For a joint without
-    play there are samples only.
+    The extremes are those of the envelope. Without one they are the peaks of all impacts with a duration, and the
+    largest force of the joint in the run (diagnostics.peaks), also of a film without impacts. For a joint without play
+    there are samples only.
     """
     k = _find_clearance_index(run, joint)
     if k is None:

@@ -260,7 +260,7 @@ def _read_result(file: File) -> Result:
     return run
 
 
-def read_result(file: File, source: KernelSource, names: tuple[str, ...]) -> Result:
+def read_result(file: File, source: KernelSource, series_names: tuple[str, ...]) -> Result:
     """Return the checked result of an open file. Raises ValueError, TypeError or KeyError for an invalid file."""
     diagnostics = Diagnostics.from_json(file.read_text_attribute("diagnostics"))
     check_type(diagnostics, Diagnostics, "diagnostics")
@@ -268,7 +268,7 @@ def read_result(file: File, source: KernelSource, names: tuple[str, ...]) -> Res
     if not len(t):
         raise ValueError("it has no sample")
     check_times(t)
-    stored = {name: _read_series(file, name, len(t)) for name in names if _has_series(file, name)}
+    stored = {name: _read_series(file, name, len(t)) for name in series_names if _has_series(file, name)}
     p, given, is_given = _read_parameters(file, source)
     run = Result(
         compiled=None,
@@ -339,7 +339,7 @@ def _check_names_and_units(source: KernelSource) -> None:
 
 
 def _has_series(file: File, name: str) -> bool:
-    """Return whether a series is in the file; older files lack the drift."""
+    """Return whether a series must be in the file; older files lack the drift, which is then not read."""
     return name not in DRIFT or file.has_entry(name)
 
 

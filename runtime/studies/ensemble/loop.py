@@ -100,7 +100,11 @@ def _run_blocks_in_threads(
     last_blocks = {block.number for block in missing_blocks[-n_blocks:]}
 
     def run_one_block(block: BlockRange) -> Block:
-        """Run one block in a thread of the pool and return its results."""
+        """Run one block in a thread of the pool and return its results.
+
+        One of the last blocks has all cores, another an equal part of them. Its progress is stored in `study_progress`.
+        Raises KeyboardInterrupt at the next report of progress once `ended` is set.
+        """
         n_threads = cores if block.number in last_blocks else math.ceil(cores / n_blocks)
 
         def store_progress(fraction: float, text: str) -> None:

@@ -188,7 +188,7 @@ def _draw_values(draw: Draw, sources: Sequence[KernelSource]) -> dict[str, Any]:
         if spread.kind not in (NORMAL, "uniform") and not first > 0.0:
             raise BadValueError(f"a geometric spread from {first:g}", spread.ends[0].where, "expected positive ends")
         with np.errstate(over="ignore", invalid="ignore"):
-            values = map_to_distribution(spread, first, second, points[:, draw.names.index(name)])
+            values = compute_quantiles(spread, first, second, points[:, draw.names.index(name)])
             drawn_values[str(name)] = check_finite(values, spread.ends[1])
     return drawn_values
 
@@ -404,11 +404,12 @@ def sample_unit_cube(method: str, count: int, n_dimensions: int, seed: int) -> A
     return np.asarray(qmc.Sobol(n_dimensions, seed=seed).random_base2(math.ceil(math.log2(count)))[:count])
 
 
-def map_to_distribution(
+def compute_quantiles(
     distribution: Distribution, mean_or_low: float, deviation_or_high: float, fractions: Array
 ) -> Array:
-    """Return the values (SI) at fractions (n,) in [0, 1] of a normal, geometric or uniform distribution.
+    """Return the quantiles (SI) of a normal, log-uniform (`spacing: geometric`) or uniform distribution.
 
+    fractions: cumulative probabilities (n,) in [0, 1], at which the inverse of the distribution function is evaluated.
     mean_or_low, deviation_or_high: mean and standard deviation of a normal distribution, else the two ends.
     """
     if distribution.kind == NORMAL:
