@@ -11,7 +11,6 @@ import numpy as np
 
 from gudgeon.assembly.linkage import Linkage, compute_mechanism_size, compute_point_position
 from gudgeon.contract.kernel_source import KernelSource
-from gudgeon.model.cached_values import cache_by_values
 from gudgeon.model.compiled import Array
 
 APART = 0.2  # rad, or relative to the size: difference from which on assemblies are distinguished by a guess
@@ -23,7 +22,6 @@ UNFOLLOWED_GUESSES: ContextVar[list[Mapping[str, float]] | None] = ContextVar(
 FOLLOWED = np.pi / 6  # rad; smaller differences from a guess are not reported
 
 
-@cache_by_values
 def find_unfollowed_guesses(linkage: Linkage, p: Array, q: Array) -> dict[str, float]:
     """Return {name: difference from the guess} of guessed coordinates that differ at q by more than a limit.
 
@@ -49,16 +47,18 @@ def find_unfollowed_guesses(linkage: Linkage, p: Array, q: Array) -> dict[str, f
     return differences
 
 
-def warn_unfollowed_guesses(linkage: Linkage, p: Array, q: Array) -> None:
-    """Warn about each guess that the start q does not follow; within a batch, append them to NOTED instead."""
-    off, noted = find_unfollowed_guesses(linkage, p, q), UNFOLLOWED_GUESSES.get()
+def warn_unfollowed_guesses(source: KernelSource, differences: Mapping[str, float]) -> None:
+    """Warn about each guess that a start does not follow; within a batch, append them to NOTED instead.
+
+    `differences`: those of `find_unfollowed_guesses`.
+    """
+    noted = UNFOLLOWED_GUESSES.get()
     if noted is not None:
-        noted.append(off)
+        noted.append(differences)
         return
-    for name, away in off.items():
+    for name, away in differences.items():
         message = (
-            f"{name} begins {format_guess_difference(name, away)} from its guess: "
-            f"{describe_missing_assembly(linkage.source)}"
+            f"{name} begins {format_guess_difference(name, away)} from its guess: {describe_missing_assembly(source)}"
         )
         warnings.warn(f"{message}; {LISTED}", stacklevel=find_user_stack_level())
 

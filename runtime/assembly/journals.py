@@ -12,7 +12,6 @@ from gudgeon.contract.boundary import CLEARANCE_Fx, CLEARANCE_Fy
 from gudgeon.contract.clearance_info import ClearanceInfo
 from gudgeon.errors import AssemblyError, SingularError
 from gudgeon.language.plot_units import format_distinct_numbers
-from gudgeon.model.cached_values import cache_by_values
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.contours import (
     compute_corner_approach,
@@ -138,7 +137,6 @@ def _iterate_joints_with_start_position(linkage: Linkage, p: Array) -> Iterator[
         yield joint, float(np.linalg.norm(joint_values)), compute_max_clearance(source, p, joint)
 
 
-@cache_by_values
 def describe_contacts_without_onset(
     compiled: CompiledModel, p: Array, t: float, q: Array, v: Array, discrete_states: Array
 ) -> tuple[str, ...]:

@@ -136,3 +136,19 @@ def compute_tolerances(compiled: CompiledModel, p: Array, rtol: float) -> tuple[
     of_v = np.minimum(rtol, FELT_BY_FILMS * length / size if _has_film(source) else rtol)
     of_speed = np.broadcast_to(of_v[..., None], of_q.shape)
     return np.concatenate([of_q, of_speed], axis=-1), np.stack([length, length / size], axis=-1)
+
+
+def compute_scales_of_runs(compiled: CompiledModel, p: Array, rtol: float) -> tuple[Array, Array, Array]:
+    """Return `compute_tolerances` of n runs, (n, 2 n_x) and (n, 2), and the sizes (m) of their mechanisms, (n,).
+
+    Those of a single run are computed once for equal values: do not change them. `p` (n, n_slots + n_derived).
+    """
+    return _compute_scales_of_run(compiled, p, rtol) if len(p) == 1 else _compute_scales(compiled, p, rtol)
+
+
+def _compute_scales(compiled: CompiledModel, p: Array, rtol: float) -> tuple[Array, Array, Array]:
+    """Compute the scales of runs for `compute_scales_of_runs`."""
+    return *compute_tolerances(compiled, p, rtol), compute_mechanism_sizes(compiled.source, p)
+
+
+_compute_scales_of_run = cache_by_values(_compute_scales)

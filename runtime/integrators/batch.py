@@ -24,9 +24,6 @@ from gudgeon.contract.boundary import (
     BEGUN,
     ENDED,
     LISTS,
-    N_CHECKS,
-    N_STEP_ENDS,
-    N_WORK,
     NEW,
     NOT_CLOSED,
     OVER,
@@ -42,7 +39,6 @@ from gudgeon.integrators.threads import integrate_runs_in_threads
 from gudgeon.integrators.times import Times
 from gudgeon.integrators.trajectory import Problem, Progress, Trajectory
 from gudgeon.model.compiled import Array, CompiledModel
-from gudgeon.model.sizes import compute_mechanism_sizes
 from gudgeon.waiting.cancellation import CancellationPoll
 from gudgeon.waiting.ctrl_c import DelayedCtrlC
 
@@ -109,41 +105,37 @@ class Runs(StoredRuns):
         self.resumed = set[int]()  # runs that resume from a state
 
     def _make_batch_struct(self) -> Any:
-        """Add the arrays that only C fills to `arrays`, and return the struct Batch of C with pointers to all arrays.
-
-        All arrays are made contiguous. Not called for time loops in Python.
-        """
-        compiled, n, x = self.compiled, self.n, self.arrays
-        scale, least = adaptive.compute_tolerances(compiled, x["p"], self.rtol)
-        x |= {
-            "t": self.times.t,
-            "n_requested": self.times.count,
-            "scale": scale,
-            "least": least,
-            "size": compute_mechanism_sizes(compiled.source, x["p"]),
-            "checked": np.zeros(n, np.int_),
-            "last": np.full((n, 2 * compiled.n + N_WORK), np.nan),
-            "audited": np.full((n, N_CHECKS), -1.0),
-            "audited_t": np.zeros((n, N_CHECKS)),
-            "audited_where": np.full((n, N_CHECKS), -1, np.intc),
-            "gained": np.zeros(n),
-            "paced": np.zeros((n, 2), np.int_),
-            "ended": np.zeros((n, N_STEP_ENDS), np.int_),
+        """Return the struct Batch of C with pointers to all arrays, which are made contiguous; not for Python loops."""
+        compiled, x, times = self.compiled, self.arrays, self.times
+        scale, least, size = adaptive.compute_scales_of_runs(compiled, x["p"], self.rtol)
+        given = {
+            name: np.ascontiguousarray(array)
+            for name, array in (
+                ("t", times.t),
+                ("n_requested", times.count),
+                ("p", x["p"]),
+                ("p_motion", x["p_motion"]),
+                ("step", x["step"]),
+                ("scale", scale),
+                ("least", least),
+                ("size", size),
+            )
         }
-        self.arrays = {name: np.ascontiguousarray(array) for name, array in x.items()}
+        self.arrays |= given
         struct = compiled.ffi.new("Batch *")
-        struct.samples, struct.time_stride, struct.numbers = self.times.max_count, self.times.stride, x["p"].shape[1]
+        struct.samples, struct.time_stride, struct.numbers = times.max_count, times.stride, given["p"].shape[1]
         struct.limit = CHUNK
         struct.choice, struct.automatic = adaptive.find_method_numbers(compiled, self.method, self.rtol)
-        struct.fixed, struct.stop, struct.audit = math.isfinite(x["step"][0]), self.stop, self.audit
-        kinds = {"B": "unsigned char *", "b": "signed char *", "i": "int *", "l": "long *", "d": "double *"}
-        for name, array in self.arrays.items():
-            setattr(struct, name, self.compiled.pointer(array, kinds[array.dtype.char], True))
+        struct.fixed, struct.stop, struct.audit = math.isfinite(given["step"][0]), self.stop, self.audit
+        self._run_arrays.set_pointers(compiled.ffi, struct)
+        for name in (*given, "y", "latched"):
+            setattr(struct, name, compiled.pointer(x[name], "long *" if name == "n_requested" else "double *", True))
+        struct.state = compiled.pointer(x["state"], "signed char *", True)
         return struct
 
     def __getstate__(self) -> dict[str, Any]:
         """Return the state for pickling: arrays and lists of finished runs, without C's structures."""
-        none = dict.fromkeys(("struct", "lane_provider", "store_results", "python_loop", "fetched"))
+        none = dict.fromkeys(("struct", "_run_arrays", "lane_provider", "store_results", "python_loop", "fetched"))
         return self.__dict__ | none | {"observers": ()}
 
     def release_samples(self) -> None:

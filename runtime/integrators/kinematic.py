@@ -12,6 +12,7 @@ from __future__ import annotations
 from dataclasses import replace
 from time import perf_counter
 from typing import Any
+from weakref import WeakMethod
 
 import numpy as np
 from numpy.typing import NDArray
@@ -64,7 +65,14 @@ class KinematicRun:
         self.maxima, self.call_counts = np.zeros(2), np.zeros(2, dtype=np.int_)  # |Φ|, |Φ̇|; and steps, rows of a call
         self.last_complete, self.seconds = 0, 0.0
         self.events = KinematicEvents(problem) if self.compiled.source.events else None
-        self.cancellation_poll = CancellationPoll(self.compiled, self.poll_and_report_progress)
+        weak_poll = WeakMethod(self.poll_and_report_progress)  # this object owns the poll
+
+        def poll() -> None:
+            """Poll for Ctrl-C as long as the run exists."""
+            if own_poll := weak_poll():
+                own_poll()
+
+        self.cancellation_poll = CancellationPoll(self.compiled, poll)
         self.motion_struct = self._allocate_motion_struct()
         self.steps = self._make_step_log(problem.observer) if problem.observer else None
         if self.steps:

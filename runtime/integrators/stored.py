@@ -16,10 +16,7 @@ from gudgeon.contract.boundary import (
     ENDED,
     IMPACT_COLUMN_NAMES,
     MAX_LISTED,
-    N_COUNTS,
     N_IMPACT_COLUMNS,
-    N_PEAK,
-    N_RESIDUALS,
     N_WORK,
     OVER,
     RESIDUAL_NAMES,
@@ -29,6 +26,7 @@ from gudgeon.contract.boundary import (
 )
 from gudgeon.errors import GudgeonError, SolverError
 from gudgeon.integrators.failure import build_findings
+from gudgeon.integrators.run_arrays import RunArrays
 from gudgeon.integrators.times import Times
 from gudgeon.integrators.trajectory import (
     IMPACT_DTYPE,
@@ -49,7 +47,7 @@ from gudgeon.integrators.trajectory import (
 )
 from gudgeon.model.compiled import Array, CompiledModel
 
-BLOCK = 16 * MAX_LISTED  # contacts that are stored in one block
+FIRST_BLOCK, BLOCK = MAX_LISTED, 16 * MAX_LISTED  # contacts that are stored in the first block, and in later ones
 
 
 def _convert_contacts(numbers: Array, joints: NDArray[np.intc]) -> NDArray[Any]:
@@ -108,11 +106,11 @@ class _ThreadContacts:
     def __init__(self, compiled: CompiledModel) -> None:
         self.compiled, self.runs, self.counts = compiled, list[int](), list[int]()
         self.full: list[tuple[NDArray[Any], NDArray[Any]]] = []
-        self._allocate_block()
+        self._allocate_block(FIRST_BLOCK)
 
-    def _allocate_block(self) -> None:
-        """Allocate an empty block for BLOCK contacts, with C pointers to it."""
-        self.numbers, self.joints, self.n = np.empty((BLOCK, N_IMPACT_COLUMNS)), np.empty(BLOCK, np.intc), 0
+    def _allocate_block(self, capacity: int) -> None:
+        """Allocate an empty block for so many contacts, with C pointers to it."""
+        self.numbers, self.joints, self.n = np.empty((capacity, N_IMPACT_COLUMNS)), np.empty(capacity, np.intc), 0
         pointer = self.compiled.pointer
         self.pointers = pointer(self.numbers, is_written=True), pointer(self.joints, "int *", is_written=True)
 
@@ -121,7 +119,7 @@ class _ThreadContacts:
         self.runs.append(i)
         self.counts.append(0)
         while True:
-            (numbers, joints), n_free = self.pointers, BLOCK - self.n
+            (numbers, joints), n_free = self.pointers, len(self.joints) - self.n
             to = numbers + N_IMPACT_COLUMNS * self.n, joints + self.n
             count = self.compiled.lib.gudgeon_run_impacts(run, is_over, n_free, *to)
             self.counts[-1] += count
@@ -129,7 +127,7 @@ class _ThreadContacts:
             if count < n_free:
                 return
             self.full = self.list_blocks()
-            self._allocate_block()
+            self._allocate_block(BLOCK)
 
     def list_blocks(self) -> list[tuple[NDArray[Any], NDArray[Any]]]:
         """Return all blocks, the last cut to its length: values (n, N_IMPACT_COLUMNS) and joint indices (n,)."""
@@ -162,29 +160,20 @@ class StoredRuns:
         in_python: bool,
     ) -> None:
         self.compiled, self.method, self.times, self.n = compiled, method, times, len(p)
-        n, N, size, nc = self.n, times.max_count, 2 * compiled.n + N_WORK, max(len(compiled.source.clearances), 1)
+        n, N, nc = self.n, times.max_count, len(compiled.source.clearances)
+        self._run_arrays = RunArrays(n, compiled.n, compiled.n_memory, nc)
         self.arrays: dict[str, NDArray[Any]] = {
-            "sample_block": np.arange(n) % n_rows,
+            **self._run_arrays.arrays,
             "p": p,
             "p_motion": p_motion,
             "step": step,
-            "start": np.full((n, 2 * compiled.n), np.nan),
-            "started": np.zeros(n, np.uint8),
-            "phase": np.zeros(n, np.uint8),
-            "y": np.empty((n_rows, N, size)),
-            "remembered": np.full((n, max(compiled.n_memory, 1)), np.nan),
-            "codes": np.zeros((n, nc), np.int8),
+            "y": np.empty((n_rows, N, 2 * compiled.n + N_WORK)),
             "latched": np.empty((n_rows, N, max(compiled.n_memory, 1))),
-            "state": np.zeros((n_rows, N, nc), np.int8),
-            "done": np.zeros(n, np.int_),
-            "status": np.zeros(n, np.intc),
-            "t_last": np.full(n, times.start),
-            "seconds": np.zeros(n),
-            "ending": np.zeros(1, np.intc),
-            "counts": np.zeros((n, N_COUNTS), np.int_),
-            "residuals": np.full((n, N_RESIDUALS), np.nan),
-            "peaks": np.full((n, nc, N_PEAK), np.nan),
+            "state": np.zeros((n_rows, N, max(nc, 1)), np.int8),
         }
+        self.arrays["t_last"][:] = times.start
+        if n > 1:
+            self.arrays["sample_block"][:] = np.arange(n) % n_rows
         if in_python:
             self.arrays["a"] = np.full((n_rows, N, compiled.n), np.nan)
         self.python_lists: dict[int, _PythonLists] = {}
@@ -198,12 +187,8 @@ class StoredRuns:
     def allocate_envelope(self) -> None:
         """Allocate the envelope of forces and paths, and register it with C, so that new runs record it for plots."""
         joints, x = len(self.compiled.source.clearances), self.arrays
-        x["trace"], x["traced"] = (
-            np.empty((self.n, TRACE_ROWS, compute_envelope_width(joints))),
-            np.zeros(self.n, np.int_),
-        )
+        x["trace"] = np.empty((self.n, TRACE_ROWS, compute_envelope_width(joints)))
         self.struct.trace, self.struct.trace_rows = self.compiled.pointer(x["trace"], is_written=True), TRACE_ROWS
-        self.struct.traced = self.compiled.pointer(x["traced"], "long *", True)
 
     def _join_contacts(self) -> None:
         """Join the contacts of all runs to one array sorted by run and onset, after all runs have ended."""
@@ -278,7 +263,7 @@ class StoredRuns:
         if i in self.python_lists:
             return self.python_lists[i].events, self.python_lists[i].no_number
         if i not in self.events:
-            return make_empty_event_states(self.compiled), make_empty_event_states(self.compiled)
+            return (empty := make_empty_event_states(self.compiled)), empty
         x, times = self.arrays, self.times.get_times(i)
         events, lost = split_undefined_events(self.compiled, np.concatenate(self.events[i]))
         if x["status"][i] not in (0, ENDED, STOPPED) or not x["done"][i]:

@@ -47,6 +47,7 @@ TRACED = {
     "ey": ("m", "the same, y"),
 }
 TRACE_COLUMNS = tuple(TRACED)
+_TRACE_POSITIONS = np.array([ENVELOPE_COLUMN_NAMES.index(name) for name in TRACE_COLUMNS])  # in a row that C writes
 EPSILON = float(np.finfo(np.float64).eps)
 
 
@@ -60,6 +61,8 @@ def build_event_dtype(n: int, n_memory: int, n_clearances: int) -> np.dtype[Any]
 def remove_event_states(events_with_states: NDArray[Any]) -> NDArray[Any]:
     """Return events with states as events without them (EVENT_DTYPE): number and time."""
     events = np.zeros(len(events_with_states), dtype=EVENT_DTYPE)
+    if not len(events):
+        return events
     events["event"], events["t"] = events_with_states["event"], events_with_states["t"]
     return events
 
@@ -119,13 +122,17 @@ class Counts:
     omega_max: float = float("nan")  # rad/s, of the integrated angles
 
 
+# position of each field of Counts in C's counts, followed by its residuals
+_COUNT_POSITIONS = tuple((*COUNT_NAMES, *RESIDUAL_NAMES).index(each.name) for each in fields(Counts))
+
+
 def convert_counts(counts: NDArray[Any], residual_values: Array) -> Counts:
     """Convert the arrays (N_COUNTS,) and (N_RESIDUALS,) that gudgeon_run_report writes to Counts; infinite residuals
     are NaN.
     """
     residuals = [x if math.isfinite(x) else math.nan for x in residual_values.tolist()]
-    counts_by_name = dict(zip((*COUNT_NAMES, *RESIDUAL_NAMES), (*counts.tolist(), *residuals), strict=True))
-    return Counts(**{each.name: counts_by_name[each.name] for each in fields(Counts)})
+    values = (*counts.tolist(), *residuals)
+    return Counts(*(values[k] for k in _COUNT_POSITIONS))
 
 
 def convert_counts_of_runs(counts: NDArray[Any], residual_values: Array) -> dict[str, NDArray[Any]]:
@@ -180,7 +187,7 @@ class Envelope:
     def from_rows(rows: Array, clearances: int) -> Envelope:
         """Build the envelope from the rows (R, width) that C writes, keeping only TRACE_COLUMNS."""
         joints = rows[:, 1:].reshape(len(rows), clearances, N_ENVELOPE_COLUMNS)
-        return Envelope(rows[:, 0].copy(), joints[:, :, [ENVELOPE_COLUMN_NAMES.index(name) for name in TRACE_COLUMNS]])
+        return Envelope(rows[:, 0].copy(), joints[:, :, _TRACE_POSITIONS])
 
 
 def compute_envelope_width(clearances: int) -> int:

@@ -91,21 +91,25 @@ def evaluate(expr: Expr, get_value: Callable[[str], Any]) -> Any:
 
     Undefined operations give NaN or infinity without a warning. Raises TypeError for another object.
     """
+    with np.errstate(all="ignore"):
+        return _evaluate(expr, get_value)
+
+
+def _evaluate(expr: Expr, get_value: Callable[[str], Any]) -> Any:
+    """Return the value of an expression for `evaluate`; undefined operations warn as NumPy is set."""
     match expr:
         case Number(value=value):
             return np.float64(value)
         case Name(path=path):
             return get_value(path)
         case Unary(operand=operand):
-            return -evaluate(operand, get_value)
+            return -_evaluate(operand, get_value)
         case Binary(operator=operator, left=left, right=right):
-            with np.errstate(all="ignore"):
-                return _OPERATORS[operator](evaluate(left, get_value), evaluate(right, get_value))
+            return _OPERATORS[operator](_evaluate(left, get_value), _evaluate(right, get_value))
         case CurveCall(arguments=(argument,), curve=curve):
-            return curve.evaluate(evaluate(argument, get_value))
+            return curve.evaluate(_evaluate(argument, get_value))
         case Call(function=function, arguments=arguments):
-            with np.errstate(all="ignore"):
-                return FUNCTIONS[function].evaluate(*(evaluate(a, get_value) for a in arguments))
+            return FUNCTIONS[function].evaluate(*(_evaluate(a, get_value) for a in arguments))
     raise TypeError(f"not an expression: {expr!r}")
 
 

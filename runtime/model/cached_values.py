@@ -15,6 +15,7 @@ Value = TypeVar("Value")
 MAX_ENTRIES = 256  # of one scene, of all functions together; the oldest is dropped first
 MAX_BYTES = 1 << 16  # of an array in a key: calls with larger arrays are not cached
 _LOCK = Lock()
+_EMPTY: dict[Any, Any] = {}  # the cache of an owner without one; as a value: not cached
 
 
 def cache_by_values(function: Callable[..., Value]) -> Callable[..., Value]:
@@ -32,21 +33,24 @@ def cache_by_values(function: Callable[..., Value]) -> Callable[..., Value]:
 
         Nothing is cached for arrays of more than MAX_BYTES; beyond MAX_ENTRIES the oldest results are removed.
         """
-        key: list[Any] = [name]
-        for argument in arguments:
-            if type(argument) is np.ndarray:
-                if argument.nbytes > MAX_BYTES:
-                    return function(owner, *arguments)
-                key += argument.shape, argument.dtype.char, argument.tobytes()
-            else:
-                key.append(argument)
-        entry = tuple(key)
-        with _LOCK:
-            cache: dict[Any, Value] = vars(owner).setdefault(CACHED_VALUES, {})
-            if entry in cache:
-                return cache[entry]
+        entry: Any = name
+        if arguments:
+            key: list[Any] = [name]
+            for argument in arguments:
+                if type(argument) is np.ndarray:
+                    if argument.nbytes > MAX_BYTES:
+                        return function(owner, *arguments)
+                    key += argument.shape, argument.dtype.char, argument.tobytes()
+                else:
+                    key.append(argument)
+            entry = tuple(key)
+        cache: dict[Any, Value] = owner.__dict__.get(CACHED_VALUES, _EMPTY)
+        value: Any = cache.get(entry, _EMPTY)  # without the lock, which only guards changes
+        if value is not _EMPTY:
+            return value
         value = function(owner, *arguments)
         with _LOCK:
+            cache = owner.__dict__.setdefault(CACHED_VALUES, {})
             while len(cache) >= MAX_ENTRIES:
                 del cache[next(iter(cache))]
             cache[entry] = value

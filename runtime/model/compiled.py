@@ -20,7 +20,7 @@ from gudgeon.errors import SingularError
 from gudgeon.language.argument_checks import check_number, check_time
 from gudgeon.model.arrays import FLAG, as_c_array, make_pointer
 from gudgeon.model.choices import fill_in_chosen_values, find_choices
-from gudgeon.model.evaluation import FIELD_NAMES, Evaluation, evaluate, make_empty_fields
+from gudgeon.model.evaluation import FIELD_NAMES, Evaluation, evaluate, find_field_shapes
 
 if TYPE_CHECKING:
     from gudgeon.loading.library import Library
@@ -82,12 +82,9 @@ class CompiledModel:
         return may_acceleration_jump(self)
 
     @cached_property
-    def empty_fields(self) -> tuple[tuple[str, Array], ...]:
-        """Return an Evaluation of no samples, as pairs of names and empty arrays.
-
-        The shapes of the arrays after the first axis are those of the fields.
-        """
-        return make_empty_fields(self)
+    def field_shapes(self) -> tuple[tuple[str, tuple[int, ...], int], ...]:
+        """Return all fields of an Evaluation: name, shape of a sample, and numbers per sample."""
+        return find_field_shapes(self)
 
     @property
     def _library(self) -> Library:

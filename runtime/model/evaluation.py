@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, fields
 from time import perf_counter
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -75,29 +75,21 @@ def evaluate(
     if compiled.has_mod_in_drives:  # velocities are those after a switching point; rounding hides the side of t
         time = np.asarray(time + find_rounding_distance(time))
     N = len(time)
-    discrete_states = _check_matrix(memory, "memory", N, None)
+    check = _check_matrix if N > FIRST else _convert_matrix
+    discrete_states = check(memory, "memory", N, None)
     if (
         compiled.n_memory or discrete_states.shape[1] > 1
     ):  # in a scene that remembers nothing one number stands for none
-        _check_matrix(discrete_states, "memory", N, compiled.n_memory)
-    inputs = (
-        ("q", _check_matrix(q, "q", N, compiled.n)),
-        ("v", _check_matrix(v, "v", N, compiled.n)),
-        ("memory", discrete_states),
-    )
-    evaluation = _allocate_evaluation(compiled, N, field_names)
-    failed_index, first, chunk_size, null_pointer = compiled.ffi.new("long *"), 0, FIRST, compiled.ffi.NULL
-    result_arrays, parameter_pointer = (
-        tuple(vars(evaluation).values()),
-        compiled.pointer(as_c_array(p, "p", (compiled.n_p,))),
-    )  # in C's order
+        check(discrete_states, "memory", N, compiled.n_memory)
+    inputs = (("q", check(q, "q", N, compiled.n)), ("v", check(v, "v", N, compiled.n)), ("memory", discrete_states))
+    evaluation, outputs = _allocate_evaluation(compiled, N, field_names)
+    failed_index, first, chunk_size = compiled.ffi.new("long *"), 0, FIRST
+    parameter_pointer = compiled.pointer(as_c_array(p, "p", (compiled.n_p,)))
     while first < N:
         start_time, count = perf_counter(), min(chunk_size, N - first)
         chunk = slice(first, first + count)
         input_pointers = [compiled.pointer(as_c_array(values[chunk], name, (count, None))) for name, values in inputs]
-        output_pointers = [
-            compiled.pointer(x[first:], is_written=True) if len(x) else null_pointer for x in result_arrays
-        ]
+        output_pointers = [pointer + first * width if first and width else pointer for pointer, width in outputs]
         status = compiled.lib.gudgeon_evaluate(
             count, compiled.pointer(time[chunk]), *input_pointers, parameter_pointer, *output_pointers, failed_index
         )
@@ -130,10 +122,10 @@ def evaluate_runs(
     input_pointers = [compiled.pointer(as_c_array(values, name, shape)) for name, values, shape in shapes]
     input_pointers.append(compiled.pointer(as_c_array(memory, "memory", (N, compiled.n_memory))))
     parameter_pointer = compiled.pointer(as_c_array(p, "p", (len(sample_counts), compiled.n_p)))
-    evaluation, failed_index = _allocate_evaluation(compiled, N, field_names), compiled.ffi.new("long *")
-    output_pointers = [
-        compiled.pointer(x, is_written=True) if len(x) else compiled.ffi.NULL for x in vars(evaluation).values()
-    ]
+    (evaluation, outputs), failed_index = (
+        _allocate_evaluation(compiled, N, field_names),
+        compiled.ffi.new("long *"),
+    )
     counts_pointer = compiled.ffi.new("long[]", sample_counts)
     status = compiled.lib.gudgeon_evaluate_runs(
         len(sample_counts),
@@ -141,12 +133,17 @@ def evaluate_runs(
         *input_pointers,
         parameter_pointer,
         compiled.n_p,
-        *output_pointers,
+        *(pointer for pointer, _ in outputs),
         failed_index,
     )
     compiled.check_pivot(status, math.nan)
     _mark_indeterminate_forces(compiled, evaluation)
     return evaluation
+
+
+def select_evaluated_rows(evaluation: Evaluation, rows: slice | NDArray[np.intp]) -> Evaluation:
+    """Return the quantities at some samples: views for a slice, copies for indices. All fields must have rows."""
+    return Evaluation(*(part[rows] for part in vars(evaluation).values()))
 
 
 def find_rounding_distance(t: Array) -> Array:
@@ -159,17 +156,17 @@ def find_rounding_distance(t: Array) -> Array:
 
 def compute_evaluation_bytes(compiled: CompiledModel, field_names: Collection[str] | None = None) -> int:
     """Return the bytes of an evaluation per sample; `field_names`: the requested fields, None for all."""
-    return 8 * sum(
-        math.prod(empty_array.shape[1:])
-        for name, empty_array in compiled.empty_fields
-        if field_names is None or name in field_names
-    )
+    return 8 * sum(width for name, _, width in compiled.field_shapes if field_names is None or name in field_names)
 
 
-def _allocate_evaluation(compiled: CompiledModel, n_samples: int, field_names: Collection[str]) -> Evaluation:
-    """Return an Evaluation of `n_samples` rows of NaN for C to fill; fields that are not requested have no rows.
+def _allocate_evaluation(
+    compiled: CompiledModel, n_samples: int, field_names: Collection[str]
+) -> tuple[Evaluation, list[tuple[Any, int]]]:
+    """Return an Evaluation of `n_samples` rows of NaN for C to fill, and each field's C pointer and numbers per row.
 
-    Fields that C computes together are allocated together. Raises MemoryError for many samples without enough memory.
+    Fields that are not requested have no rows, a null pointer and width 0. Fields that C computes together are
+    allocated together. The fields of few samples are views of one block. Raises MemoryError for many samples without
+    enough memory.
     """
     requested_fields = {*field_names, *OUTPUTS} if not OUTPUTS.isdisjoint(field_names) else field_names
     if n_samples > MIN_CHECKED_SAMPLES:
@@ -177,15 +174,27 @@ def _allocate_evaluation(compiled: CompiledModel, n_samples: int, field_names: C
             float(n_samples) * compute_evaluation_bytes(compiled, requested_fields),
             f"what follows from {n_samples} samples",
         )
-    shapes = [
-        (n_samples if name in requested_fields else 0, *empty_array.shape[1:])
-        for name, empty_array in compiled.empty_fields
-    ]
-    return Evaluation(*(np.full(shape, np.nan) for shape in shapes))
+    is_short = n_samples <= FIRST
+    n_block = n_samples * sum(width for name, _, width in compiled.field_shapes if name in requested_fields)
+    block = np.full(n_block if is_short else 0, np.nan)
+    block_pointer, offset = compiled.pointer(block, is_written=True), 0
+    arrays, pointers = list[Array](), list[tuple[Any, int]]()
+    for name, shape, width in compiled.field_shapes:
+        if name not in requested_fields:
+            arrays.append(np.empty((0, *shape)))
+            pointers.append((compiled.ffi.NULL, 0))
+        elif is_short:
+            arrays.append(block[offset : offset + n_samples * width].reshape(n_samples, *shape))
+            pointers.append((block_pointer + offset, width))
+            offset += n_samples * width
+        else:
+            arrays.append(np.full((n_samples, *shape), np.nan))
+            pointers.append((compiled.pointer(arrays[-1], is_written=True), width))
+    return Evaluation(*arrays), pointers
 
 
-def make_empty_fields(compiled: CompiledModel) -> tuple[tuple[str, Array], ...]:
-    """Return the names of all fields of an Evaluation in their order, each with an empty array (0, …) of its shape."""
+def find_field_shapes(compiled: CompiledModel) -> tuple[tuple[str, tuple[int, ...], int], ...]:
+    """Return all fields of an Evaluation in their order: name, shape of a sample, and numbers per sample."""
     s = compiled.source
     widths: dict[str, tuple[int, ...]] = {
         "a": (compiled.n,),
@@ -199,7 +208,8 @@ def make_empty_fields(compiled: CompiledModel) -> tuple[tuple[str, Array], ...]:
         "power": (N_WORK,),
         "drift": (N_DRIFT,),
     }
-    return tuple((name, np.empty((0, *widths[name]))) for name in (field.name for field in fields(Evaluation)))
+    names = (field.name for field in fields(Evaluation))
+    return tuple((name, widths[name], math.prod(widths[name])) for name in names)
 
 
 def _mark_indeterminate_forces(compiled: CompiledModel, evaluation: Evaluation) -> None:
@@ -218,6 +228,11 @@ def _mark_indeterminate_forces(compiled: CompiledModel, evaluation: Evaluation) 
         evaluation.multipliers[:, [k for k, row in enumerate(s.rows) if row.owner == owner]] = np.nan
         evaluation.reactions[:, [k for k, joint in enumerate(s.joints) if joint.name == owner]] = np.nan
         evaluation.torques[:, [k for k, drive in enumerate(s.drives) if drive.name == owner]] = np.nan
+
+
+def _convert_matrix(values: ArrayLike, name: str, n_rows: int, n_columns: int | None) -> Array:
+    """Return checked values (n_rows, n_columns) as C reads them; n_columns: None for any number. Raises ArrayError."""
+    return as_c_array(values, name, (n_rows, n_columns))
 
 
 def _check_matrix(values: ArrayLike, name: str, n_rows: int, n_columns: int | None) -> Array:

@@ -264,6 +264,12 @@ def prepare_values(compiled: CompiledModel, parameters: Mapping[str, float | str
 
 def prepare_given_values(compiled: CompiledModel, given_values: Array, is_given: Array) -> Array:
     """Return the checked values p of given parameters and mask, (n_parameters,) each. Raises BadValueError."""
+    return _prepare_checked_values(compiled, given_values, is_given).copy()
+
+
+@cache_by_values
+def _prepare_checked_values(compiled: CompiledModel, given_values: Array, is_given: Array) -> Array:
+    """Return the checked values p, prepared once for equal given values; not to be changed."""
     check_parameter_values(compiled.source, p := compiled.prepare(given_values, is_given), is_given)
     return p
 
@@ -273,16 +279,26 @@ def prepare_without_baumgarte(compiled: CompiledModel, given_values: Array, is_g
 
     given_values, is_given: (n_parameters,) or (n, n_parameters); they are not changed.
     """
-    index_by_address = compiled.source.slot_index
-    gain_indices = [index_by_address[name] for name in GAINS if name in index_by_address]
     if given_values.ndim == 2:
-        return compiled.prepare_parameters_of_runs(given_values, is_given, gain_indices)
-    values, mask = given_values.copy(), is_given.copy()
+        return compiled.prepare_parameters_of_runs(given_values, is_given, _find_gain_indices(compiled.source))
+    return _prepare_run_without_baumgarte(compiled, given_values, is_given).copy()
+
+
+@cache_by_values
+def _prepare_run_without_baumgarte(
+    compiled: CompiledModel, given_values: Array, is_given: NDArray[np.generic]
+) -> Array:
+    """Return the values p of one run without Baumgarte gains, prepared once for equal values; not to be changed."""
+    values, mask, gain_indices = given_values.copy(), is_given.copy(), _find_gain_indices(compiled.source)
     values[gain_indices], mask[gain_indices] = 0.0, True
     return compiled.prepare(values, mask)
 
 
-@cache_by_values
+def _find_gain_indices(source: KernelSource) -> list[int]:
+    """Return the indices of the parameters that are Baumgarte gains."""
+    return [source.slot_index[name] for name in GAINS if name in source.slot_index]
+
+
 def check_parameter_values(source: KernelSource, p: Array, is_given: NDArray[np.generic]) -> None:
     """Raise BadValueError if the values p of a run violate a condition or are not finite.
 

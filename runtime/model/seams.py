@@ -8,9 +8,10 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from gudgeon.contract.kernel_source import KernelSource
+from gudgeon.contract.kernel_source import KernelSource, WrittenInfo
 from gudgeon.language.curves import Curve
 from gudgeon.language.tree import Call, CurveCall, from_json, iterate_curve_calls, iterate_names
+from gudgeon.model.cached_values import cache_by_values
 from gudgeon.model.compiled import Array
 from gudgeon.model.written import evaluate_at_times
 
@@ -25,14 +26,19 @@ def iterate_seam_notes(source: KernelSource, p: Array, t0: float = 0.0, t1: floa
 
     p: parameter values of the run; t0, t1: begin and end of the run (s). The period must not depend on time.
     """
-    for info in source.written:
-        if not (info.address.startswith("drives.") and '"curve"' in info.tree and '"mod"' in info.tree):
-            continue
+    for info in _list_periodic_drives(source):
         for call in iterate_curve_calls(from_json(json.loads(info.tree))):
             mod_call = call.arguments[0]
             if isinstance(mod_call, Call) and mod_call.function == "mod" and _has_restart(source, p, mod_call, t0, t1):
                 period = float(evaluate_at_times(source, p, mod_call.arguments[1], np.array([t0]))[0])
                 yield from _describe_jump(call, period, info.address.split(".")[1])
+
+
+@cache_by_values
+def _list_periodic_drives(source: KernelSource) -> tuple[WrittenInfo, ...]:
+    """Return the expressions of drives with a curve and `mod`."""
+    drives = (info for info in source.written if info.address.startswith("drives."))
+    return tuple(info for info in drives if '"curve"' in info.tree and '"mod"' in info.tree)
 
 
 def _has_restart(source: KernelSource, p: Array, mod_call: Call, t0: float, t1: float) -> bool:

@@ -9,7 +9,7 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
@@ -33,10 +33,10 @@ from gudgeon.language.tree import (
 )
 from gudgeon.language.undefined_parts import find_possibly_undefined_cases, find_undefined_part, is_total_expression
 from gudgeon.model.cached_values import cache_by_values
-from gudgeon.model.compiled import Array, CompiledModel, Evaluation
+from gudgeon.model.compiled import Array, CompiledModel
 
 if TYPE_CHECKING:
-    from gudgeon.results.results import Result
+    pass
 
 _REACH = tuple(10.0**k for k in range(-13, -8))  # s, or of the time: how far after a state a reason is searched
 MAX_SWITCHING_POINTS = 64  # largest number of switching points of a where that are examined
@@ -233,59 +233,6 @@ def explain_undefined_rate(compiled: CompiledModel, p: Array, times: Array, q: A
                 name = compiled.source.start_rows[invalid_rows[0]].name
                 return f"the {order} of drive {name} is {-rates[invalid_rows[0]]:g} at t = {t:.9g} s", t
     return "", float(times[-1])
-
-
-def add_undefined_output_notes(run: Result, evaluation: Evaluation) -> Result:
-    """Return the run with notes on outputs that are not numbers although all their inputs are.
-
-    The run itself without any. Drives and forces by a `where` that compares values that are not numbers are noted too:
-    C takes one branch. `evaluation` has the quantities at the run's samples.
-    """
-    comparing_expressions = _find_comparing_expressions(run.source)
-    if not run.source.outputs and not comparing_expressions:
-        return run
-    probe = replace(run, stored={})  # without cached series of many samples
-    probe.__dict__["evaluation"] = evaluation
-    expressions = {f"output {name}": from_json(tree) for name, tree in run.source.outputs.items() if name in probe}
-    for address, tree in comparing_expressions.items():
-        if all(used.path in probe.parameters or used.path in probe for used in iterate_names(tree)):
-            expressions[address] = tree
-    explanations = (_explain_undefined_samples(probe, name, tree) for name, tree in expressions.items())
-    messages = [message for message in explanations if message]
-    notes = (*run.diagnostics.notes, *messages)
-    return replace(run, diagnostics=replace(run.diagnostics, notes=notes)) if messages else run
-
-
-@cache_by_values
-def _find_comparing_expressions(source: KernelSource) -> dict[str, Expr]:
-    """Return the drives and forces with a `where` that may compare undefined values, by address."""
-    trees = {info.address: tree for info, tree in read_expression_trees(source, ("drives", "forces"))}
-    return {
-        address: tree
-        for address, tree in trees.items()
-        if not all(
-            is_total_expression(operand) for call in iterate_calls(tree, "where") for operand in call.arguments[:2]
-        )
-    }
-
-
-def _explain_undefined_samples(run: Result, name: str, tree: Expr) -> str:
-    """Return when an expression is first not a number, and why.
-
-    "" if it always is one, or only where its inputs are not finite. name: that of the expression, for the message. The
-    expression is evaluated at all samples of the run.
-    """
-    input_values = {used.path: np.broadcast_to(run.value_of(used.path), run.t.shape) for used in iterate_names(tree)}
-    values = np.broadcast_to(evaluate(tree, input_values.__getitem__), run.t.shape)
-    is_undefined = ~np.isfinite(values)
-    for values_of_input in input_values.values() if is_undefined.any() else ():
-        is_undefined &= np.isfinite(values_of_input)
-    if not is_undefined.any():
-        return ""
-    k, count = int(is_undefined.argmax()), int(is_undefined.sum())
-    explanation = explain_nonfinite_part(run.source, tree, lambda path: float(input_values[path][k]))
-    remark = f"; it is none at {count} of {len(is_undefined)} samples" if count > 1 else ""
-    return f"{name} is no number ({values[k]}) at t = {run.t[k]:.9g} s: {explanation}{remark}"
 
 
 def _explain_undefined_at(

@@ -8,7 +8,8 @@ import os
 import platform
 from dataclasses import asdict, dataclass, replace
 from datetime import UTC, datetime
-from functools import cache
+from functools import cache, lru_cache
+from time import time
 from typing import TYPE_CHECKING, Any
 
 from gudgeon.contract.audit import Finding
@@ -282,5 +283,10 @@ def _format_platform() -> str:
 def _format_date() -> str:
     """Return the current date and time in UTC to the second in ISO format, or that of SOURCE_DATE_EPOCH."""
     epoch_text = os.environ.get("SOURCE_DATE_EPOCH", "")
-    now = datetime.fromtimestamp(int(epoch_text), UTC) if epoch_text.isdecimal() else datetime.now(UTC)
-    return now.isoformat(timespec="seconds")
+    return _format_seconds(int(epoch_text) if epoch_text.isdecimal() else int(time()))
+
+
+@lru_cache(maxsize=1)
+def _format_seconds(seconds: int) -> str:
+    """Return the date and time in UTC of so many seconds since 1970 in ISO format."""
+    return datetime.fromtimestamp(seconds, UTC).isoformat(timespec="seconds")

@@ -1,7 +1,8 @@
 """Own `Result`, the result of one run: the arrays that the integrator stored, and by name every series that follows
 from them.
 
-Stored are t, q, q̇, q̈, contact states, approach speeds and works. All other series are computed exactly from these on
+Stored are t, q, q̇, contact states, approach speeds and works, and q̈ in runs of at most 20,000 samples
+(simulation/sample_checks.py). All other series are computed exactly from these on
 first access, by one pass of the compiled model over the samples.
 """
 
@@ -316,8 +317,10 @@ class Result(NotebookDisplay):
 
         A parameter takes precedence over an output of the same name. Raises UnknownNameError.
         """
-        if check_text(name, "a name of a result") in self.parameters:
-            return self.parameters[name]
+        index = self.source.slot_index
+        k = index.get(f"parameters.{check_text(name, 'a name of a result')}", index.get(name))
+        if k is not None:
+            return format_parameter(self.source.slots[k], float(self.p[k]))
         if name in self:
             return self[name]
         raise self.make_unknown_name_error(name)

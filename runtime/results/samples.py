@@ -38,8 +38,8 @@ def split_off_start(run: Run) -> Run:
     """
     if len(run.t) < 2:
         return run
-    start_row = replace(_select_samples(run, lambda x: x[:1].copy()), trace=None, event_states=None)
-    run_without_start = _select_samples(run, lambda x: x[1:])
+    start_row = replace(select_samples(run, lambda x: x[:1].copy()), trace=None, event_states=None)
+    run_without_start = select_samples(run, lambda x: x[1:])
     run_without_start.start_row = start_row
     return run_without_start
 
@@ -66,7 +66,7 @@ def _concatenate_arrays(*arrays: Array | None) -> Array | None:
     return np.concatenate(available) if len(available) == len(arrays) else None
 
 
-def _select_samples(run: Run, select_rows: Callable[[Array], Array]) -> Run:
+def select_samples(run: Run, select_rows: Callable[[Array], Array]) -> Run:
     """Return a copy of the run with the samples that `select_rows` takes from each array.
 
     Series computed so far are dropped. If the run's Evaluation exists, the same samples of it are selected.

@@ -135,29 +135,27 @@ def _resolve_number(source: KernelSource, address: str) -> Number | None:
     return (-1, float(written[0])) if written and isinstance(written[0], int | float) else None
 
 
-def compute_newton_euler_residuals(
-    compiled: CompiledModel, p: Array, q: Array, evaluation: Evaluation, samples: NDArray[np.intp]
-) -> Array:
+def compute_newton_euler_residuals(compiled: CompiledModel, p: Array, q: Array, evaluation: Evaluation) -> Array:
     """Return the residuals of each body's Newton–Euler equations at samples, relative to the largest term.
 
-    The shape is (len(samples), n_bodies); bodies that are left out have 0. `samples`: their indices. `q`: coordinates
-    of all samples of the run.
+    The shape is (k, n_bodies) for coordinates `q` (k, n) and the `evaluation` of the k samples; bodies that are left
+    out have 0.
     """
-    table, n = get_force_table(compiled.source), len(samples)
+    table, n = get_force_table(compiled.source), len(q)
     residuals = np.zeros((n, len(compiled.source.bodies)))
     if not len(table.with_known_forces) or not n:
         return residuals
     m = compiled.mass(p)
-    inertia = (evaluation.a[samples] * m).reshape(n, -1, 3)
-    q = q[samples].reshape(n, -1, 3)
+    inertia = (evaluation.a * m).reshape(n, -1, 3)
+    q = q.reshape(n, -1, 3)
     wrenches = np.concatenate(
         [
-            evaluation.reactions[samples, : len(compiled.source.joints)],
-            *(_compute_element_wrench(element, p, q, evaluation, samples)[:, np.newaxis] for element in table.elements),
+            evaluation.reactions[:, : len(compiled.source.joints)],
+            *(_compute_element_wrench(element, p, q, evaluation)[:, np.newaxis] for element in table.elements),
         ],
         axis=1,
     )
-    forces = np.concatenate([wrenches[:, :, :2], evaluation.clearance[samples, :, :2]], axis=1)
+    forces = np.concatenate([wrenches[:, :, :2], evaluation.clearance[:, :, :2]], axis=1)
     residual = inertia[:, :, :2] - table.signs @ forces
     for axis, k in table.gravity:
         residual[:, :, axis] -= m[::3] * p[k]
@@ -171,30 +169,28 @@ def compute_newton_euler_residuals(
     return residuals
 
 
-def _compute_element_wrench(
-    element: Element, p: Array, q: Array, evaluation: Evaluation, samples: NDArray[np.intp]
-) -> Array:
-    """Return force and moment (n, 3) in N and N m of an element on its second body at the samples with these indices.
+def _compute_element_wrench(element: Element, p: Array, q: Array, evaluation: Evaluation) -> Array:
+    """Return force and moment (n, 3) in N and N m of an element on its second body at the samples.
 
     `q` (n, n_bodies, 3): coordinates of the bodies there.
     """
-    wrench = np.zeros((len(samples), 3))
+    wrench = np.zeros((len(q), 3))
     if element.kind == "angle":
-        wrench[:, 2] = evaluation.torques[samples, element.column]
+        wrench[:, 2] = evaluation.torques[:, element.column]
     elif element.kind == "dry_friction":
         u_x, u_y = (p[k] if k >= 0 else value for k, value in element.direction)
         theta = q[:, element.first.body, 2] * (element.first.body >= 0)
-        force = evaluation.friction[samples, element.column, 0] / np.hypot(u_x, u_y)
+        force = evaluation.friction[:, element.column, 0] / np.hypot(u_x, u_y)
         wrench[:, 0] = force * (np.cos(theta) * u_x - np.sin(theta) * u_y)
         wrench[:, 1] = force * (np.sin(theta) * u_x + np.cos(theta) * u_y)
     elif element.kind == "spring_damper":
         span = _compute_point_coordinates(element.first, p, q) - _compute_point_coordinates(element.second, p, q)
         length = np.maximum(np.hypot(span[:, 0], span[:, 1]), MIN_DIVISOR)
-        wrench[:, :2] = (evaluation.series[samples, element.column] / length)[:, np.newaxis] * span
+        wrench[:, :2] = (evaluation.series[:, element.column] / length)[:, np.newaxis] * span
     elif element.kind == "force":
-        wrench[:, :2] = evaluation.series[samples, element.column : element.column + 2]
+        wrench[:, :2] = evaluation.series[:, element.column : element.column + 2]
     else:
-        wrench[:, 2] = evaluation.series[samples, element.column]
+        wrench[:, 2] = evaluation.series[:, element.column]
     return wrench
 
 

@@ -13,7 +13,8 @@ import numpy as np
 from gudgeon.assembly.journals import find_eccentricity
 from gudgeon.assembly.linkage import compute_mechanism_size
 from gudgeon.assembly.rank import find_constraint_violation, find_dependent_equations
-from gudgeon.contract.boundary import AT_REST, MODE_HELD, PEAK_F, PEAK_e_max, PEAK_t
+from gudgeon.contract.audit import Finding
+from gudgeon.contract.boundary import PEAK_F, PEAK_e_max, PEAK_t
 from gudgeon.contract.clearance_info import ClearanceInfo
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.contract.methods import ADAPTIVE, EXPLICIT
@@ -24,39 +25,36 @@ from gudgeon.integrators.times import compute_last_step
 from gudgeon.integrators.trajectory import Counts, Problem, Trajectory
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.contours import compute_corner_penetration, compute_max_clearance
-from gudgeon.model.evaluation import Evaluation
 from gudgeon.model.left_limit import find_evaluation_times
 from gudgeon.model.seams import iterate_seam_notes
-from gudgeon.model.written import add_undefined_output_notes, find_unbounded_drive
+from gudgeon.model.written import find_unbounded_drive
 from gudgeon.results.diagnostics import Diagnostics, Peak, collect_provenance
 from gudgeon.results.peaks import describe_zeno_points, find_first_contact_force
 from gudgeon.results.results import Result
 from gudgeon.results.samples import split_off_start
 from gudgeon.results.series import explain_missing_masses
-from gudgeon.simulation.audit import audit_samples, has_failed_finding
+from gudgeon.simulation.audit import has_failed_finding
+from gudgeon.simulation.sample_checks import CheckedSamples, check_samples
 from gudgeon.waiting.cancellation import EVERY
 from gudgeon.waiting.ctrl_c import DelayedCtrlC
 
 INTERRUPTED_NOTE = "interrupted: samples after the last one, and what is computed from all of them, are missing"
-COARSE = 1e-4  # of the energy throughput: a larger residual of rk4 is reported
-BLOCK = 1 << 16  # samples of the energy balance between two polls for cancellation
 APART = 0.01  # of the mechanism's size: constraint violations that are too large for drift
 MANY = 10_000  # steps of an explicit method that indicate a stiff film
 THIN = 0.9999  # e/c at which a film's law is capped (generator/equations/contact_steps.py)
 DEEP_CLEARANCE, DEEP_RADIUS = 0.5, 0.01  # penetrations beyond these fractions of c and of R are outside the model
-KEPT = 20_000  # samples up to which the evaluation made for the energy balance is cached
 AFTER_CTRL_C = 0.1  # s: time limit for the energy balance of an interrupted run; without it the residual is NaN
 
 
-def _build_diagnostics(problem: Problem, trajectory: Trajectory, balance: tuple[float, float]) -> Diagnostics:
-    """Build the Diagnostics of a run from its problem, its trajectory and its energy `balance` (residual, throughput;
-    J).
+def _build_diagnostics(problem: Problem, trajectory: Trajectory, checked: CheckedSamples | None) -> Diagnostics:
+    """Build the Diagnostics of a run from its problem, its trajectory and its `checked` samples, if they were checked.
 
     Quantities that do not apply are NaN, such as the step of an adaptive method. For "auto", the method's name lists
     the methods that made steps.
     """
     compiled, method, x, counts = problem.compiled, problem.method, trajectory, trajectory.counts
-    residual, throughput = balance
+    residual, throughput = checked.balance if checked else (math.nan, math.nan)
+    findings = (*x.audit, *checked.findings) if checked else x.audit
     duration, step, last = float(problem.t[-1] - problem.t[0]), problem.step, math.nan
     if math.isfinite(step) and duration > 0.0:
         last = compute_last_step(duration, step)
@@ -88,60 +86,15 @@ def _build_diagnostics(problem: Problem, trajectory: Trajectory, balance: tuple[
         seconds=x.seconds,
         seconds_per_simulated_second=x.seconds / simulated if simulated > 0 else math.nan,
         interrupted=x.interrupted,
-        notes=_build_notes(compiled, problem, trajectory),
-        audit=x.audit,
+        notes=_build_notes(compiled, problem, trajectory, findings) + (checked.notes if checked else ()),
+        audit=findings,
     )
 
 
-def _compute_energy_balance(energy: Array, work: Array, poll: Callable[[], object]) -> tuple[float, float]:
-    """Return the largest residual of the energy balance and the energy throughput of a run, both in J.
-
-    `energy` (N, 2): kinetic and potential; `work` (N, 3): works since the start. Both results are NaN without samples.
-    An impact at the very start has done its work before the first sample. `poll` polls for cancellation between blocks;
-    its exceptions are passed on.
-    """
-    if not len(energy):  # not even the start has accelerations
-        return math.nan, math.nan
-    residual_max = throughput = 0.0
-    for first in range(0, len(energy), BLOCK):
-        rows = slice(first, first + BLOCK)
-        with np.errstate(invalid="ignore", over="ignore"):  # infinities: reported by `_build_unbalanced_note`
-            residual = energy[rows].sum(axis=1) - energy[0].sum() - (work[rows].sum(axis=1) - work[0].sum())
-        residual_max = float(np.maximum(residual_max, np.abs(residual).max()))  # NaN stays NaN
-        throughput += float(np.abs(np.diff(work[first : first + BLOCK + 1], axis=0)).sum())
-        poll()
-    with np.errstate(invalid="ignore"):
-        return residual_max, throughput + float(np.ptp(energy[:, 0]))
-
-
-def _build_coarse_step_note(problem: Problem, residual: float, throughput: float) -> tuple[str, ...]:
-    """Return a note if the energy balance of a run with fixed steps is too inaccurate, else ().
-
-    `residual`, `throughput`: those of the energy balance (J). Methods with error control get no note.
-    """
-    if math.isinf(problem.step) or not residual > COARSE * throughput:
-        return ()
-    return (
-        f"energy balances to {residual:.3g} J of {throughput:.3g} J turned over: a step of {problem.step:.3g} s is too"
-        " long for these forces; compare with a shorter one or with method auto",
-    )
-
-
-def _build_unbalanced_note(t: Array, energy: Array, work: Array, residual: float) -> tuple[str, ...]:
-    """Return a note if the energy residual `residual` (J) is not finite, with the time of the first such sample; else
-    ().
-    """
-    if math.isfinite(residual) or not len(t):
-        return ()
-    with np.errstate(invalid="ignore"):
-        is_finite = np.isfinite(energy.sum(axis=1) + work.sum(axis=1))
-    k = int(is_finite.argmin()) if not is_finite.all() else 0
-    what = "the energy" if not np.isfinite(energy[k]).all() else "the work"
-    return (f"energy is not balanced: {what} is no finite number at t = {t[k]:.9g} s: the residual says nothing",)
-
-
-def _build_notes(compiled: CompiledModel, problem: Problem, trajectory: Trajectory) -> tuple[str, ...]:
-    """Return the notes of a run: warnings that a reader should know before trusting it."""
+def _build_notes(
+    compiled: CompiledModel, problem: Problem, trajectory: Trajectory, findings: tuple[Finding, ...]
+) -> tuple[str, ...]:
+    """Return the notes of a run: warnings that a reader should know before trusting it. `findings`: of its audit."""
     p, notes, counts = problem.p, list(problem.remarks), trajectory.counts
     if problem.state is None and (dependent := find_dependent_equations(compiled, p, float(problem.t[0]), problem.q)):
         notes.append(
@@ -173,7 +126,7 @@ def _build_notes(compiled: CompiledModel, problem: Problem, trajectory: Trajecto
     if compiled.source.rigid:
         notes += describe_zeno_points([joint.name for joint in compiled.source.clearances], trajectory.impacts)
         notes += _yield_stiff_film_note(compiled.source, problem, counts)
-    notes += build_audit_notes(trajectory.audit)
+    notes += build_audit_notes(findings)
     notes += yield_redundancy_note(compiled.source)
     return tuple(notes)
 
@@ -291,7 +244,8 @@ def _build_peaks(compiled: CompiledModel, trajectory: Trajectory) -> tuple[Peak,
     """
     peaks = []
     for i, joint in enumerate(compiled.source.clearances):
-        contacts = trajectory.impacts[trajectory.impacts["joint"] == i]
+        contacts = trajectory.impacts
+        contacts = contacts[contacts["joint"] == i] if len(contacts) else contacts
         first = (
             (float(contacts["t_on"][0]), find_first_contact_force(contacts)) if len(contacts) else (math.nan, math.nan)
         )
@@ -314,18 +268,16 @@ def build_result(
     is left out after AFTER_CTRL_C seconds. It is stored with the Result of a short run. A start that is not a requested
     sample is removed from the samples.
     """
-    compiled = problem.compiled
-    x, evaluation, is_unsolvable, balance = (
-        _clear_undefined_works(compiled, trajectory),
+    compiled, x, checked, is_unsolvable = (
+        problem.compiled,
+        _clear_undefined_works(problem.compiled, trajectory),
         None,
         False,
-        (math.nan, math.nan),
     )
     poll = _make_poll_function(problem, x.interrupted, is_time_limited)
     try:
         times = find_evaluation_times(compiled, x.t, x.q, x.v, problem.p)
-        evaluation = compiled.evaluate(times, x.q, x.v, x.memory, problem.p, poll)
-        balance = _compute_energy_balance(evaluation.energy, x.work, poll)
+        checked = check_samples(problem, x, times, poll)
     except SolverError:
         is_unsolvable = True
     except (
@@ -335,11 +287,9 @@ def build_result(
         pass
     except KeyboardInterrupt:
         x = replace(x, interrupted=True)
-    a = x.a if evaluation is None else _select_accelerations(x, evaluation, times)
+    a = checked.a if checked else x.a
     if a is None and is_unsolvable:
         a = np.full_like(x.q, np.nan)
-    if evaluation is not None:
-        x = replace(x, audit=(*x.audit, *audit_samples(compiled, problem, x, evaluation, balance)))
     result = Result(
         compiled=compiled,
         source=compiled.source,
@@ -354,66 +304,22 @@ def build_result(
         memory=x.memory,
         work=x.work,
         impacts=x.impacts,
-        diagnostics=_build_diagnostics(problem, x, balance),
+        diagnostics=_build_diagnostics(problem, x, checked),
         events=x.events,
         event_states=x.event_states,
         trace=x.trace,
         provenance=collect_provenance(compiled),
         begun=problem.resumed_state,
     )
-    if evaluation is not None:
-        notes = _build_unbalanced_note(x.t, evaluation.energy, x.work, balance[0]) + _build_coarse_step_note(
-            problem, *balance
-        )
-        result = result if compiled.source.massless else _add_notes(result, notes)
-        result.__dict__["evaluation"] = evaluation  # a cached property: not computed again
-    result = result if problem.start_is_sample else split_off_start(result)
-    if evaluation is not None:
-        evaluation = result.evaluation
-        result = _add_undetermined_friction_notes(add_undefined_output_notes(result, evaluation), evaluation)
-        result.__dict__.pop("evaluation", None)
-        if len(x.t) <= KEPT:
-            result.__dict__["evaluation"] = evaluation
-    return result
-
-
-def _add_undetermined_friction_notes(run: Result, evaluation: Evaluation) -> Result:
-    """Return the run with a note for each friction that drives or other frictions hold at rest over successive samples.
-
-    Its force is not determined. Frictions without a static limit are skipped.
-    """
-    first, notes = len(run.source.clearances), list[str]()
-    for k, name in enumerate(run.source.frictions):
-        mode, slip = run.memory[:, first + k], evaluation.friction[:, k, 1]
-        rests = (mode != 0.0) & ((mode == MODE_HELD) | (np.abs(slip) <= AT_REST))
-        rests_successively = rests[1:] & rests[:-1]
-        static = run.source.slot_index.get(
-            f"forces.{name}.static"
-        )  # None: the file has 0 N, which no parameter changes
-        if rests_successively.any() and static is not None and run.p[static] > 0.0:
-            t, count = float(run.t[rests_successively.argmax()]), f"{int(rests.sum())} of {len(rests)} samples"
-            notes.append(
-                f"friction {name} is at rest by drives or by other friction from t = {t:.9g} s on, in {count}: any"
-                " force within its static limit fits there, so its force, what drives give and reactions are not"
-                " determined; the run has the last force of sliding, or 0"
-            )
-    return _add_notes(run, notes)
+    if checked and checked.evaluation:
+        result.__dict__["evaluation"] = checked.evaluation  # a cached property: not computed again
+    return result if problem.start_is_sample else split_off_start(result)
 
 
 def _add_notes(run: Result, notes_to_add: Sequence[str]) -> Result:
     """Return a copy of the run with more notes in its diagnostics; the same object if there are none."""
     notes = (*run.diagnostics.notes, *notes_to_add)
     return replace(run, diagnostics=replace(run.diagnostics, notes=notes)) if notes_to_add else run
-
-
-def _select_accelerations(trajectory: Trajectory, evaluation: Evaluation, times: Array) -> Array:
-    """Return q̈ (N, n) as the method computed it, or from the evaluation if the method stored none.
-
-    `times`: those of the evaluation. If the last one was moved before the end, q̈ there is the evaluation's left limit.
-    """
-    if trajectory.a is None:
-        return evaluation.a
-    return np.append(trajectory.a[:-1], evaluation.a[-1:], axis=0) if times[-1] < trajectory.t[-1] else trajectory.a
 
 
 def _clear_undefined_works(compiled: CompiledModel, trajectory: Trajectory) -> Trajectory:

@@ -22,7 +22,6 @@ from gudgeon.integrators.peers import driver as python_driver
 from gudgeon.integrators.trajectory import Problem, Progress
 from gudgeon.language.argument_checks import check_callable, check_flag, check_text
 from gudgeon.loading.kernel_sources import Loading
-from gudgeon.model.cached_values import cache_by_values
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.contours import read_contours
 from gudgeon.model.evaluation import check_sample_memory
@@ -38,6 +37,7 @@ from gudgeon.simulation.arguments import (
     select_method,
 )
 from gudgeon.simulation.audit import parse_audit_level
+from gudgeon.simulation.file_start import assemble_file_start
 from gudgeon.simulation.hidden_jumps import build_jump_error, compute_end_before_jump, find_first_jumps
 from gudgeon.simulation.restart import build_violation_notes, check_resumed_state, copy_checked_state, merge_parameters
 from gudgeon.simulation.result_builder import build_result, check_result, mark_result_if_interrupted
@@ -314,15 +314,18 @@ class Simulation(NotebookDisplay):
             raise BadValueError(f"step {h:.3g} s means more than {MAX_STEPS:.0e} steps")
         if initial_state is not None and remarks:
             check_resumed_state(self.compiled, initial_state, p)
-        q, v, memory = (
-            self._assemble_start(p)
-            if initial_state is None
-            else (initial_state.q, initial_state.v, initial_state.memory)
-        )
-        check_redundant_equations(self.compiled, p, t0, q)
-        if initial_state is not None:
+        if initial_state is None:
+            file_start = assemble_file_start(self.compiled, p)
+            warn_unfollowed_guesses(self.source, file_start.unfollowed_guesses)
+            q, v, memory = file_start.q.copy(), file_start.v.copy(), np.full(self.compiled.n_memory, np.nan)
+            remarks += file_start.notes
+        else:
+            q, v, memory = initial_state.q, initial_state.v, initial_state.memory
+            check_redundant_equations(self.compiled, p, t0, q)
             remarks += build_violation_notes(self.compiled, p, t0, q, v)
-        remarks += describe_contacts_without_onset(self.compiled, p, t0, q, v, memory)
+            remarks += describe_contacts_without_onset(self.compiled, p, t0, q, v, memory)
+        observer = make_observer(self.compiled, (p, given, is_given), tolerance, names, compared_scene)
+        ctrl_c = DelayedCtrlC()
         problem = Problem(
             self.compiled,
             p,
@@ -341,9 +344,10 @@ class Simulation(NotebookDisplay):
             from_start,
             level,
             initial_state,
+            observer,
+            ctrl_c.raise_delayed,
         )
-        observer = make_observer(self.compiled, (p, given, is_given), tolerance, names, compared_scene)
-        result = self._integrate_problem(problem, given, is_given, observer)
+        result = self._integrate_problem(problem, given, is_given, observer, ctrl_c)
         if horizon and not result.diagnostics.interrupted:
             from gudgeon.simulation.predictability_horizon import add_horizon
 
@@ -443,20 +447,25 @@ class Simulation(NotebookDisplay):
         return compute_lyapunov_exponent(self, t_end, section, by, skip, settings, parameters, start, progress)
 
     def _integrate_problem(
-        self, problem: Problem, given: Array, is_given: Array, observer: StepObserver | None
+        self,
+        problem: Problem,
+        given: Array,
+        is_given: Array,
+        observer: StepObserver | None,
+        ctrl_c: DelayedCtrlC,
     ) -> Result:
         """Integrate a prepared run, build and check its Result, and return it.
 
         `given`, `is_given`: values and mask of the run-time parameters. `observer`: step observer whose findings are
-        stored in the diagnostics, or None. A drive that jumps ends the run before the jump. Ctrl-C ends the run, which
-        is marked as interrupted. Raises SolverError with the Result up to there as `partial`.
+        stored in the diagnostics, or None. `ctrl_c`: what the problem polls. A drive that jumps ends the run before the
+        jump. Ctrl-C ends the run, which is marked as interrupted. Raises SolverError with the Result up to there as
+        `partial`.
         """
         t0 = float(problem.t[0])
         jump = find_first_jumps(self.source, problem.p[None], t0, [float(problem.t[-1])]).get(0)
         if jump:
             problem = replace(problem, t=problem.t[problem.t < compute_end_before_jump(jump, t0)])
-        with DelayedCtrlC() as ctrl_c:
-            problem = replace(problem, poll_cancellation=ctrl_c.raise_delayed, observer=observer)
+        with ctrl_c:
             trajectory = integrate_run(problem)
             result = build_result(problem, trajectory, given, is_given)
             if observer:
@@ -469,18 +478,3 @@ class Simulation(NotebookDisplay):
             stopped.partial = result
             raise stopped
         return result
-
-    def _assemble_start(self, p: Array) -> tuple[Array, Array, Array]:
-        """Assemble the start that the file describes; return q, q̇ (n,) and discrete states of NaN (no contacts).
-
-        Warns about guesses that the assembly does not follow. Raises AssemblyError if the linkage does not close.
-        """
-        assembled = _assemble_start_once(self.compiled, p)
-        warn_unfollowed_guesses(self.compiled, p, assembled.q)
-        return assembled.q.copy(), assembled.v.copy(), np.full(self.compiled.n_memory, np.nan)
-
-
-@cache_by_values
-def _assemble_start_once(compiled: CompiledModel, p: Array) -> Start:
-    """Return the start that the file describes, assembled at the first call with these values; not to be changed."""
-    return assemble_start(compiled, p)

@@ -14,6 +14,7 @@ from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager, nullcontext
 from contextvars import ContextVar
 from typing import TYPE_CHECKING, Any, TypeVar
+from weakref import ref
 
 if TYPE_CHECKING:
     from types import TracebackType
@@ -32,13 +33,16 @@ _reporter: ContextVar[Reporter | None] = ContextVar("reporter", default=None)
 class CancellationPoll:
     """Poll for cancellation while C runs: C calls `poll`, whose exception is stored until `raise_stored` raises it in
     Python.
+
+    The caller keeps this object until C has returned. C's handle is a weak reference: else the arrays of a run, to
+    which `poll` refers, would stay in memory until Python's next search for cycles.
     """
 
     def __init__(self, compiled: CompiledModel, poll: Callable[[], object]) -> None:
         self.poll = poll
         self.raised: BaseException | None = None
         self.function = _get_callback(compiled)
-        self.handle = compiled.ffi.new_handle(self)
+        self.handle = compiled.ffi.new_handle(ref(self))
 
     @property
     def c_arguments(self) -> tuple[Any, Any, float]:
@@ -75,10 +79,10 @@ def _get_callback(compiled: CompiledModel) -> Any:
             """Store an exception that a signal handler raised just before or after `poll_from_c`."""
             handle = trace.tb_frame.f_locals.get("handle") if trace else None
             if handle is not None and error is not None:
-                ffi.from_handle(handle).raised = error
+                ffi.from_handle(handle)().raised = error
 
         callback = ffi.callback(
-            "int(void *)", lambda handle: ffi.from_handle(handle).poll_from_c(), error=1, onerror=store_error
+            "int(void *)", lambda handle: ffi.from_handle(handle)().poll_from_c(), error=1, onerror=store_error
         )
         _functions[id(ffi)] = ffi, callback
     return _functions[id(ffi)][1]

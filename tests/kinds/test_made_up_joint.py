@@ -72,7 +72,7 @@ def test_it_runs_by_its_closed_form(tmp_path: Path, formulation: str) -> None:
     np.testing.assert_allclose(run["face.Fy"], force, rtol=1e-9, atol=1e-9)
     np.testing.assert_allclose(run["face.M"], 0.0, atol=1e-12)
     assert run.compiled is not None
-    assert compute_newton_euler_residuals(run.compiled, run.p, run.q, run.evaluation, np.arange(21)).max() < 1e-9
+    assert compute_newton_euler_residuals(run.compiled, run.p, run.q, run.evaluation).max() < 1e-9
     assert run.meaning("face.Fy").endswith("on push at the pin, ground axes")
 
 

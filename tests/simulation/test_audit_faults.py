@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -259,14 +258,14 @@ def test_equations_of_single_bodies(part: str) -> None:
     scenes = [("nine_bar_press", "dry"), ("nine_bar_press", "ideal"), ("andrews_squeezer", "ideal")]
     for name, scene in [*scenes, ("slider_crank_spring", "ideal"), ("belt_block", "ideal")]:
         run = gudgeon.load(name, scene).simulate(0.02, output=20)
-        values, rows = run.evaluation, np.arange(len(run.t))
+        values = run.evaluation
         assert run.compiled is not None
-        assert compute_newton_euler_residuals(run.compiled, run.p, run.q, values, rows).max() < 1e-12
+        assert compute_newton_euler_residuals(run.compiled, run.p, run.q, values).max() < 1e-12
         changed = np.array(getattr(values, part))
         if changed.size == 0 or not changed.any():
             continue
         changed *= 1.01
-        other = compute_newton_euler_residuals(run.compiled, run.p, run.q, replace(values, **{part: changed}), rows)
+        other = compute_newton_euler_residuals(run.compiled, run.p, run.q, replace(values, **{part: changed}))
         shown = max(shown, other.max())
     assert shown > 1e-6
 
@@ -290,9 +289,9 @@ def test_the_check_of_bodies_names_the_body(body: str, monkeypatch: pytest.Monke
     scene = gudgeon.load("slider_crank", "ideal")
     k = [one.name for one in scene.source.bodies].index(body)
 
-    def shifted(compiled: CompiledModel, p: Array, q: Array, evaluation: Evaluation, at: Any) -> Array:
+    def shifted(compiled: CompiledModel, p: Array, q: Array, evaluation: Evaluation) -> Array:
         a = evaluation.a + 10.0 * (np.arange(q.shape[1]) == 3 * k)
-        return compute_newton_euler_residuals(compiled, p, q, replace(evaluation, a=a), at)
+        return compute_newton_euler_residuals(compiled, p, q, replace(evaluation, a=a))
 
     monkeypatch.setattr("gudgeon.simulation.audit.compute_newton_euler_residuals", shifted)
     with pytest.raises(gudgeon.AuditError, match=f"check body of .* at body {body}"):

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import gc
 import tracemalloc
+import weakref
 from pathlib import Path
 from typing import Any
 
@@ -60,3 +62,21 @@ def test_a_small_file_takes_little_memory(tmp_path: Path) -> None:
         assert tracemalloc.get_traced_memory()[1] < 1 << 20
     finally:
         tracemalloc.stop()
+
+
+@pytest.mark.parametrize(("mechanism", "scene"), [("nine_bar_press", "dry"), ("slider_crank", "ideal")])
+def test_the_memory_of_a_run_is_freed_with_its_result(mechanism: str, scene: str) -> None:
+    """Nothing of a run is part of a cycle of references, which Python frees much later."""
+    simulation = gudgeon.load(mechanism, scene)
+    simulation.simulate(0.001, output=10)
+    gc.collect()
+    gc.disable()
+    try:
+        run = simulation.simulate(0.001, output=10)
+        samples = weakref.ref(run.q.base)
+        assert samples() is not None
+        del run
+        assert samples() is None
+        assert gc.collect() == 0
+    finally:
+        gc.enable()

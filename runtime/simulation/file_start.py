@@ -1,0 +1,41 @@
+"""Assemble the start that a mechanism file describes, once for equal parameter values, and check it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from gudgeon.assembly.guess_warnings import find_unfollowed_guesses
+from gudgeon.assembly.journals import describe_contacts_without_onset
+from gudgeon.assembly.rank import check_redundant_equations
+from gudgeon.assembly.start import assemble_start
+from gudgeon.model.cached_values import cache_by_values
+from gudgeon.model.compiled import Array, CompiledModel
+
+
+@dataclass(frozen=True)
+class FileStart:
+    """Hold the start that the file describes for some parameter values, at t = 0."""
+
+    q: Array  # (n,)
+    v: Array
+    unfollowed_guesses: Mapping[str, float]  # as of find_unfollowed_guesses
+    notes: tuple[str, ...]  # on contacts without an onset
+
+
+@cache_by_values
+def assemble_file_start(compiled: CompiledModel, p: Array) -> FileStart:
+    """Return the start that the file describes, assembled at the first call with these values; not to be changed.
+
+    Raises AssemblyError if the linkage does not close, or if an equation that was redundant is not with these values.
+    """
+    start, no_contacts = assemble_start(compiled, p), np.full(compiled.n_memory, np.nan)
+    check_redundant_equations(compiled, p, 0.0, start.q)
+    return FileStart(
+        start.q,
+        start.v,
+        find_unfollowed_guesses(compiled, p, start.q),
+        describe_contacts_without_onset(compiled, p, 0.0, start.q, start.v, no_contacts),
+    )

@@ -1,0 +1,173 @@
+"""Check the samples of a finished run, evaluated block by block: energy balance, audit, notes.
+
+A long run is never evaluated as a whole: the evaluation of a sample takes twice the memory of its state.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from gudgeon.contract.audit import Finding
+from gudgeon.contract.boundary import AT_REST, MODE_HELD
+from gudgeon.integrators.trajectory import Problem, Trajectory
+from gudgeon.model.compiled import Array
+from gudgeon.model.evaluation import FIELD_NAMES, Evaluation
+from gudgeon.results.results import EvaluatedSamples, make_evaluated_samples
+from gudgeon.results.samples import select_samples
+from gudgeon.simulation.audit import SampleAudit
+from gudgeon.simulation.undefined_outputs import UndefinedOutputs
+
+MAX_STORED = 20_000  # samples up to which the evaluation is stored with the Result; longer runs are checked in blocks
+COARSE = 1e-4  # of the energy throughput: a larger residual of rk4 is reported
+BLOCK = 1 << 16  # samples of the energy balance between two polls for cancellation
+
+
+@dataclass(frozen=True)
+class CheckedSamples:
+    """Hold what the samples of a run show when they are evaluated."""
+
+    evaluation: Evaluation | None  # of all samples; None: more than MAX_STORED, they are evaluated again on request
+    a: Array | None  # (N, n) q̈; None likewise
+    balance: tuple[float, float]  # largest residual of the energy balance, energy throughput (J)
+    findings: tuple[Finding, ...]  # of the audit of the samples
+    notes: tuple[str, ...]
+
+
+def check_samples(problem: Problem, trajectory: Trajectory, times: Array, poll: Callable[[], object]) -> CheckedSamples:
+    """Evaluate all samples of a run at `times` (N,), s, and check them.
+
+    `poll` polls for cancellation; its exceptions are passed on. Raises SingularError for a sample without
+    accelerations.
+    """
+    x, compiled, N = trajectory, problem.compiled, len(trajectory.t)
+    audit, outputs = SampleAudit(problem, x), UndefinedOutputs(compiled.source)
+    skipped = int(not problem.start_is_sample and N > 1)  # the start was not requested
+    energy, slip, a, start = list[Array](), list[Array](), x.a, None
+    for first in range(0, max(N, 1), MAX_STORED):
+        rows = slice(first, first + MAX_STORED)
+        evaluation = compiled.evaluate(times[rows], x.q[rows], x.v[rows], x.memory[rows], problem.p, poll)
+        energy.append(evaluation.energy)
+        slip.append(evaluation.friction[:, :, 1])
+        audit.add_samples(first, evaluation)
+        if a is not None and N and first + MAX_STORED >= N and times[-1] < x.t[-1]:  # the limit from the left
+            a = np.append(a[:-1], evaluation.a[-1:], axis=0)
+        if outputs.expressions:
+            samples = _make_samples(problem, x, rows, a, evaluation)
+            if not first and (skipped or N > MAX_STORED):
+                start = select_samples(samples, lambda x: x[:1])
+            if skipped and not first:
+                samples = select_samples(samples, lambda x: x[1:])
+            samples.start_row = start if first or skipped else None
+            outputs.add_samples(samples)
+    all_energy, all_slip = (parts[0] if len(parts) == 1 else np.concatenate(parts) for parts in (energy, slip))
+    balance = _compute_energy_balance(all_energy, x.work, poll)
+    notes = () if compiled.source.massless else _build_unbalanced_note(x.t, all_energy, x.work, balance[0])
+    notes += () if compiled.source.massless else _build_coarse_step_note(problem, *balance)
+    notes += outputs.build_notes()
+    if compiled.source.frictions:
+        notes += _build_undetermined_friction_notes(problem, x.t[skipped:], x.memory[skipped:], all_slip[skipped:])
+    is_whole = N <= MAX_STORED
+    return CheckedSamples(
+        evaluation if is_whole else None,
+        evaluation.a if is_whole and a is None else a,
+        balance,
+        audit.build_findings(balance),
+        notes,
+    )
+
+
+def _make_samples(
+    problem: Problem, x: Trajectory, rows: slice, a: Array | None, evaluation: Evaluation
+) -> EvaluatedSamples:
+    """Return some samples of a run as a result without diagnostics, with their evaluation."""
+    samples = make_evaluated_samples(
+        problem.compiled.source,
+        problem.compiled,
+        problem.p,
+        x.t[rows],
+        x.q[rows],
+        x.v[rows],
+        x.work[rows],
+        x.memory[rows],
+        x.state[rows],
+        FIELD_NAMES,
+    )
+    samples.accelerations = None if a is None else a[rows]
+    samples.__dict__["evaluation"] = evaluation  # a cached property: not computed again
+    return samples
+
+
+def _compute_energy_balance(energy: Array, work: Array, poll: Callable[[], object]) -> tuple[float, float]:
+    """Return the largest residual of the energy balance and the energy throughput of a run, both in J.
+
+    `energy` (N, 2): kinetic and potential; `work` (N, 3): works since the start. Both results are NaN without samples.
+    An impact at the very start has done its work before the first sample. `poll` polls for cancellation between blocks;
+    its exceptions are passed on.
+    """
+    if not len(energy):  # not even the start has accelerations
+        return math.nan, math.nan
+    residual_max = throughput = 0.0
+    kinetic, potential = energy.T
+    by_drives, by_forces, by_clearances = work.T
+    with np.errstate(invalid="ignore", over="ignore"):  # infinities: reported by `_build_unbalanced_note`
+        for first in range(0, len(energy), BLOCK):
+            rows, following = slice(first, first + BLOCK), slice(first + 1, first + BLOCK + 1)
+            change = (kinetic[rows] + potential[rows]) - (kinetic[0] + potential[0])
+            total = by_drives[rows] + by_forces[rows] + by_clearances[rows]
+            residual = change - (total - (by_drives[0] + by_forces[0] + by_clearances[0]))
+            residual_max = float(np.maximum(residual_max, np.abs(residual).max()))  # NaN stays NaN
+            later = work[following]
+            throughput += float(np.abs(later - work[first : first + len(later)]).sum())
+            poll()
+        return residual_max, throughput + float(kinetic.max() - kinetic.min())
+
+
+def _build_coarse_step_note(problem: Problem, residual: float, throughput: float) -> tuple[str, ...]:
+    """Return a note if the energy balance of a run with fixed steps is too inaccurate, else ().
+
+    `residual`, `throughput`: those of the energy balance (J). Methods with error control get no note.
+    """
+    if math.isinf(problem.step) or not residual > COARSE * throughput:
+        return ()
+    return (
+        f"energy balances to {residual:.3g} J of {throughput:.3g} J turned over: a step of {problem.step:.3g} s is too"
+        " long for these forces; compare with a shorter one or with method auto",
+    )
+
+
+def _build_unbalanced_note(t: Array, energy: Array, work: Array, residual: float) -> tuple[str, ...]:
+    """Return a note if the energy residual `residual` (J) is not finite, with the time of the first such sample; else
+    ().
+    """
+    if math.isfinite(residual) or not len(t):
+        return ()
+    with np.errstate(invalid="ignore"):
+        is_finite = np.isfinite(energy.sum(axis=1) + work.sum(axis=1))
+    k = int(is_finite.argmin()) if not is_finite.all() else 0
+    what = "the energy" if not np.isfinite(energy[k]).all() else "the work"
+    return (f"energy is not balanced: {what} is no finite number at t = {t[k]:.9g} s: the residual says nothing",)
+
+
+def _build_undetermined_friction_notes(problem: Problem, t: Array, memory: Array, slips: Array) -> tuple[str, ...]:
+    """Return a note for each friction that drives or other frictions hold at rest over successive samples.
+
+    Its force is not determined. Frictions without a static limit are skipped. `slips` (N, n_frictions).
+    """
+    source, notes = problem.compiled.source, list[str]()
+    for k, name in enumerate(source.frictions):
+        mode, slip = memory[:, len(source.clearances) + k], slips[:, k]
+        rests = (mode != 0.0) & ((mode == MODE_HELD) | (np.abs(slip) <= AT_REST))
+        rests_successively = rests[1:] & rests[:-1]
+        static = source.slot_index.get(f"forces.{name}.static")  # None: the file has 0 N, which no parameter changes
+        if rests_successively.any() and static is not None and problem.p[static] > 0.0:
+            t_rest, count = float(t[rests_successively.argmax()]), f"{int(rests.sum())} of {len(rests)} samples"
+            notes.append(
+                f"friction {name} is at rest by drives or by other friction from t = {t_rest:.9g} s on, in {count}: any"
+                " force within its static limit fits there, so its force, what drives give and reactions are not"
+                " determined; the run has the last force of sliding, or 0"
+            )
+    return tuple(notes)

@@ -1,0 +1,101 @@
+"""Find outputs, drives and forces of a run whose expressions are not numbers at samples although their inputs are."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from gudgeon.contract.kernel_source import KernelSource
+from gudgeon.language.tree import Expr, evaluate, from_json, iterate_calls, iterate_names
+from gudgeon.language.undefined_parts import is_total_expression
+from gudgeon.model.cached_values import cache_by_values
+from gudgeon.model.choices import format_parameter
+from gudgeon.model.compiled import Array
+from gudgeon.model.written import explain_nonfinite_part, read_expression_trees
+from gudgeon.results.results import Result
+from gudgeon.results.series import get_catalogue
+
+
+@dataclass(frozen=True)
+class _Expression:
+    """An expression that is checked at samples, and its inputs."""
+
+    name: str  # for messages
+    tree: Expr
+    series_names: tuple[str, ...]  # inputs that are series or t
+    parameter_indices: tuple[tuple[str, int], ...]  # inputs that are parameters, and their indices
+
+
+@cache_by_values
+def list_checked_expressions(source: KernelSource) -> tuple[_Expression, ...]:
+    """Return the expressions of a scene to check: its outputs, then drives and forces that compare with `where`.
+
+    C takes one branch of a `where` whose operand is not a number. Expressions with names that results do not have are
+    left out.
+    """
+    catalogue = get_catalogue(source)
+    trees = {f"output {name}": from_json(tree) for name, tree in source.outputs.items() if name in catalogue}
+    for info, tree in read_expression_trees(source, ("drives", "forces")):
+        operands = [operand for call in iterate_calls(tree, "where") for operand in call.arguments[:2]]
+        if not all(map(is_total_expression, operands)):
+            trees[info.address] = tree
+    index = source.slot_index | {
+        address.removeprefix("parameters."): k
+        for address, k in source.slot_index.items()
+        if address.startswith("parameters.")
+    }
+    names = {name: {used.path for used in iterate_names(tree)} for name, tree in trees.items()}
+    return tuple(
+        _Expression(
+            name,
+            tree,
+            tuple(path for path in names[name] if path not in index),
+            tuple((path, index[path]) for path in names[name] if path in index),
+        )
+        for name, tree in trees.items()
+        if names[name] <= {"t", *catalogue, *index}
+    )
+
+
+class UndefinedOutputs:
+    """Collect where the checked expressions of a scene are not numbers, from samples that are added block by block."""
+
+    def __init__(self, source: KernelSource) -> None:
+        self.source, self.expressions = source, list_checked_expressions(source)
+        self.n_samples = 0
+        self.counts = [0] * len(self.expressions)  # samples at which each is not a number
+        self.messages = [""] * len(self.expressions)  # on the first of them
+
+    def add_samples(self, samples: Result) -> None:
+        """Check all expressions at the next samples of the run."""
+        self.n_samples += len(samples.t)
+        for k, expression in enumerate(self.expressions):
+            inputs: dict[str, Any] = {name: samples[name] for name in expression.series_names}
+            for name, index in expression.parameter_indices:
+                inputs[name] = format_parameter(self.source.slots[index], float(samples.p[index]))
+            is_undefined = ~np.isfinite(evaluate(expression.tree, inputs.__getitem__))
+            if not is_undefined.any():
+                continue
+            values = {name: np.broadcast_to(value, samples.t.shape) for name, value in inputs.items()}
+            is_undefined = np.broadcast_to(is_undefined, samples.t.shape).copy()
+            for value in values.values():
+                is_undefined &= np.isfinite(value)
+            if is_undefined.any() and not self.counts[k]:
+                self.messages[k] = self._explain(expression, values, samples.t, int(is_undefined.argmax()))
+            self.counts[k] += int(is_undefined.sum())
+
+    def _explain(self, expression: _Expression, values: dict[str, Array], t: Array, k: int) -> str:
+        """Return why an expression is not a number at sample k, from the values (N,) of its inputs."""
+        value = np.broadcast_to(evaluate(expression.tree, values.__getitem__), t.shape)[k]
+        explanation = explain_nonfinite_part(self.source, expression.tree, lambda name: float(values[name][k]))
+        return f"{expression.name} is no number ({value}) at t = {t[k]:.9g} s: {explanation}"
+
+    def build_notes(self) -> tuple[str, ...]:
+        """Return a note for each expression that is not a number at some sample, after all samples."""
+        return tuple(
+            message + (f"; it is none at {count} of {self.n_samples} samples" if count > 1 else "")
+            for message, count in zip(self.messages, self.counts, strict=True)
+            if count
+        )
