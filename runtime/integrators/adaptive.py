@@ -25,6 +25,7 @@ whose accelerations do not amplify errors of velocities.
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -130,12 +131,20 @@ def compute_tolerances(compiled: CompiledModel, p: Array, rtol: float) -> tuple[
     velocities. `p` (..., n_slots + n_derived) holds the parameter values of one run, or of several.
     """
     source = compiled.source
-    length, size = compute_error_lengths(compiled, p)
-    is_angle = find_integrated_angles(source)
-    of_q = rtol * np.where(is_angle, (length / size)[..., None], length[..., None])
-    of_v = np.minimum(rtol, FELT_BY_FILMS * length / size if _has_film(source) else rtol)
-    of_speed = np.broadcast_to(of_v[..., None], of_q.shape)
-    return np.concatenate([of_q, of_speed], axis=-1), np.stack([length, length / size], axis=-1)
+    lengths, sizes = compute_error_lengths(compiled, p)
+    of_angles, of_lengths, of_speeds = compute_error_scales(source, lengths, sizes, rtol)
+    of_q = np.where(find_integrated_angles(source), of_angles[..., None], of_lengths[..., None])
+    of_speed = np.broadcast_to(np.asarray(of_speeds)[..., None], of_q.shape)
+    return np.concatenate([of_q, of_speed], axis=-1), np.stack([lengths, lengths / sizes], axis=-1)
+
+
+def compute_error_scales(source: KernelSource, length: Any, size: Any, rtol: float) -> tuple[Any, Any, Any]:
+    """Return the error tolerances of angles, of lengths and of velocities per unit of speed, from L and S (m).
+
+    `length`, `size`: floats or arrays; the tolerance of velocities is a float if all runs have the same.
+    """
+    ratio = length / size
+    return rtol * ratio, rtol * length, np.minimum(rtol, FELT_BY_FILMS * length / size) if _has_film(source) else rtol
 
 
 def compute_scales_of_runs(compiled: CompiledModel, p: Array, rtol: float) -> tuple[Array, Array, Array]:

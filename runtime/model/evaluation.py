@@ -82,7 +82,7 @@ def evaluate(
     ):  # in a scene that remembers nothing one number stands for none
         check(discrete_states, "memory", N, compiled.n_memory)
     inputs = (("q", check(q, "q", N, compiled.n)), ("v", check(v, "v", N, compiled.n)), ("memory", discrete_states))
-    evaluation, outputs = _allocate_evaluation(compiled, N, field_names)
+    evaluation, outputs = allocate_evaluation(compiled, N, field_names)
     failed_index, first, chunk_size = compiled.ffi.new("long *"), 0, FIRST
     parameter_pointer = compiled.pointer(as_c_array(p, "p", (compiled.n_p,)))
     while first < N:
@@ -123,7 +123,7 @@ def evaluate_runs(
     input_pointers.append(compiled.pointer(as_c_array(memory, "memory", (N, compiled.n_memory))))
     parameter_pointer = compiled.pointer(as_c_array(p, "p", (len(sample_counts), compiled.n_p)))
     (evaluation, outputs), failed_index = (
-        _allocate_evaluation(compiled, N, field_names),
+        allocate_evaluation(compiled, N, field_names),
         compiled.ffi.new("long *"),
     )
     counts_pointer = compiled.ffi.new("long[]", sample_counts)
@@ -159,7 +159,7 @@ def compute_evaluation_bytes(compiled: CompiledModel, field_names: Collection[st
     return 8 * sum(width for name, _, width in compiled.field_shapes if field_names is None or name in field_names)
 
 
-def _allocate_evaluation(
+def allocate_evaluation(
     compiled: CompiledModel, n_samples: int, field_names: Collection[str]
 ) -> tuple[Evaluation, list[tuple[Any, int]]]:
     """Return an Evaluation of `n_samples` rows of NaN for C to fill, and each field's C pointer and numbers per row.

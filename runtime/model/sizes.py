@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import math
 import sys
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,8 +29,22 @@ def compute_mechanism_sizes(source: KernelSource, p: Array) -> Array:
     x, y, has_y = _get_size_indices(source)
     if not len(x):
         return np.ones(p.shape[:-1])
-    size = np.sqrt(p[..., x] ** 2 + (p[..., y] * has_y) ** 2).max(axis=-1)  # as in JavaScript and C, to the bit
+    first, second = p.take(x, axis=-1), p.take(y, axis=-1) * has_y
+    size = np.sqrt(first * first + second * second).max(axis=-1)  # as in JavaScript and C, to the bit
     return np.where(size > 0.0, size, 1.0)
+
+
+def compute_size_of_values(index_pairs: Sequence[tuple[int, int]], values: Sequence[float]) -> float:
+    """Return what `compute_mechanism_sizes` does for one run, bit for bit, without NumPy's time for short arrays.
+
+    index_pairs: those of `find_size_indices`; values: parameter values (n_parameters + n_derived,).
+    """
+    largest = 0.0 if index_pairs else 1.0
+    for i, j in index_pairs:
+        square = values[i] * values[i] + (values[j] * values[j] if j >= 0 else 0.0)
+        if square > largest:
+            largest = square
+    return math.sqrt(largest) or 1.0
 
 
 @cache_by_values

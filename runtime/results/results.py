@@ -27,7 +27,7 @@ from gudgeon.model.evaluation import FIELD_NAMES, Evaluation
 from gudgeon.model.left_limit import find_evaluation_times_of_result
 from gudgeon.results.diagnostics import Diagnostics, Extremes
 from gudgeon.results.notebook_display import NotebookDisplay
-from gudgeon.results.state import Array, State
+from gudgeon.results.state import Array, State, make_state
 
 if TYPE_CHECKING:
     import pandas
@@ -199,27 +199,8 @@ class Result(NotebookDisplay):
 
         It contains the overridden parameters and the identity of the scene; arrays are copies.
         """
-        source, given_slots = self.source, zip(self.source.slots, self.given, self.is_given, strict=True)
-        overridden = {
-            parameter.address: format_parameter(parameter, float(x))
-            for parameter, x, is_given in given_slots
-            if is_given
-        }
-        q, v, state, discrete_states = (array[-1].copy() for array in (self.q, self.v, self.state, self.memory))
-        return State(
-            source.mechanism,
-            source.scene,
-            float(self.t[-1]),
-            q,
-            v,
-            state,
-            discrete_states,
-            MappingProxyType(overridden),
-            source.whole_sha256,
-            source.overrides,
-            source.formulation,
-            source.external_files,
-        )
+        arrays = (array[-1] for array in (self.q, self.v, self.state, self.memory))
+        return make_state(self.source, self.given, self.is_given, float(self.t[-1]), *arrays)
 
     def __getstate__(self) -> dict[str, Any]:
         """Return the fields for pickle, with the evaluation if it exists; other cached values are cheap to compute."""

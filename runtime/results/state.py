@@ -9,6 +9,9 @@ from typing import Any, TypeAlias
 
 from numpy.typing import NDArray
 
+from gudgeon.contract.kernel_source import KernelSource
+from gudgeon.model.choices import format_parameter
+
 Array: TypeAlias = NDArray[Any]
 
 
@@ -38,3 +41,28 @@ class State:
     def __setstate__(self, state: dict[str, Any]) -> None:
         """Restore the fields from pickle, with read-only parameters."""
         self.__dict__.update(state | {"parameters": MappingProxyType(state["parameters"])})
+
+
+def make_state(
+    source: KernelSource, given: Array, is_given: Array, t: float, q: Array, v: Array, state: Array, memory: Array
+) -> State:
+    """Return the state of a scene at time t (s), with copies of its arrays and the parameters that the run was given.
+
+    `given`, `is_given` (n_slots,): values and mask of these parameters. Other arrays as in State.
+    """
+    given_slots = zip(source.slots, given, is_given, strict=True)
+    parameters = {slot.address: format_parameter(slot, float(x)) for slot, x, mask in given_slots if mask}
+    return State(
+        source.mechanism,
+        source.scene,
+        t,
+        q.copy(),
+        v.copy(),
+        state.copy(),
+        memory.copy(),
+        MappingProxyType(parameters),
+        source.whole_sha256,
+        source.overrides,
+        source.formulation,
+        source.external_files,
+    )

@@ -137,9 +137,7 @@ class SampleAudit:
                 if t is None
                 else Finding("finite", NOT_FINITE, t, "")
             )
-        left_out = {"body", "power", "torque"} if self.has_no_forces else set[str]()
-        if problem.method == "rk4" and source.formulation == "full":  # its rows drift
-            left_out |= {"rows", "rates", "power", "body"}
+        left_out = list_checks_left_out(source, problem.method)
         findings += [finding for finding in self._check_random_samples(size) if finding.check not in left_out]
         return tuple(findings)
 
@@ -302,6 +300,26 @@ class _ContactForces:
         self.touching = touching if _exceeds(touching, self.touching) else self.touching
 
 
+def choose_samples(n_samples: int, audit: int, right_hand_sides: int) -> NDArray[np.intp]:
+    """Return the indices of the samples that C checks, of a run with so many samples and evaluations.
+
+    `audit`: level of the audit. All samples of a run with few are checked.
+    """
+    is_short = audit <= 1 and right_hand_sides <= MAX_CALLS_OF_SHORT_RUN
+    drawn = SAMPLE_POSITIONS[::2] if is_short else SAMPLE_POSITIONS
+    return (n_samples * drawn).astype(np.intp) if len(drawn) < n_samples else np.arange(n_samples)
+
+
+def list_checks_left_out(source: KernelSource, method: str) -> set[str]:
+    """Return the checks of samples that do not apply to the scene with this method."""
+    left_out = set[str]()
+    if source.massless or source.indeterminate:
+        left_out |= {"body", "power", "torque"}
+    if method == "rk4" and source.formulation == "full":  # its rows drift
+        left_out |= {"rows", "rates", "power", "body"}
+    return left_out
+
+
 def _exceeds(value: float, largest: float) -> bool:
     """Return whether a value is larger than the largest so far; the first NaN is, and nothing is larger than NaN."""
     return not value <= largest and largest == largest
@@ -310,11 +328,6 @@ def _exceeds(value: float, largest: float) -> bool:
 def _draw_samples(problem: Problem, trajectory: Trajectory) -> NDArray[np.intp]:
     """Return the indices of the pseudo-random samples that C checks: few in short runs."""
     N = len(trajectory.t)
-    drawn = (
-        SAMPLE_POSITIONS
-        if problem.audit > 1 or trajectory.counts.right_hand_sides > MAX_CALLS_OF_SHORT_RUN
-        else SAMPLE_POSITIONS[::2]
-    )
-    samples = (N * drawn).astype(np.intp) if len(drawn) < N else np.arange(N)
+    samples = choose_samples(N, problem.audit, trajectory.counts.right_hand_sides)
     # a resumed state may lie off its constraints
     return samples[samples > 0] if problem.state is not None and N > 1 else samples

@@ -8,7 +8,7 @@ coordinates of all bodies.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
 from types import MappingProxyType
 from typing import Any
@@ -208,6 +208,27 @@ def check_resumed_state(compiled: CompiledModel, start: State, p: Array) -> None
             "  other lengths close elsewhere, and a drive whose value hangs on t and a changed number stands elsewhere"
             " at that time: write it so that it goes on from there, or run from the scene's own start"
         )
+
+
+def make_position_check(compiled: CompiledModel) -> Callable[[Array, float], bool]:
+    """Return a function that tests positions as `check_resumed_state` does, from values that are known.
+
+    It takes Φ of the closed linkage (n_start_rows,) and the mechanism's size (m), and returns whether the constraint
+    equations are satisfied up to what a run leaves.
+    """
+    start_rows, rows = [row.name for row in compiled.source.start_rows], compiled.source.rows
+    indices = np.array([start_rows.index(row.name) for row in rows], dtype=np.intp)
+    is_length = np.array([row.unit == "m" for row in rows], dtype=bool)
+    known_size, limits = math.nan, np.zeros(len(rows))
+
+    def fits_constraints(phi: Array, size: float) -> bool:
+        """Return whether no residual exceeds its limit; NaN does."""
+        nonlocal known_size, limits
+        if size != known_size:
+            known_size, limits = size, MAX_VIOLATION * np.where(is_length, size, 1.0)
+        return b"\0" not in (np.abs(phi.take(indices)) <= limits).tobytes()  # quicker than all()
+
+    return fits_constraints
 
 
 def build_violation_notes(compiled: CompiledModel, p: Array, t: float, q: Array, v: Array) -> tuple[str, ...]:

@@ -39,6 +39,7 @@ from gudgeon.simulation.arguments import (
 from gudgeon.simulation.audit import parse_audit_level
 from gudgeon.simulation.file_start import assemble_file_start
 from gudgeon.simulation.hidden_jumps import build_jump_error, compute_end_before_jump, find_first_jumps
+from gudgeon.simulation.repeated_runs import RepeatedRuns
 from gudgeon.simulation.restart import build_violation_notes, check_resumed_state, copy_checked_state, merge_parameters
 from gudgeon.simulation.result_builder import build_result, check_result, mark_result_if_interrupted
 from gudgeon.simulation.step_observers import StepObserver, check_compared_scene, check_requested_peaks, make_observer
@@ -54,7 +55,7 @@ if TYPE_CHECKING:
     from gudgeon.results.wear import SlidingRequest
 
 
-class Simulation(NotebookDisplay):
+class Simulation(NotebookDisplay, RepeatedRuns):
     """Evaluate and simulate a loaded scene; `gudgeon.load` returns it.
 
     It holds no state, so that several threads may run it at once. It can be pickled: another process loads its library

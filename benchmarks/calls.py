@@ -1,0 +1,112 @@
+"""Measure what one call costs beyond the integration in C: `simulate`, a prepared run, a step of a stepper.
+
+    python -m benchmarks.calls      # from the repository's root, with gudgeon installed
+
+All runs are so short that they integrate next to nothing (`t_end` → 0). Each call has other parameter values than the
+one before. Times are processor times of the thread in µs, the least of several rounds in turns; "in C" is the time of
+the function of C that integrates, within these calls. The rest of a step and of a prepared run is "beyond"; it includes
+the audit of samples, which is C too.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from time import thread_time
+
+import numpy as np
+
+import gudgeon
+from gudgeon.simulation.simulation import Simulation
+
+# mechanism, scene, parameter, series, length of a step (s)
+SCENES = (
+    ("nine_bar_press", "dry", "bodies.S9.mass", "S9.y", 1e-4),
+    ("nine_bar_press", "dry", "c", "S9.y", 1e-4),
+    ("andrews_squeezer", "ideal", "bodies.OF.mass", "OF.theta", 1e-4),
+    ("pendulum", "ideal", "g", "bob.x", 1e-3),
+)
+ROUNDS, CALLS, CALLS_OF_SIMULATE = 15, 400, 20
+T_END = 1e-9  # s
+VALUES = 5  # parameter values that take turns
+
+
+def measure(function: Callable[[], object], n: int) -> float:
+    """Return the least time of one call of a function in µs, over rounds of n calls."""
+    best = np.inf
+    for _ in range(ROUNDS):
+        begin = thread_time()
+        for _ in range(n):
+            function()
+        best = min(best, (thread_time() - begin) / n)
+    return 1e6 * best
+
+
+def measure_in_c(simulation: Simulation, function: Callable[[], object], n: int) -> float:
+    """Return the least time that one call of `function` spends in gudgeon_ensemble, in µs, over rounds of n calls."""
+    functions, spent = vars(simulation.compiled.lib), 0.0
+    in_c = simulation.compiled.lib.gudgeon_ensemble
+
+    def integrate(*arguments: object) -> object:
+        nonlocal spent
+        begin = thread_time()
+        result = in_c(*arguments)
+        spent += thread_time() - begin
+        return result
+
+    best, of_clock = np.inf, measure(thread_time, n)
+    functions["gudgeon_ensemble"] = integrate
+    try:
+        for _ in range(ROUNDS):
+            spent = 0.0
+            for _ in range(n):
+                function()
+            best = min(best, spent / n)
+    finally:
+        functions["gudgeon_ensemble"] = in_c
+    return 1e6 * best - of_clock
+
+
+def take_turns(function: Callable[[np.ndarray], object], values: Sequence[np.ndarray]) -> Callable[[], object]:
+    """Return a function without arguments that calls `function` with one of the values after the other."""
+    position = 0
+
+    def call() -> object:
+        nonlocal position
+        position = (position + 1) % len(values)
+        return function(values[position])
+
+    return call
+
+
+def measure_scene(simulation: Simulation, name: str, series: str, dt: float) -> list[float]:
+    """Return the times of simulate, of a prepared run, of C in it, of a step, and of C in it, in µs."""
+    address = name if name in simulation.source.slot_index else f"parameters.{name}"
+    default = simulation.source.slots[simulation.source.slot_index[address]].default
+    values = [np.array([default * (1.0 + 1e-6 * k)]) for k in range(VALUES)]
+    prepared, stepper = simulation.prepare(name, series, T_END, output=1), simulation.stepper(name, series)
+
+    def simulate(x: np.ndarray) -> object:
+        return simulation.simulate(T_END, output=1, parameters={name: float(x[0])})
+
+    times = [measure(take_turns(simulate, values), CALLS_OF_SIMULATE)]
+    for call in (take_turns(prepared, values), take_turns(lambda x: stepper.step(dt, x), values)):
+        stepper.reset(values[0])
+        times.append(measure(call, CALLS))
+        stepper.reset(values[0])
+        times.append(measure_in_c(simulation, call, CALLS))
+    return times
+
+
+def main() -> None:
+    """Print a row for each scene."""
+    print(f"{'µs':34}{'simulate':>9}{'prepared':>9}{'in C':>7}{'beyond':>7}{'step':>8}{'in C':>7}{'beyond':>7}")
+    for mechanism, scene, name, series, dt in SCENES:
+        simulation = gudgeon.load(mechanism, scene, quick=False)
+        whole, call, in_c, step, step_in_c = measure_scene(simulation, name, series, dt)
+        title = f"{mechanism}/{scene}, {name.removeprefix('bodies.')}"
+        print(f"{title:34}{whole:9.1f}{call:9.1f}{in_c:7.1f}{call - in_c:7.1f}", end="")
+        print(f"{step:8.1f}{step_in_c:7.1f}{step - step_in_c:7.1f}")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,134 @@
+"""Integrate one run after the other in C in memory that is allocated once, for calls that must be short.
+
+Lists of contacts and events are discarded. The results are, bit for bit, those of `Runs` with one run.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from gudgeon.assembly.start import assemble_start
+from gudgeon.contract.boundary import LISTS, NEW, NOT_CLOSED, RUN_OVER, STOPPED
+from gudgeon.integrators import adaptive
+from gudgeon.integrators.batch import Runs
+from gudgeon.integrators.stored import Contacts
+from gudgeon.integrators.times import Times
+from gudgeon.model.compiled import Array
+from gudgeon.model.contours import compute_min_clearances
+from gudgeon.model.parameter_columns import ParameterColumns
+from gudgeon.model.sizes import MIN_RELATIVE_CLEARANCE, compute_size_of_values, find_size_indices
+from gudgeon.waiting.cancellation import CancellationPoll
+
+N_ROWS = 2  # the present run, and the last one, whose start is copied if the parameters of the start are equal
+
+
+class ReusableRun(Runs):
+    """Integrate the run in row `next_row` of the arrays, whose parameter values `columns` has computed there.
+
+    `t` (N,): sample times (s) of all runs. `steps` (N_ROWS,): fixed step (s) of each row, infinity without one.
+    """
+
+    def __init__(
+        self,
+        columns: ParameterColumns,
+        t: Array,
+        method: str,
+        steps: Array,
+        rtol: float,
+        stop: bool,
+        audit: int,
+    ) -> None:
+        times = Times(t, np.full(N_ROWS, len(t)), np.zeros(N_ROWS, np.int_))
+        super().__init__(
+            columns.compiled, columns.p, columns.p_motion, times, method, steps, rtol, stop, audit, False, 1
+        )
+        self.columns, self._is_angle = columns, adaptive.find_integrated_angles(columns.source)
+        self._size_indices = find_size_indices(columns.source)
+        self._clearances = [joint.clearance for joint in columns.source.clearances]
+        self._storage = np.zeros(self.compiled.lib.gudgeon_run_size(), dtype=np.uint8)
+        self._integrator = self.compiled.pointer(self._storage, "void *", True)
+        self._current = self.compiled.ffi.new("long *")
+        self._poll = CancellationPoll(self.compiled, self.compiled.lib.switch_library_if_ready)
+        self.struct.ask, self.struct.caller, self.struct.every = self._poll.c_arguments
+        self._begun_row, self._has_guessed_points = 0, any(x.count(".") > 1 for x in columns.source.start_guess)
+        self._tolerance_keys: list[bytes] = [b""] * N_ROWS
+        self._phase, self._done, self._checked, self._status = (
+            self.arrays[name] for name in ("phase", "done", "checked", "status")
+        )
+
+    @property
+    def next_row(self) -> int:
+        """Return the row of the next run; the row of the last run keeps its values, from which C copies the start."""
+        return 1 - self._begun_row
+
+    def update_tolerances(self, k: int) -> bool:
+        """Compute size and tolerances of row k from its parameter values, and return whether clearances are resolved.
+
+        Nothing is computed if the values that they depend on have not changed.
+        """
+        key = self.columns.p[k].take(self.columns.size_slots).tobytes()
+        if key == self._tolerance_keys[k]:
+            return True
+        self._tolerance_keys[k] = b""
+        source, x, values = self.compiled.source, self.arrays, self.columns.p[k].tolist()
+        size = compute_size_of_values(self._size_indices, values)
+        clearances = [values[i] for i in self._clearances]
+        shallowest = compute_min_clearances(source, self.columns.p[k]).tolist() if source.contours else clearances
+        if min(shallowest, default=size) < MIN_RELATIVE_CLEARANCE * size:
+            return False
+        length = min((c for c in clearances if c > 0.0), default=size)
+        scale, n = x["scale"][k], len(self._is_angle)
+        of_angles, of_lengths, scale[n:] = adaptive.compute_error_scales(source, length, size, self.rtol)
+        scale[:n] = np.where(self._is_angle, of_angles, of_lengths)
+        x["least"][k], x["size"][k] = (length, length / size), size
+        self._tolerance_keys[k] = key
+        return True
+
+    def integrate_row(self, k: int) -> int:
+        """Integrate the run in row k = `next_row` from start to end, and return its status (engine/boundary.h).
+
+        A start that C cannot assemble is assembled in Python. Raises AssemblyError if it does not close, and
+        KeyboardInterrupt after Ctrl-C.
+        """
+        status = self._integrate(k)
+        if status == NOT_CLOSED:
+            start = assemble_start(self.compiled, self.columns.p[k])
+            self.arrays["start"][k] = np.concatenate([start.q, start.v])
+            self.arrays["started"][k] = 1
+            try:
+                status = self._integrate(k)
+            finally:  # so that C copies it to the next run if the parameters of starts are equal, and to no other
+                self.arrays["started"][k] = 0
+                if self._has_guessed_points:  # they depend on parameters that C does not compare
+                    self._phase[k] = NEW
+        return status
+
+    def _integrate(self, k: int) -> int:
+        """Integrate the run in row k in C and return its status. Raises KeyboardInterrupt after Ctrl-C."""
+        lib, current = self.compiled.lib, self._current
+        lib.switch_library_if_ready()
+        self._phase[k], self._done[k], self._checked[k] = NEW, 0, 0
+        self._begun_row, current[0] = k, k
+        while current[0] == k:
+            result = lib.gudgeon_ensemble(self.struct, self._integrator, current, k + 1)
+            self._poll.raise_stored(False)
+            if result == RUN_OVER:
+                break
+            if result == LISTS:
+                self._discard_lists(k)
+        status: int = self._status.item(k)
+        if status == STOPPED:
+            raise KeyboardInterrupt
+        return status
+
+    def _discard_lists(self, k: int) -> None:
+        """Fetch and discard C's full lists of contacts and events of the run in row k, which then continues."""
+        self.fetch_contacts_and_events(k, self._integrator, False)
+        self.fetched = Contacts(self.compiled)
+        self.events.clear()
+
+    def build_error(self, k: int) -> Any:
+        """Return the error that ended the run in row k."""
+        return self._build_error(k)

@@ -1,0 +1,277 @@
+"""Own `Stepper`: a run in steps of a controller, with parameters that are held over each step.
+
+Each step is the run that `simulate(start=run.final, parameters={…})` makes from the end of the last one. The state
+stays in the arrays of a ReusableRun. Scenes that need Python within a run or after it are run by `simulate`.
+"""
+
+from __future__ import annotations
+
+import math
+from threading import Lock
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from gudgeon.assembly.journals import check_journal_positions
+from gudgeon.assembly.start import assemble_start
+from gudgeon.contract.boundary import ENDED
+from gudgeon.errors import BadValueError
+from gudgeon.integrators.reusable_run import N_ROWS
+from gudgeon.language.argument_checks import check_number
+from gudgeon.model.arrays import as_c_array
+from gudgeon.model.compiled import Array
+from gudgeon.model.parameters import prepare_values, read_given_parameters
+from gudgeon.results.state import State, make_state
+from gudgeon.simulation.arguments import MIN_ROUNDINGS, compute_output_times
+from gudgeon.simulation.prepared_run import RunSetup
+from gudgeon.simulation.restart import (
+    check_resumed_state,
+    copy_checked_state,
+    make_position_check,
+    merge_parameters,
+)
+from gudgeon.simulation.sample_audit import SampleAudit
+from gudgeon.simulation.sample_reader import SampleReader
+
+if TYPE_CHECKING:
+    from gudgeon.results.results import Result
+    from gudgeon.simulation.simulation import Simulation
+
+FIRST_DURATION = 1e-6  # s: duration of a run of which only the first sample is used
+
+
+class Stepper:
+    """Integrate a scene step by step with inputs that are held over each step; `Simulation.stepper` returns it.
+
+    `reset(inputs)` assembles the start, `step(dt, inputs)` integrates over dt (s); both return the series (n_series,)
+    at the time reached, `t`. Inputs are parameter values (n_inputs,) in SI, in the order of `inputs`. An object makes
+    one call at a time, and C integrates without the global lock.
+    """
+
+    def __init__(self, simulation: Simulation, arguments: dict[str, Any]) -> None:
+        self._simulation, self._lock = simulation, Lock()
+        names = ("method", "rtol", "step", "stop", "audit")
+        setup = self._setup = RunSetup.check(
+            simulation,
+            arguments["inputs"],
+            arguments["series"],
+            arguments["fixed"],
+            {name: arguments[name] for name in names},
+        )
+        checked = {"inputs": setup.names, "series": setup.series, "fixed": setup.fixed}
+        self._compiled, self._arguments = setup.scene.compiled, arguments | checked
+        self._step_varies = setup.method == "rk4" and setup.step is None
+        # of a scene that `simulate` runs: the state reached, and the start of the next run; None: the scene's start
+        self._state: State | None = None
+        self._start: State | None = None
+        self._x, self._x_key, self._t, self.ended, self._is_reset = np.zeros(len(setup.names)), b"", 0.0, False, False
+        self._run = None
+        if setup.needs_simulate:
+            return
+        self._run = setup.make_run(np.array([0.0, 1.0]), np.full(N_ROWS, setup.evaluate_step(0, 1.0)))
+        self._run.arrays["started"][0] = 1  # C takes each start from the array
+        self._reader = SampleReader(self._run, setup.series, 1)
+        self._sample_audit = SampleAudit(self._run, is_resumed=True)
+        self._arrays = {
+            name: self._run.arrays[name][0] for name in ("start", "y", "remembered", "latched", "codes", "state")
+        }
+        self._phi, n = np.zeros(len(setup.scene.source.start_rows)), self._compiled.n
+        self._q = self._arrays["start"][:n]
+        pointer = self._compiled.pointer
+        self._phi_arguments = pointer(self._q), pointer(setup.columns.p[0]), pointer(self._phi, is_written=True)
+        self._fits_constraints = make_position_check(self._compiled)
+
+    def __repr__(self) -> str:
+        """Return mechanism, scene, number of inputs and series, and the time in one line."""
+        source, sizes = self._setup.scene.source, f"{len(self.inputs)} inputs, {len(self.series)} series"
+        return f"<Stepper {source.mechanism}/{source.scene}: {sizes}, t = {self._t:g} s>"
+
+    @property
+    def inputs(self) -> tuple[str, ...]:
+        """Return the names of the inputs in the order of their values."""
+        return self._setup.names
+
+    @property
+    def series(self) -> tuple[str, ...]:
+        """Return the names of the series in the order in which calls return them."""
+        return self._setup.series
+
+    @property
+    def t(self) -> float:
+        """Return the time (s) that was reached."""
+        return self._t
+
+    @property
+    def final(self) -> State:
+        """Return the state that was reached, as the `final` of a run; `reset(start=…)` and `simulate` resume from it.
+
+        Raises BadValueError before the first reset.
+        """
+        self._check_reset()
+        if self._run is None:
+            assert self._state
+            return self._state
+        source, n, x = self._setup.scene.source, self._compiled.n, self._arrays
+        given = read_given_parameters(source, self._setup.get_parameters(self._x))
+        motion = self._q, x["start"][n:], x["codes"][: len(source.clearances)], x["remembered"][: source.n_memory]
+        return make_state(source, *given, self._t, *motion)
+
+    def reset(self, inputs: ArrayLike | None = None, *, start: State | None = None) -> Array:
+        """Begin at the scene's start with these inputs, or at the state `start`; return the series there, (n_series,).
+
+        `inputs`: as in `step`; may be left out if there are none. A `start` is the `final` of a run or of a stepper of
+        this scene; its other parameters must be those of this stepper. Raises InputError for values, AssemblyError for
+        a start that does not close.
+        """
+        x = self._check_inputs(inputs)
+        with self._lock:
+            self._is_reset, self.ended = False, False
+            if self._run is None:
+                return self._reset_by_simulate(x, start)
+            self._set_inputs(x)
+            n, arrays, compiled, p = self._compiled.n, self._arrays, self._compiled, self._setup.columns.p[0]
+            if start is None:
+                if self._setup.has_journal_positions:
+                    check_journal_positions(compiled, p)
+                assembled = assemble_start(compiled, p)
+                self._q[:], arrays["start"][n:], self._t = assembled.q, assembled.v, 0.0
+                arrays["remembered"][:], arrays["codes"][:] = np.nan, 0
+            else:
+                self._set_state(start, x)
+            values = self._integrate(self._t, 1, x)
+            self._x, self._is_reset = x.copy(), True
+            return values
+
+    def step(self, dt: float, inputs: ArrayLike | None = None) -> Array:
+        """Integrate over dt (s) with these inputs and return the series (n_series,) at the end.
+
+        `inputs` (n_inputs,): parameter values in SI that are held over the step; None: those of the step before. If an
+        event of the file ends the run, `ended` is true and `t` is the time of the event; a further step continues from
+        there. After an error the state is that before the step. Raises BadValueError for dt and before the first reset,
+        InputError for values, AssemblyError for inputs that do not fit the state, SolverError and AuditError.
+        """
+        dt = dt if type(dt) is float else check_number(dt, "dt")
+        with self._lock:
+            self._check_reset()
+            x, t = self._x if inputs is None else self._check_inputs(inputs), self._t + dt
+            if not MIN_ROUNDINGS * math.ulp(t) < dt < math.inf:  # raises what is wrong with it
+                compute_output_times(self._setup.scene.source, self._setup.columns.p[0], self._t, t, 1)
+            if self._run is None:
+                return self._step_by_simulate(t, x)
+            if x.tobytes() != self._x_key:
+                self._set_inputs(x)
+                self._compiled.lib.gudgeon_phi(self._t, *self._phi_arguments)
+                if not self._fits_constraints(self._phi, self._run.arrays["size"].item(0)):
+                    self._x_key = b""
+                    check_resumed_state(self._compiled, self.final, self._setup.columns.p[0])
+            if self._step_varies:
+                self._run.arrays["step"][0] = self._setup.evaluate_step(0, dt)
+            values = self._integrate(t, 2, x)
+            if x is not self._x:
+                self._x = x.copy()
+            return values
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Return the arguments for pickling, and the state that was reached."""
+        state = self.final if self._is_reset else None
+        reached = {"x": self._x, "state": state, "start": self._start, "ended": self.ended}
+        return {"simulation": self._simulation, "arguments": self._arguments} | reached
+
+    def __setstate__(self, pickled: dict[str, Any]) -> None:
+        """Make the stepper again, in the state that was reached."""
+        self.__init__(pickled["simulation"], pickled["arguments"])  # type: ignore[misc]
+        state = pickled["state"]
+        if state is None:
+            return
+        self._x, self._t = pickled["x"], state.t
+        if self._run is not None:
+            self._set_inputs(self._x)
+            self._set_state(state, self._x)
+        self._state, self._start, self.ended, self._is_reset = state, pickled["start"], pickled["ended"], True
+
+    def _check_inputs(self, inputs: ArrayLike | None) -> Array:
+        """Return the inputs as an array (n_inputs,); None is no inputs. Raises ArrayError."""
+        return as_c_array(() if inputs is None else inputs, "inputs", (len(self._setup.names),))
+
+    def _check_reset(self) -> None:
+        """Raise BadValueError if there is no state yet."""
+        if not self._is_reset:
+            raise BadValueError("the stepper has no state yet", hint="call reset(inputs) first")
+
+    def _set_inputs(self, x: Array) -> None:
+        """Compute the parameter values of inputs x (n_inputs,), and what follows from them. Raises InputError."""
+        assert self._run
+        self._x_key = b""
+        if not (self._setup.columns.compute_row(x, 0) and self._run.update_tolerances(0)):
+            prepare_values(self._compiled, self._setup.get_parameters(x))  # raises what is wrong
+        self._x_key = x.tobytes()
+
+    def _set_state(self, start: State, x: Array) -> None:
+        """Copy a state into the arrays of the run, as the start of the next step, with inputs x (n_inputs,).
+
+        Raises InputError, and AssemblyError if they do not fit together.
+        """
+        state, arrays, n = copy_checked_state(self._setup.scene.source, start), self._arrays, self._compiled.n
+        p = self._setup.columns.p[0]
+        values, is_given, _ = merge_parameters(self._compiled, state, self._setup.get_parameters(x))
+        if self._compiled.prepare(values, is_given).tobytes() != p.tobytes():
+            others = ", ".join(state.parameters)
+            raise BadValueError(
+                f"start: its run had other parameter values than this stepper: {others}",
+                hint="give them in fixed when the stepper is made, or among its inputs",
+            )
+        check_resumed_state(self._compiled, state, p)
+        self._q[:], arrays["start"][n:], self._t = state.q, state.v, state.t
+        arrays["remembered"][: len(state.memory)], arrays["codes"][: len(state.state)] = state.memory, state.state
+
+    def _integrate(self, t: float, n_samples: int, x: Array) -> Array:
+        """Integrate to t (s) with inputs x, and return the series there; of the start alone if `n_samples` is 1.
+
+        Raises the error of the run; the state is then unchanged.
+        """
+        run, arrays = self._run, self._arrays
+        assert run
+        run.times.t[0], run.times.t[1], run.arrays["n_requested"][0] = self._t, t, n_samples
+        status = run.integrate_row(0)
+        if status not in (0, ENDED):
+            raise run.build_error(0)
+        if n_samples == 1:
+            return self._reader.read_row(0)[:, 0]
+        if self._sample_audit.has_failed(0):
+            self._simulate(t, x, self.final)  # raises the error
+        values, last = self._reader.read_row(0)[:, 0], run.arrays["done"].item(0) - 1
+        self._is_reset = False  # an interrupt within the next lines leaves no state
+        arrays["start"][:] = arrays["y"][last, : 2 * self._compiled.n]
+        arrays["remembered"][:], arrays["codes"][:] = arrays["latched"][last], arrays["state"][last]
+        self.ended = status == ENDED
+        self._t = float(run.arrays["t_last"][0]) if self.ended else t
+        self._is_reset = True
+        return values
+
+    def _simulate(self, t: float, x: Array, start: State | None) -> Result:
+        """Return the run to t (s) from a state, or from the scene's start, with inputs x (n_inputs,)."""
+        parameters = self._setup.get_parameters(x)
+        result = self._setup.scene.simulate(
+            t, output=1, parameters=parameters, start=start, peaks=(), **self._setup.settings
+        )
+        if result.diagnostics.interrupted:
+            raise KeyboardInterrupt
+        return result
+
+    def _reset_by_simulate(self, x: Array, start: State | None) -> Array:
+        """Return what `reset` returns, from the first sample of a short run of `simulate`."""
+        t = 0.0 if start is None else start.t
+        result = self._simulate(t + max(FIRST_DURATION, FIRST_DURATION * abs(t)), x, start)
+        motion = (array[0] for array in (result.q, result.v, result.state, result.memory))
+        self._state = make_state(result.source, result.given, result.is_given, t, *motion)
+        self._x, self._t, self._start, self._is_reset = x.copy(), t, start, True
+        return np.array([result[name][0] for name in self.series])
+
+    def _step_by_simulate(self, t: float, x: Array) -> Array:
+        """Return what `step` returns, from the last sample of the run of `simulate` to t (s)."""
+        result = self._simulate(t, x, self._start)
+        self._start = self._state = result.final
+        self._x, self._t = x.copy(), float(result.t[-1])
+        self.ended = self._t < t
+        return np.array([result[name][-1] for name in self.series])
