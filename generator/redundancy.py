@@ -52,11 +52,13 @@ def find_redundancy(model: Model, source: KernelSource) -> Redundancy:
     except (GudgeonError, ArithmeticError, ValueError):  # not assembled, or not finite: the run reports the reason
         return Redundancy()
     expected_freedoms = model.scene.mechanism.freedoms
-    if expected_freedoms is not None and isinstance(expected_freedoms.value, Number):
-        check_degrees_of_freedom(
-            expected_freedoms.value.value, expected_freedoms.where, find_mobility(linkage, linkage.p, q)
-        )
     index_of_largest_rank = int(np.argmax(ranks))
+    if expected_freedoms is not None and isinstance(expected_freedoms.value, Number):
+        has_independent_rows = ranks[index_of_largest_rank] == len(model.all_rows)  # no joint with play either
+        if not (has_independent_rows and expected_freedoms.value.value == linkage.n - len(model.all_rows)):
+            check_degrees_of_freedom(
+                expected_freedoms.value.value, expected_freedoms.where, find_mobility(linkage, linkage.p, q)
+            )
     if ranks[index_of_largest_rank] == len(rows_of_scene):
         return Redundancy()
     return _select_redundant_rows(

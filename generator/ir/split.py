@@ -125,13 +125,14 @@ def split_kernel(kernel: Kernel) -> tuple[Kernel, ...]:
     ]
     parts: list[Kernel] = []
     stored_names: set[str] = set()
-    for k, piece in enumerate(pieces):
+    available: set[str] = set()  # locals of the calling function
+    for piece, later_read_names in zip(pieces, _find_names_read_later(pieces), strict=True):
         if not _is_part(piece):
             main_items += piece
+            available |= {item.defines for item in piece}
             continue
         passed_reads = {name_ for item in piece for name_ in item.reads if name_ in index_of_passed}
         defined = {item.defines for item in piece}
-        available = {item.defines for item in main_items if item.defines}
         main_items += [
             splitter.make_store_line(name)
             for name in sorted((passed_reads - defined) & available - stored_names, key=index_of_passed.__getitem__)
@@ -139,12 +140,19 @@ def split_kernel(kernel: Kernel) -> tuple[Kernel, ...]:
         stored_names |= passed_reads & available
         name = f"{kernel.name}_part_{len(parts) + 1}"
         parts.append(splitter.make_part(name, piece))
-        later_read_names = {
-            name_ for later in pieces[k + 1 :] if not _is_part(later) for item in later for name_ in item.reads
-        }
         main_items += splitter.make_call_lines(name, piece, later_read_names)
-        stored_names |= defined & set(index_of_passed)
+        available |= defined & later_read_names & index_of_passed.keys()
+        stored_names |= defined & index_of_passed.keys()
     return (*parts, replace(kernel, sections=_group_sections(_insert_argument_copies(main_items, copies))))
+
+
+def _find_names_read_later(pieces: Sequence[Sequence[TitledLine]]) -> list[frozenset[str]]:
+    """Return for each piece the names that later lines of the calling function read."""
+    later_read_names = [frozenset[str]()]
+    for piece in reversed(pieces[1:]):
+        names = later_read_names[-1]
+        later_read_names.append(names if _is_part(piece) else names.union(*(item.reads for item in piece)))
+    return later_read_names[::-1]
 
 
 def _list_lines(kernel: Kernel) -> tuple[list[TitledLine], dict[str, TitledLine]]:
@@ -269,12 +277,14 @@ def _insert_argument_copies(items: Sequence[TitledLine], copies: dict[str, Title
     Arguments are copied first of all, arrays after the line that fills them, because the reading line may be in a block
     or after a label.
     """
-    needed_copies = [item for name, item in copies.items() if any(name in item_.reads for item_ in items)]
+    read_names = frozenset[str]().union(*(item.reads for item in items))
+    needed_copies = [item for name, item in copies.items() if name in read_names]
     filled_arrays = {name for item in items for name in _find_filled_arrays(item.line)}
     result = [item for item in needed_copies if not item.reads & filled_arrays]
     for item in items:
         result.append(item)
-        result += [copy_ for copy_ in needed_copies if copy_.reads & _find_filled_arrays(item.line)]
+        if filled := _find_filled_arrays(item.line):
+            result += [copy_ for copy_ in needed_copies if copy_.reads & filled]
     return result
 
 
@@ -333,7 +343,7 @@ class _Splitter:
             names=self.kernel.names,
         )
 
-    def make_call_lines(self, name: str, piece: list[TitledLine], later_read_names: set[str]) -> list[TitledLine]:
+    def make_call_lines(self, name: str, piece: list[TitledLine], later_read_names: frozenset[str]) -> list[TitledLine]:
         """Return the lines of the calling function that call part `name` and read its values.
 
         `later_read_names`: names that later lines of the calling function read. If the part tests pivots, its status
@@ -342,11 +352,8 @@ class _Splitter:
         arguments = tuple(Place(argument.name) for argument in self.kernel.arguments)
         call = Call(name, arguments, (Place(self.array_name),))
         tests = [item.line for item in piece if isinstance(item.line, Guard)]
-        loads = [
-            self.make_load_line(local)
-            for local in self.index_of_passed
-            if local in later_read_names and local in {item.defines for item in piece}
-        ]
+        loaded = {item.defines for item in piece} & later_read_names & self.index_of_passed.keys()
+        loads = [self.make_load_line(local) for local in sorted(loaded, key=self.index_of_passed.__getitem__)]
         lines: list[Line] = [call]
         status_lines: list[Line] = []
         if tests:

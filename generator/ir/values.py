@@ -20,7 +20,7 @@ Names = frozenset[str]
 NO_NAMES: Names = frozenset()
 
 
-@lru_cache(20_000)
+@lru_cache(100_000)
 def find_read_names(value: sp.Basic) -> Names:
     """Return the names that an expression reads: locals and arguments; with a `BranchOf` also `branch` and `g`.
 

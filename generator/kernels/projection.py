@@ -13,6 +13,7 @@ from gudgeon.generator.ir.signatures import DISCRETE, PARAMETERS, STATE, make_in
 from gudgeon.generator.ir.statements import Largest, Return
 from gudgeon.generator.solvers.kkt import KKT
 from gudgeon.generator.solvers.pivots import RUN_VANISHING
+from gudgeon.generator.symbols.derivatives import find_symbols
 from gudgeon.generator.symbols.storage import Place
 
 MIN_MASS_FRACTION = 1e-4  # of the mass of all bodies: the least that a body counts in projections
@@ -93,7 +94,10 @@ def raise_small_masses(system: System) -> System:
         own_mass, least_mass = mass[k, k], least_body_mass * system.compute_inertia_of_unit_mass(k)
         if least_mass != 0 and model.parameter_table.is_constant(own_mass):
             name = f"{'tree_' if system.in_tree else ''}metric_{q.name}"
-            mass[k, k] = derive(name, sp.Max(own_mass, least_mass), "of projections")
+            # SymPy cannot compare a mass with the sum of all masses, a symbol, and spends long on trying it
+            is_undecided = not find_symbols(least_body_mass) <= find_symbols(own_mass)
+            is_undecided = is_undecided and not own_mass.has(sp.Max, sp.Min)
+            mass[k, k] = derive(name, sp.Max(own_mass, least_mass, evaluate=not is_undecided), "of projections")
             model.parameter_table.internal_parameters.add(mass[k, k])
     return replace(system, mass=mass)
 

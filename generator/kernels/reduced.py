@@ -103,10 +103,16 @@ def _make_reduce_kernels(model: Model, system: TreeSystem) -> list[Kernel]:
     The second one is left out if the absolute formulation never solves.
     """
     coordinate_pairs = list(zip(model.q, model.v, strict=True))
-    differentiate = model.symbols.differentiate
+    differentiate, find_variables = model.symbols.differentiate, model.symbols.find_variables
     names = (*system.unknowns, *(system.driven_loops.names if system.driven_loops else ()))
     positions = _express_tree_coordinates(model, system, names)
-    rates = [sp.Add(*(differentiate(coordinate, q) * v for q, v in coordinate_pairs)) for coordinate in positions]
+
+    def compute_rate(value: sp.Expr) -> sp.Expr:
+        """Return the sum of the derivatives of a value by the coordinates, times their rates."""
+        variables = find_variables(value)
+        return sp.Add(*(differentiate(value, q) * v for q, v in coordinate_pairs if q in variables))
+
+    rates = [compute_rate(position) for position in positions]
     state = KernelBuilder(
         model.symbols,
         "reduce_state",
@@ -127,14 +133,13 @@ def _make_reduce_kernels(model: Model, system: TreeSystem) -> list[Kernel]:
     for k, (position, rate) in enumerate(zip(positions, rates, strict=True)):
         if k == len(system.unknowns):
             break
-        velocity_terms = (
-            differentiate(position, q) * PlaceSymbol(Place("all_a")[index]) for index, q in enumerate(model.q)
-        )
-        accelerations.append_store(
-            Place("a")[k],
-            sp.Add(*velocity_terms, *(differentiate(rate, q) * v for q, v in coordinate_pairs)),
-            system.unknowns[k],
-        )
+        variables = find_variables(position)
+        terms = [
+            differentiate(position, q) * PlaceSymbol(Place("all_a")[index])
+            for index, q in enumerate(model.q)
+            if q in variables
+        ]
+        accelerations.append_store(Place("a")[k], sp.Add(*terms, compute_rate(rate)), system.unknowns[k])
     kernels = [state.build_kernel((*STATE, PARAMETERS, make_output_argument("s"), make_output_argument("s_rate")))]
     if has_singular_fallback(system):
         kernels.append(

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import sympy as sp
 
@@ -42,14 +43,20 @@ class TreeSystem(System):
     driven_loops: DrivenLoops | None = None  # what the drives determine through loops (driven_chains.py)
     in_tree = True
 
+    @cached_property
+    def _rotating_bodies(self) -> dict[str, dict[str, sp.Expr]]:
+        """Return for each coordinate the bodies that turn with it, in the order of the model, and their rates by it."""
+        geometry, rotating_bodies = self.model.geometry, dict[str, dict[str, sp.Expr]]()
+        assert isinstance(geometry, TreeGeometry)
+        for body in geometry.bodies:
+            for name, rate in geometry.frame_of[body].angle_coefficients.items():
+                if rate != 0:
+                    rotating_bodies.setdefault(name, {})[body] = rate
+        return rotating_bodies
+
     def _find_rotating_bodies(self, k: int) -> dict[str, sp.Expr]:
         """Return the bodies that turn with coordinate k, and their rates by it; none for a slide."""
-        geometry, name = self.model.geometry, self.unknowns[k]
-        assert isinstance(geometry, TreeGeometry)
-        angle_coefficients = {
-            body: geometry.frame_of[body].angle_coefficients.get(name, ZERO) for body in geometry.bodies
-        }
-        return {body: rate for body, rate in angle_coefficients.items() if rate != 0}
+        return self._rotating_bodies.get(self.unknowns[k], {})
 
     def compute_inertia_of_unit_mass(self, k: int) -> sp.Expr:
         """Return the inertia of an angle k for bodies of 1 kg: Σ (∂θ/∂k)² s² over their joint points; 1 for a slide."""

@@ -10,6 +10,7 @@ before anything is derived on it.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
@@ -21,7 +22,7 @@ from gudgeon.generator.kinds.joints.joint_type import joint_types
 from gudgeon.generator.mechanism import GROUND, Joint
 from gudgeon.generator.reduction.frames import CONSTANT, Affine, substitute_coordinate
 from gudgeon.generator.reduction.shared_points import SharedPoint, find_shared_points
-from gudgeon.generator.solvers.sparsity import choose_elimination
+from gudgeon.generator.solvers.sparsity import find_elimination_below
 
 
 @dataclass(frozen=True)
@@ -84,6 +85,11 @@ def _find_coupled_coordinates(
     return coupled
 
 
+def _make_key(links: Iterable[Link]) -> frozenset[tuple[str, str]]:
+    """Return the set of (body, joint that places it) that distinguishes a tree from others."""
+    return frozenset((link.body, link.joint.name if link.joint else "") for link in links)
+
+
 class OperationEstimate:
     """Estimated operations of a tree's right-hand side, counted from which coordinates are coupled."""
 
@@ -109,15 +115,29 @@ class OperationEstimate:
         satisfied = used_rows.union(*(shared_point.rows for shared_point in shared_points))
         self.rows = [(r.name, sorted({body_of[q] for q in r.phi_q})) for r in model.rows if r.name not in satisfied]
 
-    def __call__(self, links: tuple[Link, ...]) -> int:
-        """Return the estimated operations of the right-hand side on a tree, computed once for equal trees."""
-        key = frozenset((link.body, link.joint.name if link.joint else "") for link in links)
+    def __call__(self, links: tuple[Link, ...], limit: float = math.inf) -> int:
+        """Return the estimated operations of the right-hand side on a tree, computed once for equal trees.
+
+        If they exceed `limit`, a lower bound above it may be returned.
+        """
+        key = _make_key(links)
         if key not in self.costs:
-            self.costs[key] = self._count_operations(links)
+            self.costs[key] = self._count_operations(links, limit)
         return self.costs[key]
 
-    def _count_operations(self, links: tuple[Link, ...]) -> int:
-        """Return the estimated operations of the right-hand side on a tree.
+    def find_cheapest(self, trees: Sequence[tuple[Link, ...]]) -> tuple[Link, ...]:
+        """Return the first of the cheapest trees, the last one being estimated first.
+
+        `costs` contains a lower bound for a tree that costs more than a later one.
+        """
+        limit = math.inf
+        for links in reversed(trees):
+            limit = min(limit, self(links, limit))
+        self.costs = {_make_key(links): self(links) for links in trees}
+        return min(trees, key=self)
+
+    def _count_operations(self, links: tuple[Link, ...], limit: float) -> int:
+        """Return the estimated operations of the right-hand side on a tree, or a lower bound above `limit`.
 
         Entries of M and of closures count, and the elimination. Each leaf body with nearly no inertia about its joint
         costs 10⁶ more.
@@ -126,14 +146,16 @@ class OperationEstimate:
         paths: dict[str, list[Link]] = {}
         moving_coordinates: dict[str, frozenset[str]] = {GROUND: frozenset()}  # coordinates that move a body's points
         coordinates_of_masses: list[frozenset[str]] = []  # coordinates that move a centre of mass
+        carriers = {link.parent for link in links if link.joint}  # what moves them also moves the bodies on them
         for link in links:
             paths[link.body] = [*paths.get(link.parent, []), link]
             moving_coordinates[link.body] = (
                 moving_coordinates[link.parent] | self.angle_coordinates[link.body] | set(link.coordinates)
             )
-            coordinates_of_masses.append(
-                frozenset(link.coordinates) if link.joint is None else moving_coordinates[link.body]
-            )
+            if link.body not in carriers:
+                coordinates_of_masses.append(
+                    frozenset(link.coordinates) if link.joint is None else moving_coordinates[link.body]
+                )
         index_of = {name: k for k, name in enumerate(sorted(frozenset().union(*moving_coordinates.values())))}
         free_indices = {index_of[name] for link in links if link.joint is None for name in link.coordinates}
         neighbours = _find_coupled_coordinates(index_of, coordinates_of_masses, free_indices)
@@ -152,7 +174,12 @@ class OperationEstimate:
                 for index in indices:
                     neighbours[index] = neighbours[index] | {len(neighbours) - 1}
         cost += _LEAF_WITHOUT_INERTIA_COST * len(self._find_leaves_without_inertia(links))
-        return cost + _PRODUCT_COST * choose_elimination(tuple(map(frozenset, neighbours)), len(index_of)).cost
+        if cost > limit:
+            return cost
+        elimination = find_elimination_below(
+            (limit - cost) / _PRODUCT_COST, tuple(map(frozenset, neighbours)), len(index_of)
+        )
+        return cost + _PRODUCT_COST * elimination.cost if elimination else math.floor(limit) + 1
 
     def _find_leaves_without_inertia(self, links: tuple[Link, ...]) -> list[Link]:
         """Return the links of leaf bodies with nearly no moment of inertia about their joint or centre of mass.
@@ -218,7 +245,7 @@ class Tree:
     closing_pairs: tuple[Joint, ...]  # pairs of bodies at a shared point that the tree does not connect
     shared_points: tuple[SharedPoint, ...]
     solved: Mapping[str, str]  # equations used for angles, each with the body whose angle it gives
-    costs: tuple[int, ...]  # estimated operations of the trees tried, the first one grown breadth first
+    costs: tuple[int, ...]  # estimated operations (or a lower bound) of the trees tried, the first grown breadth first
 
     def find_multiplier_terms(self, row: str) -> dict[str, int]:
         """Return the multiplier of a closure as a sum of those of the file's equations: sign by equation.
@@ -312,8 +339,10 @@ def choose_tree(model: Model) -> Tree:
         joint for shared_point in shared_points for joint in shared_point.pairs
     ]
     estimate = OperationEstimate(model, angles, used_rows, shared_points)
-    best = min((_grow_tree(model, edges, edges, depth) for depth in _MAX_DEPTHS), key=estimate)
-    if len(free) <= _MAX_COORDINATES_FOR_EXCHANGE and best == _grow_tree(model, edges, edges, None):
+    trees = [_grow_tree(model, edges, edges, depth) for depth in _MAX_DEPTHS]
+    if len(free) > _MAX_COORDINATES_FOR_EXCHANGE:
+        best = estimate.find_cheapest(trees)
+    elif (best := min(trees, key=estimate)) == trees[0]:
         best = _improve_by_exchange(model, edges, best, estimate)
     rows = used_rows.union(*(link.rows for link in best), *(shared_point.rows for shared_point in shared_points))
     closing = tuple(estimate.find_closing_pairs(best))

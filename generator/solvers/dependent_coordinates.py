@@ -124,7 +124,8 @@ class DependentCoordinates:
             (k, r): ((names[k // 3], self.rows[r].owner) in self._avoided_pairs, not is_complete[k, r])
             for k, r in candidates
         }
-        best = [pair for pair in candidates if rank[pair] == min(rank.values())]
+        best_rank = min(rank.values(), default=None)
+        best = [pair for pair in candidates if rank[pair] == best_rank]
         only_avoided = bool(best) and rank[best[0]][0]  # with one body that is placed others may be placed by it
         return [(k, r) for k, r in best if not only_avoided or k // 3 == best[0][0] // 3]
 

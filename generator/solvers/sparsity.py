@@ -10,8 +10,10 @@ C.-J. Fan, 1990).
 from __future__ import annotations
 
 import heapq
+import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from types import MappingProxyType
 
 from sympy.utilities.iterables import strongly_connected_components
@@ -57,11 +59,30 @@ def choose_elimination(
     in `first` come before all others, in their order. A node with a `partner`, an equation with a constant entry in it,
     is eliminated together with that equation.
     """
+    elimination = find_elimination_below(math.inf, pattern, n_coordinates, last, pairs, first, partner)
+    assert elimination is not None
+    return elimination
+
+
+def find_elimination_below(
+    limit: float,
+    pattern: Pattern,
+    n_coordinates: int,
+    last: int | None = None,
+    pairs: Mapping[int, int] = NO_PAIRS,
+    first: Sequence[int] = (),
+    partner: Mapping[int, int] = NO_PAIRS,
+) -> Elimination | None:
+    """Return the elimination of `choose_elimination` if its cost is at most `limit`, else None or a costlier one.
+
+    An order is abandoned as soon as its products exceed the cost of the best order so far, so that dense candidates of
+    large mechanisms cost little time.
+    """
     if first:
-        orders = (
-            _eliminate_in_order(first, pattern, n_coordinates, last, pairs, partner, eager) for eager in (False, True)
-        )
-        return min(orders if partner else [next(orders)], key=lambda elimination: elimination.cost)
+        in_order = partial(_eliminate_in_order, first, pattern, n_coordinates, last, pairs, partner)
+        eager = in_order(True, limit) if partner else None
+        plain = in_order(False, min(limit, eager.cost) if eager else limit)
+        return min((order for order in (plain, eager) if order), key=lambda order: order.cost, default=None)
     end = len(pattern) if last is None else last
 
     def compute_degree_key(graph: Sequence[set[int]], node: int, depth: int) -> tuple[int, ...]:
@@ -69,10 +90,11 @@ def choose_elimination(
         return (node >= end, len(graph[node]), node)
 
     def compute_fill_key(graph: Sequence[set[int]], node: int, depth: int) -> tuple[int, ...]:
-        """Return the key of least fill-in, then of least degree; nodes from `last` on come last."""
-        neighbours = sorted(graph[node])
-        missing = sum(b not in graph[a] for i, a in enumerate(neighbours) for b in neighbours[i + 1 :])
-        return (node >= end, missing, len(neighbours), node)
+        """Return the key of least fill-in, then of least degree."""
+        neighbours = graph[node]
+        n_present = sum(len(neighbours & graph[neighbour]) for neighbour in neighbours)  # each edge twice
+        n_neighbours = len(neighbours)
+        return (node >= end, (n_neighbours * (n_neighbours - 1) - n_present) // 2, n_neighbours, node)
 
     def compute_bodies_first_key(graph: Sequence[set[int]], node: int, depth: int) -> tuple[int, ...]:
         """Return the key of least fill-in with all coordinates before equations."""
@@ -99,12 +121,13 @@ def choose_elimination(
         compute_shallow_key,
         compute_early_key,
     )
-    candidates = [
-        _eliminate_greedily(pattern, n_coordinates, key, equation_pairs)
-        for equation_pairs in (NO_PAIRS, pairs)[: 1 + bool(pairs)]
-        for key in keys
-    ]
-    return min(candidates, key=lambda elimination: elimination.cost)
+    best: Elimination | None = None
+    for equation_pairs in (NO_PAIRS, pairs)[: 1 + bool(pairs)]:
+        for key in keys:
+            candidate = _eliminate_greedily(pattern, n_coordinates, key, equation_pairs, best.cost if best else limit)
+            if candidate and (best is None or candidate.cost < best.cost):
+                best = candidate
+    return best
 
 
 def _eliminate_in_order(
@@ -115,8 +138,11 @@ def _eliminate_in_order(
     pairs: Mapping[int, int],
     partner: Mapping[int, int],
     eager: bool,
-) -> Elimination:
+    limit: float,
+) -> Elimination | None:
     """Return the elimination of the nodes in `first` with their partners, then of the others by the best order.
+
+    Return None if the products exceed `limit`.
 
     `eager`: a coordinate that is in none of the partners any more follows at once. Along a chain of bodies from its
     end, each is then coupled only with the one that carries it.
@@ -138,7 +164,8 @@ def _eliminate_in_order(
                 products += _eliminate_node(candidate, None, graph, columns)
     remaining = [node for node in range(len(pattern)) if node not in columns]
     index_of = {node: candidate for candidate, node in enumerate(remaining)}
-    remaining_elimination = choose_elimination(
+    remaining_elimination = find_elimination_below(
+        limit - products,
         tuple(frozenset(index_of[candidate] for candidate in graph[node]) for node in remaining),
         sum(node < n_coordinates for node in remaining),
         None if last is None else sum(node < last for node in remaining),
@@ -148,6 +175,8 @@ def _eliminate_in_order(
             if r in index_of and partner_row in index_of
         },
     )
+    if remaining_elimination is None:
+        return None
     order = (*columns, *(remaining[candidate] for candidate in remaining_elimination.order))
     position = {node: candidate for candidate, node in enumerate(order)}
     structure = {node: tuple(sorted(columns[node], key=position.__getitem__)) for node in columns}
@@ -185,8 +214,9 @@ def _eliminate_greedily(
     n_coordinates: int,
     key: Callable[[Sequence[set[int]], int, int], tuple[int, ...]],
     pairs: Mapping[int, int],
-) -> Elimination:
-    """Return the greedy elimination that takes the node with the least `key` next.
+    limit: float,
+) -> Elimination | None:
+    """Return the greedy elimination that takes the node with the least `key` next; None above `limit` products.
 
     An equation is ready once all its coordinates are eliminated, one in `pairs` after two. key(graph, node, depth):
     depth is the number of divisions before the node.
@@ -200,7 +230,7 @@ def _eliminate_greedily(
         n_missing[equation] = min(n_missing[equation], 2)
     remaining = set(range(len(pattern)))
     depths = [0] * len(pattern)  # how many pivots each node has to wait for, one after the other
-    order, columns = list[int](), dict[int, set[int]]()
+    order, columns, products = list[int](), dict[int, set[int]](), 0
     keys = {node: key(graph, node, depths[node]) for node in remaining if n_missing[node] == 0}
     heap = sorted((value, node) for node, value in keys.items())
     while remaining:
@@ -212,7 +242,10 @@ def _eliminate_greedily(
             keys[pairs[node]] = _FIRST_KEY
         neighbours = graph[node]
         order.append(node)
-        columns[node] = set(neighbours)
+        columns[node] = neighbours
+        products += len(neighbours) * (len(neighbours) + 3) // 2
+        if products > limit:
+            return None
         remaining.discard(node)
         del keys[node]
         changed_nodes = set(neighbours)
@@ -222,7 +255,8 @@ def _eliminate_greedily(
                 node >= n_coordinates and pairs.get(node) not in remaining or node < n_coordinates and depths[node] > 0
             )
             depths[neighbour] = max(depths[neighbour], depths[node] + adds_division)
-            graph[neighbour] |= neighbours - {neighbour}
+            graph[neighbour] |= neighbours
+            graph[neighbour].discard(neighbour)
             changed_nodes |= graph[neighbour]
             if neighbour >= n_coordinates and node < n_coordinates and neighbour in pattern[node]:
                 n_missing[neighbour] -= 1
@@ -234,7 +268,6 @@ def _eliminate_greedily(
                 heapq.heappush(heap, (keys[neighbour], neighbour))
     position = {node: k for k, node in enumerate(order)}
     structure = {node: tuple(sorted(columns[node], key=position.__getitem__)) for node in order}
-    products = sum(len(c) * (len(c) + 3) // 2 for c in columns.values())
     return Elimination(tuple(order), structure, products, _compute_division_depth(order, structure, n_coordinates))
 
 

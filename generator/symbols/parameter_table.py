@@ -65,6 +65,7 @@ class ParameterTable(Freezable):
         self.signs: dict[str, str] = {}  # address -> ">" or "<": the sign to zero that the equations rely on
         self.tables: dict[str, list[sp.Symbol]] = {}  # parameters in arrays of Parameters, by the array's name
         self._derived_by: dict[sp.Expr, sp.Symbol] = {}
+        self._default_of: dict[sp.Symbol, float] = {}  # of the entries
         self._parameters, self._instead = scene.parameters, scene.chosen_properties
         for name in scene.parameters:
             self._get_or_add_named_parameter(name)
@@ -131,6 +132,7 @@ class ParameterTable(Freezable):
         field_base_name = address if is_short else ""
         symbol = self.symbols.add_symbol(base_name, place, address, field_base_name=field_base_name)
         self.entries[address] = ParameterEntry(symbol, address, value, default, quantity.dimension, (), quantity.value)
+        self._default_of[symbol] = default
         return symbol
 
     def get_or_add_parameter(self, quantity: Quantity, zero: bool = False) -> sp.Expr:
@@ -178,6 +180,7 @@ class ParameterTable(Freezable):
         if address not in self.entries:
             symbol = self.symbols.add_symbol(base_name, OWN_FIELD, address)
             self.entries[address] = ParameterEntry(symbol, address, sp.Float(default, 17), default, dimension)
+            self._default_of[symbol] = default
         self.symbols.add_shared_parameter(self.entries[address].symbol)
         return self.entries[address].symbol
 
@@ -228,11 +231,10 @@ class ParameterTable(Freezable):
 
         Derived parameters are replaced by their definitions; other symbols must not occur.
         """
-        default_by_symbol = {entry.symbol: entry.default for entry in self.entries.values()}
         value = sp.sympify(expression)
         while symbols := value.free_symbols:
             value = value.xreplace(
-                {s: self.derived[s] if s in self.derived else sp.Float(default_by_symbol[s], 17) for s in symbols}
+                {s: self.derived[s] if s in self.derived else sp.Float(self._default_of[s], 17) for s in symbols}
             )
         return float(value)
 

@@ -206,6 +206,11 @@ class Symbols(Freezable):
                 result += differentiate(expression, symbol) * inner_derivative
         return result
 
+    def find_variables(self, expression: sp.Expr) -> set[sp.Symbol]:
+        """Return the symbols by which `differentiate` may give a derivative other than 0."""
+        symbols = find_symbols(expression)
+        return set(symbols).union(*(self.rules[symbol] for symbol in symbols if symbol in self.rules))
+
     def differentiate_definitions(self, expression: sp.Expr, variable: sp.Symbol) -> sp.Expr:
         """Return the derivative of an expression by `variable`, through the definitions of derived symbols.
 

@@ -5,8 +5,9 @@ The printed text is the same as SymPy's.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection, Iterable
 from functools import lru_cache
+from operator import attrgetter
 from typing import Any
 
 import sympy as sp
@@ -15,6 +16,7 @@ from sympy.core.function import AppliedUndef
 from sympy.printing.precedence import PRECEDENCE, precedence
 
 from gudgeon.generator.symbols.from_expressions import CLASSES
+from gudgeon.generator.symbols.storage import PlaceSymbol
 
 Method = Callable[..., str]
 
@@ -56,7 +58,7 @@ class CachedPrinter:
         other factors the numerator is 1.
         """
         coefficient, others = expr.as_coeff_Mul()
-        factors = list(others.as_ordered_factors())
+        factors = order_factors(others)
         negative = coefficient.is_extended_negative
         if (size := -coefficient if negative else coefficient) is not sp.S.One:
             factors.insert(0, size)
@@ -93,6 +95,8 @@ class CachedPrinter:
         )
 
 
+_ORDERED_BY_NAME = (sp.Symbol, PlaceSymbol)
+_get_name = attrgetter("name")
 _precedence = lru_cache(100_000)(precedence)
 _SUM = PRECEDENCE["Add"]
 _UNARY_MINUS = (PRECEDENCE["Pow"] + PRECEDENCE["Mul"]) / 2
@@ -132,7 +136,7 @@ def order_terms(expr: sp.Expr) -> tuple[sp.Expr, ...]:
     ):
         return tuple(expr.as_ordered_terms())
     powers_and_number = {term: _split_powers(term) for term in terms}
-    bases = sorted({base for powers, _ in powers_and_number.values() for base in powers}, key=sp.default_sort_key)
+    bases = _sort_expressions({base for powers, _ in powers_and_number.values() for base in powers})
 
     def key(term: sp.Expr) -> tuple[list[int], bool, float, float]:
         """Return the sort key of a term."""
@@ -140,6 +144,23 @@ def order_terms(expr: sp.Expr) -> tuple[sp.Expr, ...]:
         return [-powers.get(base, 0) for base in bases], bool(number.imag), number.imag, number.real
 
     return tuple(sorted(terms, key=key))
+
+
+def order_factors(expr: sp.Expr) -> list[sp.Expr]:
+    """Return the factors of a product in SymPy's printing order, in a new list."""
+    if expr.is_Mul and _are_plain_symbols(expr.args):
+        return _sort_expressions(expr.args)
+    return list(expr.as_ordered_factors())
+
+
+def _sort_expressions(expressions: Collection[sp.Expr]) -> list[sp.Expr]:
+    """Return expressions in SymPy's order; that of symbols is the order of their names, which is faster to compare."""
+    return sorted(expressions, key=_get_name if _are_plain_symbols(expressions) else sp.default_sort_key)
+
+
+def _are_plain_symbols(expressions: Iterable[sp.Expr]) -> bool:
+    """Return whether all expressions are symbols that SymPy orders by their names."""
+    return all(type(expression) in _ORDERED_BY_NAME for expression in expressions)
 
 
 def _split_powers(term: sp.Expr) -> tuple[dict[sp.Expr, int], complex]:

@@ -18,7 +18,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gudgeon.assembly.large import LARGE, compute_rank_by_rows, estimate_left_null_maxima, has_independent_rows
+from gudgeon.assembly.large import (
+    LARGE,
+    compute_rank_by_rows,
+    estimate_left_null_maxima,
+    has_independent_rows,
+    solve_minimum_norm,
+)
 from gudgeon.assembly.linkage import Linkage, compute_mechanism_size, find_angles, scale_rows
 from gudgeon.errors import AssemblyError, SolverError
 from gudgeon.model.cached_values import cache_by_values
@@ -156,7 +162,12 @@ def find_nearby_configurations(
             if np.abs(residual).max(initial=0.0) < 1e-13:
                 break
             matrix = linkage.closed_phi_q(t, x, p)[row_indices] * scale / units[:, None]
-            x = x - scale * np.linalg.lstsq(matrix, residual, rcond=1e-10)[0]
+            step = (
+                solve_minimum_norm(matrix, residual)
+                if len(x) >= LARGE
+                else np.linalg.lstsq(matrix, residual, rcond=1e-10)[0]
+            )
+            x = x - scale * step
         if np.abs(linkage.closed_phi(t, x, p)[row_indices] / units).max(initial=0.0) < 1e-9:
             near_q.append(x)
     return near_q

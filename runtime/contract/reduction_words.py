@@ -186,7 +186,7 @@ def _explain_choice_of_tree(costs: Sequence[int]) -> str:
     """
     if len(costs) == 1:
         return "no other was looked at"
-    comparison = "" if min(costs) == costs[0] else f" where the one breadth first has {costs[0]:,}"
+    comparison = "" if min(costs) == costs[0] else f" where the one breadth first has at least {costs[0]:,}"
     return f"of {len(costs)} the one of the fewest operations for M and closures, estimated {min(costs):,}{comparison}"
 
 

@@ -19,6 +19,7 @@ from gudgeon.files.reading import MAX_BYTES, MAX_TABLE_BYTES, read_table_file, r
 from gudgeon.language.argument_checks import check_mapping, check_number, check_path, check_text
 from gudgeon.loading.cache import Cache, compute_digest, get_default_cache
 from gudgeon.loading.engine import read_files
+from gudgeon.loading.forecast import announce_long_derivation
 from gudgeon.loading.shipped import (
     PACKAGE,
     find_shipped_file,
@@ -209,6 +210,7 @@ def derive_kernel_source(
         from gudgeon.generator.reader.read import read_scene
 
         read = read_scene(data, str(file), scene, overrides, seconds)
+        announce_long_derivation(file.stem, len(read.mechanism.bodies))
         if (
             background and formulation == FORMULATIONS[0]
         ):  # a copy of a shipped file mostly has its numbers alone changed

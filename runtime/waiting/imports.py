@@ -7,6 +7,7 @@ while the import is completed. `pause_garbage_collector` stops the garbage colle
 from __future__ import annotations
 
 import gc
+import os
 import sys
 import threading
 from collections.abc import Iterator
@@ -19,6 +20,7 @@ GENERATOR = ("numpy", "mpmath", "sympy", "jinja2", "ruamel.yaml", "gudgeon.gener
 CFFI = ("cffi", "pycparser", "cffi.cparser")
 CHECK_INTERVAL_S = 0.05  # s between two checks for signals
 SPARSE = ("numpy", "scipy.sparse", "scipy.sparse.linalg")
+SYMPY_CACHE_SIZE = "20000"  # of 1,000 that are the default, few are still there when a large scene needs them again
 _frozen = False  # whether other code froze objects; counting them takes ten milliseconds
 
 
@@ -41,15 +43,30 @@ def import_modules_completely(*module_names: str) -> None:
 def _import_modules(names: tuple[str, ...], errors: list[BaseException], finished_event: threading.Event) -> None:
     """Import modules in this thread; append an exception to `errors`, and set `finished_event` at the end."""
     try:
-        with (
-            pause_garbage_collector()
-        ):  # what modules make stays: to look through it again and again takes a tenth of their time
+        # what modules make stays: to look through it again and again takes a tenth of their time
+        with pause_garbage_collector(), _enlarge_sympy_cache():
             for name in names:
                 import_module(name)
     except BaseException as error:
         errors.append(error)
     finally:
         finished_event.set()
+
+
+@contextmanager
+def _enlarge_sympy_cache() -> Iterator[None]:
+    """Let SymPy, if it is imported within a with block, cache SYMPY_CACHE_SIZE results of each function.
+
+    SymPy reads the size from the environment, once. A size that the user has set is kept.
+    """
+    if "SYMPY_CACHE_SIZE" in os.environ:
+        yield
+        return
+    os.environ["SYMPY_CACHE_SIZE"] = SYMPY_CACHE_SIZE
+    try:
+        yield
+    finally:
+        os.environ.pop("SYMPY_CACHE_SIZE", None)
 
 
 def _is_imported(name: str) -> bool:

@@ -101,3 +101,16 @@ main()
 def test_ctrl_c_while_the_command_line_is_imported_is_told_in_a_word() -> None:
     done = subprocess.run([sys.executable, "-c", COMMAND], capture_output=True, text=True)
     assert (done.returncode, done.stdout, done.stderr) == (130, "", "interrupted\n")
+
+
+@pytest.mark.parametrize(("user_size", "size"), [(None, 20000), ("777", 777)])
+def test_sympy_gets_a_larger_cache_unless_the_user_chose_its_size(user_size: str | None, size: int) -> None:
+    """The variable is set during the import of SymPy only."""
+    code = (
+        "import os; from gudgeon.waiting.imports import import_modules_completely; import_modules_completely('sympy');"
+        " from sympy.core.cache import SYMPY_CACHE_SIZE; print(SYMPY_CACHE_SIZE, os.environ.get('SYMPY_CACHE_SIZE'))"
+    )
+    environment = {name: value for name, value in os.environ.items() if name != "SYMPY_CACHE_SIZE"}
+    environment |= {"SYMPY_CACHE_SIZE": user_size} if user_size else {}
+    result = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=True)
+    assert result.stdout.split() == [str(size), str(user_size)]
