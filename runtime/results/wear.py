@@ -76,27 +76,27 @@ class Surface:
 
     @property
     def volume(self) -> float:
-        """Worn volume, m³."""
+        """Return the worn volume, m³."""
         return float(self.depth.sum()) * self.length * self.radius * 2.0 * np.pi / len(self.depth)
 
     @property
     def deepest(self) -> float:
-        """Largest wear depth, m."""
+        """Return the largest wear depth, m."""
         return float(self.depth.max())
 
     @property
     def deepest_angle(self) -> float:
-        """Angle of the middle of the deepest cell, rad, within 0 and 2π; NaN without wear."""
+        """Return the angle of the middle of the deepest cell, rad, within 0 and 2π; NaN without wear."""
         return float(compute_cell_angles(len(self.depth))[self.depth.argmax()]) if self.deepest > 0.0 else np.nan
 
     @property
     def depth_per_hour(self) -> Array:
-        """Wear depth per hour of such running, (points,) m/h."""
+        """Return the wear depth per hour of such running, (points,) m/h."""
         return self.depth / self.hours
 
     @property
     def volume_per_hour(self) -> float:
-        """Worn volume per hour of such running, m³/h."""
+        """Return the worn volume per hour of such running, m³/h."""
         return self.volume / self.hours
 
     def arc(self, share: float = WORN_FRACTION) -> float:
