@@ -237,6 +237,8 @@ class PreparedRun:
     def _run_one(self, x: Array) -> Array:
         """Return the series (n_series, n_samples) of the run with parameter values x (n_parameters,)."""
         self.failures, run = {}, self._run
+        if self._peaks:
+            self.extremes = np.full((len(self._peaks), 2), np.nan)  # until the run is over
         if run is None:
             return self._simulate(x)
         k = run.next_row

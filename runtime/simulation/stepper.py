@@ -23,7 +23,7 @@ from gudgeon.model.arrays import as_c_array
 from gudgeon.model.compiled import Array
 from gudgeon.model.parameters import prepare_values, read_given_parameters
 from gudgeon.results.state import State, make_state
-from gudgeon.simulation.arguments import MIN_ROUNDINGS, compute_output_times
+from gudgeon.simulation.arguments import MIN_DURATION_S, MIN_ROUNDINGS, compute_output_times
 from gudgeon.simulation.prepared_run import RunSetup
 from gudgeon.simulation.restart import (
     check_resumed_state,
@@ -62,7 +62,7 @@ class Stepper:
         checked = {"inputs": setup.names, "series": setup.series, "fixed": setup.fixed}
         self._compiled, self._arguments = setup.scene.compiled, arguments | checked
         self._step_varies = setup.method == "rk4" and setup.step is None
-        # of a scene that `simulate` runs: the state reached, and the start of the next run; None: the scene's start
+        # of a scene that `simulate` runs: the state reached, and the state from which the next run begins
         self._state: State | None = None
         self._start: State | None = None
         self._x, self._x_key, self._t, self.ended, self._is_reset = np.zeros(len(setup.names)), b"", 0.0, False, False
@@ -155,7 +155,7 @@ class Stepper:
         with self._lock:
             self._check_reset()
             x, t = self._x if inputs is None else self._check_inputs(inputs), self._t + dt
-            if not MIN_ROUNDINGS * math.ulp(t) < dt < math.inf:  # raises what is wrong with it
+            if not max(MIN_ROUNDINGS * math.ulp(t), MIN_DURATION_S) < dt < math.inf:  # raises what is wrong with it
                 compute_output_times(self._setup.scene.source, self._setup.columns.p[0], self._t, t, 1)
             if self._run is None:
                 return self._step_by_simulate(t, x)
@@ -166,7 +166,7 @@ class Stepper:
                     self._x_key = b""
                     check_resumed_state(self._compiled, self.final, self._setup.columns.p[0])
             if self._step_varies:
-                self._run.arrays["step"][0] = self._setup.evaluate_step(0, dt)
+                self._run.arrays["step"][0] = self._setup.evaluate_step(0, t - self._t)
             values = self._integrate(t, 2, x)
             if x is not self._x:
                 self._x = x.copy()
@@ -265,7 +265,9 @@ class Stepper:
         result = self._simulate(t + max(FIRST_DURATION, FIRST_DURATION * abs(t)), x, start)
         motion = (array[0] for array in (result.q, result.v, result.state, result.memory))
         self._state = make_state(result.source, result.given, result.is_given, t, *motion)
-        self._x, self._t, self._start, self._is_reset = x.copy(), t, start, True
+        # the first step resumes from here: its inputs do not change the start that was assembled
+        self._start = self._state if start is None else start
+        self._x, self._t, self._is_reset = x.copy(), t, True
         return np.array([result[name][0] for name in self.series])
 
     def _step_by_simulate(self, t: float, x: Array) -> Array:
@@ -273,5 +275,13 @@ class Stepper:
         result = self._simulate(t, x, self._start)
         self._start = self._state = result.final
         self._x, self._t = x.copy(), float(result.t[-1])
-        self.ended = self._t < t
+        self.ended = self._t < t or self._setup.settings.get("stop", True) and _ends_at_event(result)
         return np.array([result[name][-1] for name in self.series])
+
+
+def _ends_at_event(result: Result) -> bool:
+    """Return whether an event of the file that stops runs lies at the end of the run."""
+    if not len(result.events):
+        return False
+    last = result.events[-1]
+    return bool(result.source.events[int(last["event"])].action == "stop" and last["t"] == result.t[-1])

@@ -190,3 +190,50 @@ def test_it_can_be_pickled(scene: str, mechanism: str) -> None:
     copy: Stepper = pickle.loads(pickle.dumps(stepper))
     assert copy.t == stepper.t and copy.step(1e-3).tobytes() == stepper.step(1e-3).tobytes()
     assert "t = 0.004 s" in repr(copy) and copy.inputs == ("bodies.rod.mass",)
+
+
+DRIVEN = (
+    CART.replace(
+        "freedoms: 2", "freedoms: 1\ndrives: {d: {coordinate: cart.x, value: 0.01 m*acos(cos(10 rad/s*t + 1))}}"
+    )
+    .replace("cart.x: 0 m, ", "")
+    .replace("cart.vx: 0 m/s, ", "")
+    .replace("pole.theta - 60 deg", "cart.x - 0.015 m")
+)
+
+
+def test_inputs_of_the_first_step_do_not_change_the_start(tmp_path: Path, cart: Simulation) -> None:
+    """After a reset the state stays, also in scenes that `simulate` runs: here a drive whose jumps are searched."""
+    (tmp_path / "driven.yaml").write_text(DRIVEN)
+    driven = gudgeon.load(tmp_path / "driven.yaml", "ideal")
+    three, ten = np.deg2rad(3.0), np.deg2rad(10.0)
+    for simulation in (cart, driven):
+        stepper = simulation.stepper(["angle", "l"], ["pole.theta"], stop=False)
+        at_start = float(stepper.reset([three, 0.5])[0])
+        np.testing.assert_allclose(at_start, three, rtol=1e-12)
+        assert abs(float(stepper.step(1e-3, [ten, 0.5])[0]) - three) < 0.01 * three
+        stepper.reset([three, 0.5])
+        with pytest.raises(AssemblyError):
+            stepper.step(1e-3, [three, 0.6])
+
+
+def test_an_event_at_the_end_of_a_step_ends_it(tmp_path: Path) -> None:
+    """The event lies at t = 0.05 s, where the drive has moved the cart by 0.015 m."""
+    (tmp_path / "driven.yaml").write_text(DRIVEN)
+    stepper = gudgeon.load(tmp_path / "driven.yaml", "ideal").stepper([], ["cart.x"])
+    stepper.reset()
+    stepper.step(0.05)
+    assert stepper.ended and abs(stepper.t - 0.05) < 1e-9
+
+
+def test_fixed_steps_of_rk4_fit_the_times(cart: Simulation) -> None:
+    """Without `step` the step of rk4 follows from the duration between two rounded times, as in `simulate`."""
+    stepper = cart.stepper(["push"], ["cart.x", "pole.theta"], method="rk4", stop=False)
+    stepper.reset([0.3])
+    run: Result | None = None
+    t = 0.0
+    for _ in range(12):
+        t += 0.05
+        given = {"parameters": {"push": 0.3}, "start": run.final if run else None}
+        run = cart.simulate(t, output=1, method="rk4", stop=False, **given)  # type: ignore[arg-type]
+        assert stepper.step(0.05).tobytes() == last(run, stepper.series)
