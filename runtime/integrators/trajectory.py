@@ -123,6 +123,8 @@ class Counts:
 
 
 # position of each field of Counts in C's counts, followed by its residuals
+# names of the counts that batches keep and files store; the largest speeds serve the audit of a single run alone
+STORED_COUNTS = tuple(each.name for each in fields(Counts) if each.name not in ("speed_max", "omega_max"))
 _COUNT_POSITIONS = tuple((*COUNT_NAMES, *RESIDUAL_NAMES).index(each.name) for each in fields(Counts))
 
 
@@ -136,14 +138,14 @@ def convert_counts(counts: NDArray[Any], residual_values: Array) -> Counts:
 
 
 def convert_counts_of_runs(counts: NDArray[Any], residual_values: Array) -> dict[str, NDArray[Any]]:
-    """Return arrays (n,) by the field names of Counts, from C's (n, N_COUNTS) and (n, N_RESIDUALS) of n runs.
+    """Return arrays (n,) by the names STORED_COUNTS, from C's (n, N_COUNTS) and (n, N_RESIDUALS) of n runs.
 
     Residuals that are not finite become NaN.
     """
     counts_by_name = dict(zip(COUNT_NAMES, counts.T.copy(), strict=True))
     finite = np.where(np.isfinite(residual_values), residual_values, math.nan)
     counts_by_name |= dict(zip(RESIDUAL_NAMES, finite.T.copy(), strict=True))
-    return {each.name: counts_by_name[each.name] for each in fields(Counts)}
+    return {name: counts_by_name[name] for name in STORED_COUNTS}
 
 
 @dataclass(frozen=True)

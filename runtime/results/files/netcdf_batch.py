@@ -9,7 +9,7 @@ import json
 import math
 import os
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -17,7 +17,7 @@ import numpy as np
 from gudgeon import errors
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import GudgeonError, UnknownNameError
-from gudgeon.integrators.trajectory import Counts
+from gudgeon.integrators.trajectory import STORED_COUNTS
 from gudgeon.language.argument_checks import check_text
 from gudgeon.results.batch import (
     Batch,
@@ -51,7 +51,7 @@ if TYPE_CHECKING:
 FORMATS = ("gudgeon-batch/2", "gudgeon-batch/1")  # what is written, and what was before runs had their own times
 RUNS, GIVEN, EXTREMES, NUMBER = "runs", "given", "extremes", "number"
 TIMES, KEPT, OWNER = "times", "kept", "run"
-COUNTS = (*(field.name for field in fields(Counts)), "seconds")
+COUNTS = (*STORED_COUNTS, "seconds")
 
 
 def save(batch: Batch, path: str | os.PathLike[str]) -> None:
