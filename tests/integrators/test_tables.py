@@ -93,5 +93,5 @@ def test_dop853_is_of_order_8() -> None:
     a, b = np.array([np.zeros(16), *(rows[s] for s in range(1, stages))])[:, :stages], rows[stages][:stages]
     assert unmet(8, a, a, b) < 1e-14
     for order in (5, 3):
-        found = re.search(rf"of_{order} = (.*?);", text, re.DOTALL)
+        found = re.search(rf"sum_{order} = (.*?);", text, re.DOTALL)
         assert found and unmet(order, a, a, b - row(found[1], stages)) < 1e-14

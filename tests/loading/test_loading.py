@@ -12,7 +12,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 from hashlib import sha256
 from pathlib import Path
-from types import ModuleType
+from types import ModuleType, SimpleNamespace
 from typing import Any
 
 import pytest
@@ -46,12 +46,12 @@ def generator(monkeypatch: pytest.MonkeyPatch) -> list[tuple[bytes, str, str, Ma
 
     def read_scene(
         data: bytes, file: str, scene: str, overrides: Mapping[str, object], seconds: object
-    ) -> tuple[str, str]:
+    ) -> SimpleNamespace:
         requested.append((data, file, scene, overrides))
-        return scene, sha256(data).hexdigest()
+        return SimpleNamespace(scene=scene, sha256=sha256(data).hexdigest(), mechanism=SimpleNamespace(bodies={}))
 
-    def generate_c(read: tuple[str, str], formulation: str, seconds: object, begun: object) -> KernelSource:
-        return tiny(scene=read[0], sha256=read[1])
+    def generate_c(read: SimpleNamespace, formulation: str, seconds: object, begun: object) -> KernelSource:
+        return tiny(scene=read.scene, sha256=read.sha256)
 
     stands_in: dict[str, dict[str, Any]] = {
         "reader.read": {"read_scene": read_scene, "overrides_change_scene": lambda *_: True},
