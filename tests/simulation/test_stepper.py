@@ -88,8 +88,8 @@ def test_the_same_bits_as_runs_that_resume(
         x = base * rng.uniform(0.9, 1.1) if k % 3 else x
         values = stepper.step(h, x)
         t = t + h
-        given = {"parameters": dict(zip(inputs, x.tolist(), strict=True)), "start": run and run.final}
-        run = sim.simulate(t, output=1, **given, **options, peaks=())
+        parameters, start = dict(zip(inputs, x.tolist(), strict=True)), run and run.final
+        run = sim.simulate(t, output=1, parameters=parameters, start=start, **options, peaks=())
         assert values.tobytes() == last(run, series) and stepper.t == t
         end = stepper.final
         for name in ("t", "q", "v", "state", "memory"):
@@ -234,6 +234,6 @@ def test_fixed_steps_of_rk4_fit_the_times(cart: Simulation) -> None:
     t = 0.0
     for _ in range(12):
         t += 0.05
-        given = {"parameters": {"push": 0.3}, "start": run.final if run else None}
-        run = cart.simulate(t, output=1, method="rk4", stop=False, **given)  # type: ignore[arg-type]
+        start = run.final if run else None
+        run = cart.simulate(t, output=1, method="rk4", stop=False, parameters={"push": 0.3}, start=start)
         assert stepper.step(0.05).tobytes() == last(run, stepper.series)
