@@ -164,11 +164,11 @@ HELD_BRANCHES_TITLE = (
 )
 
 
-def declare_branches(kernel: Kernel, output_target: str = "nobody") -> Kernel:
+def declare_branches(kernel: Kernel, output_target: str = "unread") -> Kernel:
     """Return the kernel with a first section that declares the frozen branches.
 
     A kernel that reads no branch is returned unchanged. `output_target`: where the kernel writes its switching
-    functions, "", "nobody" or "rhs" (see `DeclareBranches`).
+    functions, "", "unread" or "rhs" (see `DeclareBranches`).
     """
     if not _has_branch_reads(kernel):
         return kernel

@@ -259,7 +259,7 @@ class MarkUnread(Line):
 
 @dataclass(frozen=True)
 class DeclareBranches(Line):
-    """The declaration of frozen branches, and of where switching functions are written: "" nowhere, "nobody", "rhs"."""
+    """The declaration of frozen branches, and of where switching functions are written: "" nowhere, "unread", "rhs"."""
 
     output_target: str
     held: bool = True
@@ -270,7 +270,7 @@ class DeclareBranches(Line):
 
         These are `branch`, the outputs for switching functions, and `discrete` if branches are frozen.
         """
-        outputs = {"": [], "nobody": ["g"], "rhs": ["g", "rhs"]}[self.output_target]
+        outputs = {"": [], "unread": ["g"], "rhs": ["g", "rhs"]}[self.output_target]
         return frozenset(["branch", *outputs, *(["discrete"] if self.held else [])])
 
 

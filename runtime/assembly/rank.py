@@ -184,7 +184,6 @@ def list_redundant_equations(compiled: CompiledModel) -> list[int]:
     return [k for k, row in enumerate(source.start_rows) if row.name not in kept and row.owner not in with_play]
 
 
-@cache_by_values
 def check_redundant_equations(compiled: CompiledModel, p: Array, t: float, q: Array) -> None:
     """Raise AssemblyError if an equation that was redundant with the file's values removes a degree of freedom at q."""
     extra = list_redundant_equations(compiled)

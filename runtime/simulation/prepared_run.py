@@ -41,7 +41,7 @@ from gudgeon.simulation.arguments import (
 )
 from gudgeon.simulation.audit import parse_audit_level
 from gudgeon.simulation.hidden_jumps import may_jump
-from gudgeon.simulation.sample_audit import SampleAudit
+from gudgeon.simulation.sample_audit import ReusableSampleAudit
 from gudgeon.simulation.sample_reader import SampleReader
 from gudgeon.simulation.step_observers import check_requested_peaks
 
@@ -164,7 +164,7 @@ class PreparedRun:
             steps = np.full(N_ROWS, setup.evaluate_step(0, float(t[-1] - t[0])))
             self._run = setup.make_run(t, steps)
             self._reader = SampleReader(self._run, setup.series, self._n_skipped)
-            self._sample_audit = SampleAudit(self._run, is_resumed=False)
+            self._sample_audit = ReusableSampleAudit(self._run, is_resumed=False)
             self._has_journal_positions = setup.has_journal_positions
         self.failures: dict[int, GudgeonError] = {}
         self.extremes = np.full((len(self._peaks), 2), np.nan)

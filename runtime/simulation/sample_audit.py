@@ -25,7 +25,7 @@ Arguments = tuple[Any, ...]
 RIGHT_HAND_SIDES = COUNT_NAMES.index("right_hand_sides")  # column of the counts of a run
 
 
-class SampleAudit:
+class ReusableSampleAudit:
     """Check samples of the runs of a ReusableRun; `is_resumed`: runs begin at a state, which is not checked."""
 
     def __init__(self, run: ReusableRun, is_resumed: bool) -> None:

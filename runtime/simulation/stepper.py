@@ -31,7 +31,7 @@ from gudgeon.simulation.restart import (
     make_position_check,
     merge_parameters,
 )
-from gudgeon.simulation.sample_audit import SampleAudit
+from gudgeon.simulation.sample_audit import ReusableSampleAudit
 from gudgeon.simulation.sample_reader import SampleReader
 
 if TYPE_CHECKING:
@@ -72,7 +72,7 @@ class Stepper:
         self._run = setup.make_run(np.array([0.0, 1.0]), np.full(N_ROWS, setup.evaluate_step(0, 1.0)))
         self._run.arrays["started"][0] = 1  # C takes each start from the array
         self._reader = SampleReader(self._run, setup.series, 1)
-        self._sample_audit = SampleAudit(self._run, is_resumed=True)
+        self._sample_audit = ReusableSampleAudit(self._run, is_resumed=True)
         self._arrays = {
             name: self._run.arrays[name][0] for name in ("start", "y", "remembered", "latched", "codes", "state")
         }

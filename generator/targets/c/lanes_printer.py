@@ -181,7 +181,7 @@ class LaneLines(functions.LinePrinter):
                 )
                 declarations_of_target = {
                     "": [],
-                    "nobody": [local_array],
+                    "unread": [local_array],
                     "rhs": ["Lanes *const g = reported_branches(rhs);"],
                 }
                 return [f"const Lanes *const branch = {stored_branches};", *declarations_of_target[line.output_target]]
