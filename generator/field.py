@@ -61,7 +61,8 @@ class Bound(NamedTuple):
     def format_reason(self, field: Field, owner_name: str) -> str:
         """Return the reason that an error gives for a number that violates the bound.
 
-        `owner_name` names the law or mapping.
+        It is the bound's own text with the name of the field, or else the meaning of the field. `owner_name` names the
+        law or mapping.
         """
         return self.why.format(name=field.name) if self.why else f"{field.meaning} ({owner_name})"
 
@@ -125,7 +126,8 @@ class Field:
     def find_field(self, name: str, node: Any = ()) -> Field | None:
         """Return the field for the key `name` in a mapping, None if there is no such key.
 
-        `node`, the mapping's contents, shows the kind, if the keys depend on it.
+        `node`, the mapping's contents, shows the kind, if the keys depend on it. A mapping with user-defined names
+        returns the field of its entries for every name.
         """
         if self.kind == MAPPING:
             return self.entry
@@ -153,7 +155,7 @@ def resolve_dimensions(fields: Iterable[Field], node: Mapping[str, Any]) -> list
     """Return fields in which those with `per` have the dimension N/m^n; n is the number in `node` or its default.
 
     The dimension is any (None) if n is not a plain number or has exponents finer than halves. Other fields are
-    unchanged.
+    unchanged. `per` is the name of the field that holds n.
     """
     result = list(fields)
     defaults = {field.name: str(field.default) for field in result}
@@ -178,7 +180,10 @@ def vector(name: str, meaning: str, dimension: Dimension | None, **more: Any) ->
 def word(
     name: str, meaning: str, words: Iterable[str], default: str, sources: Mapping[str, str] | None = None
 ) -> Field:
-    """Declare a choice of some words; `sources` maps a word to its source in the literature."""
+    """Declare a choice of some words; `sources` maps a word to its source in the literature.
+
+    None: no word has one.
+    """
     return Field(name, WORD, meaning, values=tuple(words), default=default, sources=sources)
 
 

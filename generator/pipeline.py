@@ -102,5 +102,8 @@ def generate_c(
 def generate_kernel_source(
     data: bytes, file: str, scene: str, overrides: Overrides | None = None, formulation: str = "reduced"
 ) -> KernelSource:
-    """Return the C code of one scene of a mechanism file; as `derive_scene`, then `generate_c`."""
+    """Return the C code of one scene of a mechanism file; as `derive_scene`, then `generate_c`.
+
+    overrides: None for the values of the file.
+    """
     return generate_c(derive_scene(data, file, scene, overrides), formulation)

@@ -124,7 +124,10 @@ class Text(str):
 
     @staticmethod
     def make_text(text: str, location: Location, plain: bool = True, one_line: bool = True) -> Text:
-        """Return a text with its location and style."""
+        """Return a text with its location and style.
+
+        `plain`: it stands without quotes; `one_line`: it begins and ends in the same line of the file.
+        """
         node = Text(text)
         node.where, node.plain, node.one_line = location, plain, one_line
         return node
@@ -359,7 +362,10 @@ class _Composer:
         return node
 
     def compose_sequence(self, event: Any, depth: int) -> Items:
-        """Return the sequence that begins with `event`, with its items composed."""
+        """Return the sequence that begins with `event`, with its items composed.
+
+        `depth`: the level of the sequence. Raises what `compose_node` raises.
+        """
         items = Items.make_items((), self.find_location(event))
         while not isinstance(item_event := next(self.events), SequenceEndEvent):
             items.append(

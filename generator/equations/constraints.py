@@ -16,8 +16,8 @@ from gudgeon.generator.kinds.joints.joint_type import joint_types
 from gudgeon.generator.mechanism import GROUND, Drive, Joint, PointRef
 from gudgeon.generator.symbols.from_expressions import convert_quantity_to_sympy, convert_to_sympy
 from gudgeon.generator.symbols.storage import Freezable, Place
-from gudgeon.generator.symbols.switches import Apart, Largest, Pick, Smallest
-from gudgeon.language.functions import CORNERED
+from gudgeon.generator.symbols.switches import BranchSign, DifferentiableMax, DifferentiableMin, Select
+from gudgeon.language.functions import WITH_SWITCHING_POINTS
 from gudgeon.language.tree import list_functions
 
 
@@ -100,8 +100,9 @@ class Constraints(Freezable):
     def _define_distance(self, drive_name: str, first_point: PointFrame, second_point: PointFrame) -> sp.Symbol:
         """Return ‖r_Q − r_P‖ as a symbol, with the rules of its derivatives.
 
-        `drive_name` is the base of the symbols' names. With its direction u: d length = u · dr and
-        du = (ẑ × u)(ẑ × u · dr)/length. Written out, the second derivatives of the root would be thousands of terms.
+        `drive_name` is the base of the symbols' names. With its direction u: d length = u · dr and du = (ẑ × u)(ẑ × u ·
+        dr)/length. Written out, the second derivatives of the root would be thousands of terms. P and Q are
+        `first_point` and `second_point`; each call defines new symbols.
         """
         define, rules = self.symbols.add_definition, self.symbols.rules
         difference = (second_point.x - first_point.x, second_point.y - first_point.y)
@@ -178,17 +179,17 @@ def has_jumping_rate(drive: Drive) -> bool:
 
     The linkage then follows by an impulse. Results are cached.
     """
-    if not CORNERED.isdisjoint(list_functions(drive.value.value)):
+    if not WITH_SWITCHING_POINTS.isdisjoint(list_functions(drive.value.value)):
         return True
     return bool(convert_to_sympy(drive.value.value, lambda path: sp.Symbol(path, real=True)).has(sp.Abs))
 
 
 _SWITCHING_CLASSES = (
-    Pick,
+    Select,
     FrozenSign,
-    Apart,
-    Largest,
-    Smallest,
+    BranchSign,
+    DifferentiableMax,
+    DifferentiableMin,
     sp.Abs,
     sp.Max,
     sp.Min,
@@ -205,14 +206,18 @@ def _differentiate_by_time(value: sp.Expr, t: sp.Symbol) -> sp.Expr:
     several are equal.
     """
     if value.has(*_SWITCHING_CLASSES):
-        value = value.replace(Pick, lambda branch, a, b: Pick(branch.replace(sp.sign, Apart), a, b))
-        value = value.replace(sp.Abs, _make_differentiable_abs).replace(sp.Max, Largest).replace(sp.Min, Smallest)
+        value = value.replace(Select, lambda branch, a, b: Select(branch.replace(sp.sign, BranchSign), a, b))
+        value = (
+            value.replace(sp.Abs, _make_differentiable_abs)
+            .replace(sp.Max, DifferentiableMax)
+            .replace(sp.Min, DifferentiableMin)
+        )
     rate = compute_partial_derivative(value, t)
     if not rate.has(*_SWITCHING_CLASSES):
         return rate
     rate = rate.replace(sp.DiracDelta, lambda *_: sp.Integer(0))
     rate = rate.replace(FrozenSign, sp.sign).replace(sp.sign, lambda x: 2 * sp.Heaviside(x) - 1)
-    return rate.replace(Apart, sp.sign).replace(Largest, sp.Max).replace(Smallest, sp.Min)
+    return rate.replace(BranchSign, sp.sign).replace(DifferentiableMax, sp.Max).replace(DifferentiableMin, sp.Min)
 
 
 def _make_differentiable_abs(x: sp.Expr) -> sp.Expr:

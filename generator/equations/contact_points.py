@@ -103,7 +103,8 @@ def _make_corner_points(
 ) -> Iterator[ContactPoint]:
     """Yield the four corners of a slider in its guide as contact points, each with its wall.
 
-    Parameters for their distances from the slider's point are derived here; labels differ from names of joints.
+    Parameters for their distances from the slider's point are derived here; labels differ from names of joints. Without
+    a corner radius in `guide` the radius is 0.
     """
     first = geometry.find_point(joint.first)
     a, b, c = (
@@ -140,6 +141,7 @@ def _find_axis_in_slider(
     """Return the components of the guide's axis in the slider's frame.
 
     The slider is at the angle that the joint prescribes; the components are (1, 0) if that angle is the axis' own.
+    Otherwise they are derived parameters, named after `joint_name`.
     """
     axis_angle = fields.derive_vector_angle("axis")
     slider_angle = fields.quantity("angle", axis_angle)

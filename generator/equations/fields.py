@@ -59,7 +59,10 @@ class JointFields:
         return ZERO if body == GROUND else self._geometry.bodies[body].theta
 
     def rotate_direction(self, name: str, body: str) -> tuple[sp.Expr, sp.Expr]:
-        """Return a unit vector field in ground axes; it is fixed in the body that the field `body` names."""
+        """Return a unit vector field in ground axes; it is fixed in the body that the field `body` names.
+
+        A direction of the ground is returned unchanged.
+        """
         local, owner = self.direction(name), self._joint.options[body]
         if owner == GROUND:
             return local

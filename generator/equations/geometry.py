@@ -86,7 +86,7 @@ class PointFrame:
         return local if self.body is None else self.geometry.rotate_vector(self.body, local, f"axis_{self.body.name}")
 
 
-class TurnedComponent(NamedTuple):
+class RotatedComponent(NamedTuple):
     """One component of a vector that turns with a body: of a point's arm or, without a point, of a direction.
 
     `number` counts the directions of a body.
@@ -118,8 +118,8 @@ class Geometry(Freezable):
         if is_massless(self.mechanism):
             unit = self._derive_unit_inertia()
             self.bodies = {name: replace(body, mass=ONE, inertia=unit) for name, body in self.bodies.items()}
-        self.turned_components: dict[sp.Symbol, TurnedComponent] = {}
-        self._turned: dict[tuple[str, sp.Expr, sp.Expr], tuple[sp.Expr, sp.Expr]] = {}
+        self.rotated_components: dict[sp.Symbol, RotatedComponent] = {}
+        self._rotated_vectors: dict[tuple[str, sp.Expr, sp.Expr], tuple[sp.Expr, sp.Expr]] = {}
         self._angles: dict[str, tuple[sp.Symbol, sp.Symbol]] = {}
 
     def _make_body_symbols(self, index: int, body: Body) -> BodySymbols:
@@ -233,27 +233,27 @@ class Geometry(Freezable):
         """
         if s == (ZERO, ZERO):
             return ZERO, ZERO
-        if (body.name, -s[0], -s[1]) in self._turned:
-            x, y = self._turned[body.name, -s[0], -s[1]]
+        if (body.name, -s[0], -s[1]) in self._rotated_vectors:
+            x, y = self._rotated_vectors[body.name, -s[0], -s[1]]
             return -x, -y
-        if (body.name, *s) not in self._turned:
+        if (body.name, *s) not in self._rotated_vectors:
             cos, sin = self.find_cos_and_sin(body)
             if all(component in (-1, 0, 1) for component in s):  # along an axis of the body: cos and sin themselves
                 return cos * s[0] - sin * s[1], sin * s[0] + cos * s[1]
             x = self.symbols.add_definition(f"{base_name}_x", cos * s[0] - sin * s[1], None, "A(theta) s, x")
             y = self.symbols.add_definition(f"{base_name}_y", sin * s[0] + cos * s[1], None, "A(theta) s, y")
             self.symbols.rules[x], self.symbols.rules[y] = {body.theta: -y}, {body.theta: x}
-            self._turned[body.name, *s] = x, y
+            self._rotated_vectors[body.name, *s] = x, y
             first_components = (
                 component
-                for component in self.turned_components.values()
+                for component in self.rotated_components.values()
                 if (component.body, component.point, component.axis) == (body.name, "", "x")
             )
             direction_number = 1 if point else 1 + sum(1 for _ in first_components)
-            self.turned_components[x], self.turned_components[y] = (
-                TurnedComponent(body.name, point, axis, direction_number) for axis in ("x", "y")
+            self.rotated_components[x], self.rotated_components[y] = (
+                RotatedComponent(body.name, point, axis, direction_number) for axis in ("x", "y")
             )
-        return self._turned[body.name, *s]
+        return self._rotated_vectors[body.name, *s]
 
     def find_point_at_offset(self, ref: PointRef, offset: tuple[sp.Expr, sp.Expr], base_name: str) -> PointFrame:
         """Return the frame of a point at an offset from a named point, given in its body's frame.
@@ -292,7 +292,8 @@ class Geometry(Freezable):
     def find_point(self, ref: PointRef) -> PointFrame:
         """Return the frame of a named point of a body or of the ground.
 
-        A point opposite to another one of the body uses that arm with a negative sign.
+        A point opposite to another one of the body uses that arm with a negative sign. An empty name at the ground is
+        its origin. Raise KeyError for an unknown point.
         """
         if ref.body == GROUND:
             position = self.ground_vector(self.mechanism.ground[ref.point]) if ref.point else (ZERO, ZERO)

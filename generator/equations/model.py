@@ -47,7 +47,7 @@ class Event:
 def make_event(event: EventSpec, geometry: Geometry, t: sp.Symbol) -> Event:
     """Return an event of the user with its expression on a geometry.
 
-    Raise BadValueError for an expression that is finite for no motion.
+    Raise BadValueError for an expression that is finite for no motion. `t`: the symbol of time.
     """
     expression = convert_quantity_to_sympy(event.zero, MotionNameResolver(geometry, t))
     return Event(event.name, expression, event.action, event.direction)
@@ -266,6 +266,7 @@ class Model:
         """Return the equations of the model as functions in NumPy: Φ, Φ_q, ν, γ, M and the right-hand side.
 
         They are a NumPyModel, with their text as `source`; generator/targets/numpy/module.py lists shapes and units.
+        They are derived at the first call and cached.
         """
         return self.derive_target("numpy")
 
@@ -310,7 +311,10 @@ class Model:
         return str(self.derive_target("letters").html()) if "letters" in self.targets else None
 
     def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, str]:
-        """Return Φ(q, t) = 0 as text, HTML and LaTeX, which notebooks ask for first; empty without a notation."""
+        """Return Φ(q, t) = 0 as text, HTML and LaTeX, which notebooks ask for first; empty without a notation.
+
+        `include`, `exclude`: arguments of Jupyter, not used.
+        """
         if "letters" not in self.targets:
             return {}
         text = self.derive_target("letters").equation().text

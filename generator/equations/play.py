@@ -32,7 +32,7 @@ from gudgeon.generator.kinds.laws.law import (
 from gudgeon.generator.mechanism import Joint, LawUse, Play
 from gudgeon.generator.symbols.curves import make_contour_expression
 from gudgeon.generator.symbols.parameter_table import ParameterTable
-from gudgeon.generator.symbols.unevaluated import Whole
+from gudgeon.generator.symbols.unevaluated import Unevaluated
 from gudgeon.language.units import VELOCITY
 
 Derive: TypeAlias = Callable[[str, sp.Expr, str], sp.Expr]  # name, value, meaning: the symbol of a derived parameter
@@ -263,7 +263,9 @@ def _derive_law(
         derived[name] = derive_constant(name, expression, meaning)
         return derived[name]
 
-    steps = build_law(law, LawInputs(parameters, law_use.options, bearing_symbols, variables, derive_and_record, Whole))
+    steps = build_law(
+        law, LawInputs(parameters, law_use.options, bearing_symbols, variables, derive_and_record, Unevaluated)
+    )
     read_names = {symbol.name for step in steps.values() for symbol in step.free_symbols}
     unread_names = {name for name in law.further if name not in read_names}
     law_variables = tuple(symbol for name, symbol in variables.items() if name not in unread_names)

@@ -209,7 +209,7 @@ class _DimensionFinder:
         if expression.is_Add or isinstance(expression, (*_SAME_UNIT_FUNCTIONS, *_RATIO_FUNCTIONS)):
             common = self._find_common_dimension(name, expression, dimensions)
             return DIMENSIONLESS if isinstance(expression, _RATIO_FUNCTIONS) else common
-        if type(expression).__name__ == "Whole":
+        if type(expression).__name__ == "Unevaluated":
             return dimensions[0]
         self._check_dimensionless(name, type(expression).__name__, dimensions[0])
         return DIMENSIONLESS

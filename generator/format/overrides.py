@@ -134,8 +134,9 @@ def _replace_text(node: Any, keys: list[str], text: Text, address: _Address, fie
 def _may_add_key(field: Field | None, field_of_child: Field | None, keys: list[str], depth: int) -> bool:
     """Return whether an override may add a key to the file: one with a default, an inherited number, a component.
 
-    `field_of_child` declares the key `keys[0]` in the mapping that `field` declares. Entries of a section must exist
-    in the file. Unknown keys deeper in the tree are reported when they are read.
+    `field_of_child` declares the key `keys[0]` in the mapping that `field` declares. Entries of a section must exist in
+    the file. Unknown keys deeper in the tree are reported when they are read. `field` and `field_of_child` are None for
+    keys that no field declares. `depth`: number of keys before `keys[0]` on the path.
     """
     if depth == 0:
         return field_of_child is not None and (
@@ -145,9 +146,11 @@ def _may_add_key(field: Field | None, field_of_child: Field | None, keys: list[s
 
 
 def _make_empty_node(field: Field | None, other_keys: list[str], location: Location) -> Any:
-    """Return the node in which a new text is put: a vector of zeros, a mapping, or an empty text.
+    """Return the node in which a new text is put: a vector of zeros, an empty mapping or an empty text.
 
-    `other_keys` contains the keys that follow on the path.
+    `other_keys`: the keys that follow on the path; without any, the node is an empty text. `field` declares the node,
+    None for an unknown key; a vector of zeros is made for the component of a vector. `location`: location of the
+    override.
     """
     if other_keys and field is not None and field.kind == VECTOR:
         return Items.make_items([Text.make_text("0", location), Text.make_text("0", location)], location)

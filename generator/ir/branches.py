@@ -13,7 +13,7 @@ import sympy as sp
 from gudgeon.generator.ir.statements import Line, Statement
 from gudgeon.generator.ir.values import NO_NAMES, Names
 from gudgeon.generator.symbols.storage import Key, Place
-from gudgeon.generator.symbols.switches import BranchOf, Pick
+from gudgeon.generator.symbols.switches import BranchOf, Select
 
 
 @dataclass(frozen=True)
@@ -29,7 +29,7 @@ class Branch(Line):
     """
 
     target: Key
-    value: sp.Expr  # Pick(branch, then, otherwise)
+    value: sp.Expr  # Select(branch, then, otherwise)
     comment: str = ""
 
     @property
@@ -86,7 +86,7 @@ class Branches:
         """
         result: list[Line] = []
         for line in lines:
-            if isinstance(line, Statement) and isinstance(line.value, Pick) and self._needs_branch_line(line.value):
+            if isinstance(line, Statement) and isinstance(line.value, Select) and self._needs_branch_line(line.value):
                 for argument in line.value.args:
                     result += self._make_branch_lines(argument)
                 result.append(Branch(line.target, line.value, line.comment))
@@ -101,27 +101,27 @@ class Branches:
         return result
 
     def _make_branch_lines(self, expression: sp.Basic) -> list[Line]:
-        """Return a `Branch` line for each `Pick` in an expression that has no name yet, inner ones first.
+        """Return a `Branch` line for each `Select` in an expression that has no name yet, inner ones first.
 
-        The new names are added to `names`; a `Pick` between two numbers gets none.
+        The new names are added to `names`; a `Select` between two numbers gets none.
         """
-        if not expression.has(Pick):
+        if not expression.has(Select):
             return []
         result: list[Line] = []
         for part in sp.postorder_traversal(expression):
-            if isinstance(part, Pick) and self._needs_branch_line(part):
+            if isinstance(part, Select) and self._needs_branch_line(part):
                 self.names[part] = self._make_branch_name(part)
                 result.append(Branch(self.names[part], part))
         return result
 
-    def _needs_branch_line(self, pick: Pick) -> bool:
-        """Return whether a `Pick` needs a `Branch` line.
+    def _needs_branch_line(self, pick: Select) -> bool:
+        """Return whether a `Select` needs a `Branch` line.
 
         It does if it has no name yet and its two values are not both numbers.
         """
         return pick not in self.names and not all(argument.is_Number for argument in pick.args[1:])
 
-    def _make_branch_name(self, pick: Pick) -> str:
+    def _make_branch_name(self, pick: Select) -> str:
         """Return an unused name for a branch and mark it as used: "larger_k", "smaller_k" or "branch_k", k = 1, 2, ….
 
         "larger" and "smaller" are for a maximum and a minimum, whose switching function is the difference of both

@@ -17,7 +17,7 @@ from gudgeon.generator.ir.signatures import Access, Argument
 from gudgeon.generator.ir.statements import Call, Declare, Guard, Line, Statement
 from gudgeon.generator.ir.values import Conditional, Test, Value
 from gudgeon.generator.symbols.storage import Key, Place, PlaceSymbol, find_key
-from gudgeon.generator.symbols.switches import Size
+from gudgeon.generator.symbols.switches import ComparedMagnitude
 
 SUFFIX, IMAGINARY = "_complex", "_i"
 ZERO = sp.Integer(0)
@@ -237,11 +237,11 @@ class _ComplexConverter:
         real, imaginary = self.split_expression(test.value)
         if imaginary == ZERO:
             return [line]
-        local = self._make_local("size", Size(real) + Size(imaginary))
+        local = self._make_local("size", ComparedMagnitude(real) + ComparedMagnitude(imaginary))
         if test.is_relative_to_value:
             bound: tuple[sp.Basic | float, ...] = (test.bound[0], local)
         else:
-            bound = tuple(self._convert_bound(x) if isinstance(x, Size) else x for x in test.bound)
+            bound = tuple(self._convert_bound(x) if isinstance(x, ComparedMagnitude) else x for x in test.bound)
         return [replace(line, test=replace(test, value=local, bound=bound, compares_magnitude=False))]
 
     def _convert_bound(self, magnitude: sp.Expr) -> sp.Expr:
@@ -250,7 +250,11 @@ class _ComplexConverter:
         The magnitude of a real value is returned unchanged.
         """
         real, imaginary = self.split_expression(magnitude.args[0])
-        return self._make_local("size", Size(real) + Size(imaginary)) if imaginary != ZERO else magnitude
+        return (
+            self._make_local("size", ComparedMagnitude(real) + ComparedMagnitude(imaginary))
+            if imaginary != ZERO
+            else magnitude
+        )
 
 
 def _multiply_complex(a: Parts, b: Parts) -> Parts:

@@ -13,7 +13,7 @@ from gudgeon.generator.ir.branches import Branch
 from gudgeon.generator.ir.readable import Readable
 from gudgeon.generator.ir.statements import Statement
 from gudgeon.generator.symbols.storage import Key, Place, find_key
-from gudgeon.generator.symbols.switches import Pick
+from gudgeon.generator.symbols.switches import Select
 
 Marks = frozenset[str]
 NO_MARKS: Marks = frozenset()
@@ -62,8 +62,8 @@ def _find_read_keys(line: Statement | Branch, function: Readable) -> set[Key]:
     if isinstance(line, Statement) and isinstance(line.value, Place):
         keys.add(line.value)
     for expression in line.expressions:
-        if function.branches and expression.has(Pick):
-            keys |= {function.branches[pick] for pick in expression.atoms(Pick) if pick in function.branches}
+        if function.branches and expression.has(Select):
+            keys |= {function.branches[pick] for pick in expression.atoms(Select) if pick in function.branches}
     return keys - {line.target}
 
 

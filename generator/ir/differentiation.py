@@ -77,7 +77,8 @@ class Tangents:
     def get_tangent(self, symbol: sp.Symbol) -> Tangent:
         """Return the tangent of a symbol, its non-zero derivatives by base symbol; empty for a constant.
 
-        It is computed once, from the symbol's rules or else its definition, and stored.
+        It is computed once, from the symbol's rules or else its definition, and stored. Its longer entries become
+        locals of the kernel at the first call.
         """
         if symbol not in self._known:
             self._known[symbol] = {}  # a parameter, or a multiplier that is held constant
@@ -107,7 +108,7 @@ class Tangents:
         """Return the non-zero derivatives of an expression by base symbol, with branches fixed.
 
         `value_symbol`: a symbol that holds the value of the expression; a square root is then differentiated by
-        dividing by that symbol.
+        dividing by that symbol. Branches and tangents that are read for the first time are appended to the kernel.
         """
         fixed = self.freeze_branches(expression)
         order = sorted(fixed.free_symbols, key=lambda s: s.name)

@@ -13,8 +13,8 @@ import sympy as sp
 
 from gudgeon.generator.symbols.derivatives import differentiate, find_symbols
 from gudgeon.generator.symbols.from_expressions import CLASSES, convert_derivative, find_classes
-from gudgeon.generator.symbols.switches import Largest, Pick, Smallest
-from gudgeon.generator.symbols.unevaluated import Share as UnevaluatedQuotient
+from gudgeon.generator.symbols.switches import DifferentiableMax, DifferentiableMin, Select
+from gudgeon.generator.symbols.unevaluated import UnevaluatedQuotient
 
 _SATURATING_CLASSES = find_classes(lambda f: f.saturates)
 _OVERFLOWING_CLASSES = find_classes(lambda f: f.is_exponential or f.has_pole)
@@ -43,17 +43,17 @@ class Upon(sp.Function):
         return sp.Integer(0)
 
 
-_SWITCHING_CLASSES = (sp.Abs, sp.Max, sp.Min, sp.sign, sp.Heaviside, Upon, Pick, Largest, Smallest)
+_SWITCHING_CLASSES = (sp.Abs, sp.Max, sp.Min, sp.sign, sp.Heaviside, Upon, Select, DifferentiableMax, DifferentiableMin)
 
 
-class JustAhead(sp.Function):
+class NextAbove(sp.Function):
     """A number a little above its argument."""
 
     nargs = 1
     is_real = True
 
 
-class JustBehind(sp.Function):
+class NextBelow(sp.Function):
     """A number a little below its argument."""
 
     nargs = 1
@@ -109,7 +109,7 @@ def make_finite_slope(term: sp.Expr, symbol: sp.Symbol, derivative: sp.Expr) -> 
     """
     if term.has(*_SWITCHING_CLASSES) or isinstance(term, Slope) and any(x.has(Slope) for x in term.args[1:3]):
         return Slope(derivative, *_ZERO_QUOTIENT)
-    above, below = JustAhead(symbol), JustBehind(symbol)
+    above, below = NextAbove(symbol), NextBelow(symbol)
     return Slope(derivative, term.xreplace({symbol: above}), term.xreplace({symbol: below}), above - below)
 
 
@@ -146,7 +146,7 @@ def convert_for_intervals(expression: sp.Expr) -> sp.Expr:
     It has no `Slope`, and conditional branches become Heaviside functions. Branches that are frozen over a step stay.
     """
     expression = remove_slopes(expression)
-    return expression.replace(Pick, _replace_branch_by_heaviside) if expression.has(Pick) else expression
+    return expression.replace(Select, _replace_branch_by_heaviside) if expression.has(Select) else expression
 
 
 def remove_slopes(expression: sp.Expr) -> sp.Expr:
@@ -155,12 +155,12 @@ def remove_slopes(expression: sp.Expr) -> sp.Expr:
 
 
 def _replace_branch_by_heaviside(branch: sp.Expr, a: sp.Expr, b: sp.Expr) -> sp.Expr:
-    """Return a branch that a sign chooses as b + H(x) (a − b); a branch frozen over a step as a `Pick`.
+    """Return a branch that a sign chooses as b + H(x) (a − b); a branch frozen over a step as a `Select`.
 
     `branch` is the sign or frozen branch; `a` and `b` are the values above and below zero.
     """
     if not branch.has(sp.sign):
-        return Pick(branch, a, b)
+        return Select(branch, a, b)
     return b + sp.Heaviside(branch.replace(sp.sign, lambda x: x)) * (a - b)
 
 

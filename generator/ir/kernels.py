@@ -159,7 +159,7 @@ def change_expression(line: Line, change: Callable[[sp.Basic], Value]) -> Line:
 
 
 LINEARIZATION = "lin"  # the argument that holds the linearized equations of motion
-HELD_BRANCHES_TITLE = (
+FROZEN_BRANCHES_TITLE = (
     "branches of switching functions that are held, if any"  # title of the lines from which a kernel reads branches
 )
 
@@ -172,12 +172,14 @@ def declare_branches(kernel: Kernel, output_target: str = "unread") -> Kernel:
     """
     if not _has_branch_reads(kernel):
         return kernel
-    return replace(kernel, sections=(Section(HELD_BRANCHES_TITLE, (DeclareBranches(output_target),)), *kernel.sections))
+    return replace(
+        kernel, sections=(Section(FROZEN_BRANCHES_TITLE, (DeclareBranches(output_target),)), *kernel.sections)
+    )
 
 
 def _has_branch_reads(kernel: Kernel) -> bool:
     """Return whether a kernel reads the branch of a switching function, outside the section that declares branches."""
-    lines = (s for section in kernel.sections if section.title != HELD_BRANCHES_TITLE for s in section.statements)
+    lines = (s for section in kernel.sections if section.title != FROZEN_BRANCHES_TITLE for s in section.statements)
     return any("branch" in line.reads for line in lines)
 
 
@@ -306,7 +308,7 @@ def remove_unused_locals(kernel: Kernel) -> Kernel:
     if _has_branch_reads(result):
         return result
     return replace(
-        result, sections=tuple(section for section in result.sections if section.title != HELD_BRANCHES_TITLE)
+        result, sections=tuple(section for section in result.sections if section.title != FROZEN_BRANCHES_TITLE)
     )
 
 

@@ -22,12 +22,12 @@ import sympy as sp
 from gudgeon.generator.ir.branches import ReturnIfOnlyJoints
 from gudgeon.generator.ir.kernels import Kernel, Section, change_expression, remove_unread_lines
 from gudgeon.generator.ir.series_rules import (
-    NEXT,
+    INVERSE_NEXT_ORDER,
+    INVERSE_ORDER,
     ORDER,
-    SHARE,
+    ROW_LENGTH,
     SUMS,
     VALUES,
-    WIDE,
     Factor,
     NoTaylorSeries,
     OrderPair,
@@ -254,7 +254,7 @@ class _SeriesBuilder(Rules):
         """
         if not line.declared_local:
             self._values.append((self._title, line))
-            order_k = ZERO if self.is_constant(value) else value * NEXT
+            order_k = ZERO if self.is_constant(value) else value * INVERSE_NEXT_ORDER
             self._terms.append((self._title, replace(line, value=order_k, comment="")))
         elif self._linear and self._title == self._linear.title:
             self._values.append((self._title, line))
@@ -361,14 +361,19 @@ def _make_kernel_arguments() -> tuple[tuple[Argument, ...], tuple[Argument, ...]
     """Return the arguments of the function for order 0 and of that for order k."""
     rates = (make_output_argument("a"), make_output_argument("power"))
     factors = (make_output_argument(LEFT, "Wide"), make_output_argument(RIGHT, "Wide"))
-    order = tuple(Argument(symbol.name, access=Access.CONSTANT) for symbol in (ORDER, SHARE, NEXT))
+    order = tuple(
+        Argument(symbol.name, access=Access.CONSTANT) for symbol in (ORDER, INVERSE_ORDER, INVERSE_NEXT_ORDER)
+    )
     lower_orders = (make_input_argument(VALUES, "TaylorValues"), make_input_argument(SUMS, "TaylorFactors"))
     values = (*STATE, PARAMETERS, make_output_argument(VALUES, "TaylorValues"), *rates)
     return values, (*order, *STATE, PARAMETERS, *lower_orders, *rates, *factors)
 
 
 def _make_factor_stores(products: Sequence[Product]) -> list[TitledLine]:
-    """Return the titled lines that store the factors of all sums S_k, in rows of WIDE elements, for higher orders."""
+    """Return the titled lines that store the factors of all sums S_k for higher orders.
+
+    They fill rows of ROW_LENGTH elements, the last of which may be shorter.
+    """
 
     def make_coefficient(factor: Factor) -> sp.Expr:
         """Return the coefficient of order k of a factor; of a rate, k times the coefficient."""
@@ -376,8 +381,8 @@ def _make_factor_stores(products: Sequence[Product]) -> list[TitledLine]:
         return ORDER * symbol if factor.rate else symbol
 
     title, lines = "factors of the sums of higher orders", list[TitledLine]()
-    for row, start in enumerate(range(0, len(products), WIDE)):
-        group = products[start : start + WIDE]
+    for row, start in enumerate(range(0, len(products), ROW_LENGTH)):
+        group = products[start : start + ROW_LENGTH]
         lines.append((title, StoreRow(LEFT, row, tuple(make_coefficient(product.left) for product in group))))
         lines.append((title, StoreRow(RIGHT, row, tuple(make_coefficient(product.right) for product in group))))
     return lines

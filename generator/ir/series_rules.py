@@ -17,9 +17,9 @@ from gudgeon.generator.symbols.from_expressions import CLASSES, convert_derivati
 from gudgeon.generator.symbols.storage import Place, PlaceSymbol
 
 VALUES, SUMS = "at", "sum"  # arguments: coefficients of order 0, sums S_k
-ORDER, SHARE = sp.Symbol("k", real=True), sp.Symbol("share", real=True)  # k, 1/k
-NEXT = sp.Symbol("next", real=True)  # 1/(k + 1)
-WIDE = 8  # products of a row
+ORDER, INVERSE_ORDER = sp.Symbol("k", real=True), sp.Symbol("share", real=True)  # k, 1/k
+INVERSE_NEXT_ORDER = sp.Symbol("next", real=True)  # 1/(k + 1)
+ROW_LENGTH = 8  # products of a row
 _HALF = sp.Rational(1, 2)
 
 
@@ -229,7 +229,7 @@ class Rules(ABC):
         varying_power = self.add_convolution(Factor(a.name), Factor(symbol_of_value.name, True))
         n = self.express_at_order_zero(n)
         return a**value.exp, (
-            n * a * make_order_zero_symbol(symbol_of_value) + (n * varying_base - varying_power) * SHARE
+            n * a * make_order_zero_symbol(symbol_of_value) + (n * varying_base - varying_power) * INVERSE_ORDER
         ) * self.get_inverse(a)
 
     def _expand_function(self, value: sp.Expr, symbol_of_value: sp.Symbol) -> OrderPair:
@@ -275,12 +275,14 @@ class Rules(ABC):
 
     def integrate_product(self, u: sp.Symbol, w: sp.Symbol) -> sp.Expr:
         """Return order k of c with c' = u' w."""
-        return u * make_order_zero_symbol(w) + self.add_convolution(Factor(u.name, True), Factor(w.name)) * SHARE
+        return (
+            u * make_order_zero_symbol(w) + self.add_convolution(Factor(u.name, True), Factor(w.name)) * INVERSE_ORDER
+        )
 
     def integrate_quotient(self, u: sp.Expr, w: sp.Symbol, symbol_of_value: sp.Symbol) -> sp.Expr:
         """Return order k of c with w c' = u'; `symbol_of_value` is the symbol of c."""
         return (
-            u - self.add_convolution(Factor(w.name), Factor(symbol_of_value.name, True)) * SHARE
+            u - self.add_convolution(Factor(w.name), Factor(symbol_of_value.name, True)) * INVERSE_ORDER
         ) * self.get_inverse(w)
 
     def add_convolution(self, left: Factor, right: Factor) -> sp.Symbol:
@@ -317,7 +319,7 @@ def _expand_angle(rules: Rules, y: sp.Symbol, x: sp.Symbol, symbol_of_angle: sp.
     x_dy = rules.add_convolution(Factor(x.name), Factor(y.name, True))
     y_dx = rules.add_convolution(Factor(y.name), Factor(x.name, True))
     return rules.integrate_quotient(
-        make_order_zero_symbol(x) * y - make_order_zero_symbol(y) * x + (x_dy - y_dx) * SHARE,
+        make_order_zero_symbol(x) * y - make_order_zero_symbol(y) * x + (x_dy - y_dx) * INVERSE_ORDER,
         squared_radius,
         symbol_of_angle,
     )

@@ -14,7 +14,7 @@ import sympy as sp
 
 from gudgeon.generator.symbols.derivatives import find_symbols
 from gudgeon.generator.symbols.storage import Place, PlaceSymbol
-from gudgeon.generator.symbols.switches import BranchOf, Size
+from gudgeon.generator.symbols.switches import BranchOf, ComparedMagnitude
 
 Names = frozenset[str]
 NO_NAMES: Names = frozenset()
@@ -78,7 +78,9 @@ class Test:
         """
         if self.relation != ">" or len(self.bound) != 2 or not isinstance(self.bound[0], float):
             return False
-        return 0 < self.bound[0] < 1 and self.bound[1] == (Size(self.value) if self.compares_magnitude else self.value)
+        return 0 < self.bound[0] < 1 and self.bound[1] == (
+            ComparedMagnitude(self.value) if self.compares_magnitude else self.value
+        )
 
 
 @dataclass(frozen=True)

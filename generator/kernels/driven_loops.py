@@ -20,7 +20,7 @@ from gudgeon.generator.equations.constraints import Row
 from gudgeon.generator.equations.system import System
 from gudgeon.generator.ir.differentiation import Tangents
 from gudgeon.generator.ir.kernels import (
-    HELD_BRANCHES_TITLE,
+    FROZEN_BRANCHES_TITLE,
     Kernel,
     KernelBuilder,
     Section,
@@ -42,7 +42,7 @@ STEP, RATES, THIRD, DIRECTIONS = (
     "compute_third_loop_rates",
     "evaluate_loop_directions",
 )
-HELD_BRANCHES_SECTION = Section(HELD_BRANCHES_TITLE, (DeclareBranches(""),))
+FROZEN_BRANCHES_SECTION = Section(FROZEN_BRANCHES_TITLE, (DeclareBranches(""),))
 
 
 class DrivenLoopKernels:
@@ -262,4 +262,4 @@ class DrivenLoopKernels:
             builder.append_line(Statement(name, branch))
             builder.append_line(MarkUnread(name))
         kernel = builder.build_kernel((*STATE[:2], DISCRETE, PARAMETERS, make_output_argument("g")), owner="")
-        return replace(kernel, sections=(HELD_BRANCHES_SECTION, *kernel.sections))
+        return replace(kernel, sections=(FROZEN_BRANCHES_SECTION, *kernel.sections))

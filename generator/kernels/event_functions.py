@@ -24,8 +24,8 @@ from gudgeon.generator.ir.kernels import Kernel, Section, declare_branches
 from gudgeon.generator.ir.signatures import PARAMETERS, RHS, TIME
 from gudgeon.generator.ir.statements import DeclareBranches, Line, Statement
 from gudgeon.generator.symbols.storage import Place
-from gudgeon.generator.symbols.switches import BranchOf, ModOn, PeriodsOf, Pick
-from gudgeon.generator.symbols.unevaluated import Whole
+from gudgeon.generator.symbols.switches import BranchOf, ModOn, PeriodsOf, Select
+from gudgeon.generator.symbols.unevaluated import Unevaluated
 
 WATCHED, _RANGES = "watched_functions", "bound_watched_functions"
 _WATCHED_DOC = ("Event functions: the scene's own switching functions in rhs->g, the user's events in rhs->event.",)
@@ -183,25 +183,28 @@ class TimeTerms:
         return sum(isinstance(s, Statement) and not s.declared_local for s in statements)
 
 
-def find_time_terms(dynamics: Kernel, may_rest: bool) -> TimeTerms:
+def find_time_terms(dynamics: Kernel, motion_may_stop: bool) -> TimeTerms:
     """Return the terms of time alone, read by a right-hand side, that the stages of a step may miss.
 
-    `may_rest`: stick or a rigid contact may hold the motion while forces vary, so that sines and cosines count too;
+    `motion_may_stop`: stick or a rigid contact may hold the motion while forces vary. Sines and cosines then count too;
     they come after the others. The result holds the number of the others as `pulses`, and the C function of the first
     MAX_TIME_TERMS terms, None if there are no terms.
     """
     collector = _collect_terms(dynamics, False)
     terms = list(collector.terms)[:MAX_TIME_TERMS]
     pulses = len(terms)
-    if may_rest:
+    if motion_may_stop:
         collector = _collect_terms(dynamics, True)
         terms = [*terms, *(term for term in collector.terms if term not in terms)][:MAX_TIME_TERMS]
     return TimeTerms(_make_terms_kernel(dynamics, collector, terms) if terms else None, pulses)
 
 
-def _collect_terms(dynamics: Kernel, may_rest: bool) -> _TermCollector:
-    """Return the collector of terms after it has read all statements of a right-hand side."""
-    collector = _TermCollector(may_rest)
+def _collect_terms(dynamics: Kernel, motion_may_stop: bool) -> _TermCollector:
+    """Return the collector of terms after it has read all statements of a right-hand side.
+
+    `motion_may_stop`: sines and cosines count as terms too (`find_time_terms`).
+    """
+    collector = _TermCollector(motion_may_stop)
     for section in dynamics.sections:
         for statement in section.statements:
             if isinstance(statement, Statement):
@@ -224,12 +227,12 @@ def _make_terms_kernel(dynamics: Kernel, collector: _TermCollector, terms: list[
 class _TermCollector:
     """Collector of terms of time alone from statements; `terms` keeps the order in which they are found."""
 
-    def __init__(self, may_rest: bool) -> None:
+    def __init__(self, motion_may_stop: bool) -> None:
         """Begin without terms and known locals.
 
-        With `may_rest`, sines and cosines count as terms too, exponentials do not.
+        With `motion_may_stop`, sines and cosines count as terms too, exponentials do not.
         """
-        self.shown_functions = (PeriodsOf, sp.exp) if may_rest else (PeriodsOf, *_LINEAR)
+        self.shown_functions = (PeriodsOf, sp.exp) if motion_may_stop else (PeriodsOf, *_LINEAR)
         self.known: dict[str, Statement] = {}  # locals that time and parameters determine
         self.definition_by_local: dict[
             str, sp.Expr
@@ -307,8 +310,8 @@ class _TermCollector:
         parts = [
             part for part in expression.args if self.depends_on_time_only(part) and not self.is_shown_by_stages(part)
         ]
-        if isinstance(expression, (sp.Add, sp.Mul, Pick, Whole)):
-            if len(parts) > 1 and not isinstance(expression, (Pick, Whole)):
+        if isinstance(expression, (sp.Add, sp.Mul, Select, Unevaluated)):
+            if len(parts) > 1 and not isinstance(expression, (Select, Unevaluated)):
                 self.terms.setdefault(expression.func(*parts))
         elif not expression.is_Symbol:
             self.terms.setdefault(expression)
@@ -338,7 +341,7 @@ class _TermCollector:
                 return True
             case BranchOf():
                 return self.is_shown_by_stages(expression.args[1])
-            case sp.Add() | sp.Mul() | Pick() | Whole() | ModOn():
+            case sp.Add() | sp.Mul() | Select() | Unevaluated() | ModOn():
                 return all(map(self.is_shown_by_stages, expression.args))
             case sp.Pow() if expression.exp.is_Integer and int(expression.exp) in _POWERS:
                 return self.is_shown_by_stages(expression.base)

@@ -35,12 +35,12 @@ class _Plain(StrPrinter):
     def _print_Abs(self, e: sp.Expr) -> str:
         return f"abs({self._print(e.args[0])})"
 
-    def _print_Pick(self, e: sp.Expr) -> str:
+    def _print_Select(self, e: sp.Expr) -> str:
         side, then, otherwise = e.args
         g = side.args[0] if isinstance(side, sp.sign) else side
         return f"where({self._print(g)} < 0, {self._print(otherwise)}, {self._print(then)})"
 
-    def _print_Whole(self, e: sp.Expr) -> str:
+    def _print_Unevaluated(self, e: sp.Expr) -> str:
         return f"({self._print(e.args[0])})"
 
 

@@ -27,7 +27,8 @@ def make_kinematic_kernels(system: System, closures: SquareSystem) -> list[Kerne
 def _make_newton_step_kernel(system: System, closures: SquareSystem) -> Kernel:
     """Return the C function of Newton's step Φ_q step = Φ and of the rates Φ_q rates = ν at a position.
 
-    It also writes the largest |Φ|, and returns 0 or the number of a dependent equation.
+    It also writes the largest |Φ|, and returns 0 or the number of a dependent equation. `closures`: the closures of the
+    tree as a square system.
     """
     builder = KernelBuilder(
         system.model.symbols,
@@ -57,7 +58,8 @@ def _make_newton_step_kernel(system: System, closures: SquareSystem) -> Kernel:
 def _make_body_motion_kernel(system: System, closures: SquareSystem) -> Kernel:
     """Return the C function of the accelerations Φ_q a = γ and of the motion of all bodies at a state.
 
-    It also writes the largest |Φ̇|, and returns 0 or the number of a dependent equation.
+    It also writes the largest |Φ̇|, and returns 0 or the number of a dependent equation. `closures`: the closures of
+    the tree as a square system.
     """
     builder = KernelBuilder(
         system.model.symbols,

@@ -217,7 +217,7 @@ def make_program(model: Model, formulation: str = "reduced") -> Program:
         pins,
         tree,
         integrated,
-        find_time_terms(dynamics, may_rest=bool(model.frictions or model.rigid)),
+        find_time_terms(dynamics, motion_may_stop=bool(model.frictions or model.rigid)),
         methods=_derive_methods(model, integrated, staged or not integrated.reduced) if integrates else None,
         kinematics=None if integrates else _derive_kinematic_functions(model, kkt, integrated),
     )

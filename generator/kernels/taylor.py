@@ -87,9 +87,10 @@ class _RecordedKKT(KKT):
         threshold: Threshold = SINGULAR,
         pair_threshold: Threshold = VANISHING,
     ) -> Factor:
-        """Append the factorization with the default thresholds as constants.
+        """Append the factorization, with the default thresholds as constants, and return it.
 
-        No discrete state is passed to the series, from which C reads them otherwise.
+        No discrete state is passed to the series, from which C reads the thresholds otherwise. `jump_on_failure`: a
+        vanishing pivot jumps instead of returning its number.
         """
         threshold, pair_threshold = (Threshold(limit.name, limit) for limit in (threshold, pair_threshold))
         return super().factorize(builder, jump_on_failure, threshold, pair_threshold)
@@ -97,7 +98,11 @@ class _RecordedKKT(KKT):
     def solve(
         self, builder: KernelBuilder, factor: Factor, b: Mapping[int, sp.Expr], prefix: str = ""
     ) -> dict[int, sp.Expr]:
-        """Append the solution; record the names of the right-hand sides and the symbols of the unknowns, by node."""
+        """Append the solution and return it by node; record the right-hand sides and the unknowns.
+
+        The names of the right-hand sides go to `loads`, the symbols of the unknowns to `unknowns`. `b`: the right-hand
+        side by node, absent ones zero; `prefix` begins the names of the locals.
+        """
         builder.begin_section("right-hand side")
         load_symbols = {
             k: builder.append_local(f"load_{self.names[k]}", b.get(k, ZERO)) for k in self.elimination.order

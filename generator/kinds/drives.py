@@ -11,7 +11,10 @@ from gudgeon.language.units import DIMENSIONLESS, LENGTH, Dimension
 def _make_value_field(
     dimension: Dimension | None, meaning: str = "prescribed value as a continuous expression of t"
 ) -> tuple[Field, ...]:
-    """Return the field of the prescribed value, an expression of t, as a tuple."""
+    """Return the field of the prescribed value, an expression of t, as a tuple.
+
+    `dimension` None: any; the reader replaces it by that of the target.
+    """
     return (number("value", meaning, dimension, required=True, varies=OF_TIME),)
 
 

@@ -20,7 +20,16 @@ from gudgeon.generator.format.sections import CURVE
 from gudgeon.generator.reader.collector import Reader
 from gudgeon.generator.reader.fields import FieldContext, read_fields
 from gudgeon.generator.yaml import Items, Map, Text, describe_node
-from gudgeon.language.curves import LEAST, MONOTONE, NOT_A_KNOT, PERIODIC, STOP, Curve, compute_spline, make_even_pieces
+from gudgeon.language.curves import (
+    MIN_POINTS,
+    MONOTONE,
+    NOT_A_KNOT,
+    PERIODIC,
+    STOP,
+    Curve,
+    compute_spline,
+    make_even_pieces,
+)
 from gudgeon.language.functions import FUNCTIONS
 from gudgeon.language.units import DIMENSIONLESS, Unit, find_si_unit, parse_unit
 
@@ -302,8 +311,8 @@ def _check_points(
 
     `address`: the curve's address; `end_condition`: its key `ends`; `location`: the location of its name.
     """
-    if len(x) < LEAST[end_condition]:
-        hint = f"expected at least {LEAST[end_condition]} for ends: {end_condition}"
+    if len(x) < MIN_POINTS[end_condition]:
+        hint = f"expected at least {MIN_POINTS[end_condition]} for ends: {end_condition}"
         raise BadValueError(f"{address} has {len(x)} point{'s' * (len(x) != 1)}", location, hint)
     for k in range(1, len(x)):
         if not x[k] > x[k - 1]:

@@ -70,7 +70,10 @@ def choose_interpretation(
 
 
 def _has_dimension(tree: Expr, expected: Dimension | None, find_name_dimension: DimensionOf, text: Text) -> bool:
-    """Return whether a tree has the expected dimension; `text` locates the expression."""
+    """Return whether a tree has the expected dimension; `text` locates the expression.
+
+    `expected` None: any dimension, if the tree is consistent.
+    """
     try:
         check_dimension(tree, expected, find_name_dimension, text.where)
     except UnitError:

@@ -95,7 +95,7 @@ def find_blocks(pattern: Sequence[set[int]], n: int, excluded_coordinates: set[i
 
     `pattern`: coordinates by equation, for usable equations; `n`: number of coordinates. A coordinate is free if it has
     no equation of its own, or if a free one reaches it. Coordinates of an equation without a coordinate of its own are
-    not determined.
+    not determined. A free coordinate reaches all coordinates that are matched with an equation in which it occurs.
     """
     row_of_column = match_rows(pattern)
     free = {column for column in range(n) if column not in row_of_column}

@@ -209,6 +209,7 @@ class TreeGeometry(Geometry):
         """Return the sum of terms, without those that are zero.
 
         Vectors with the same frame and slide are added, as derived parameters; `base_name`: base of their names.
+        `terms`, `added_terms`: vectors w by (frame, slide).
         """
         result = dict(terms)
         for key, w in added_terms.items():
@@ -218,7 +219,10 @@ class TreeGeometry(Geometry):
         return {key: w for key, w in result.items() if w != (ZERO, ZERO)}
 
     def compute_position(self, terms: Terms) -> Pair:
-        """Return the position (x, y) = Σ value A(θ) w of terms."""
+        """Return the position (x, y) = Σ value A(θ) w of terms.
+
+        `terms`: vectors w by (frame, slide).
+        """
         x, y = ZERO, ZERO
         for (frame, slide), w in terms.items():
             a_x, a_y = self.motions.rotate_vector(self.frames[frame], w, f"arm_{frame}")
@@ -226,7 +230,10 @@ class TreeGeometry(Geometry):
         return x, y
 
     def compute_jacobian_columns(self, terms: Terms) -> dict[str, Pair]:
-        """Return ∂r/∂z of a sum of terms, as pairs (x, y) by coordinate, prescribed ones included."""
+        """Return ∂r/∂z of a sum of terms, as pairs (x, y) by coordinate, prescribed ones included.
+
+        `terms`: vectors w by (frame, slide).
+        """
         result: dict[str, Pair] = {}
         for (name, slide), w in terms.items():
             frame, value = self.frames[name], self.get_slide_value(slide)
@@ -239,7 +246,10 @@ class TreeGeometry(Geometry):
         return result
 
     def compute_bias(self, terms: Terms) -> Pair:
-        """Return r̈ of terms if no coordinate accelerates: Σ (−θ̇² value + 2 θ̇ rate ẑ) A w, as (x, y)."""
+        """Return r̈ of terms if no coordinate accelerates: Σ (−θ̇² value + 2 θ̇ rate ẑ) A w, as (x, y).
+
+        `terms`: vectors w by (frame, slide).
+        """
         x, y = ZERO, ZERO
         for (name, slide), w in terms.items():
             frame = self.frames[name]

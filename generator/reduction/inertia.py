@@ -35,7 +35,7 @@ class Inertia:
         self.mass = self._derive_mass()
 
     def _sum_body_constants(self) -> None:
-        """Sum α, β and Σ m w over the bodies by terms, without terms that do not move.
+        """Sum α = Σ m w·u, β = Σ m w × u and Σ m w over the bodies by terms, without terms that do not move.
 
         Each pair of terms is stored in one order.
         """
@@ -90,10 +90,11 @@ class Inertia:
         )
 
     def find_products(self, T: Term, U: Term) -> Pair:
-        """Return P_TU and Q_TU of two terms, from a cache; (0, 0) for terms that no body has together.
+        """Return P = α cos ψ − β sin ψ and Q = α sin ψ + β cos ψ of two terms T and U, from a cache.
 
-        P is symmetric and Q antisymmetric in T and U. The constants of both terms become derived parameters. If the
-        angle between their frames varies, P and Q become symbols with rules.
+        α = Σ m w·u and β = Σ m w × u are sums over the bodies; ψ is the angle from the frame of T to that of U. The
+        result is (0, 0) for terms that no body has together. P is symmetric and Q antisymmetric in T and U. α and β
+        become derived parameters. If ψ varies, P and Q become symbols with rules.
         """
         if (T, U) not in self._alpha_and_beta:
             if (U, T) not in self._alpha_and_beta:
@@ -142,7 +143,10 @@ class Inertia:
                 yield U, T
 
     def _derive_mass(self) -> dict[tuple[str, str], sp.Expr]:
-        """Return both triangles of M by names of coordinates, prescribed ones included, without zeros."""
+        """Return both triangles of M by names of coordinates, prescribed ones included, without zeros.
+
+        An entry is a sum over pairs of terms T, U with their products P and Q (`find_products`).
+        """
         sums: dict[tuple[str, str], sp.Expr] = {}
         for T, U in self._iterate_term_pairs():
             P, Q = self.find_products(T, U)

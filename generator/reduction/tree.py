@@ -128,7 +128,7 @@ class OperationEstimate:
     def find_cheapest(self, trees: Sequence[tuple[Link, ...]]) -> tuple[Link, ...]:
         """Return the first of the cheapest trees, the last one being estimated first.
 
-        `costs` contains a lower bound for a tree that costs more than a later one.
+        `costs` contains a lower bound for a tree that costs more than a later one. `costs` is replaced.
         """
         limit = math.inf
         for links in reversed(trees):
@@ -376,7 +376,7 @@ def _grow_tree(
     """Return a tree, grown breadth first from the ground along some joints, as links with parents first.
 
     `selected_joints`: the joints that may be used. Bodies that no joint reaches move freely; with a `max_depth`, longer
-    chains are cut.
+    chains are cut. None: no limit.
     """
     joints_of_body: dict[str, list[Joint]] = {name: [] for name in (GROUND, *model.geometry.bodies)}
     names = {joint.name for joint in selected_joints}

@@ -316,8 +316,9 @@ class KKT:
     ) -> None:
         """Append tests of the pivots of a joint's x and y against the sum of their sizes; only in tree coordinates.
 
-        `pivots`: the first pivot and the determinant. One of these equations vanishes as a whole where links are in
-        line, and is not small compared with itself there.
+        One of these equations vanishes as a whole where links are in line, and is not small compared with itself there.
+        `block`: both nodes; `scale`: their sizes; `pivots`: the first pivot and the determinant. `on_failure`: whether
+        failure jumps, the number of equations before the block, and the threshold.
         """
         first_row, second_row = (self.rows[k - self.n] for k in block)
         if not self.system.in_tree or first_row.owner != second_row.owner or first_row.unit != second_row.unit:

@@ -46,7 +46,7 @@ from gudgeon.generator.solvers.linearization import Linearization, LinearizedPar
 from gudgeon.generator.solvers.pivots import SINGULAR, is_simple
 from gudgeon.generator.solvers.sparsity import choose_elimination
 from gudgeon.generator.symbols.storage import Place, PlaceSymbol
-from gudgeon.generator.symbols.switches import Size
+from gudgeon.generator.symbols.switches import ComparedMagnitude
 
 ZERO = sp.Integer(0)
 
@@ -444,7 +444,11 @@ class Factors:
         stick = newton.sticks[k - newton.n - newton.m] if newton.n + newton.m <= k < states else None
         is_sticking = Test(stick, "!=", (0.0,)) if stick is not None else None
         builder.append_line(
-            Guard(Test(pivot, ">", (SINGULAR, Size(size)), compares_magnitude=True), k + 1, condition=is_sticking)
+            Guard(
+                Test(pivot, ">", (SINGULAR, ComparedMagnitude(size)), compares_magnitude=True),
+                k + 1,
+                condition=is_sticking,
+            )
         )
         # a row that slips is switched off: its multiplier is zero
         value = 1 / pivot if is_sticking is None else Conditional(is_sticking, 1 / pivot, ZERO)

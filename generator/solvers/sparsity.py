@@ -57,7 +57,7 @@ def choose_elimination(
     Equations in `pairs` (each with its partner, in the same coordinates) may be eliminated once two of their
     coordinates are. Their 2 × 2 pivot then vanishes where two links are in line, so that the caller must test it. Nodes
     in `first` come before all others, in their order. A node with a `partner`, an equation with a constant entry in it,
-    is eliminated together with that equation.
+    is eliminated together with that equation. `last` None: no node comes after all others.
     """
     elimination = find_elimination_below(math.inf, pattern, n_coordinates, last, pairs, first, partner)
     assert elimination is not None
@@ -90,7 +90,10 @@ def find_elimination_below(
         return (node >= end, len(graph[node]), node)
 
     def compute_fill_key(graph: Sequence[set[int]], node: int, depth: int) -> tuple[int, ...]:
-        """Return the key of least fill-in, then of least degree."""
+        """Return the sort key of a node for elimination: least fill-in, then least degree, then number.
+
+        Nodes from `end` on come after all others. `graph`: the neighbours of each node; `depth` is not used.
+        """
         neighbours = graph[node]
         n_present = sum(len(neighbours & graph[neighbour]) for neighbour in neighbours)  # each edge twice
         n_neighbours = len(neighbours)
@@ -193,7 +196,8 @@ def _eliminate_in_order(
 def _eliminate_node(node: int, partner: int | None, graph: Sequence[set[int]], columns: dict[int, set[int]]) -> int:
     """Eliminate a node with its partner from the graph in place, and return the number of products.
 
-    The columns of both are stored in `columns`. The partner's neighbours are coupled with those of both.
+    The columns of both are stored in `columns`. The partner's neighbours are coupled with those of both. `partner`
+    None: the node is eliminated alone.
     """
     eliminated = {node} if partner is None else {node, partner}
     node_neighbours = graph[node] - eliminated

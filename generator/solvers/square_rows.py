@@ -23,12 +23,12 @@ from gudgeon.generator.ir.values import Test, Threshold
 from gudgeon.generator.solvers.pivots import SINGULAR
 from gudgeon.generator.solvers.sparsity import Block, find_triangular_blocks
 from gudgeon.generator.symbols.storage import Place
-from gudgeon.generator.symbols.switches import Size
+from gudgeon.generator.symbols.switches import ComparedMagnitude
 
 ZERO = sp.Integer(0)
 # A block is singular when its determinant is less than this share of what it could be, were the arms in it turned:
 # the sine of an angle, where KKT compares its square.
-SHARE = Threshold("SINGULAR_SQUARE", sqrt(SINGULAR))
+SINGULAR_SQUARE = Threshold("SINGULAR_SQUARE", sqrt(SINGULAR))
 
 
 @dataclass(frozen=True)
@@ -91,7 +91,7 @@ class SquareSystem:
                 Test(
                     pivot_local,
                     ">",
-                    (SHARE, self._compute_entry_bound(builder, row, column, block)),
+                    (SINGULAR_SQUARE, self._compute_entry_bound(builder, row, column, block)),
                     compares_magnitude=True,
                 ),
                 row + 1,
@@ -109,7 +109,9 @@ class SquareSystem:
         determinant = builder.append_local(f"determinant_{name}", a * d - b * c)
         (A, B), (C, D) = ([self._compute_entry_bound(builder, r, k, block) for k in block.columns] for r in block.rows)
         bound = builder.append_local(f"bound_{name}", A * D + B * C)
-        builder.append_line(Guard(Test(determinant, ">", (SHARE, bound), compares_magnitude=True), block.rows[1] + 1))
+        builder.append_line(
+            Guard(Test(determinant, ">", (SINGULAR_SQUARE, bound), compares_magnitude=True), block.rows[1] + 1)
+        )
         return Solver(block, builder.append_local(f"inverse_{name}", 1 / determinant))
 
     def _compute_entry_bound(self, builder: KernelBuilder, row: int, column: int, block: Block) -> sp.Expr:
@@ -126,7 +128,9 @@ class SquareSystem:
             magnitude = sp.Abs(entry) + sp.Abs(self._symbols.differentiate(entry, self._q[column]))
         if magnitude.is_Number:
             return magnitude
-        return builder.append_local(f"size_{self.names[row]}__{self.unknowns[column]}", magnitude.replace(sp.Abs, Size))
+        return builder.append_local(
+            f"size_{self.names[row]}__{self.unknowns[column]}", magnitude.replace(sp.Abs, ComparedMagnitude)
+        )
 
     def _factorize_dense(self, builder: KernelBuilder, block: Block) -> Solver:
         """Return the solver of a larger block, which the engine factorizes at run time with pivoting."""
@@ -171,7 +175,10 @@ class SquareSystem:
     def _solve_block(
         self, builder: KernelBuilder, solver: Solver, rhs: Sequence[sp.Expr], prefix: str
     ) -> Sequence[sp.Expr | Place]:
-        """Return the solution of one block for its right-hand side `rhs`, one value for each of its equations."""
+        """Return the solution of one block for its right-hand side `rhs`, one value for each of its equations.
+
+        A block of more than two equations appends a call of the engine. `prefix` begins the names of its locals.
+        """
         if len(rhs) == 1:
             return [rhs[0] * solver.inverse]
         if len(rhs) == 2:

@@ -169,7 +169,7 @@ def read_studies(
     """Return the studies of a file, given as bytes or as a mapping in Python, with its claims and titles.
 
     `settings` are values for all runs that override the file's; `file` is its name for messages. Raises an InputError
-    at file:line:column, or InputErrors with all errors.
+    at file:line:column, or InputErrors with all errors. `settings` None: values of the file only.
     """
     reader = Reader(file)
     root = parse_yaml(data, file, reader.errors, FORMAT) if isinstance(data, bytes) else build_tree(data)

@@ -267,7 +267,10 @@ class StudyFile:
     left_out: tuple[Axis, ...] = ()  # dimensions of the file that `--set` replaces by one value
 
     def replace_starts(self, count: int | None, seed: int | None) -> StudyFile:
-        """Return the study with another count or seed of its perturbed starts, if it has any."""
+        """Return the study with another count or seed of its perturbed starts; None keeps the value.
+
+        A study without perturbed starts is returned unchanged.
+        """
         changed_settings = {name: str(value) for name, value in (("count", count), ("seed", seed)) if value is not None}
         if self.starts is None or not changed_settings:
             return self
@@ -290,9 +293,9 @@ class StudySet:
     about: tuple[str, ...] = ()  # paragraphs, for people
 
     def replace_starts(self, count: int | None, seed: int | None) -> StudySet:
-        """Return the studies with another count or seed of their perturbed starts.
+        """Return the studies with another count or seed of their perturbed starts; None keeps the value.
 
-        Raises BadValueError if no part has any.
+        Parts without perturbed starts stay unchanged. Raises BadValueError if a value is given and no part has any.
         """
         changed_settings = [name for name, value in (("count", count), ("seed", seed)) if value is not None]
         if changed_settings and not any(part.starts for part in self.parts.values()):

@@ -13,7 +13,7 @@ from gudgeon.errors import BadValueError, Location
 from gudgeon.generator.mechanism import Quantity
 from gudgeon.generator.symbols.curves import make_curve_expression
 from gudgeon.generator.symbols.squares import DEGREE, convert_to_decimal, extract_squares
-from gudgeon.generator.symbols.switches import ModOf, Pick
+from gudgeon.generator.symbols.switches import ModOf, Select
 from gudgeon.generator.symbols.unevaluated import apply_unexpanded
 from gudgeon.language.functions import IN_SYMPY, Function
 from gudgeon.language.parser import parse
@@ -43,7 +43,7 @@ def make_conditional(left: sp.Expr, right: sp.Expr, then: sp.Expr, otherwise: sp
 
     If both values are equal, one of them is returned.
     """
-    return then if then == otherwise else Pick(sp.sign(left - right), otherwise, then)
+    return then if then == otherwise else Select(sp.sign(left - right), otherwise, then)
 
 
 _HALF = sp.Rational(1, 2)

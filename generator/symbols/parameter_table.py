@@ -201,7 +201,7 @@ class ParameterTable(Freezable):
 
         Numbers and parameters are returned unchanged; an equal expression gets the same symbol. `base_name`: base of
         its name; `field_base_name`: that of its field in Parameters, if it differs; `role`: its role in a joint or
-        element.
+        element. `role` None: it has none.
         """
         if expression.is_number or (expression.is_Symbol and self.symbols.info[expression].is_parameter):
             return expression

@@ -76,8 +76,8 @@ class BranchOf(sp.Function):
         return sp.Integer(0)
 
 
-class Pick(sp.Function):
-    """Pick(branch, a, b): b if the branch is below zero, else a.
+class Select(sp.Function):
+    """Select(branch, a, b): b if the branch is below zero, else a.
 
     The branch is not negated, so that all values agree at zero.
     """
@@ -87,9 +87,9 @@ class Pick(sp.Function):
 
     @classmethod
     def eval(cls, branch: sp.Expr, a: sp.Expr, b: sp.Expr) -> sp.Expr | None:
-        """Return a or b for a branch that is a number; otherwise None, or the equal `Pick(s, b, a)` for `branch` = −s.
+        """Return a or b if the branch is a number; otherwise None, or the equal `Select(s, b, a)` for `branch` = −s.
 
-        At zero both forms then pick the same value. Called by SymPy.
+        At zero both forms then select the same value. Called by SymPy.
         """
         if branch.is_Number:
             return b if branch < 0 else a
@@ -102,13 +102,13 @@ class Pick(sp.Function):
         """
         branch, a, b = self.args
         da, db = differentiate(a, s), differentiate(b, s)
-        return da if da == db else Pick(branch, da, db)
+        return da if da == db else Select(branch, da, db)
 
 
 def select_extreme(
     arguments: Sequence[sp.Expr], find_branch: Callable[[sp.Expr], sp.Expr], is_maximum: bool
 ) -> sp.Expr:
-    """Return the maximum (`is_maximum`) or minimum of some expressions as nested `Pick`.
+    """Return the maximum (`is_maximum`) or minimum of some expressions as nested `Select`.
 
     `find_branch(g)` returns the branch of a switching function g, a difference of two of them. The result does not
     depend on the order of the arguments.
@@ -116,11 +116,11 @@ def select_extreme(
     ordered = sorted(arguments, key=lambda a: (a.is_Number, str(a)))
     extreme = ordered[0]
     for argument in ordered[1:]:
-        extreme = Pick(find_branch(extreme - argument if is_maximum else argument - extreme), extreme, argument)
+        extreme = Select(find_branch(extreme - argument if is_maximum else argument - extreme), extreme, argument)
     return extreme
 
 
-class Apart(sp.Function):
+class BranchSign(sp.Function):
     """The sign of a difference that selects a branch: it is not part of a value and has derivative 0."""
 
     nargs = 1
@@ -131,10 +131,10 @@ class _Extreme(sp.Function):
     """max or min while it is differentiated: its rate is that of one argument, also where several are equal."""
 
     is_real = True
-    as_it_is: type[sp.Expr]
+    sympy_class: type[sp.Expr]
 
     def _eval_derivative(self, s: sp.Symbol) -> sp.Expr:
-        """Return the derivative by `s` of the active argument, as nested `Pick` by the signs of differences.
+        """Return the derivative by `s` of the active argument, as nested `Select` by the signs of differences.
 
         Called by SymPy.
         """
@@ -142,30 +142,30 @@ class _Extreme(sp.Function):
         ordered = sorted(self.args, key=lambda a: (a.is_Number, str(a)))
         value, slope = ordered[0], slopes[ordered[0]]
         for argument in ordered[1:]:
-            difference = value - argument if self.as_it_is is sp.Max else argument - value
-            slope = slope if slope == slopes[argument] else Pick(Apart(difference), slope, slopes[argument])
+            difference = value - argument if self.sympy_class is sp.Max else argument - value
+            slope = slope if slope == slopes[argument] else Select(BranchSign(difference), slope, slopes[argument])
             value = type(self)(value, argument)
         return slope
 
     def _eval_is_nonnegative(self) -> bool | None:
         """Return whether the extreme is known to be non-negative."""
-        return self.as_it_is(*self.args).is_nonnegative
+        return self.sympy_class(*self.args).is_nonnegative
 
     def _eval_is_positive(self) -> bool | None:
         """Return whether the extreme is known to be positive."""
-        return self.as_it_is(*self.args).is_positive
+        return self.sympy_class(*self.args).is_positive
 
 
-class Largest(_Extreme):
+class DifferentiableMax(_Extreme):
     """max while it is differentiated."""
 
-    as_it_is = sp.Max
+    sympy_class = sp.Max
 
 
-class Smallest(_Extreme):
+class DifferentiableMin(_Extreme):
     """min while it is differentiated."""
 
-    as_it_is = sp.Min
+    sympy_class = sp.Min
 
 
 class Magnitude(sp.Function):
@@ -183,7 +183,7 @@ class Magnitude(sp.Function):
         return sp.Integer(1)
 
 
-class Size(sp.Function):
+class ComparedMagnitude(sp.Function):
     """|x| in a bound for comparisons, which is not part of the motion and has no switching point."""
 
     nargs = 1
@@ -287,7 +287,7 @@ class Switches(Freezable):
             case sp.sign():
                 return make_branch_symbol(arguments[0])
             case sp.Heaviside():
-                return Pick(make_branch_symbol(arguments[0]), sp.Integer(1), sp.Integer(0))
+                return Select(make_branch_symbol(arguments[0]), sp.Integer(1), sp.Integer(0))
             case sp.Max() | sp.Min():
                 return select_extreme(arguments, make_branch_symbol, is_maximum=isinstance(expression, sp.Max))
             case sp.Pow() if not expression.exp.is_integer and arguments[0] != expression.base:

@@ -153,7 +153,8 @@ class Symbols(Freezable):
         """Return a new real symbol, with an unused name made from `base_name`.
 
         `place`: the place where it is read; with OWN_FIELD it is a field of Parameters, called as `field_base_name` or
-        else as the symbol. Terms are ordered by the symbol's own name.
+        else as the symbol. Terms are ordered by the symbol's own name. `place` None: the symbol is not read but defined
+        by an expression.
         """
         shared_table = self._shared_table if place and place.is_parameter else None
         name, field_name = (

@@ -1,7 +1,7 @@
 """Products that stay together: SymPy expands (0.01 x)^161, but 1e-322 and x^161 may leave the range of C numbers.
 
 An operation is checked after SymPy has performed it. If the result has a number far from 1 that was not written, or
-powers that each may leave binary64 while their product does not, the operands become `Whole`s, which SymPy cannot
+powers that each may leave binary64 while their product does not, the operands become `Unevaluated`s, which SymPy cannot
 expand.
 """
 
@@ -15,8 +15,8 @@ _MAX_DECADES = 60  # decades from 1 within which numbers that were not written a
 _MAX_POWER = 16  # a power that is given to the factors of its base one by one, at most
 
 
-class Whole(sp.Function):
-    """Whole(x): x as one unevaluated factor or base of a power."""
+class Unevaluated(sp.Function):
+    """Unevaluated(x): x as one unevaluated factor or base of a power."""
 
     nargs = 1
 
@@ -26,7 +26,7 @@ class Whole(sp.Function):
 
         Called by SymPy.
         """
-        return x if x.is_Atom or isinstance(x, Whole) else None
+        return x if x.is_Atom or isinstance(x, Unevaluated) else None
 
     def fdiff(self, argindex: int = 1) -> sp.Expr:
         """Return 1, the derivative by x."""
@@ -57,19 +57,19 @@ class Whole(sp.Function):
         return self.args[0].is_zero
 
 
-class Share(Whole):
+class UnevaluatedQuotient(Unevaluated):
     """The quotient v′/v, whose derivative stays together too: SymPy would form v², which may overflow."""
 
 
 def apply_unexpanded(operation: Callable[..., sp.Expr], *operands: sp.Expr) -> sp.Expr:
-    """Return `operation(*operands)`, with the operands as `Whole` if SymPy would expand them to extreme numbers.
+    """Return `operation(*operands)`, with the operands as `Unevaluated` if SymPy would expand them to extreme numbers.
 
     Operands that are numbers are never wrapped.
     """
     result = operation(*operands)
     if all(operand.is_number for operand in operands) or not _has_new_extreme_numbers(result, operands):
         return result
-    return operation(*(operand if operand.is_number else Whole(operand) for operand in operands))
+    return operation(*(operand if operand.is_number else Unevaluated(operand) for operand in operands))
 
 
 def _has_new_extreme_numbers(result: sp.Expr, operands: tuple[sp.Expr, ...]) -> bool:

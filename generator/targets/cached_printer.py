@@ -40,7 +40,10 @@ class CachedPrinter:
         raise ValueError(f"{type(self).__name__} does not know {expr}")
 
     def _print_Add(self, expr: sp.Add, order: str | None = None) -> str:
-        """Print the sum of terms in the order of `order_terms`, with the signs of negative terms between them."""
+        """Print the sum of terms in the order of `order_terms`, with the signs of negative terms between them.
+
+        `order`: an argument of SymPy, not used.
+        """
         text = ""
         for term in order_terms(expr):
             printed = self._print(term)

@@ -116,7 +116,8 @@ def describe_journals_in_walls(linkage: Linkage, p: Array) -> Iterator[str]:
 def _iterate_joints_with_start_position(linkage: Linkage, p: Array) -> Iterator[tuple[ClearanceInfo, float, float]]:
     """Yield the joints with play whose positions the file's start sets, each with |e| and the clearance c (m).
 
-    For a corner, e is its approach to the wall; for a contour, c is the largest clearance.
+    For a corner, e is its approach to the wall; for a contour, c is the largest clearance. Nothing is yielded if the
+    file's start sets no such position.
     """
     source = linkage.source
     if not source.start_apart:

@@ -71,7 +71,7 @@ def assemble_scenes(
 
     settings: values in place of the file's, by address; an address of one scene holds for that scene. An error of a
     scene is stored in `errors` of the returned Findings. Raises UnknownNameError for an address that no scene has, and
-    an error if the file's `freedoms` are wrong.
+    an error if the file's `freedoms` are wrong. None: the values of the file.
     """
     from gudgeon.generator.pipeline import build_closed_linkage
 

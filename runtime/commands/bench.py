@@ -35,7 +35,7 @@ def benchmark_file(request: Request, methods: tuple[str, ...] = ()) -> int:
     def measure_one_scene(simulation: Simulation, progress: Report | None) -> SceneBench:
         """Measure one scene; its steps include the step of `--mark-step`.
 
-        Returns a SceneBench. `progress` is called with fraction and text.
+        Returns a SceneBench. `progress` is called with fraction and text. None: no progress is reported.
         """
         parameters, steps = request.select_parameters(simulation), None
         if step is not None and simulation.source.degrees_of_freedom != 0:

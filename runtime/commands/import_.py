@@ -16,7 +16,8 @@ MAX_TRIED = 40  # bodies up to which it is tried at once whether the linkage ass
 def import_linkage(file: Path, target: Path | None) -> int:
     """Run `gudgeon import`: convert a linkage and write it to `target`, or to NAME.yaml here; return the exit code.
 
-    Raises InputError if the target exists, the file cannot be read, or the linkage does not assemble.
+    Raises InputError if the target exists, the file cannot be read, or the linkage does not assemble. `target` None:
+    NAME.yaml in the current folder.
     """
     text = convert_to_mechanism(file)
     is_tried = _check_assembly(text, file)

@@ -83,7 +83,7 @@ def _yield_laws_by_role() -> Iterator[tuple[str, list[Law]]]:
 
 
 def _print_law_table() -> None:
-    """Print the table of all laws, grouped by role."""
+    """Print the table of all laws on stdout, grouped by role: name, title and other names of each law."""
     from rich.box import SIMPLE_HEAD
     from rich.table import Table
     from rich.text import Text

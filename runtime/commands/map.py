@@ -69,7 +69,10 @@ def map_file(request: Request, map_options: MapOptions) -> int:
     steps = sorted({*list_default_steps(dynamic_simulations, request.quick), *([] if step is None else [step])})
 
     def classify_scene(simulation: Simulation, progress: Report | None) -> VerdictMap:
-        """Return the map of one scene."""
+        """Return the map of one scene: the verdicts over the axes of the command, with the scene's values of `--set`.
+
+        `progress` is called with fraction and text; None: no progress is reported.
+        """
         parameters = request.select_parameters(simulation)
         axes = [parse_axis(simulation, text, parameters) for text in map_options.axes]
         if map_options.fixed and not any(a.is_method_setting for a in axes) and len(axes) < 2:
@@ -105,7 +108,10 @@ def _map_box(
     """
 
     def classify_box(simulation: Simulation, progress: Report | None) -> VerdictBox:
-        """Return the box of one scene."""
+        """Return the verdicts of one scene on points drawn in the box of the command.
+
+        `progress` is called with fraction and text; None: no progress is reported.
+        """
         parameters = request.select_parameters(simulation)
         axes = {a.name: a for a in (parse_axis(simulation, text, parameters) for text in map_options.ranges)}
         ranges = [Range(a.name, a.values[0], a.values[-1], PASCAL.get(a.unit, a.unit)) for a in axes.values()]
@@ -129,7 +135,10 @@ def _map_box(
 
 
 def _check_options(map_options: MapOptions, step: float | None) -> None:
-    """Raise BadValueError for options that do not fit together; step: the value of `--mark-step` in s."""
+    """Raise BadValueError for options that do not fit together; step: the value of `--mark-step` in s.
+
+    None if it is not given.
+    """
     if map_options.method not in OFFERED:
         raise BadValueError(f"--method {map_options.method!r}: expected {', '.join(OFFERED)}")
     setting_names = [name for name in map(_get_axis_name, map_options.axes) if name in SETTINGS]

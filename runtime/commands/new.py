@@ -18,7 +18,7 @@ NAME = re.compile(r"^name: .*$", re.MULTILINE)
 def create_mechanism_file(name: str, like: str | None) -> int:
     """Write NAME.yaml from the template, or from a shipped mechanism `like`, and return the exit code.
 
-    Raises BadNameError, UnknownNameError for `like`, InputError if the file exists.
+    Raises BadNameError, UnknownNameError for `like`, InputError if the file exists. `like` None: the template.
     """
     name = name.removesuffix(".yaml")
     _check_new_name(name, "mechanism")
@@ -37,6 +37,7 @@ def create_study_file(name: str, like: str | None) -> int:
     """Write NAME.yaml from the study template, and return the exit code.
 
     Raises BadValueError for `like`, which is for mechanisms only, BadNameError, and InputError if the file exists.
+    `like` must be None.
     """
     if like is not None:
         raise BadValueError("--like is of mechanisms", hint="gudgeon new NAME --study begins a study; then edit it")

@@ -41,6 +41,7 @@ def report_errors(command: Command) -> Command:
         """Run the command, without the keywords `laws`, `quiet` and `files_as_json`, and exit with its code.
 
         Files in `laws` are registered first. GudgeonError, MemoryError and Ctrl-C become a message and an exit code.
+        Raises typer.Exit with any exit code other than 0.
         """
         listed = report_as_json(kwargs.pop("files_as_json", False))
         silence = suppress_output(keep_stdout=bool(kwargs.get("json"))) if kwargs.pop("quiet", False) else nullcontext()

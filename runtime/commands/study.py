@@ -50,7 +50,7 @@ class Request:
 def report_study(folder: str, out: Path | None, json: bool) -> int:
     """Write the HTML page of a finished study to `out`, or next to its folder, and return the exit code.
 
-    json: print the written file as JSON.
+    json: print the written file as JSON. `out` None: next to the folder.
     """
     page = out or Path(folder).absolute().with_suffix(".html")
     require_suffix(page, (".html", ".htm"))

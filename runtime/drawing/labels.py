@@ -301,7 +301,10 @@ def _are_boxes_within(boxes: Array, picture_box: Array) -> NDArray[np.bool_]:
 
 
 def _have_intersection(first_segment: Array, second_segment: Array) -> bool:
-    """Return whether two segments (4,) cross in their interiors."""
+    """Return whether two segments (4,) cross in their interiors.
+
+    A segment is (x, y) of its start, then of its end. Common ends and parallel segments do not count.
+    """
 
     def compute_signed_area(line: Array, point: Array) -> float:
         """Return the signed area of the parallelogram of a segment and the vector from its start to a point."""

@@ -48,7 +48,7 @@ def make_layout(postures: Sequence[Posture], start_posture: Posture | None = Non
     """Return the layout for the drawings of one posture, or of several postures of a motion.
 
     The side of the ground at a guide depends on the ground's points and on `start_posture`, by default the first
-    posture. All drawings of a mechanism therefore agree.
+    posture. All drawings of a mechanism therefore agree. `start_posture` None: the first posture.
     """
     first_posture, start_posture = postures[0], start_posture or postures[0]
     positions = np.array([position for posture in postures for position in _collect_drawn_points(posture)])

@@ -434,7 +434,7 @@ class _FrameSearch:
         """Return r₀, r₁ and parameter index k of a disc's radius r₀ + r₁ p[k]; index −1 for a constant radius.
 
         The constant radius is also returned if no single parameter explains all drawings. For a line the result is (0,
-        0, −1).
+        0, −1). `shapes_by_posture`: the shape in each posture; None counts with the radius of `shape`.
         """
         if not isinstance(shape, Disc):
             return 0.0, 0.0, -1

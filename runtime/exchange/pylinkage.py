@@ -201,7 +201,7 @@ def _add_fixed_point(linkage: Linkage, name: str, parents: Sequence[str | None],
     """Add a point to the body, or to the ground, that contains both parents.
 
     It is at `distance` from the first parent, at `angle` (rad) from the direction to the second. Raises InputError if
-    no body contains both.
+    no body contains both. A parent that is None is refused, too.
     """
     first, second = _require_parent(name, parents[0]), _require_parent(name, parents[1])
     if first in linkage.ground and second in linkage.ground:

@@ -58,7 +58,7 @@ def read_table_file(file: str | os.PathLike[str], name: str, max_bytes: int, loc
 
     `name` is a path relative to the folder of `file`, with "/" between its parts. Neither a folder on the path nor the
     file may be a link, so that nothing outside the folder is read. Raises BadValueError for such a path, InputError for
-    the file, LimitError for its size.
+    the file, LimitError for its size. `location`: location of the name, for errors; None if there is none.
     """
     parts = name.split("/")
     if not 0 < len(parts) <= _MAX_PATH_PARTS or any(map(_is_forbidden_part, parts)):

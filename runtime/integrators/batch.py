@@ -172,7 +172,7 @@ class Runs(StoredRuns):
         """Integrate all runs in threads, assemble missing starts, and record failures; Ctrl-C ends them where they are.
 
         Starts are assembled in C where possible, in Python for the rest. `progress` is called with the fraction of runs
-        done.
+        done. `progress` None: nothing is reported.
         """
         with DelayedCtrlC() as ctrl_c:
             try:
@@ -284,7 +284,7 @@ class Runs(StoredRuns):
     def integrate_run_to_end(self, i: int, storage: NDArray[np.uint8], step_log: StepLog | None = None) -> None:
         """Integrate run i in C, alone in this thread, from its present state to its end, and store its results.
 
-        `storage`: storage of C's integrator; `step_log`: step record for an observer.
+        `storage`: storage of C's integrator; `step_log`: step record for an observer. None without an observer.
         """
         self.integrate_runs_sequentially(i, i + 1, storage, step_log)
         self.store_finished_runs([i])
@@ -310,7 +310,8 @@ class Runs(StoredRuns):
         """Integrate runs first to end − 1 in C, one after the other, in the calling thread.
 
         Contacts, events and recorded steps are fetched whenever a list is full or a run is over. `storage`: storage of
-        C's integrator. `step_log`: step record for observers. `poll` is called after each call of C.
+        C's integrator. `step_log`: step record for observers. `poll` is called after each call of C. `step_log` None:
+        without an observer.
         """
         compiled, current = self.compiled, self.compiled.ffi.new("long *", first)
         compiled.lib.switch_library_if_ready()
@@ -397,7 +398,7 @@ class Runs(StoredRuns):
 def integrate_problem(problem: Problem, python_loop: PythonLoop | None = None) -> Trajectory:
     """Integrate one run, in C or by the time loop `python_loop` in Python, and return its Trajectory.
 
-    Raises KeyboardInterrupt if no sample was reached.
+    Raises KeyboardInterrupt if no sample was reached. `python_loop` None: C integrates.
     """
     times = Times(problem.t, np.full(1, len(problem.t)), np.zeros(1, np.int_))
     motion = problem.p if problem.method == "rk4" or problem.p_free is None else problem.p_free

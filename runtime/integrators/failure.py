@@ -30,7 +30,7 @@ from gudgeon.contract.boundary import (
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.contract.methods import NEED_SLOPES
 from gudgeon.errors import AuditError, NonFiniteError, SingularError, SolverError
-from gudgeon.language.functions import CORNERED
+from gudgeon.language.functions import WITH_SWITCHING_POINTS
 from gudgeon.language.tree import list_functions
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.contours import compute_max_clearance
@@ -290,7 +290,7 @@ def _format_forces_with_switching_points(source: KernelSource) -> str:
     force_names = [
         info
         for info, tree in read_expression_trees(source, ("forces",))
-        if not CORNERED.isdisjoint(list_functions(tree))
+        if not WITH_SWITCHING_POINTS.isdisjoint(list_functions(tree))
     ]
     return ", ".join(f"{info.address} (line {info.line}, column {info.column})" for info in force_names)
 

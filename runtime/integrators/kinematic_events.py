@@ -57,7 +57,8 @@ class KinematicEvents:
     def _search_intervals(self, run_state: KinematicRun, first: int, times: Array) -> tuple[int, int]:
         """Search the intervals between these times from sample `first` on, and append the events to `found_events`.
 
-        Return the status of C and the number of complete intervals. Raises KeyboardInterrupt.
+        Return the status of C and the number of complete intervals. Raises KeyboardInterrupt. At most `capacity` events
+        are found in one call.
         """
         pointer, counts = self.problem.compiled.pointer, np.zeros(2, dtype=np.int_)
         event_times, which = np.zeros(self.capacity), np.zeros(self.capacity, dtype=np.intc)

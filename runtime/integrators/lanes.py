@@ -189,7 +189,8 @@ def _is_compiled(compiled: CompiledModel) -> bool:
 def _fetch_results(runs: Runs, i: int, run: Any, step_log: StepLog | None = None) -> None:
     """Fetch the contacts and events of run i from C's integrator `run`, and its step record if full or the run is over.
 
-    Recorded steps are passed to the run's observer. Runs whose start C could not assemble are skipped.
+    Recorded steps are passed to the run's observer. Runs whose start C could not assemble are skipped. `step_log` None:
+    without an observer.
     """
     if runs.arrays["status"][i] == NOT_CLOSED:
         return

@@ -135,7 +135,7 @@ class KinematicStepLog:
         """Pass the collected states to the observer in blocks, with parameter values p, and clear them.
 
         `end`: last state (t, q, q̇) if an event ends the motion; states after it are dropped. States that were passed
-        before are skipped.
+        before are skipped. `end` None: all states are passed.
         """
         rows = np.concatenate(self.waiting) if self.waiting else self.rows[:0]
         self.waiting = []

@@ -191,7 +191,10 @@ class StoredRuns:
         self.struct.trace, self.struct.trace_rows = self.compiled.pointer(x["trace"], is_written=True), TRACE_ROWS
 
     def _join_contacts(self) -> None:
-        """Join the contacts of all runs to one array sorted by run and onset, after all runs have ended."""
+        """Join the contacts of all runs to one array sorted by run and onset, after all runs have ended.
+
+        They are stored in `contacts`, the index of the first contact of each run in `first_contact_indices`.
+        """
         if not self.python_lists:
             self.contacts, self.first_contact_indices = self.fetched.join_contacts(self.n)
             return

@@ -35,7 +35,8 @@ def wait_for_futures(
 ) -> None:
     """Wait until all futures are done, and report progress; raise their errors, and KeyboardInterrupt after Ctrl-C.
 
-    `compute_fraction` returns the fraction of the work done, given the number of unfinished futures.
+    `compute_fraction` returns the fraction of the work done, given the number of unfinished futures. `progress` None:
+    nothing is reported.
     """
     while futures:
         ended, futures = wait(futures, POLL_INTERVAL_S)
@@ -52,7 +53,7 @@ def integrate_runs_in_threads(
     """Integrate the runs with these indices to their ends in threads, which take them in portions from a queue.
 
     `progress` is called with the fraction of finished runs. Ctrl-C or an error ends all runs where they are, and is
-    passed on.
+    passed on. `progress` None: nothing is reported.
     """
     portion = max(1, min(PORTION, len(indices) // (8 * runs.threads)))
     portions = deque(indices[k : k + portion] for k in range(0, len(indices), portion))

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 NATURAL, CLAMPED, PERIODIC, NOT_A_KNOT = ENDS = ("natural", "clamped", "periodic", "not_a_knot")
 SPLINE, MONOTONE = INTERPOLATIONS = ("spline", "monotone")
 STOP, HOLD, LINE = EXTRAPOLATE = ("none", "hold", "line")
-LEAST = {NATURAL: 2, CLAMPED: 2, PERIODIC: 3, NOT_A_KNOT: 4}  # smallest number of points by condition at the ends
+MIN_POINTS = {NATURAL: 2, CLAMPED: 2, PERIODIC: 3, NOT_A_KNOT: 4}  # smallest number of points by condition at the ends
 _INTERPOLATION_NAMES = {SPLINE: "cubic spline", MONOTONE: "monotone cubic"}  # names of the interpolations in messages
 MAX_LISTED_KNOTS = (
     4000  # points: tables of longer curves are stored and emitted as bytes, which takes a tenth of the time

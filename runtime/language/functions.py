@@ -356,7 +356,7 @@ def select_function_names(predicate: Callable[[Function], bool]) -> frozenset[st
     return frozenset(function.name for function in _TABLE if predicate(function))
 
 
-CORNERED = select_function_names(
+WITH_SWITCHING_POINTS = select_function_names(
     lambda f: f.jump_order in (0, 1)
 )  # functions whose value or slope jumps: steps end there
 JUMPING = select_function_names(lambda f: f.jump_order == 0)  # functions whose value jumps

@@ -34,7 +34,7 @@ def check_name(name: str, item_kind: str, location: Location | None) -> None:
     """Raise BadNameError unless `name` can name an item of a file: a free identifier of at most 64 characters.
 
     item_kind: of the item, such as "parameter"; names that stand alone in expressions must not be functions or reserved
-    words. location: for the error.
+    words. location: for the error; None if there is no file.
     """
     check_label(name, item_kind, location)
     reason = RESERVED.get(name) if item_kind not in ("point", "mechanism") else None  # no expression has these alone
@@ -58,7 +58,10 @@ def suggest_another_name(name: str, alternative: str = "") -> str:
 
 
 def check_not_null(name: str, item: str, location: Location | None) -> None:
-    """Raise BadNameError if YAML would read `name` as no value; `item` names it in the message, such as "this body"."""
+    """Raise BadNameError if YAML would read `name` as no value; `item` names it in the message, such as "this body".
+
+    `location`: for the error, None if there is no file.
+    """
     if name in YAML_NULL:
         reason = "YAML reads it as no value where the name is used"
         raise BadNameError(f"{str(name)!r} cannot name {item}: {reason}", location, suggest_another_name(name))
@@ -69,7 +72,7 @@ def check_label(name: str, item_kind: str, location: Location | None) -> None:
     text.
 
     This is enough for items that no expression and no C identifier names alone: scenes, materials, bearings, contacts.
-    item_kind: of the item. location: for the error.
+    item_kind: of the item. location: for the error; None if there is no file.
     """
     if not IDENTIFIER.fullmatch(name):
         hint = "expected a letter, then letters, digits or '_', in ASCII"
@@ -157,7 +160,7 @@ def make_unknown_name_error(
 ) -> UnknownNameError:
     """Return the UnknownNameError for a `name` that nothing defines, with the nearest known names as hint.
 
-    kind: of the name, such as "body". location: for the error.
+    kind: of the name, such as "body". location: for the error; None if there is no file.
     """
     return UnknownNameError(f"unknown {kind} {str(name)[:200]!r}", location, format_name_hint(name, known_names))
 

@@ -44,7 +44,8 @@ def parse(
     """Return the tree of an expression, whose first character is at `location`; it is never evaluated as Python.
 
     parameters: names that take precedence over units. curves: may be called by their names. Raises ExpressionError
-    (syntax), UnitError (unknown unit) or LimitError (too long, deep or large), each at the exact column.
+    (syntax), UnitError (unknown unit) or LimitError (too long, deep or large), each at the exact column. None: no
+    curves.
     """
     if len(text) > MAX_LENGTH:
         raise LimitError(f"an expression of {len(text)} characters", location, f"expected at most {MAX_LENGTH}")

@@ -200,7 +200,10 @@ class SharedObject:
         """
 
         def compile_object(folder: Path) -> None:
-            """Compile the object file in a folder, or take it from the background compilation. Raise BuildError."""
+            """Compile the object file in a folder, or take it from the background compilation. Raise BuildError.
+
+            The written texts are removed again.
+            """
             if background.fetch_object(folder / self.name, self.command_line, self.texts):
                 return
             for name, text in self.texts.items():

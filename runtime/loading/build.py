@@ -61,7 +61,10 @@ def compile_kernels(
         return loaded
 
     def build(folder: Path, quick: bool = False, background: BackgroundCompilation | None = background) -> None:
-        """Build the library in a folder, and report that this takes a while."""
+        """Build the library in a folder, and report that this takes a while.
+
+        `background`: a compilation whose parts are reused; None: all parts are compiled here.
+        """
         with (
             report_work(f"compiling {source.mechanism}, scene {source.scene}"),
             BackgroundCompilation(portable, cache) as no_background,

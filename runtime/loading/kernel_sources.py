@@ -200,7 +200,7 @@ def derive_kernel_source(
     """Derive the kernel source of a scene from the bytes of its file; each stage adds its time (s) to `seconds`.
 
     `background` compiles finished parts in the background meanwhile. Errors in the file are reported before SymPy is
-    imported.
+    imported. None for `overrides`, `seconds` and `background`: the file's values, no times, no compilation meanwhile.
     """
     with (
         report_work(f"deriving {file.stem}, scene {scene}"),

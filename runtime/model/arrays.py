@@ -112,7 +112,8 @@ def _convert_to_c_array(
 ) -> NDArray[Any]:
     """Return values converted to a C-contiguous array of `dtype`; see `as_c_array` for the arguments.
 
-    Raises ArrayError for values that are not real numbers, that do not fit `dtype`, or for another shape.
+    Raises ArrayError for values that are not real numbers, that do not fit `dtype`, or for another shape. `shape` None:
+    any shape.
     """
     _check_no_masked_entries(values, name)
     try:

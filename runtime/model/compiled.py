@@ -238,7 +238,8 @@ class CompiledModel:
         The shapes are (2n + 3 + k, 2n + 3 + k) and (2n + 3 + k,). k is the number of inner states of laws: their rates
         follow q̈ and the powers, the states follow the works. Their values are in `discrete_states`, as in a sample.
         Contacts, branches of switching functions and modes of friction are those of this state. Raises SingularError
-        where constraint equations depend on each other, ValueError where nothing is integrated.
+        where constraint equations depend on each other, ValueError where nothing is integrated. `discrete_states` None:
+        all contacts are open.
         """
         if reason := self.source.reason_without_jacobian:
             raise ValueError(f"this scene has no Jacobian: {reason}")
@@ -333,7 +334,7 @@ class CompiledModel:
         """Raise SingularError for a status k > 0, with the constraint equation of the pivot; return for other values.
 
         `pivot_names`: names to which k refers, those of the source by default. `p`: parameter values, to name masses
-        whose ratio is too large.
+        whose ratio is too large. `p` None: no ratio of masses is tested.
         """
         if status > 0:
             row = (pivot_names or self.source.pivots)[status - 1]
@@ -365,7 +366,8 @@ class CompiledModel:
     ) -> tuple[Any, Any, Any]:
         """Return C pointers to y, the discrete states and p, the arguments that every right-hand side takes.
 
-        y: (2n,), or (2n + 3,) with the works. Raises ArrayError for another shape.
+        y: (2n,), or (2n + 3,) with the works. Raises ArrayError for another shape. `discrete_states` None: all contacts
+        are open.
         """
         state = as_c_array(y, "y")
         if state.shape not in ((2 * self.n,), (2 * self.n + N_WORK,)):

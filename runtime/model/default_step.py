@@ -52,7 +52,7 @@ def evaluate_scene_end(source: KernelSource, p: Array) -> float:
 def evaluate_end(compiled: CompiledModel, parameters: Mapping[str, float | str] | None) -> float:
     """Return the end (s) of a scene's run with these parameters, given as in `simulate`.
 
-    Raises an InputError for wrong ones.
+    Raises an InputError for wrong ones. None: the values of the file.
     """
     return evaluate_scene_end(compiled.source, prepare_values(compiled, parameters)[0])
 

@@ -256,7 +256,8 @@ def insert_space_before_unit(text: str) -> str:
 def prepare_values(compiled: CompiledModel, parameters: Mapping[str, float | str] | None) -> tuple[Array, Array, Array]:
     """Return (p, given, is_given), checked: see CompiledModel.prepare.
 
-    parameters: as `read_given_parameters` accepts them. Raises BadValueError, UnknownNameError.
+    parameters: as `read_given_parameters` accepts them. Raises BadValueError, UnknownNameError. None: the values of the
+    file.
     """
     given_values, is_given = read_given_parameters(compiled.source, parameters)
     return prepare_given_values(compiled, given_values, is_given), given_values, is_given

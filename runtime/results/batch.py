@@ -285,7 +285,10 @@ class Batch:
         return export.build_batch_dataframe(self, names)
 
     def to_csv(self, path: str | os.PathLike[str], names: Iterable[str] | None = None) -> None:
-        """Write the table of `to_dataframe` as CSV, run by run, with all digits of each number."""
+        """Write the table of `to_dataframe` as CSV, run by run, with all digits of each number.
+
+        `names` None: all series.
+        """
         from gudgeon.results.files import export
 
         export.write_batch_csv(self, path, names)

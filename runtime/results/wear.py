@@ -303,7 +303,8 @@ def distribute_loads(
 
     The arcs are from `begin_angles` to `end_angles` (K,), rad. With `half_widths` (K,), rad, the load of each point of
     an arc is a parabola that vanishes at that distance on both sides. Angles may be of any turn. A cell receives the
-    integral over it, so that sums of loads are preserved.
+    integral over it, so that sums of loads are preserved. `half_widths` None: the load of each point acts at that
+    point.
     """
     per_cell = 2.0 * np.pi / n_cells
     half_width_cells = np.zeros(len(begin_angles)) if half_widths is None else half_widths / per_cell
@@ -334,7 +335,8 @@ def distribute_loads(
 def _compute_fraction_below(x: Array, begin: Array, end: Array, half_width: Array | None) -> Array:
     """Return the fraction of the load of an arc from `begin` to `end` that lies below x, element by element.
 
-    With `half_width`, each point of the arc carries a parabola of that half width instead of a point load.
+    With `half_width`, each point of the arc carries a parabola of that half width instead of a point load. None: point
+    loads.
     """
     if half_width is None:
         return np.asarray(np.clip((x - begin) / (end - begin), 0.0, 1.0))

@@ -57,13 +57,12 @@ class Pressure:
 def solve_pressure(
     cavitation: str, equation: Equation, motion: Motion, free_nodes: Flags, initial_unknowns: Array | None = None
 ) -> Pressure:
-    """Solve the film equation under a cavitation condition, and return pressure, filled fraction and gain of all
-    nodes.
+    """Solve the film equation under a cavitation condition, and return pressure, filled fraction and gain of all nodes.
 
     cavitation: "half_sommerfeld", "reynolds" or "elrod_adams". free_nodes: nodes at which p is unknown, all except the
     groove. initial_unknowns: unknowns near the solution, from a coarser grid; only their signs are used. Without it,
     elrod_adams starts from the solution of reynolds. Raises BadValueError, GudgeonError if the active set does not
-    converge.
+    converge. None: the sign of the squeeze flow decides.
     """
     squeeze_flow = equation.compute_squeeze_flow(motion.w_n, motion.w_t)
     if cavitation == "half_sommerfeld":

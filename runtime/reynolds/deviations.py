@@ -87,7 +87,7 @@ def deviation(
 
     l_over_d: length over diameter. eps: (n,) in (0, 1). motion: (m,) rad, see Deviation. cavitation, groove, cells: as
     `table` takes them. keys: the law's other keys, numbers in SI; the viscosity is given. Raises BadValueError and the
-    errors of `table` and of the law.
+    errors of `table` and of the law. groove None: without a groove.
     """
     ratio = check_positive(l_over_d, "l_over_d")
     bearing = _make_bearing(ratio)

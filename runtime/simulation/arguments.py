@@ -78,7 +78,8 @@ def compute_output_times(
     """Return the increasing sample times (s) of a run from t0, and whether t0 itself is a requested sample.
 
     The times are a new array that begins with t0. They follow from `output`: times, or a number of intervals to t_end.
-    Without either, those of the file hold, with parameter values `p`. Raises BadValueError, MemoryError.
+    Without either, those of the file hold, with parameter values `p`. Raises BadValueError, MemoryError. Both are None
+    if they are not given.
     """
     if isinstance(output, np.ndarray) and not output.ndim:
         output = output[()]
@@ -221,7 +222,7 @@ def evaluate_step(compiled: CompiledModel, step: float | str | None, method: str
     """Return the fixed step (s) of a run of `duration` (s); infinity where the method controls its step.
 
     Without the argument `step`, rk4 takes the step of the file or a default. Raises BadValueError unless it is
-    positive.
+    positive. `step` None: not given.
     """
     if method == "kinematic" or (step is None and method != "rk4"):
         return math.inf

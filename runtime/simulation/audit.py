@@ -80,7 +80,10 @@ class SampleAudit:
         self.first_undefined: float | None = None  # s, first sample at which an evaluated result is not finite
 
     def add_samples(self, first: int, evaluation: Evaluation) -> None:
-        """Audit the next samples, of which the run's sample `first` is the first."""
+        """Audit the next samples, of which the run's sample `first` is the first.
+
+        Nothing is done if the audit is off.
+        """
         if not self.is_on:
             return
         if self.joints:

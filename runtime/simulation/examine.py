@@ -81,7 +81,7 @@ def _yield_repetitions(
 
     Repetitions that fail or end early are skipped. `settings`, `peaks`: arguments of simulate. `requested_end` (s):
     t_end of a run that an event or an error ended at the last of the times; else NaN. Raises KeyboardInterrupt after
-    Ctrl-C.
+    Ctrl-C. `progress` None: nothing is reported.
     """
     own_start, has_end = build_start_state(run), math.isfinite(requested_end)
     times = np.append(t, requested_end) if has_end else t
@@ -396,7 +396,7 @@ def check_contacts(run: Result, n_intervals: int, progress: Progress | None = No
     """Check the contacts of a run at the ends of `n_intervals` equal intervals and at its samples; see Result.check.
 
     The run is repeated bit for bit for more samples. If it cannot be, only stored samples are checked, and a note says
-    so. Returns a ContactCheck with the faults.
+    so. Returns a ContactCheck with the faults. `progress` None: nothing is reported.
     """
     from gudgeon.simulation.simulation import Simulation
 

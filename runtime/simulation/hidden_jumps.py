@@ -21,7 +21,7 @@ from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.contract.methods import KINEMATIC
 from gudgeon.errors import NonFiniteError, SolverError
 from gudgeon.integrators.failure import NO_NUMBER
-from gudgeon.language.functions import CORNERED, JUMPING, select_function_names
+from gudgeon.language.functions import JUMPING, WITH_SWITCHING_POINTS, select_function_names
 from gudgeon.language.tree import Binary, Call, Expr, Number, Unary, iterate_names, list_functions
 from gudgeon.model.cached_values import cache_by_values
 from gudgeon.model.compiled import Array
@@ -136,7 +136,7 @@ def _list_drives_with_unknown_switching(source: KernelSource) -> list[tuple[str,
         for drive, tree in _list_drive_expressions(source)
         if _may_hide_switching_point(tree)
         and drive not in source.rate_jumps
-        and CORNERED.isdisjoint(list_functions(tree))
+        and WITH_SWITCHING_POINTS.isdisjoint(list_functions(tree))
     ]
 
 

@@ -159,7 +159,8 @@ def _read_run_settings(
     """Return end (s), start and settings of simulate for the exponent of a given run.
 
     Method and step are those of the run unless `settings` has others; the tolerance is not taken over. Raises
-    BadValueError for a run of another scene, or if parameters or a start are given too.
+    BadValueError for a run of another scene, or if parameters or a start are given too. `parameters` and `start` must
+    be None.
     """
     check_simulation_of_run(simulation, run, "lyapunov")
     if parameters is not None or start is not None:
@@ -248,7 +249,7 @@ def _compute_settled_start(
     """Run the scene for `skip` (s) and return the arguments `start` and, if needed, `parameters` of the run after that.
 
     With skip 0 nothing is run, and the given arguments are returned. Raises BadValueError for a negative or infinite
-    time.
+    time. `parameters` and `start` None: those of the file.
     """
     state = None if start is None else copy_checked_state(simulation.source, start)
     given, is_given, _ = merge_parameters(simulation.compiled, state, parameters)
@@ -293,7 +294,7 @@ class Returns:
     def from_run(run: Result, section: str | float | None) -> Returns:
         """Prepare an empty collection of returns, with scales from a run that shows the whole motion.
 
-        Raises InputError for an invalid section.
+        Raises InputError for an invalid section. `section`: an event, a period (s), or None for no section.
         """
         event, period = _parse_section(run, section)
         size = float(compute_mechanism_sizes(run.source, run.p))

@@ -46,8 +46,9 @@ MIN_INTERVAL = 1.0 / 256.0  # of the run's length, about: the end of the first c
 
 
 def add_horizon(simulation: Simulation, run: Result, progress: Progress | None = None) -> Result:
-    """Return the run with diagnostics.horizon; after Ctrl-C, with a horizon of NaN, a note, and marked as
-    interrupted.
+    """Return the run with diagnostics.horizon; after Ctrl-C, with a horizon of NaN, a note, and marked as interrupted.
+
+    `progress` None: nothing is reported.
     """
     try:
         horizon, interrupted = compute_horizon(simulation, run, progress), False
@@ -65,8 +66,8 @@ def compute_horizon(
     """Return the time (s) up to which a run agrees with its perturbed repetitions; infinity if it does so to its end.
 
     The repetitions use `run.diagnostics.method`, from the run's start to its last sample. A repetition that an error
-    ends is compared as far as it came. Kinematic scenes have infinity. `max_difference`: largest difference, as in
-    the head of this file. Ctrl-C is passed on.
+    ends is compared as far as it came. Kinematic scenes have infinity. `max_difference`: largest difference, as in the
+    head of this file. Ctrl-C is passed on. `progress` None: nothing is reported.
     """
     begin, t1 = build_start_state(run), float(run.t[-1])
     t0 = begin.t

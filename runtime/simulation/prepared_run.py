@@ -74,7 +74,10 @@ class RunSetup:
         fixed: Mapping[str, float | str] | None,
         settings: dict[str, Any],
     ) -> RunSetup:
-        """Check the arguments and return them; `settings`: method, rtol, step, stop and audit. Raises InputError."""
+        """Check the arguments and return them; `settings`: method, rtol, step, stop and audit. Raises InputError.
+
+        `fixed` None: no fixed parameters.
+        """
         scene = simulation.of_method(check_text(settings["method"], "method"))
         source, step = scene.source, settings["step"]
         method = select_method(source, settings["method"], step is not None)
@@ -235,7 +238,10 @@ class PreparedRun:
             self._run.arrays["step"][k] = self._setup.evaluate_step(k, float(self._t[-1] - self._t[0]))
 
     def _run_one(self, x: Array) -> Array:
-        """Return the series (n_series, n_samples) of the run with parameter values x (n_parameters,)."""
+        """Return the series (n_series, n_samples) of the run with parameter values x (n_parameters,).
+
+        The extremes of the requested peaks are stored in `extremes`. Raises the error of a run that fails.
+        """
         self.failures, run = {}, self._run
         if self._peaks:
             self.extremes = np.full((len(self._peaks), 2), np.nan)  # until the run is over
@@ -260,7 +266,10 @@ class PreparedRun:
         return {"t_end": self._t_end, "output": self._output, "peaks": self._peaks, **self._setup.settings}
 
     def _simulate(self, x: Array) -> Array:
-        """Return what `_run_one` returns, by `simulate`, with its checks and errors."""
+        """Return what `_run_one` returns, by `simulate`, with its checks and errors.
+
+        Raises KeyboardInterrupt after Ctrl-C, and the errors of `simulate`.
+        """
         result = self._setup.scene.simulate(parameters=self._setup.get_parameters(x), **self._get_run_arguments())
         if result.diagnostics.interrupted:
             raise KeyboardInterrupt
@@ -271,7 +280,10 @@ class PreparedRun:
         return _fill_rows(result, self.series, len(self._t) - self._n_skipped)
 
     def _run_many(self, x: Array) -> Array:
-        """Return the series (n_runs, n_series, n_samples) of runs with parameter values x (n_runs, n_parameters)."""
+        """Return the series (n_runs, n_series, n_samples) of runs with parameter values x (n_runs, n_parameters).
+
+        Failed runs have NaN, and their errors are stored in `failures`. Raises KeyboardInterrupt after Ctrl-C.
+        """
         values = np.full((len(x), len(self.series), len(self._t) - self._n_skipped), np.nan)
         self.failures, self.extremes = {}, np.full((len(x), len(self._peaks), 2), np.nan)
         magnitudes = np.abs(x)

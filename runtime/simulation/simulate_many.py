@@ -287,7 +287,10 @@ class _Results:
     python_notes: dict[int, tuple[str, ...]] = field(default_factory=dict)  # notes of runs that Python has checked
 
     def integrate_runs(self, progress: Progress | None) -> None:
-        """Integrate all runs. Finished runs are processed at once where series are stored or Python must check them."""
+        """Integrate all runs. Finished runs are processed at once where series are stored or Python must check them.
+
+        `progress` None: nothing is reported.
+        """
         self.runs.store_results = (
             self._process_finished_runs
             if self.stored_series or self.runs.python_loop or list_redundant_equations(self.runs.compiled)

@@ -112,7 +112,7 @@ class Simulation(NotebookDisplay, RepeatedRuns):
 
         Cross-checks ("scipy:…", "sundials:…") need the full formulation, `taylor` the series, `rodas5p` and others the
         stages. A variant is derived at its first use and cached; before the full one, `progress` is called once. Raises
-        BadValueError where the motion is not smooth, InputError as `full`.
+        BadValueError where the motion is not smooth, InputError as `full`. `progress` None: nothing is reported.
         """
         if method in python_driver.NAMES:
             if progress and "full" not in {*self._variants, self.source.formulation}:
@@ -198,9 +198,9 @@ class Simulation(NotebookDisplay, RepeatedRuns):
     def jacobian(self, t: float, y: ArrayLike, memory: ArrayLike | None = None) -> Array:
         """Return the exact Jacobian ∂ẏ/∂y, (2n, 2n), of `rhs` at y = (q, q̇), with the file's defaults; SI.
 
-        Rows and columns are (q, q̇), positions in m, angles in rad, time in s. Contacts, branches of min, max, abs
-        and sign, and modes of friction stay as they are at y; `memory` as in CompiledModel.rhs.
-        Raises SingularError where constraint rows depend on each other, ValueError where nothing is integrated.
+        Rows and columns are (q, q̇), positions in m, angles in rad, time in s. Contacts, branches of min, max, abs and
+        sign, and modes of friction stay as they are at y; `memory` as in CompiledModel.rhs. Raises SingularError where
+        constraint rows depend on each other, ValueError where nothing is integrated. None: all contacts are open.
         """
         full = self.full
         return full.compiled.jacobian(t, y, full._defaults, memory)[0][: 2 * full.compiled.n, : 2 * full.compiled.n]
@@ -228,7 +228,7 @@ class Simulation(NotebookDisplay, RepeatedRuns):
     def start(self, parameters: Mapping[str, float | str] | None = None) -> Start:
         """Return the assembled start at t = 0 with the given parameters, else the file's.
 
-        Raise AssemblyError if it does not close.
+        Raise AssemblyError if it does not close. None: no parameters are given.
         """
         return assemble_start(self.compiled, prepare_values(self.compiled, parameters)[0])
 

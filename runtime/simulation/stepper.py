@@ -250,7 +250,10 @@ class Stepper:
         return values
 
     def _simulate(self, t: float, x: Array, start: State | None) -> Result:
-        """Return the run to t (s) from a state, or from the scene's start, with inputs x (n_inputs,)."""
+        """Return the run to t (s) from a state, or from the scene's start, with inputs x (n_inputs,).
+
+        `start` None: the scene's start. Raises KeyboardInterrupt after Ctrl-C.
+        """
         parameters = self._setup.get_parameters(x)
         result = self._setup.scene.simulate(
             t, output=1, parameters=parameters, start=start, peaks=(), **self._setup.settings
@@ -260,7 +263,10 @@ class Stepper:
         return result
 
     def _reset_by_simulate(self, x: Array, start: State | None) -> Array:
-        """Return what `reset` returns, from the first sample of a short run of `simulate`."""
+        """Return what `reset` returns, from the first sample of a short run of `simulate`.
+
+        `start` None: the scene's start.
+        """
         t = 0.0 if start is None else start.t
         result = self._simulate(t + max(FIRST_DURATION, FIRST_DURATION * abs(t)), x, start)
         motion = (array[0] for array in (result.q, result.v, result.state, result.memory))
@@ -271,7 +277,10 @@ class Stepper:
         return np.array([result[name][0] for name in self.series])
 
     def _step_by_simulate(self, t: float, x: Array) -> Array:
-        """Return what `step` returns, from the last sample of the run of `simulate` to t (s)."""
+        """Return what `step` returns, from the last sample of the run of `simulate` to t (s).
+
+        The end of that run becomes the new state; `ended` tells whether an event ended it.
+        """
         result = self._simulate(t, x, self._start)
         self._start = self._state = result.final
         self._x, self._t = x.copy(), float(result.t[-1])

@@ -69,7 +69,10 @@ class UndefinedOutputs:
         self.messages = [""] * len(self.expressions)  # on the first of them
 
     def add_samples(self, samples: Result) -> None:
-        """Check all expressions at the next samples of the run."""
+        """Check all expressions at the next samples of the run.
+
+        Values that are not finite although all their inputs are, are counted; the first one gets a message.
+        """
         self.n_samples += len(samples.t)
         for k, expression in enumerate(self.expressions):
             inputs: dict[str, Any] = {name: samples[name] for name in expression.series_names}

@@ -201,7 +201,7 @@ def list_default_steps(
 ) -> tuple[float, ...]:
     """Return the steps 1, 2, 5 · 10^k s, ascending, from a fifth to 200 times the step of a plain run.
 
-    With `quick` they begin at the step of a plain run itself.
+    With `quick` they begin at the step of a plain run itself. `parameters` None: the values of the file.
     """
     usual = find_default_step(simulation, parameters)
     return measured.list_round_numbers(usual * (1 if quick else FINEST), usual * COARSEST)

@@ -92,7 +92,8 @@ def judge_point(
 
     limits: by default those of the setting. cpu_limit (s): processor time of the long run; the other runs may take ten
     times longer. A failed long run is judged alone. If the two runs differ by more than the limits, they are compared
-    again over the time in which runs can agree at all (`_count_predictable_samples`).
+    again over the time in which runs can agree at all (`_count_predictable_samples`). `progress` None: nothing is
+    reported.
     """
     window, limits = SceneWindow(simulation, t_end, parameters, limit=cpu_limit), limits or select_limits(setting)
     long_run = window.run_at_times(setting, np.linspace(0.0, t_end, DENSE + 1), progress)

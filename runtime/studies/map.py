@@ -384,7 +384,7 @@ def _judge_job(
     """Return the cells of a job: fixed steps are judged together, a tolerance is judged like a point of a box.
 
     t_long (s): end of the long runs. max_window (s): bound of the window of comparison, for fixed steps only. Progress
-    goes to `progress`.
+    goes to `progress`. limits None: those of each setting.
     """
     if job.settings[0].has_fixed_step:
         return _judge_steps(simulation, job, t_long, max_window, limits, progress)

@@ -150,11 +150,10 @@ def _measure_rhs_at_state(
     repeats: int,
     closed_joints: list[str] | None = None,
 ) -> RhsTime:
-    """Measure the time of the right-hand side at a state, as the minimum of `repeats` batches of `batch` calls in
-    C.
+    """Measure the time of the right-hand side at a state, as the minimum of `repeats` batches of `batch` calls in C.
 
-    state: text that describes it. q, v: coordinates and velocities. closed_joints: names of the joints in contact,
-    for the number of operations.
+    state: text that describes it. q, v: coordinates and velocities. closed_joints: names of the joints in contact, for
+    the number of operations. None: no joint is in contact.
     """
     model = simulation.compiled
     y, contact_states = np.concatenate([q, v, np.zeros(N_WORK)]), model.as_discrete_states(discrete_states)

@@ -115,7 +115,7 @@ class SceneWindow:
         comparison.
 
         If a fixed step is longer than the sample interval, the samples are at multiples of it that are on the same
-        grid. The last sample may lie before the end of the window.
+        grid. The last sample may lie before the end of the window. `progress` None: nothing is reported.
         """
         stride = max(1, math.floor(setting.value / self.sample_interval * (1 + 1e-9))) if setting.has_fixed_step else 1
         count = max(1, math.floor(self.t_end / (stride * self.sample_interval) * (1 + 1e-9)))
@@ -127,7 +127,8 @@ class SceneWindow:
         """Return the wall time of the integration (s): the minimum of up to MAX_REPEATS runs that store only `output` +
         1 samples.
 
-        Repetition ends after `timing_budget` seconds in total. NaN if a run fails.
+        Repetition ends after `timing_budget` seconds in total. NaN if a run fails. `progress` None: nothing is
+        reported.
         """
         shortest, total = math.inf, 0.0
         for _ in range(MAX_REPEATS):
@@ -166,7 +167,10 @@ def attempt_run(
     reached_fraction = 0.0
 
     def report_and_check_limit(fraction: float, text: str) -> None:
-        """Report the progress of the run, and stop it by an exception after the limit of processor time."""
+        """Report the progress of the run, and stop it by an exception after the limit of processor time.
+
+        Raises _TooSlowError.
+        """
         nonlocal reached_fraction
         reached_fraction = fraction
         if time.thread_time() - start_time > limit:
@@ -225,7 +229,7 @@ def find_comparison_window(
 
     The window ends half-way between the fourth onset and the next, which pilot runs with `setting` over growing windows
     find. After many contacts two runs of a scene with dry contacts differ by any amount, however small the step, so
-    that errors mean nothing there. A window never exceeds a plain run.
+    that errors mean nothing there. A window never exceeds a plain run. `parameters` None: the values of the file.
     """
     parameters = dict(parameters or {})
     max_window = min(max_window, evaluate_end(simulation.compiled, parameters))

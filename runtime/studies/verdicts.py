@@ -100,7 +100,8 @@ def judge_runs(
 
     long_run: the run over the long window. run_pairs: over short windows, a run with the same setting and a finer one;
     failed ones do not count for the error. limits: by default those of the setting. A failed long run is "outside the
-    model" if it left the validity of the model and has no fixed step, else "diverged".
+    model" if it left the validity of the model and has no fixed step, else "diverged". `limits` None: those of the
+    setting of `long_run`.
     """
     limits = limits or select_limits(long_run.setting)
     compared_runs = [(a.run, b.run) for a, b in run_pairs if a.run and b.run and not (a.failure or b.failure)]

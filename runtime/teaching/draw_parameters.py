@@ -152,7 +152,8 @@ def _simulate_until(simulation: Simulation, values: dict[str, str], t: float) ->
 def _find_time_before_event(run: Result, given_time: float | None, fraction: float) -> float:
     """Return a time (s) before the event that ended the run, at the given `fraction` of its duration.
 
-    Raises BadValueError if the user gave the time (`given_time`), which is after the event.
+    Raises BadValueError if the user gave the time (`given_time`), which is after the event. None: the user gave no
+    time.
     """
     end_time, last_event = float(run.t[-1]), run.source.events[run.events["event"][-1]]
     if given_time is None:

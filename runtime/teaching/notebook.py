@@ -253,7 +253,7 @@ def escape_markdown(text: str) -> str:
 
 
 def _format_table(table: Table) -> str:
-    """Return a table as Markdown."""
+    """Return a table as Markdown: its header, a rule, and a line for each row."""
 
     def format_row(cells: tuple[Text, ...]) -> str:
         """Return a row of the table."""

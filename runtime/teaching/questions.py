@@ -13,7 +13,7 @@ import numpy as np
 import sympy as sp
 
 from gudgeon.generator.kinds.joints.joint_type import joint_types
-from gudgeon.generator.symbols.switches import Pick
+from gudgeon.generator.symbols.switches import Select
 from gudgeon.generator.targets.latex.document import Block, Equation, make_paragraph, make_row, make_tables
 from gudgeon.generator.targets.latex.kinematics import format_gamma
 from gudgeon.generator.targets.latex.letters import Name, make_symbol_name
@@ -281,7 +281,7 @@ def _define_by_steps(subject: Subject, symbol: sp.Symbol, driven: tuple[sp.Symbo
     base = next(sign for sign in ("s", "u", "w", "z") if not {sign, f"{sign}_1"} & used)
     steps = {clamp: sp.Symbol(base if len(shares) == 1 else f"{base}_{k}") for k, clamp in enumerate(shares, 1)}
     inside = value.xreplace(steps)
-    if not steps or inside.has(sp.Max, sp.Min, Pick):
+    if not steps or inside.has(sp.Max, sp.Min, Select):
         return []
     rates = {steps[clamp]: sp.diff(progress, t) for clamp, progress in shares.items()}
     for _ in range(driven.index(symbol)):

@@ -87,17 +87,17 @@ class Printer(StrPrinter):
 
     _print_ExpBase = _print_Max = _print_Min = _print_Abs = _print_sign = _print_Heaviside = _print_Function
 
-    def _print_Whole(self, expr: sp.Expr) -> str:
+    def _print_Unevaluated(self, expr: sp.Expr) -> str:
         """Return an unevaluated product or fraction in parentheses."""
         return f"({self._print(expr.args[0])})"
 
-    _print_Share = _print_Whole
+    _print_UnevaluatedQuotient = _print_Unevaluated
 
     def _print_ModOf(self, expr: sp.Expr) -> str:
         """Return a remainder."""
         return f"sp.Mod({self.stringify(expr.args[:2], ', ')})"
 
-    def _print_Pick(self, expr: sp.Expr) -> str:
+    def _print_Select(self, expr: sp.Expr) -> str:
         """Return a conditional value as `sp.Piecewise`."""
         side, otherwise, below = expr.args
         gap = self._print(side.args[0] if isinstance(side, sp.sign) else side)

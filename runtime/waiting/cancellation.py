@@ -76,7 +76,10 @@ def _get_callback(compiled: CompiledModel) -> Any:
     if id(ffi) not in _functions:
 
         def store_error(kind: object, error: BaseException | None, trace: TracebackType | None) -> None:
-            """Store an exception that a signal handler raised just before or after `poll_from_c`."""
+            """Store an exception that a signal handler raised just before or after `poll_from_c`.
+
+            The arguments are those of cffi's `onerror`; nothing is stored without a traceback.
+            """
             handle = trace.tb_frame.f_locals.get("handle") if trace else None
             if handle is not None and error is not None:
                 ffi.from_handle(handle)().raised = error

@@ -47,7 +47,8 @@ def build_page_parts(simulation: Simulation, scenes: Mapping[str, str] | None = 
     """Return the HTML parts that make the equations' page of a scene interactive.
 
     Without the compiler (extra `web`) they have one recorded run at the file's values. A small simulator is accompanied
-    by the full formulation, in which constraints drift. Raises as `build_page`.
+    by the full formulation, in which constraints drift. Raises as `build_page`. `scenes`: as in `build_page`; None:
+    none.
     """
     import gudgeon.results.figures.plots  # noqa: F401 (without matplotlib it says what to install)
     from gudgeon.web.page_parts import build_simulator_parts

@@ -11,7 +11,7 @@ from sympy.printing.c import C99CodePrinter
 from sympy.printing.pycode import PythonCodePrinter
 
 from gudgeon.generator.symbols.derivatives import differentiate, find_symbols
-from gudgeon.generator.symbols.switches import Pick
+from gudgeon.generator.symbols.switches import Select
 from gudgeon.generator.targets.cached_printer import CachedPrinter
 
 SYMBOLS = x, y, z = sp.symbols("x y z", real=True)
@@ -45,7 +45,7 @@ def expressions(count: int) -> Iterator[sp.Expr]:
     [
         sp.atan2(x * y, 3 - x),
         sp.Max(x, y * x),
-        Pick(x - y, x**2, x * sp.sin(y)),
+        Select(x - y, x**2, x * sp.sin(y)),
         sp.Abs(x * y) * x,
         2 * (x + y),
         sp.Mul(2, x + y * x, evaluate=False),

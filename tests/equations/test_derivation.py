@@ -41,7 +41,7 @@ def test_an_arm_is_that_of_the_point_whose_name_it_has() -> None:
     """A(θ) s, s from the body's centre of mass: documents say so by the name."""
     model = press("ideal")
     geometry = model.geometry
-    named = {symbol: of for symbol, of in geometry.turned_components.items() if of.point}
+    named = {symbol: of for symbol, of in geometry.rotated_components.items() if of.point}
     assert len(named) > 10
     for symbol, of in named.items():
         cos, sin = geometry.find_cos_and_sin(geometry.bodies[of.body])

@@ -40,7 +40,7 @@ def value_of(value: Any, memory: Memory) -> complex:
             assert value.test.relation == "!=" and value.test.bound == (0.0,)
             return value_of(value.then if value_of(value.test.value, memory) != 0 else value.otherwise, memory)
     names = {symbol: memory[find_key(symbol)] for symbol in value.free_symbols}
-    function = sp.lambdify(list(names), value, [{"Size": abs}, "math"])
+    function = sp.lambdify(list(names), value, [{"ComparedMagnitude": abs}, "math"])
     return complex(function(*names.values()))
 
 

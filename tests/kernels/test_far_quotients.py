@@ -13,7 +13,7 @@ import pytest
 import sympy as sp
 
 from gudgeon.generator.ir.differentiation import compute_partial_derivative
-from gudgeon.generator.symbols.unevaluated import Share
+from gudgeon.generator.symbols.unevaluated import UnevaluatedQuotient
 from gudgeon.generator.targets.c import printer
 from gudgeon.generator.targets.latex.printers import TexPrinter, TextPrinter
 from tests.programs import needs_compiler
@@ -103,7 +103,7 @@ def test_ordinary_quotients_are_differentiated_as_they_were() -> None:
 
 
 def test_how_a_share_is_written() -> None:
-    value = Share(sp.sin(x) / (1 + x)) ** 2
+    value = UnevaluatedQuotient(sp.sin(x) / (1 + x)) ** 2
     assert printer.print_expression(value) == "((sin(x)/(x + 1.0)) * (sin(x)/(x + 1.0)))"
     assert TextPrinter({}, {}).doprint(value).startswith("(sin(")
     assert TexPrinter({}, {}).doprint(value).endswith(r"\right)^{2}")

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scipy.interpolate import CubicSpline
 
-from gudgeon.language.curves import ENDS, LEAST, Curve, compute_spline, make_even_pieces
+from gudgeon.language.curves import ENDS, MIN_POINTS, Curve, compute_spline, make_even_pieces
 from gudgeon.language.tree import CurveCall, Name, evaluate, from_json, list_functions, to_json
 
 SCIPY = {"natural": "natural", "clamped": "clamped", "periodic": "periodic", "not_a_knot": "not-a-knot"}
@@ -20,7 +20,7 @@ def points(n: int, ends: str) -> tuple[list[float], list[float]]:
     return x, [*y[:-1], y[0] if ends == "periodic" else y[-1]]
 
 
-@pytest.mark.parametrize(("n", "ends"), [(n, e) for n in (2, 3, 4, 5, 40, 1000) for e in ENDS if n >= LEAST[e]])
+@pytest.mark.parametrize(("n", "ends"), [(n, e) for n in (2, 3, 4, 5, 40, 1000) for e in ENDS if n >= MIN_POINTS[e]])
 def test_values_and_derivatives_are_those_of_scipy(n: int, ends: str) -> None:
     x, y = points(n, ends)
     knots, pieces = (

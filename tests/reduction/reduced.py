@@ -15,7 +15,7 @@ from gudgeon.model.compiled import Array, CompiledModel
 # steps by name: SymPy would write each as a case distinction, simplified at great length
 BY_NAME: dict[str, Callable[..., float]] = {
     "Heaviside": lambda x, at_zero=1.0: 1.0 if x >= 0.0 else at_zero * 0.0,
-    "Whole": lambda x: x,
+    "Unevaluated": lambda x: x,
 }
 MODULES = [BY_NAME, "math"]
 

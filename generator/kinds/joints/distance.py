@@ -39,7 +39,7 @@ def find_middle(joint: Any) -> Any:
 
 
 def find_gap_points(joint: Any, residuals: Any) -> Any:
-    """Return the end of a rod of this length from the first point, and the second point.
+    """Return the end of a rod of this length from the first point, and the second point; (2,) each in ground axes (m).
 
     joint: the joint at a posture; the residuals are not used.
     """

@@ -18,7 +18,10 @@ from gudgeon.language.units import VELOCITY
 
 
 def build_friction_force(inputs: LawInputs) -> dict[str, Any]:
-    """Return the friction force F_t (N) on the journal along t; it rises to mu_s at the slip v0, then decays to mu."""
+    """Return the friction force F_t (N) on the journal along t, as equations by name.
+
+    Its coefficient rises to mu_s at the slip v0, then decays to mu.
+    """
     import sympy as sp
 
     mu, mu_s, v0, decay = (inputs.parameters[name] for name in ("mu", "mu_s", "v0", "decay"))

@@ -14,7 +14,7 @@ from gudgeon.generator.kinds.laws.roles import MU, MU_S, declare_slip_field, mak
 
 
 def build_friction_force(inputs: LawInputs) -> dict[str, Any]:
-    """Return the friction force F_t (N) on the journal along t; x is the slip over that of the peak."""
+    """Return the friction force F_t (N) on the journal along t, as equations by name; `share` is the slip over v0."""
     import sympy as sp
 
     mu, mu_s = inputs.parameters["mu"], inputs.parameters["mu_s"]

@@ -229,7 +229,7 @@ def _check_expression(
                 law, f"{label} {fault}: {sp.sstr(value)[:80]}", "expected a real number for every δ > 0"
             )
         is_basic = part.is_Number or part.is_NumberSymbol or part.is_Symbol or part.is_Add or part.is_Mul or part.is_Pow
-        is_unevaluated = type(part).__name__ == "Whole"  # what `whole` makes, in a room above
+        is_unevaluated = type(part).__name__ == "Unevaluated"  # what `whole` makes, in a room above
         if (
             not is_basic
             and not is_unevaluated

@@ -14,7 +14,7 @@ from gudgeon.generator.kinds.laws.roles import MU, declare_slip_field, make_fric
 
 
 def build_friction_force(inputs: LawInputs) -> dict[str, Any]:
-    """Return the friction force F_t (N) on the journal along t: −c_f F_n tanh(v_t/v_0)."""
+    """Return the friction force F_t (N) on the journal along t, −c_f F_n tanh(v_t/v_0), as equations by name."""
     import sympy as sp
 
     return make_friction_force(

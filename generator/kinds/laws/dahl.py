@@ -19,7 +19,10 @@ from gudgeon.language.units import LENGTH
 
 
 def build_friction_force(inputs: LawInputs) -> dict[str, Any]:
-    """Return the friction force F_t (N) on the journal along t, and z_rate (m/s), the rate of the bristle state."""
+    """Return the friction force F_t (N) on the journal along t and the rate of the bristle state, as equations by name.
+
+    The rate is z_rate = v_t − |v_t| z/presliding (m/s).
+    """
     import sympy as sp
 
     v_t, z = inputs.variables["v_t"], inputs.variables["z"]

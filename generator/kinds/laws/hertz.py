@@ -26,7 +26,10 @@ from gudgeon.language.units import DIMENSIONLESS
 
 
 def build_normal_force(inputs: LawInputs) -> dict[str, Any]:
-    """Return the compressive normal force F_n (N) for δ > 0, from the stiffness that is given, or that of the pair."""
+    """Return the compressive normal force F_n (N) for δ > 0, as equations by name.
+
+    The stiffness K is the given one, or else that of the two elastic surfaces.
+    """
     stiffness = inputs.parameters.get("stiffness")
     K = make_pair_stiffness(inputs) if stiffness is None else inputs.derive("K", stiffness, "contact stiffness")
     return {"F_n": make_normal_force(inputs, K, str(inputs.options["dissipation"]))}

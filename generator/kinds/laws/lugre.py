@@ -22,7 +22,10 @@ from gudgeon.language.units import make_dimension
 
 
 def build_friction_force(inputs: LawInputs) -> dict[str, Any]:
-    """Return the friction force F_t (N) on the journal along t, and z_rate (m/s), the rate of the bristle state."""
+    """Return the friction force F_t (N) on the journal along t and the rate of the bristle state, as equations by name.
+
+    The rate is z_rate = v_t − σ_0 |v_t| z/g(v_t) (m/s).
+    """
     import sympy as sp
 
     names = ("mu", "mu_s", "v_s", "stiffness", "damping")

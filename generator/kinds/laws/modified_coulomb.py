@@ -20,7 +20,10 @@ from gudgeon.language.units import VELOCITY
 
 
 def build_friction_force(inputs: LawInputs) -> dict[str, Any]:
-    """Return the friction force F_t (N) on the journal along t; it rises linearly between the slips v0 and v1."""
+    """Return the friction force F_t (N) on the journal along t, as equations by name.
+
+    Its magnitude rises linearly from 0 to mu F_n between the slips v0 and v1.
+    """
     v0, v1, v_t = inputs.parameters["v0"], inputs.parameters["v1"], inputs.variables["v_t"]
     slope = inputs.derive("friction_slope", 1 / (v1 - v0), "1/(v1 - v0)")
     forward, backward = (_limit_to_unit_range((v - v0) * slope) for v in (v_t, -v_t))

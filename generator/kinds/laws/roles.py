@@ -34,7 +34,10 @@ def declare_slip_field(name: str, meaning: str, symbol: str) -> Field:
 
 
 def make_odd_function(v_t: Any, positive_branch: Callable[[Any], Any]) -> Any:
-    """Return an odd function of the slip from `positive_branch` of u = max(v_t, 0), which is 0 at 0."""
+    """Return an odd function of the slip v_t from its values at positive slip.
+
+    `positive_branch` returns the value at u = max(v_t, 0), and 0 at u = 0.
+    """
     import sympy as sp
 
     return positive_branch(sp.Max(v_t, 0)) - positive_branch(sp.Max(-v_t, 0))

@@ -15,7 +15,10 @@ from gudgeon.generator.kinds.laws.roles import MU, MU_S, declare_slip_field, mak
 
 
 def build_friction_force(inputs: LawInputs) -> dict[str, Any]:
-    """Return the friction force F_t (N) on the journal along t; its coefficient falls from mu_s to mu with the slip."""
+    """Return the friction force F_t (N) on the journal along t, as equations by name.
+
+    Its coefficient falls from mu_s to mu with the slip.
+    """
     import sympy as sp
 
     mu, mu_s, v_s, v0 = (inputs.parameters[name] for name in ("mu", "mu_s", "v_s", "v0"))

@@ -15,7 +15,10 @@ from gudgeon.generator.kinds.laws.roles import MU, declare_slip_field, make_fric
 
 
 def build_friction_force(inputs: LawInputs) -> dict[str, Any]:
-    """Return the friction force F_t (N) on the journal along t; it rises exponentially up to the slip v_r."""
+    """Return the friction force F_t (N) on the journal along t, as equations by name.
+
+    It rises exponentially up to the slip v_r and is constant beyond.
+    """
     import sympy as sp
 
     v_r = inputs.parameters["v_r"]

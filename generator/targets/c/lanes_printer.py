@@ -14,7 +14,7 @@ import sympy as sp
 from gudgeon.generator.ir.branches import Branch, ReturnIfOnlyJoints
 from gudgeon.generator.ir.kernels import Kernel, Section
 from gudgeon.generator.ir.readable import make_readable, make_readable_statements
-from gudgeon.generator.ir.series_rules import WIDE, StoreRow
+from gudgeon.generator.ir.series_rules import ROW_LENGTH, StoreRow
 from gudgeon.generator.ir.signatures import Number, Type, make_output_argument
 from gudgeon.generator.ir.sine_pairs import call_sines_by_lane
 from gudgeon.generator.ir.statements import (
@@ -106,8 +106,8 @@ class LanesPrinter(printer.CPrinter):
         """Print the event function of a curve's knots at a vector."""
         return f"lanes_knots({make_curve_name(expr.name)}, {self._print_vector(expr.args[1])})"
 
-    def _print_Pick(self, expr: sp.Expr) -> str:
-        """Print Pick(branch, a, b), a select by the sign of a vector: a for branch ≥ 0, b for branch < 0.
+    def _print_Select(self, expr: sp.Expr) -> str:
+        """Print Select(branch, a, b), a select by the sign of a vector: a for branch ≥ 0, b for branch < 0.
 
         If `of.branches` holds the expression, its variable's name is printed. SymPy calls the method by this name.
         """
@@ -195,7 +195,7 @@ class LaneLines(functions.LinePrinter):
                 return largest or [f"{name} = broadcast(0.0);"]
             case StoreRow():
                 return [
-                    f"{line.array}[{WIDE * line.row + i}] = {self.print_expression(x)};"
+                    f"{line.array}[{ROW_LENGTH * line.row + i}] = {self.print_expression(x)};"
                     for i, x in enumerate(line.values)
                 ]
             case Sines():

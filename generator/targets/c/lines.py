@@ -63,7 +63,7 @@ def _find_stores(text: Sequence[str], line: Line | str | None, first_line: int) 
 
     text: the lines of C, which begin at line `first_line` of the file. line: the kernel's line that the text prints, or
     the name of a local; lines that are not assignments give []. A branch gives two entries, one for each side of its
-    switching point.
+    switching point. None belongs to lines that the kernel does not contain.
     """
     lines = range(first_line, first_line + len(text))
     if isinstance(line, str):

@@ -23,7 +23,7 @@ from gudgeon.generator.kinds.joints.joint_type import CORNERS
 from gudgeon.generator.kinds.laws.law import BREAKAWAY, MAX_PENETRATION
 from gudgeon.generator.solvers.kkt import KKT
 from gudgeon.generator.solvers.pivots import EARLY, LIGHT_PIVOT, NEARLY_SINGULAR, SINGULAR, VANISHING
-from gudgeon.generator.solvers.square_rows import SHARE
+from gudgeon.generator.solvers.square_rows import SINGULAR_SQUARE
 from gudgeon.generator.symbols.curves import KnotsOf
 from gudgeon.generator.symbols.parameter_table import ParameterTable
 from gudgeon.generator.symbols.switches import PeriodsOf
@@ -137,7 +137,7 @@ _THRESHOLDS: Sizes = {
         (VANISHING, "where one of a joint's two rows vanishes: links in one line"),
         (EARLY, "of two rows that are solved before all of their coordinates"),
         (LIGHT_PIVOT, "of what turns with an angle, where its inertia is too small for it"),
-        (SHARE, "of as many rows as unknowns: the root of SINGULAR"),
+        (SINGULAR_SQUARE, "of as many rows as unknowns: the root of SINGULAR"),
     )
 }
 _GAINS = {"two_alpha": "baumgarte_two_alpha", "beta_squared": "baumgarte_beta_squared", "stick": "stick_gain"}
@@ -237,7 +237,8 @@ def _list_motion_sizes(program: Program) -> Sizes:
 def _list_monitoring_sizes(program: Program, bounds: Kernel | None) -> Sizes:
     """Return {macro: (value, meaning)} of what is monitored within a step: event functions, time terms, jumps.
 
-    Macros for rigid contacts, remainders, curves, contours and guides exist only if the scene has them.
+    Macros for rigid contacts, remainders, curves, contours and guides exist only if the scene has them. `bounds`: the
+    kernel of `make_bounds_kernel`, or None.
     """
     model = program.model
     sizes: Sizes = {

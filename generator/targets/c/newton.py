@@ -152,7 +152,10 @@ def _print_slope_selection(
 
 
 def _print_table_rows(entries: list[tuple[int, int, int, int]]) -> str:
-    """Return the rows of an index table as wrapped lines of C; an empty table gets one unused row of zeros."""
+    """Return the rows of an index table as wrapped lines of C; an empty table gets one unused row of zeros.
+
+    entries: (row, column, index in the stored values, sign) of each entry.
+    """
     row_texts = [f"{{{', '.join(map(str, entry))}}}" for entry in entries] or ["{0, 0, 0, 0}"]
     joined = " ".join(f"{row},".replace(" ", "\0") for row in row_texts).removesuffix(",")  # a row is never parted
     return textwrap.fill(joined, 110, initial_indent="    ", subsequent_indent="    ").replace("\0", " ")

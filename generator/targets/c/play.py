@@ -122,7 +122,10 @@ def _print_mixed_law_comment(clearance: Clearance) -> str:
 
 
 def _print_dry_function(joint: JointFunctions, render: Render, n_states: int) -> PrintedFunction:
-    """Return the function of a joint's dry contact: its text from a template, and its stores in order."""
+    """Return the function of a joint's dry contact: its text from a template, and its stores in order.
+
+    render: prints a template. n_states: the number of inner states of laws that each joint has.
+    """
     label, clearance = joint.clearance.label, joint.clearance
     ratio_name = "unclipped" if clearance.clip_ratio else "ratio"
     calls = _list_dry_calls(joint, "max_of(delta, 0.0)", "double")
@@ -152,7 +155,10 @@ def _list_further_arguments(joint: JointFunctions) -> tuple[str, ...]:
 
 
 def _print_film_function(joint: JointFunctions, render: Render, n_states: int) -> PrintedFunction:
-    """Return the function of a joint's film: its text from a template, and its stores in order."""
+    """Return the function of a joint's film: its text from a template, and its stores in order.
+
+    render: prints a template. n_states: the number of inner states of laws that each joint has.
+    """
     calls, label = _list_film_calls(joint, "double"), joint.clearance.label
     substitutions: dict[str, Any] = {
         "before": _print_statements(joint.before_film),

@@ -143,15 +143,15 @@ class CPrinter(CachedPrinter, C99CodePrinter):
             else self._print_call(name, *expr.args)
         )
 
-    def _print_Size(self, expr: sp.Expr) -> str:
+    def _print_ComparedMagnitude(self, expr: sp.Expr) -> str:
         """Print an absolute value."""
         return self._print_call("fabs", expr.args[0])
 
-    def _print_Whole(self, expr: sp.Expr) -> str:
+    def _print_Unevaluated(self, expr: sp.Expr) -> str:
         """Print an unevaluated operand (symbols/unevaluated.py) in brackets."""
         return f"({self._print(expr.args[0])})"
 
-    _print_Share = _print_Whole
+    _print_UnevaluatedQuotient = _print_Unevaluated
 
     def _print_Heaviside(self, expr: sp.Expr) -> str:
         """Print a step function, 1 at 0, so that a ramp that begins at the start moves at once."""
@@ -172,8 +172,11 @@ class CPrinter(CachedPrinter, C99CodePrinter):
         """Print an absolute value that is never 0 (symbols/switches.py)."""
         return f"(fabs({self._print(expr.args[0])}) + 1e-150)"
 
-    def _print_Pick(self, expr: sp.Expr) -> str:
-        """Print a choice by the sign of its first argument: the second unless it is below zero, so that NaN is kept."""
+    def _print_Select(self, expr: sp.Expr) -> str:
+        """Print a choice by the sign of its first argument: the second unless it is below zero, so that NaN is kept.
+
+        The name of its variable is printed if `of.branches` holds the expression.
+        """
         if expr in self.of.branches:
             return self.of.branches[expr]
         branch, a, b = (self._print(argument) for argument in expr.args)
@@ -213,11 +216,11 @@ class CPrinter(CachedPrinter, C99CodePrinter):
         """Print a derivative, or a difference quotient where it is not finite (symbols/finite_slopes.py)."""
         return self._print_call("finite_slope", *expr.args)
 
-    def _print_JustAhead(self, expr: sp.Expr) -> str:
+    def _print_NextAbove(self, expr: sp.Expr) -> str:
         """Print a value slightly above its argument."""
         return self._print_call("just_ahead", expr.args[0])
 
-    def _print_JustBehind(self, expr: sp.Expr) -> str:
+    def _print_NextBelow(self, expr: sp.Expr) -> str:
         """Print a value slightly below its argument."""
         return self._print_call("just_behind", expr.args[0])
 

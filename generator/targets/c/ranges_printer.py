@@ -50,7 +50,10 @@ class RangesPrinter(printer.CPrinter):
         return text
 
     def _print_Add(self, expr: sp.Expr, order: object = None) -> str:
-        """Print a sum of ranges."""
+        """Print a sum of ranges.
+
+        `order`: an argument of SymPy, not used.
+        """
         if not expr.free_symbols:
             return str(super()._print_Add(expr))
         return self._print_chained_calls("add", order_terms(expr))
@@ -121,7 +124,7 @@ class RangesPrinter(printer.CPrinter):
         """Print the event function of a curve's knots over a range."""
         return f"interval_knots({make_curve_name(expr.name)}, {self._print_range(expr.args[1])})"
 
-    def _print_Pick(self, expr: sp.Expr) -> str:
+    def _print_Select(self, expr: sp.Expr) -> str:
         """Print a choice by the sign of a range."""
         return self._print_call("select", *expr.args)
 

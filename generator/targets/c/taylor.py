@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from gudgeon.generator.ir.series import Series
-from gudgeon.generator.ir.series_rules import WIDE
+from gudgeon.generator.ir.series_rules import ROW_LENGTH
 from gudgeon.generator.ir.sine_pairs import vectorize_sines
 from gudgeon.generator.targets.c import functions, lanes_printer
 
@@ -14,7 +14,7 @@ _HEAD = f"""\
 /*
  * The Taylor series of the motion: its right-hand side at order 0, and at each higher order (engine/motion/taylor.c).
  */
-typedef double Wide __attribute__((vector_size({8 * WIDE}), aligned(16)));
+typedef double Wide __attribute__((vector_size({8 * ROW_LENGTH}), aligned(16)));
 """
 
 
@@ -41,8 +41,6 @@ def _print_structs(series: Series, c_type: str) -> str:
 
 
 def _print_struct(meaning: str, name: str, fields: Sequence[str], c_type: str) -> str:
-    """Return one C struct with fields of one type and a comment; a struct without fields gets the field
-    `empty_fields`.
-    """
+    """Return one C struct with fields of one type and a comment; a struct without fields gets the field `none`."""
     lines = [f"/* {meaning} */", "typedef struct {", *(f"    {c_type} {field};" for field in fields or ["none"])]
     return "\n".join([*lines, f"}} {name};", ""])

@@ -17,7 +17,7 @@ from gudgeon.generator.equations.model import Model
 from gudgeon.generator.equations.play import Clearance
 from gudgeon.generator.targets.latex.letters import Name
 
-APART = 4  # columns without a letter between parts of a sketch
+COLUMN_GAP = 4  # columns without a letter between parts of a sketch
 
 Text: TypeAlias = tuple[str | Name, ...]  # words and formulas in one line
 
@@ -76,7 +76,7 @@ class Sketch:
 
     @property
     def parts(self) -> list[tuple[str, ...]]:
-        """Return the parts of a sketch that may stand below each other; APART empty columns separate them."""
+        """Return the parts of a sketch that may stand below each other; COLUMN_GAP empty columns separate them."""
         parts = list[tuple[str, ...]]()
         for is_blank, group in groupby(self.lines, lambda line: not line.strip()):
             lines = [] if is_blank else list(group)
@@ -85,8 +85,8 @@ class Sketch:
                 is_column_used = [any(line[k : k + 1].strip() for line in lines) for k in range(width)]
                 gap_starts = (
                     k
-                    for k in range(is_column_used.index(True) + 1, width - APART)
-                    if not any(is_column_used[k : k + APART])
+                    for k in range(is_column_used.index(True) + 1, width - COLUMN_GAP)
+                    if not any(is_column_used[k : k + COLUMN_GAP])
                 )
                 end = next(gap_starts, width)
                 parts.append(tuple("\n".join(line[:end].rstrip() for line in lines).strip("\n").split("\n")))
@@ -160,7 +160,7 @@ def make_row(*items: str | Name | Text) -> tuple[Text, ...]:
     return tuple(item if isinstance(item, tuple) else (item,) for item in items)
 
 
-MOST_ROWS = 32  # a table does not break over pages
+MAX_TABLE_ROWS = 32  # a table does not break over pages
 
 
 def make_tables(
@@ -170,15 +170,19 @@ def make_tables(
     tokens: Sequence[Sequence[str]] = (),
     transposes_on_phone: bool = False,
 ) -> list[Block]:
-    """Return rows as tables of at most MOST_ROWS rows, since a table does not break over pages; [] for no rows.
+    """Return rows as tables of at most MAX_TABLE_ROWS rows, since a table does not break over pages; [] for no rows.
 
     text_columns: the columns with running text. tokens: highlighting tokens by row. transposes_on_phone:
     whether columns become rows on a phone.
     """
-    starts = range(0, len(rows), MOST_ROWS)
+    starts = range(0, len(rows), MAX_TABLE_ROWS)
     return [
         Table(
-            header, tuple(rows[k : k + MOST_ROWS]), text_columns, tuple(tokens[k : k + MOST_ROWS]), transposes_on_phone
+            header,
+            tuple(rows[k : k + MAX_TABLE_ROWS]),
+            text_columns,
+            tuple(tokens[k : k + MAX_TABLE_ROWS]),
+            transposes_on_phone,
         )
         for k in starts
     ]

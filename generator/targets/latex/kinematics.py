@@ -35,7 +35,7 @@ from gudgeon.generator.targets.latex.theory import GAMMA, LAMBDA, NU, PHI, PHI_Q
 
 WIDEST = 84  # characters of text that fit side by side in a joint's rows of Φ_q
 
-LONGEST = 400  # operations in one equation that a reader can be asked to read
+MAX_OPERATIONS = 400  # operations in one equation that a reader can be asked to read
 
 
 def make_equation(
@@ -63,14 +63,14 @@ def make_equation_block(
     selection_token: str = "",
     value_name: str = "",
 ) -> Block:
-    """Return the equation left = right as a block, or a sentence about its length above LONGEST operations.
+    """Return the equation left = right as a block, or a sentence about its length above MAX_OPERATIONS operations.
 
     tokens: names of highlighting groups; blocks that share one are highlighted together. selection_token: the one that
     selecting the equation highlights, "" for all. value_name: name of the value that a page shows, "" for none. A
     sentence has neither selection token nor value.
     """
     n_operations = sp.count_ops(right)
-    if n_operations <= LONGEST:
+    if n_operations <= MAX_OPERATIONS:
         return make_equation(left, right, notation, tokens, selection_token, value_name)
     return make_paragraph(
         left, f" follows by differentiation; written out it has {n_operations} operations.", tokens=tokens
@@ -306,7 +306,7 @@ def _make_component_equations(
     ]
 
 
-MOST = 1000  # operations of what is sorted
+MAX_SORTED_OPERATIONS = 1000  # operations of what is sorted
 
 
 def format_gamma(row: Row, model: Model, notation: Notation) -> sp.Expr:
@@ -322,7 +322,11 @@ def sort_terms_by_rates(value: sp.Expr, model: Model) -> sp.Expr:
     would become longer.
     """
     angular_velocities = [body.v[2] for body in model.bodies]
-    if not value.has(*angular_velocities) or sp.count_ops(value) > MOST or not value.is_polynomial(*model.v):
+    if (
+        not value.has(*angular_velocities)
+        or sp.count_ops(value) > MAX_SORTED_OPERATIONS
+        or not value.is_polynomial(*model.v)
+    ):
         return value
     coefficients: dict[sp.Expr, sp.Expr] = {}
     for term in sp.Add.make_args(sp.expand(value)):
@@ -347,9 +351,9 @@ def _find_equivalent_forms(coefficient: sp.Expr, model: Model) -> Iterator[sp.Ex
         return
     yield sp.factor_terms(coefficient)
     rotating = sorted(
-        (s for s in coefficient.free_symbols if s in model.geometry.turned_components), key=lambda s: s.name
+        (s for s in coefficient.free_symbols if s in model.geometry.rotated_components), key=lambda s: s.name
     )
-    axes = [s for s in rotating if not model.geometry.turned_components[s].point]
+    axes = [s for s in rotating if not model.geometry.rotated_components[s].point]
     pairs = [[sp.cos(body.theta), sp.sin(body.theta)] for body in model.bodies if coefficient.has(sp.cos(body.theta))]
     for symbols in (axes, rotating, *pairs):
         if symbols:

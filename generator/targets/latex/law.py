@@ -260,7 +260,7 @@ def _derive_form(
     }
 
     def replace_repeated_constants(value: sp.Expr) -> sp.Expr:
-        """Return a value with repeated constants replaced by their numbers."""
+        """Return a value with repeated constants replaced by their numbers, until none is left."""
         while value.free_symbols & {*repeated_constants}:
             value = value.xreplace(repeated_constants)
         return value

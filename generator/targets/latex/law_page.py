@@ -16,7 +16,7 @@ from gudgeon.generator.targets.latex.play_letters import get_latex_symbol
 from gudgeon.language.plot_units import format_unit
 from gudgeon.language.units import find_si_unit
 
-ASKED = (0.9, 0.7, 0.5)  # coefficients of restitution
+SPECIFIED_RESTITUTIONS = (0.9, 0.7, 0.5)  # coefficients of restitution
 _GREEK = {"omega_": "ω_", "epsilon": "ε", "sigma_1": "σ_1", "sigma": "σ_r", "Sigma": "σ_r"}
 # What a choice of an option changes, and the options whose sentence needs no equations.
 _CHOICES = {
@@ -71,7 +71,7 @@ def _describe_dissipation() -> Iterator[str]:
         " `expression`, `hertz`, `johnson` and `liu`. Each column `c_e = …` gives the restitution e that a free impact"
         " delivers for that specified restitution c_e. The restitution e solves a (1 + e) = ln[(1 + a)/(1 − a e)]."
     )
-    restitutions = " | ".join(f"c_e = {c_e:g}" for c_e in ASKED)
+    restitutions = " | ".join(f"c_e = {c_e:g}" for c_e in SPECIFIED_RESTITUTIONS)
     yield from ("", f"| `dissipation` | a | {restitutions} | source |", "|" + "---|" * 6)
     default_form, *other_forms = derive_forms(find_bundled_laws()["hertz"], "hertz")
     form_by_value = {DISSIPATION.default: default_form} | {
@@ -84,7 +84,7 @@ def _describe_dissipation() -> Iterator[str]:
         )
         e = (
             f"{c_e if name == EXACT else compute_delivered_restitution(float(FACTORS[str(name)](c_e))):.4f}"
-            for c_e in ASKED
+            for c_e in SPECIFIED_RESTITUTIONS
         )
         yield f"| `{name}` | {formula} | {' | '.join(e)} | {SOURCES.get(str(name), '')} |"
     yield from (
@@ -172,7 +172,10 @@ def _print_text_block(equations: Iterable[Equation]) -> Iterator[str]:
 
 
 def _print_keys_table(fields: Sequence[Field]) -> Iterator[str]:
-    """Yield the Markdown table of a law's keys."""
+    """Yield the lines of the Markdown table of a law's keys, then an empty line.
+
+    Columns: key, symbol, unit, condition, default, meaning.
+    """
     yield from ("| key | symbol | unit | condition | without it | meaning |", "|" + "---|" * 6)
     for parameter in fields:
         cells = _list_parameter_cells(parameter) if parameter.kind == NUMBER else _list_option_cells(parameter)

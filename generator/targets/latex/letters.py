@@ -70,6 +70,7 @@ def make_symbol_name(base: str, *subscripts: str, dots: int = 0, hat: bool = Fal
     """Return the name of a symbol in LaTeX and plain text: a letter or word with accents, subscripts and superscript.
 
     base: a letter, a word, or a Greek letter's English name. dots: number of time derivatives. superscript: "" or "0".
+    hat: whether a hat marks a unit vector; it replaces the dots.
     """
     latex = (
         get_greek_command(base)

@@ -9,7 +9,12 @@ from gudgeon.generator.targets.latex.document import Block, Section, Sketch, Tex
 from gudgeon.generator.targets.latex.letters import Name
 from gudgeon.generator.targets.latex.notation import Notation
 from gudgeon.generator.targets.latex.theory import read_sketch
-from gudgeon.generator.targets.latex.values import LONGEST, ValueFormatter, format_expression_as_written, get_si_unit
+from gudgeon.generator.targets.latex.values import (
+    MAX_CELL_LENGTH,
+    ValueFormatter,
+    format_expression_as_written,
+    get_si_unit,
+)
 from gudgeon.language.plot_units import format_unit
 
 
@@ -145,7 +150,11 @@ def format_drive_value(model: Model, notation: Notation, drive: str) -> str | Na
     formula = notation.format_expression(
         notation.expand_symbols(model.symbols.expand_definitions(model.symbols.definitions[angle_symbols[0]]))
     )
-    return formula if len(formula.text) <= 2 * LONGEST else format_expression_as_written(expression, 0, expressions)
+    return (
+        formula
+        if len(formula.text) <= 2 * MAX_CELL_LENGTH
+        else format_expression_as_written(expression, 0, expressions)
+    )
 
 
 def _describe_curves(model: Model) -> list[Block]:

@@ -180,7 +180,7 @@ def _propose_names(model: Model) -> Iterator[tuple[sp.Symbol, Name]]:
     for symbol in list_drive_distances(model):
         yield symbol, _name_drive_distance(strip_identifier(symbol))
     for symbol in list_rotated_components(model):
-        turned_vector = model.geometry.turned_components.get(symbol)
+        turned_vector = model.geometry.rotated_components.get(symbol)
         if turned_vector is None:
             yield symbol, make_symbol_name(strip_identifier(symbol))
         elif turned_vector.point:

@@ -12,13 +12,13 @@ from gudgeon.generator.targets.latex.document import Block, Picture, make_entry_
 
 SMALL, TINY, LARGE = 10, 6, 20  # side of an entry in a picture of a matrix, of an assembled one; at most
 ROOM = 420  # pixels up to which a small matrix grows
-MOST_ROWS, MOST_COLUMNS = 150, 150  # beyond which nobody sees anything in it
+MAX_ROWS, MAX_COLUMNS = 150, 150  # beyond which nobody sees anything in it
 WIDEST_GRID = 92  # columns of characters
 FULL, EMPTY = "■", "·"
 
 
 @dataclass(frozen=True)
-class Dot:
+class NonzeroEntry:
     """Represent a nonzero entry of a matrix, indices from 0, with its highlighting token."""
 
     row: int
@@ -35,19 +35,21 @@ def print_svg(width: float, height: float, label: str, parts: Sequence[str]) -> 
 
 def draw_jacobian_pattern(model: Model) -> list[Block]:
     """Return the picture of the nonzero entries of Φ_q, in SVG and in characters; [] if it would be too large."""
-    dots = _list_nonzero_entries(model)
+    entries = _list_nonzero_entries(model)
     if not _fits_in_picture(len(model.rows), len(model.q)):
         return []
     cell_side = compute_cell_side(len(model.q), SMALL)
     parts = [
         *_print_body_names(model, 24, cell_side),
         *_print_row_numbers(model, 24, cell_side),
-        *_print_squares(dots, 30, 24, "entry", cell_side),
+        *_print_squares(entries, 30, 24, "entry", cell_side),
     ]
     size = 30 + cell_side * len(model.q) + 4, 24 + cell_side * len(model.rows) + 4
     caption = "Rows and columns of the Jacobian with its entries that are not zero"
     return [
-        Picture(caption, print_svg(*size, caption, parts), _print_character_grid(len(model.rows), len(model.q), dots))
+        Picture(
+            caption, print_svg(*size, caption, parts), _print_character_grid(len(model.rows), len(model.q), entries)
+        )
     ]
 
 
@@ -57,9 +59,11 @@ def draw_assembled_matrix(model: Model) -> list[Block]:
     if not _fits_in_picture(n + m, n + m):
         return []
     entries = _list_nonzero_entries(model)
-    masses = [Dot(k, k, f"body-{body.name}") for body in model.bodies for k in range(body.index, body.index + 3)]
-    jacobian = [Dot(n + dot.row, dot.column, dot.of) for dot in entries]
-    transposed = [Dot(dot.column, n + dot.row, dot.of) for dot in entries]
+    masses = [
+        NonzeroEntry(k, k, f"body-{body.name}") for body in model.bodies for k in range(body.index, body.index + 3)
+    ]
+    jacobian = [NonzeroEntry(n + entry.row, entry.column, entry.of) for entry in entries]
+    transposed = [NonzeroEntry(entry.column, n + entry.row, entry.of) for entry in entries]
     cell_side = compute_cell_side(n + m, TINY)
     total = cell_side * (n + m)
     lines = [
@@ -77,7 +81,7 @@ def draw_assembled_matrix(model: Model) -> list[Block]:
 
 def _fits_in_picture(n_rows: int, n_columns: int) -> bool:
     """Return whether a matrix is small enough for a picture."""
-    return n_rows <= MOST_ROWS and n_columns <= MOST_COLUMNS
+    return n_rows <= MAX_ROWS and n_columns <= MAX_COLUMNS
 
 
 def compute_cell_side(n_columns: int, min_side: int) -> int:
@@ -85,24 +89,25 @@ def compute_cell_side(n_columns: int, min_side: int) -> int:
     return min(LARGE, max(min_side, ROOM // max(1, n_columns)))
 
 
-def _list_nonzero_entries(model: Model) -> list[Dot]:
-    """Return a Dot for each nonzero entry of Φ_q, row by row."""
+def _list_nonzero_entries(model: Model) -> list[NonzeroEntry]:
+    """Return a NonzeroEntry for each nonzero entry of Φ_q, row by row."""
     column_of = {q: k for k, q in enumerate(model.q)}
     return [
-        Dot(r, column_of[q], make_entry_token(r + 1, column_of[q] + 1))
+        NonzeroEntry(r, column_of[q], make_entry_token(r + 1, column_of[q] + 1))
         for r, row in enumerate(model.rows)
         for q in row.phi_q
     ]
 
 
-def _print_squares(dots: Sequence[Dot], left: int, top: int, css_class: str, cell_side: int) -> list[str]:
+def _print_squares(entries: Sequence[NonzeroEntry], left: int, top: int, css_class: str, cell_side: int) -> list[str]:
     """Return a group of SVG squares, one for each nonzero entry of a matrix, whose size the page reads from it.
 
     left, top: the position of the matrix in pixels. css_class: "entry" or "mass". cell_side: pixels.
     """
     squares = (
-        f'<rect x="{left + cell_side * dot.column}" y="{top + cell_side * dot.row}" data-of="{html.escape(dot.of)}"/>'
-        for dot in dots
+        f'<rect x="{left + cell_side * entry.column}" y="{top + cell_side * entry.row}" '
+        f'data-of="{html.escape(entry.of)}"/>'
+        for entry in entries
     )
     return [f'<g class="{css_class} cells" style="--cell: {cell_side - 1}px">', *squares, "</g>"]
 
@@ -131,13 +136,13 @@ def _print_row_numbers(model: Model, top: int, cell_side: int) -> list[str]:
     ]
 
 
-def _print_character_grid(n_rows: int, n_columns: int, dots: Sequence[Dot]) -> tuple[str, ...]:
+def _print_character_grid(n_rows: int, n_columns: int, entries: Sequence[NonzeroEntry]) -> tuple[str, ...]:
     """Return the pattern of a matrix as numbered lines of characters; () if it is too wide."""
     if n_columns > WIDEST_GRID:
         return ()
     grid = [[EMPTY] * n_columns for _ in range(n_rows)]
-    for dot in dots:
-        grid[dot.row][dot.column] = FULL
+    for entry in entries:
+        grid[entry.row][entry.column] = FULL
     return tuple(f"{r:>3}  {''.join(line)}" for r, line in enumerate(grid, 1))
 
 
@@ -149,7 +154,7 @@ def draw_tree(reduction_log: ReductionLog, joints: Collection[str]) -> list[Bloc
     children: dict[str, list[tuple[str, str]]] = {}
     for link in reduction_log.tree:
         children.setdefault(link.parent, []).append((link.body, link.joint))
-    if not reduction_log.tree or len(reduction_log.tree) > MOST_ROWS:
+    if not reduction_log.tree or len(reduction_log.tree) > MAX_ROWS:
         return []
     positions: dict[str, tuple[float, int]] = {}
     lines: list[str] = []

@@ -30,7 +30,7 @@ from gudgeon.generator.targets.latex.letters import Name, make_name_from_latex, 
 from gudgeon.generator.targets.latex.notation import Notation
 from gudgeon.generator.targets.latex.plots import plot_law
 from gudgeon.generator.targets.latex.trace import Functions, HighlightIndex
-from gudgeon.generator.targets.latex.values import LONGEST, ValueFormatter, format_expression_as_written
+from gudgeon.generator.targets.latex.values import MAX_CELL_LENGTH, ValueFormatter, format_expression_as_written
 from gudgeon.language.plot_units import format_quantity, format_unit
 from gudgeon.language.units import find_si_unit
 
@@ -398,4 +398,4 @@ def describe_parameter_values(joint: JointWithPlay) -> list[Block]:
 def _format_fixed_value(quantity: Quantity) -> str:
     """Return a value that is not a run-time parameter as text: 0, an expression, or "below" if it is too long."""
     text = "0" if quantity.is_zero else format_expression_as_written(quantity.value)
-    return text if len(text) <= LONGEST else "below"
+    return text if len(text) <= MAX_CELL_LENGTH else "below"

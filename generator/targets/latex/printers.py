@@ -100,11 +100,11 @@ class TextPrinter(_BodyOrder, StrPrinter):
         """Print an absolute value."""
         return f"|{self._print(expr.args[0])}|"
 
-    def _print_Whole(self, expr: sp.Expr) -> str:
+    def _print_Unevaluated(self, expr: sp.Expr) -> str:
         """Print an unevaluated operand in brackets."""
         return f"({self._print(expr.args[0])})"
 
-    _print_Share = _print_Whole
+    _print_UnevaluatedQuotient = _print_Unevaluated
 
     def _print_ContourOf(self, expr: ContourOf) -> str:
         """Print W or its derivative."""
@@ -122,7 +122,7 @@ class TextPrinter(_BodyOrder, StrPrinter):
         """Print a step function."""
         return f"H({self._print(expr.args[0])})"
 
-    def _print_Pick(self, expr: sp.Expr) -> str:
+    def _print_Select(self, expr: sp.Expr) -> str:
         """Print a choice as the file writes it: where(left < right, first, second)."""
         left, right, below, otherwise = map(self._print, split_comparison(expr))
         return f"where({left} < {right}, {below}, {otherwise})"
@@ -203,7 +203,10 @@ class TexPrinter(_BodyOrder, LatexPrinter):
         return rf"\left({text}\right)^{{{exp}}}" if exp else text
 
     def _print_CurveOf(self, expr: CurveOf, exp: str | None = None) -> str:
-        """Print a curve or its derivative."""
+        """Print a curve or its derivative.
+
+        `exp`: an exponent that is printed after it, or None; SymPy passes it.
+        """
         name = expr.name.replace("_", r"\_")
         text = rf"\mathrm{{{name}}}{_PRIME * expr.order}\left({self._print(expr.args[2])}\right)"
         return rf"\left({text}\right)^{{{exp}}}" if exp else text
@@ -216,8 +219,11 @@ class TexPrinter(_BodyOrder, LatexPrinter):
         """Print a step function."""
         return self._print_function_call("H", expr, exp)
 
-    def _print_Pick(self, expr: sp.Expr, exp: str | None = None) -> str:
-        """Print a choice as a brace with two cases; as where(…) if lines must be able to break."""
+    def _print_Select(self, expr: sp.Expr, exp: str | None = None) -> str:
+        """Print a choice as a brace with two cases; as where(…) if lines must be able to break.
+
+        `exp`: an exponent that is printed after it, or None; SymPy passes it.
+        """
         left, right, below, otherwise = map(self._print, split_comparison(expr))
         if self._breakable:  # no line breaks between the cases of a brace
             text = rf"\operatorname{{where}}\left({left} < {right}, {below}, {otherwise}\right)"
@@ -226,11 +232,11 @@ class TexPrinter(_BodyOrder, LatexPrinter):
         text = rf"\begin{{cases}} {cases} \end{{cases}}"
         return rf"\left({text}\right)^{{{exp}}}" if exp else text
 
-    def _print_Whole(self, expr: sp.Expr, exp: str | None = None) -> str:
+    def _print_Unevaluated(self, expr: sp.Expr, exp: str | None = None) -> str:
         """Print an unevaluated operand in brackets."""
         return self._print_function_call("", expr, None) + (f"^{{{exp}}}" if exp else "")
 
-    _print_Share = _print_Whole
+    _print_UnevaluatedQuotient = _print_Unevaluated
 
     def _print_function_call(self, name: str, expr: sp.Expr, exp: str | None) -> str:
         """Print a call of a function with its arguments in brackets, and the exponent `exp` after the name."""

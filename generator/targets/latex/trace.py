@@ -272,7 +272,10 @@ class _TokenCollector:
         return NO_MARKS
 
     def _add_text_tokens(self, text: str, tokens: Marks) -> None:
-        """Add tokens to all lines of a text that is printed in one piece."""
+        """Add tokens to all lines of a text that is printed in one piece.
+
+        Nothing is added if no file contains the text.
+        """
         file, lines = locate_text(text, self.files)
         for number in lines:
             self.lines[file][number] |= tokens

@@ -26,7 +26,7 @@ from gudgeon.language.plot_units import format_unit
 from gudgeon.language.tree import Binary, Call, Expr, Number, Unary, iterate_names
 from gudgeon.language.units import DIMENSIONLESS, RATE, find_si_unit
 
-LONGEST = 30  # characters of a formula in a cell
+MAX_CELL_LENGTH = 30  # characters of a formula in a cell
 SMALL = 1e-3  # below it a number is written with a power of ten
 _STRENGTH = {"+": 1, "-": 1, "*": 2, "/": 2, "**": 4}
 
@@ -63,7 +63,7 @@ class ValueFormatter:
         value = notation.expand_symbols(
             convert_quantity_to_sympy(quantity, MotionNameResolver(model.geometry, model.t))
         )
-        if len((formula := notation.format_expression(value)).text) <= 2 * LONGEST:
+        if len((formula := notation.format_expression(value)).text) <= 2 * MAX_CELL_LENGTH:
             return (formula,)
         left = name_parameter(quantity.address)
         self._long.append(Equation(left, notation.format_terms(value)))
@@ -109,7 +109,7 @@ class ValueFormatter:
         if not entry.depends_on_parameters:
             return ()
         formula = self._notation.format_expression(entry.value)
-        if len(formula.text) <= LONGEST:
+        if len(formula.text) <= MAX_CELL_LENGTH:
             return formula, " = "
         self._long += self._split_long_formula(entry)
         return ()

@@ -32,7 +32,10 @@ class NumPyLinkage:
         self.p = np.array([_get_parameter(self.defaults, name) for name in self.names])
 
     def get_parameters(self, p: Array) -> SimpleNamespace:
-        """Return the array p as a namespace of parameters by name; tables are lists."""
+        """Return the array p as a namespace of parameters by name; tables are lists.
+
+        For `self.p` itself the stored namespace is returned.
+        """
         if p is self.p:
             return self.defaults
         values = dict(zip(self.names, np.asarray(p).tolist(), strict=True))

@@ -78,8 +78,8 @@ class ClosedLinkage:
         """Return all parameters of a run by name: given values, defaults, and parameters derived from them.
 
         given: {address or parameter name: a float in SI, "0.5 mm", or the name of a choice}, as `simulate` accepts
-        them. Raises UnknownNameError with the nearest name. Raises BadValueError for an invalid value, or one that
-        two keys specify.
+        them. Raises UnknownNameError with the nearest name. Raises BadValueError for an invalid value, or one that two
+        keys specify. None: no values are given.
         """
         values = self._convert_given_values(
             check_mapping(given, "given", "{address or parameter name: a float in SI, or '0.5 mm'}")
@@ -276,7 +276,10 @@ def _print_thresholds(kernel: Kernel) -> list[str]:
 def _order_numbers_by_name(
     argument_name: str, values: ArrayLike, names: list[str], default_numbers: list[float] | None = None
 ) -> list[float]:
-    """Return one number for each name; `default_numbers` are the values if nothing is given. Raises ArrayError."""
+    """Return one number for each name; `default_numbers` are the values if nothing is given. Raises ArrayError.
+
+    None: there are no default values.
+    """
     numbers = np.asarray(values, dtype=float)
     if numbers.shape == (0,) and default_numbers is not None:
         return default_numbers

@@ -45,8 +45,8 @@ _NOWHERE = (
     SolveDependentRows,
     DeclareBranches,
 )  # vanished pivots, held corners, what single runs ask for
-_HELD = tuple(Place(argument.name) for argument in BRANCHES)
-_SIDES = ("branch", "g", "corner")
+_BRANCH_PLACES = tuple(Place(argument.name) for argument in BRANCHES)
+_BRANCH_ARGUMENTS = ("branch", "g", "corner")
 
 
 def print_name(key: Key) -> str:
@@ -123,7 +123,7 @@ class NumPyPrinter(CachedPrinter, PythonCodePrinter):
             return reduce(lambda first, other: f"{name}({first}, {other})", arguments)
         return f"{name}({', '.join(arguments)})"
 
-    def _print_Size(self, expr: sp.Expr) -> str:
+    def _print_ComparedMagnitude(self, expr: sp.Expr) -> str:
         """Print an absolute value."""
         return f"np.abs({self._print(expr.args[0])})"
 
@@ -139,8 +139,11 @@ class NumPyPrinter(CachedPrinter, PythonCodePrinter):
         """Print an absolute value that is never 0."""
         return f"(np.abs({self._print(expr.args[0])}) + 1e-150)"
 
-    def _print_Pick(self, expr: sp.Expr) -> str:
-        """Print a choice by the sign of its first argument."""
+    def _print_Select(self, expr: sp.Expr) -> str:
+        """Print a choice by the sign of its first argument.
+
+        The name of its variable is printed if `of.branches` holds the expression.
+        """
         if expr in self.of.branches:
             return self.get_name(self.of.branches[expr])
         branch, a, b = map(self._print, expr.args)
@@ -173,23 +176,23 @@ class NumPyPrinter(CachedPrinter, PythonCodePrinter):
         a, b = map(self._print, expr.args)
         return f"np.sin(np.pi*({a})/({b}))"
 
-    def _print_Whole(self, expr: sp.Expr) -> str:
+    def _print_Unevaluated(self, expr: sp.Expr) -> str:
         """Print an unevaluated operand in brackets."""
         return f"({self._print(expr.args[0])})"
 
-    _print_Share = _print_Whole
+    _print_UnevaluatedQuotient = _print_Unevaluated
 
     def _print_Slope(self, expr: sp.Expr) -> str:
         """Print a derivative, or a difference quotient where it is not finite."""
         slope, ahead, behind, way = map(self._print, expr.args)
         return f"np.where(np.isfinite({slope}), {slope}, ({ahead} - ({behind}))/({way}))"
 
-    def _print_JustAhead(self, expr: sp.Expr) -> str:
+    def _print_NextAbove(self, expr: sp.Expr) -> str:
         """Print a value slightly above its argument."""
         x = self._print(expr.args[0])
         return f"({x} + 1e-9*(1 + np.abs({x})))"
 
-    def _print_JustBehind(self, expr: sp.Expr) -> str:
+    def _print_NextBelow(self, expr: sp.Expr) -> str:
         """Print a value slightly below its argument."""
         x = self._print(expr.args[0])
         return f"({x} - 1e-9*(1 + np.abs({x})))"
@@ -258,7 +261,7 @@ class LinePrinter:
                     *indent_lines(self._print_line(line.statement)),
                 ]
             case Call():
-                arguments = [self.print_expression(x) for x in (*line.given, *line.results) if x not in _HELD]
+                arguments = [self.print_expression(x) for x in (*line.given, *line.results) if x not in _BRANCH_PLACES]
                 return break_code(f"{line.function}({', '.join(arguments)})")
             case Guard(test=Test() as test):
                 condition = f"{self.print_test(line.condition)} and " if line.condition else ""
@@ -287,7 +290,7 @@ def print_function(kernel: Kernel) -> str:
     """
     targets = [line.target for section in kernel.sections for line in section.statements if isinstance(line, Statement)]
     returned = [a.name for a in kernel.arguments if Result(a.name) in targets]
-    argument_names = [print_name(a.name) for a in kernel.arguments if a.name not in (*_SIDES, *returned)]
+    argument_names = [print_name(a.name) for a in kernel.arguments if a.name not in (*_BRANCH_ARGUMENTS, *returned)]
     text = [*break_code(f"def {kernel.name}({', '.join(argument_names)}):"), *indent_lines(print_docstring(kernel.doc))]
     readable_kernel = make_readable(kernel)
     for section in readable_kernel.sections:

@@ -93,7 +93,10 @@ def _compute_reference(program: Program, source: KernelSource) -> dict[str, Any]
 
 
 def _compute_given_parameters(numpy_model: NumPyModel, linkage: NumPyLinkage) -> list[list[float | None]]:
-    """Return the parameters of two runs in which every second parameter is given, first or second of each pair."""
+    """Return the parameters of two runs in which every second parameter is given, first or second of each pair.
+
+    Values have seven digits; None stands for one that is not finite.
+    """
     slots, parameters = linkage.source.slots, []
     for first in range(2):
         with np.errstate(all="ignore"):

@@ -151,7 +151,10 @@ class _Driver:
         self._store_present_sample()
 
     def _compute_absolute_tolerances(self) -> Array:
-        """Return the absolute tolerances (2n + 3,) for the largest speeds so far."""
+        """Return the absolute tolerances (2n + 3,) for the largest speeds so far.
+
+        The speeds are stored as `speed_of_tolerances`. Works have no tolerance.
+        """
         self.speed_of_tolerances = self.speed.copy()
         speed = (self.speed + self.speed_floor)[self.angle.astype(int)]
         return np.concatenate([self.scale[: self.n], self.scale[self.n :] * speed, np.full(N_WORK, UNCONTROLLED)])

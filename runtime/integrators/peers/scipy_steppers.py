@@ -48,7 +48,7 @@ class ScipyStepper(Stepper):
     def step(self) -> float:
         """Make one step and return its end (s). Raise SolverError, with SciPy's message, if no step is small enough.
 
-        An error of the right-hand side is raised in place of it.
+        An error of the right-hand side is raised in place of it. The dense output of the step is stored as `dense`.
         """
         self.equations.failure = None
         with np.errstate(invalid="ignore", over="ignore"):  # a step far too long is tried, and rejected

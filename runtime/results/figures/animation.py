@@ -87,7 +87,7 @@ def check_animation_options(
     """Return the checked options of an animation, with the times of its pictures.
 
     A default is set for `seconds`. Raises BadValueError for options out of range or too many pictures, UnknownNameError
-    for a point.
+    for a point. `progress` None: nothing is reported.
     """
     duration = float(run.t[-1] - run.t[0])
     seconds = (

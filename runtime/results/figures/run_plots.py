@@ -172,8 +172,8 @@ class Plot:
     ) -> Axes:
         """Plot the values of one series over those of another, with their units, and return the axes.
 
-        `x_name` and `y_name` are the names of the series, for labels and units.
-        `style` is a line style of matplotlib: "-" adds a ring at the start. `suffix` is added to the caption.
+        `x_name` and `y_name` are the names of the series, for labels and units. `style` is a line style of matplotlib:
+        "-" adds a ring at the start. `suffix` is added to the caption. `ax` None: on new axes.
         """
         with matplotlib.rc_context(STYLE):
             ax = create_axes(5.2, 4.4) if ax is None else check_axes(ax)
@@ -292,7 +292,7 @@ class Plot:
 def plot_wear(wear: Wear, ax: Axes | None) -> Axes:
     """Plot the wear depth over the angle for both surfaces, and return the axes; see Wear.plot.
 
-    The legend has the arc with 90 % of the worn volume.
+    The legend has the arc with 90 % of the worn volume. `ax` None: on new axes.
     """
     with matplotlib.rc_context(STYLE):
         ax = create_axes(8.0, 3.6) if ax is None else check_axes(ax)

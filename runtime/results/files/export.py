@@ -85,7 +85,7 @@ def list_requested_series(run: Result, names: Iterable[str] | None) -> list[str]
 def build_dataframe(run: Result, names: Iterable[str] | None) -> pandas.DataFrame:
     """Return series of a run as a pandas table with t (s) as index; see Result.to_dataframe.
 
-    Units and origin are in `attrs`.
+    Units and origin are in `attrs`. `names` None: all series.
     """
     pandas_module = _import_pandas()
     series = list_requested_series(run, names)
@@ -99,7 +99,7 @@ def build_dataframe(run: Result, names: Iterable[str] | None) -> pandas.DataFram
 def build_batch_dataframe(batch: Batch, names: Iterable[str] | None) -> pandas.DataFrame:
     """Return series of a batch as a long pandas table with a row for each reached sample; see Batch.to_dataframe.
 
-    Raises MemoryError if the table would exceed the free memory.
+    Raises MemoryError if the table would exceed the free memory. `names` None: all series.
     """
     pandas_module = _import_pandas()
     n_columns = len(_select_batch_series(batch, names)) + len(batch.parameters) + 2
@@ -206,7 +206,10 @@ def _format_cell(value: object) -> str:
 
 
 def write_mat(run: Result, path: str | os.PathLike[str], names: Iterable[str] | None) -> None:
-    """Write series of a run as a MATLAB file. See Result.to_mat."""
+    """Write series of a run as a MATLAB file. See Result.to_mat.
+
+    `names` None: all series.
+    """
     series = ["t", *list_requested_series(run, names)]
     descriptions = [(name, run.unit(name), run.meaning(name)) for name in series]
     _write_mat(path, run, descriptions, {name: np.asarray(run[name], dtype=float) for name in series})
@@ -215,7 +218,7 @@ def write_mat(run: Result, path: str | os.PathLike[str], names: Iterable[str] | 
 def write_batch_mat(batch: Batch, path: str | os.PathLike[str], names: Iterable[str] | None) -> None:
     """Write series of a batch as a MATLAB file; see Batch.to_mat.
 
-    Raises MemoryError if the series would exceed the free memory.
+    Raises MemoryError if the series would exceed the free memory. `names` None: all series.
     """
     all_series, parameters = (
         get_catalogue(batch.source),

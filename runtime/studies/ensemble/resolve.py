@@ -297,7 +297,7 @@ def _resolve_run_settings(study: StudyFile, parts: Sequence[Part]) -> RunSetting
 def _check_method(study: StudyFile, source: KernelSource, rtol: float | None) -> None:
     """Raise an InputError at its location for a method or tolerance that a scene does not allow.
 
-    Settings of a kinematically driven scene are ignored.
+    Settings of a kinematically driven scene are ignored. `rtol`: the tolerance, None if it is not given.
     """
     method, where = choose_method(source, str(study.method)), study.method.where
     moves = bool(source.degrees_of_freedom)

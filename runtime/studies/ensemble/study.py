@@ -142,8 +142,8 @@ def run_plans(
     """Run the plans of a study file in a folder, write claims and names, and return the finished study.
 
     Each part of a file with parts has a subfolder. Other arguments are those of `study`, but `executor` must be one of
-    concurrent.futures. temporary_folder: temporary folder that lives as long as the study.
-    Raises OutputError or MemoryError before the first run if disk or memory do not suffice.
+    concurrent.futures. temporary_folder: temporary folder that lives as long as the study. Raises OutputError or
+    MemoryError before the first run if disk or memory do not suffice. `progress` None: nothing is reported.
     """
     check_disk_and_memory(plans, folder, threads, executor is None)
     if plans.named:

@@ -68,7 +68,10 @@ def draw_map_figure(title: str, maps: Sequence[VerdictMap], marked_step: float |
 
 
 def _draw_map(ax: Axes, verdict_map: VerdictMap, marked_step: float | None) -> None:
-    """Draw the cells of one map with ticks and title, and a frame around the row of the marked step (s)."""
+    """Draw the cells of one map with ticks and title, and a frame around the row of the marked step (s).
+
+    None: no frame.
+    """
     rows, columns = verdict_map.rows.values, verdict_map.columns.values
     for i, y in enumerate(rows):
         for j, x in enumerate(columns):

@@ -120,7 +120,10 @@ class StudyData:
         return t, values
 
     def _select_runs(self, variable: Any, coordinates: Coords | None) -> Any:
-        """Return a variable restricted to the runs at these coordinates, the nearest value for a number."""
+        """Return a variable restricted to the runs at these coordinates, the nearest value for a number.
+
+        None: all runs.
+        """
         for name, value in check_mapping(coordinates, "at", "expected {coordinate: value}").items():
             dimension = self.find_dimension(variable, name)
             variable = variable.isel({dimension: self.find_nearest_index(name, value)})
@@ -322,7 +325,7 @@ class StudyData:
         """Return for each selected run its index, and the values of other series where `section` crosses a level.
 
         names: of the other series. level: SI. is_falling: crossings from above instead of from below. min_time (s):
-        earlier crossings are left out.
+        earlier crossings are left out. coordinates None: all runs.
         """
         t, section_series = self.select_series(section, coordinates)
         others = [self.select_series(name, coordinates)[1].values for name in names]

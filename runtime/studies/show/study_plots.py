@@ -331,7 +331,10 @@ class StudyPlot:
         return ax
 
     def _set_title_and_legend(self, ax: Axes, coordinates: Coords | None, has_legend: bool) -> None:
-        """Set the title with the selected coordinates and, with `has_legend`, a legend if any curve has a label."""
+        """Set the title with the selected coordinates and, with `has_legend`, a legend if any curve has a label.
+
+        `coordinates` None: all runs.
+        """
         picked = ", ".join(self.data.describe_coordinate(name, value) for name, value in (coordinates or {}).items())
         ax.set_title(format_figure_title(": ".join(filter(None, (format_one_line(self.data.title), picked))), TITLE))
         if has_legend and ax.get_legend_handles_labels()[0]:
