@@ -102,7 +102,8 @@ static inline LaneWords lanes_to_bits(Lanes x) { return (LaneWords)x; }
 /* Return the numbers whose bits are given in each lane. */
 static inline Lanes lanes_from_bits(LaneWords bits) { return (Lanes)bits; }
 /*
- * Return for each lane entry k of the row of a table, of `width` columns, that the last seven bits of the lane select.
+ * Look up a table of `width` columns in each lane (a gather): return entry k of the row whose number is in the last
+ * seven bits of the lane.
  */
 static inline Lanes lanes_table_entries(const double *table, int width, LaneWords bits, int k)
 {

@@ -80,8 +80,8 @@ static Lanes compute_squared_force(const LaneRhsOutputs *rhs, int i)
 }
 
 /*
- * Store event functions, squared forces and gap rates of a stage at fraction `node` of the step, and update their
- * extrema.
+ * Store the values of a stage at fraction `node` of the step: event functions, squared contact forces and gap rates.
+ * Update the lowest value of each event function, and the range (smallest and largest value) of each gap rate.
  */
 static void record_stage(const LaneIntegrator *run, LaneStep *step, const LaneRhsOutputs *rhs, double node)
 {
@@ -157,7 +157,11 @@ static void count_stage_evaluations(LaneIntegrator *run, LaneBits is_active, int
     run->newton.evaluations += select_value(is_active, broadcast(n), broadcast(0.0));
 }
 
-/* Begin an iteration of n stages: count n evaluations and discard the data of the stages in the active lanes. */
+/*
+ * Begin an iteration of n stages: count n evaluations, and reset the extrema over the stages in the active lanes. These
+ * are the lowest event functions, the ranges of the gap rates, and that of the state if functions are watched. The
+ * number of stored stages becomes 0; stored values of inactive lanes remain.
+ */
 static void begin_stage_iteration(LaneIntegrator *run, LaneStep *step, LaneBits is_active, int n)
 {
     count_stage_evaluations(run, is_active, n);

@@ -247,13 +247,14 @@ static int evaluate_outputs(Model *model)
 }
 
 /*
- * Return an output of an instance: number `column` of a part of the results (state, forces, energies, ...). part < 0:
- * the contact code of joint `column`.
+ * Return an output of an instance: entry `column` of the result array number `array_index`, in the order of arrays[] in
+ * the body: 0 to 2 for coordinates, velocities and works, ..., 13 for the drift. array_index < 0: the contact code of
+ * joint `column`. Both numbers come from the table fmu_outputs of the FMU.
  */
-static double get_output(const Model *model, int part, int column)
+static double get_output(const Model *model, int array_index, int column)
 {
     const Outputs *o = &model->out;
-    const double *const parts[] = {model->y, model->y + N_Q, model->y + 2 * N_Q, model->latched, o->a, o->multipliers,
+    const double *const arrays[] = {model->y, model->y + N_Q, model->y + 2 * N_Q, model->latched, o->a, o->multipliers,
         o->reactions, o->torques, o->clearance, o->series, o->friction, o->energy, o->power, o->drift};
-    return part < 0 ? model->state[column] : parts[part][column];
+    return array_index < 0 ? model->state[column] : arrays[array_index][column];
 }

@@ -61,17 +61,18 @@ void gudgeon_kinematic_begin(
 void gudgeon_kinematic_restart(void *integrator) { ((KinematicRun *)integrator)->motion_begun = 0; }
 
 /*
- * Report the progress of a kinematic analysis: times of motion and works (t[2], s; NaN: works not begun). gained: time
- * gained by the last steps, s. steps[0]: the number of these steps; steps[1]: whether they are far too short.
+ * Report the progress of a kinematic analysis: times of motion and works (t[2], s; NaN: works not begun). time_advance:
+ * time by which the last steps advanced, s. steps[0]: the number of these steps; steps[1]: 1 if they are far shorter
+ * than earlier ones, 2 if their number grows exponentially with time, else 0. Called after a failure.
  */
-void gudgeon_kinematic_progress(const void *integrator, double *t, double *gained, long *steps)
+void gudgeon_kinematic_progress(const void *integrator, double *t, double *time_advance, long *steps)
 {
     const KinematicRun *run = integrator;
     t[0] = run->motion.t;
     t[1] = run->work_begun ? run->work.t : NAN;
-    *gained = run->monitor.gain;
+    *time_advance = run->monitor.gain;
     steps[0] = MONITOR_STEPS;
-    steps[1] = run->monitor.crawls;
+    steps[1] = run->monitor.slowdown;
 }
 
 /* Return how many samples were interpolated at or near a change point; t: the time of the first one, s. */

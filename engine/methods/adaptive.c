@@ -1,4 +1,7 @@
-/* The time loop of all methods: trial steps, events in the accepted step, samples from its dense output, changes. */
+/*
+ * The time loop of all methods: trial steps, events in the accepted step, samples from its dense output, and changes of
+ * branches and contact states at its end.
+ */
 enum { N_SIGN_PARTS = 4, MAX_REPEATS = 8 /* repetitions of a step to end just after an event */ };
 
 /*

@@ -89,17 +89,17 @@ static int is_step_count_exponential(ProgressMonitor *monitor, double t, double 
  * Count a step that ends at time t (s) and return whether the run no longer advances towards t_end. Gains of time are
  * compared every MONITOR_STEPS steps. A comparison is slow in two cases: more than MAX_STEPS_LEFT steps are estimated
  * to remain, or more than MAX_STEPS_LEFT_SLOW, and the gain is below MIN_GAIN_RATIO of the mean of earlier ones that
- * were not slow. In the second case monitor->crawls becomes 1, else 0.
+ * were not slow. In the second case monitor->slowdown becomes 1, else 0.
  *
  * MAX_SLOW_CHECKS successive slow comparisons end the run, and so does a number of steps that grows exponentially with
- * time: monitor->crawls is then GROWTH_DOUBLINGS. Steps that become longer again reset the count, because a fast motion
- * may decay. Called once per step.
+ * time: monitor->slowdown is then GROWTH_DOUBLINGS. Steps that become longer again reset the count, because a fast
+ * motion may decay. Called once per step.
  */
 int has_stalled(ProgressMonitor *monitor, double t, double t_end)
 {
     const long n_before = monitor->steps++;
     if (is_step_count_exponential(monitor, t, t_end)) {
-        monitor->crawls = GROWTH_DOUBLINGS;
+        monitor->slowdown = GROWTH_DOUBLINGS;
         return 1;
     }
     if (n_before % MONITOR_STEPS)
@@ -110,9 +110,9 @@ int has_stalled(ProgressMonitor *monitor, double t, double t_end)
     if (monitor->steps == 1)
         return 0;
     const double steps_left = estimate_remaining_steps(monitor, t, t_end);
-    monitor->crawls =
+    monitor->slowdown =
         steps_left > MAX_STEPS_LEFT_SLOW && monitor->gain * (double)monitor->good < MIN_GAIN_RATIO * monitor->sum;
-    if (steps_left > MAX_STEPS_LEFT || monitor->crawls) {
+    if (steps_left > MAX_STEPS_LEFT || monitor->slowdown) {
         monitor->slow = monitor->gain > 1.1 * gain_before ? 0 : monitor->slow + 1;
     } else {
         monitor->slow = 0;

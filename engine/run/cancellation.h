@@ -17,8 +17,8 @@ typedef struct {
 typedef struct {
     double t, gain, sum; /* s: start of these steps; gain of the last ones; sum of good gains */
     long steps, good;
-    /* number of successive slow checks; whether far slower than before, or GROWTH_DOUBLINGS */
-    int slow, crawls;
+    /* number of successive slow checks; 1: far slower than before, GROWTH_DOUBLINGS: exponential growth, else 0 */
+    int slow, slowdown;
     Doubling doubling;
 } ProgressMonitor;
 

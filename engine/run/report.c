@@ -12,15 +12,16 @@ void gudgeon_run_sample(const void *integrator, const double *p, double *y, doub
 }
 
 /*
- * Report the progress of a run that no longer advances. time_gained: time in s that the last MONITOR_STEPS steps
- * gained. steps: that number, and whether these steps are far shorter than earlier ones. ended_steps (N_STEP_ENDS): how
- * many steps each kind of event ended since the last check. Called when a run of a batch ends.
+ * Report the progress of a run that no longer advances. time_advance: time in s by which the last MONITOR_STEPS steps
+ * advanced. steps: that number, and 1 if these steps are far shorter than earlier ones, 2 if their number grows
+ * exponentially with time, else 0. ended_steps (N_STEP_ENDS): how many steps each kind of event ended since the last
+ * check. Called when a run of a batch ends.
  */
-static void report_progress(const Integrator *run, double *time_gained, long *steps, long *ended_steps)
+static void report_progress(const Integrator *run, double *time_advance, long *steps, long *ended_steps)
 {
-    *time_gained = run->progress.monitor.gain;
+    *time_advance = run->progress.monitor.gain;
     steps[0] = MONITOR_STEPS;
-    steps[1] = run->progress.monitor.crawls;
+    steps[1] = run->progress.monitor.slowdown;
     for (int k = 0; k < N_STEP_ENDS; k++)
         ended_steps[k] = 0;
     for (int k = 0; k < N_EVENT_FUNCTIONS; k++) {

@@ -91,7 +91,7 @@ typedef struct {
     /* watched event functions at equidistant points of the step (watch/dense_samples.c) */
     double sample[AT_LEAST_ONE(N_WATCHED)][N_SAMPLES + 1];
     unsigned char passed[AT_LEAST_ONE(N_SWITCHES)]; /* switching points crossed within the tolerance */
-    double harm; /* largest effect of wrong branches on the step, in tolerances; infinite: not known */
+    double branch_error; /* largest effect of wrong branches on the step, in tolerances; infinite: not known */
     /* bracket of a zero of each watched function: its ends, and the values there */
     double from[AT_LEAST_ONE(N_WATCHED)], to[AT_LEAST_ONE(N_WATCHED)];
     double above[AT_LEAST_ONE(N_WATCHED)], below[AT_LEAST_ONE(N_WATCHED)];

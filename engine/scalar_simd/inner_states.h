@@ -1,4 +1,7 @@
-/* Inner states of contact laws in the integrated state, such as bristle deflections. */
+/*
+ * Inner states of contact laws in the integrated state: internal state variables of a law, such as deflections of
+ * bristles.
+ */
 
 /*
  * Copy the inner states of contact laws from state y to the contact states, where the laws read them; nothing without

@@ -68,7 +68,10 @@ static inline void taylor_evaluate_state_and_rate(const IntegratorOf *run, Real 
     }
 }
 
-/* Evaluate the series at time h (s) after the run's state: the state y (N_Y). */
+/*
+ * Evaluate the series at time h (s) after the run's state: the state y (N_Y). Called for the dense output at a fraction
+ * of a step; the end of a trial step also needs the rates.
+ */
 static inline void taylor_evaluate_state(const IntegratorOf *run, Real h, Real *y)
 {
     Real rate[N_Y];

@@ -116,7 +116,7 @@ void gudgeon_kinematic_begin(
 void gudgeon_kinematic_record(void *integrator, double *rows, long capacity);
 long gudgeon_kinematic_fetch_records(void *integrator);
 void gudgeon_kinematic_restart(void *integrator);
-void gudgeon_kinematic_progress(const void *integrator, double *t, double *gained, long *steps);
+void gudgeon_kinematic_progress(const void *integrator, double *t, double *time_advance, long *steps);
 long gudgeon_kinematic_count_interpolated(const void *integrator, double *t);
 int gudgeon_kinematic(void *integrator, long n, const double *t, const double *p, double *q, double *v, double *a,
     double *phi_max, double *phi_dot_max, long *steps, long *done);

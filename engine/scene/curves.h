@@ -83,10 +83,11 @@ static inline double evaluate_curve(const Curve *curve_table, int order, double 
 }
 
 /*
- * Return a switching function at x whose zeros are the knots between pieces; its sign is the branch of the piece, its
- * slope there is 1 over the length. The ends of a curve that does not repeat are no zeros.
+ * Return the switching function of the knots of a curve at x. Its zeros are the knots between pieces, and its sign is
+ * the branch of the piece. Its slope at a knot is 1 over the length of the piece. The ends of a curve that does not
+ * repeat are no zeros.
  */
-static inline double evaluate_knot_function(const Curve *curve_table, double x)
+static inline double evaluate_knot_switch(const Curve *curve_table, double x)
 {
     x = reduce_to_period(curve_table, x);
     const int piece = find_curve_piece(curve_table, x), begins = piece > 0
@@ -98,7 +99,7 @@ static inline double evaluate_knot_function(const Curve *curve_table, double x)
 
 #define curve(which, order, x) evaluate_curve(&curves[which], order, x, 0.0)
 #define curve_on(which, order, x, branch) evaluate_curve(&curves[which], order, x, branch)
-#define knots(which, x) evaluate_knot_function(&curves[which], x)
+#define knots(which, x) evaluate_knot_switch(&curves[which], x)
 
 #ifdef GUDGEON_LANES_H
 /*
@@ -112,16 +113,19 @@ static inline Lanes evaluate_curve_in_lanes(const Curve *curve_table, int order,
     return y;
 }
 
-/* Return evaluate_knot_function() of each lane of the vector x. */
-static inline Lanes evaluate_knot_function_in_lanes(const Curve *curve_table, Lanes x)
+/*
+ * Return the switching function of the knots of a curve in each lane, at the vector x: 0 at a knot between two pieces,
+ * and with a sign that alternates from piece to piece.
+ */
+static inline Lanes evaluate_knot_switch_in_lanes(const Curve *curve_table, Lanes x)
 {
     Lanes y = {0.0};
     for (int k = 0; k < LANES; k++)
-        y[k] = evaluate_knot_function(curve_table, x[k]);
+        y[k] = evaluate_knot_switch(curve_table, x[k]);
     return y;
 }
 
-#define lanes_knots(which, x) evaluate_knot_function_in_lanes(&curves[which], x)
+#define lanes_knots(which, x) evaluate_knot_switch_in_lanes(&curves[which], x)
 #define lanes_curve(which, order, x) evaluate_curve_in_lanes(&curves[which], order, x, broadcast(0.0))
 #define lanes_curve_on(which, order, x, branch) evaluate_curve_in_lanes(&curves[which], order, x, branch)
 #endif
@@ -254,10 +258,10 @@ static inline Interval bound_curve(const Curve *curve_table, int order, Interval
 }
 
 /*
- * Return bounds of evaluate_knot_function(), a parabola in each piece, and of its slope. Over a period or more they are
+ * Return bounds of evaluate_knot_switch(), a parabola in each piece, and of its slope. Over a period or more they are
  * -1 and 1 with unbounded slope. Empty if x is.
  */
-static inline Interval bound_knot_function(const Curve *curve_table, Interval x)
+static inline Interval bound_knot_switch(const Curve *curve_table, Interval x)
 {
     const double first = curve_table->x[0], last = curve_table->x[curve_table->pieces];
     const double shift = curve_table->repeats ? (last - first) * floor((x.lo - first) / (last - first)) : 0.0;
@@ -290,7 +294,7 @@ static inline Interval bound_knot_function(const Curve *curve_table, Interval x)
 
 #define interval_curve(which, order, x) bound_curve(&curves[which], order, x, make_interval(0.0))
 #define interval_curve_on(which, order, x, branch) bound_curve(&curves[which], order, x, branch)
-#define interval_knots(which, x) bound_knot_function(&curves[which], x)
+#define interval_knots(which, x) bound_knot_switch(&curves[which], x)
 #endif
 
 #endif

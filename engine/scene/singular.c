@@ -97,10 +97,11 @@ static void remove_basis_component(Workspace *workspace, int rank)
 }
 
 /*
- * Select independent rows into workspace->order, the largest remainder first, and compute the basis. min_square:
- * squared relative remainder below which a row is dependent. Return their number, or -1 on cancellation.
+ * Select independent rows into workspace->order, the largest remainder first, and compute the basis.
+ * pivot_tol_squared: squared relative remainder below which a row is dependent. Return their number, or -1 on
+ * cancellation.
  */
-static int select_independent_rows(Workspace *workspace, double min_square)
+static int select_independent_rows(Workspace *workspace, double pivot_tol_squared)
 {
     int rank = 0;
     for (; rank < N_ROWS; rank++) {
@@ -116,7 +117,7 @@ static int select_independent_rows(Workspace *workspace, double min_square)
                 pivot = i;
             }
         }
-        if (!(largest > min_square))
+        if (!(largest > pivot_tol_squared))
             break;
         const int row = workspace->order[pivot];
         workspace->order[pivot] = workspace->order[rank];
@@ -269,13 +270,14 @@ static int add_free_motion(Workspace *workspace, int rank)
 }
 
 /*
- * Compute accelerations workspace->y and multipliers lambda (N_ROWS) by the equations that are independent to
- * min_square; others have lambda = 0. Return 1 if the others agree to `tolerance`, 0 if not or if M is singular, or
- * STOPPED on cancellation.
+ * Compute accelerations workspace->y and multipliers lambda (N_ROWS) by the independent equations; dependent
+ * ones have lambda = 0. An equation is independent if what remains of its row without the components along the rows
+ * already selected has a squared norm above pivot_tol_squared, relative to the row. Return 1 if the dependent equations
+ * agree to `tolerance`, 0 if not or if M is singular, or STOPPED on cancellation.
  */
-static int solve_independent_equations(Workspace *workspace, double min_square, double tolerance, double *lambda)
+static int solve_independent_equations(Workspace *workspace, double pivot_tol_squared, double tolerance, double *lambda)
 {
-    const int rank = select_independent_rows(workspace, min_square);
+    const int rank = select_independent_rows(workspace, pivot_tol_squared);
     if (rank < 0)
         return STOPPED;
     for (int k = 0; k < rank; k++) { /* forward: coordinates along the basis */
@@ -316,7 +318,7 @@ static int solve_independent_equations(Workspace *workspace, double min_square, 
 int solve_dependent_equations(double t, const double *q, const Parameters *p, const double *force, const double *rhs,
     double *a, double *lambda, int pivot, const DiscreteState *discrete)
 {
-    static const double min_squares[] = {NEARLY_SINGULAR, SINGULAR}, tolerances[] = {1e-3, 1e-6};
+    static const double pivot_tols_squared[] = {NEARLY_SINGULAR, SINGULAR}, tolerances[] = {1e-3, 1e-6};
     if (discrete->least > NEARLY_SINGULAR)
         return NEAR;
     Workspace *workspace = malloc(sizeof(Workspace));
@@ -324,7 +326,7 @@ int solve_dependent_equations(double t, const double *q, const Parameters *p, co
     for (int pass = 0; workspace && status && pass < 2; pass++) {
         initialize_workspace(workspace, t, q, p, force, rhs);
         workspace->cancellation = discrete->token;
-        status = solve_independent_equations(workspace, min_squares[pass], tolerances[pass], lambda);
+        status = solve_independent_equations(workspace, pivot_tols_squared[pass], tolerances[pass], lambda);
         if (status == STOPPED)
             break;
         if (!status) {

@@ -33,7 +33,7 @@ static int ignore_harmless_switches(Integrator *run, Step *step, const Parameter
     double dy[N_Y], largest_change = 0.0;
     int has_passed = 0;
     RhsOutputs rhs;
-    step->harm = INFINITY;
+    step->branch_error = INFINITY;
     for (int k = 0; k < N_SWITCHES; k++) {
         const int gap_function = N_CLEARANCES + k;
         const int is_of_law = meets[k] && watched_as[gap_function] < 0 && run->control.fixed <= 0.0;
@@ -51,8 +51,8 @@ static int ignore_harmless_switches(Integrator *run, Step *step, const Parameter
     for (int k = FIRST_STATE; k < N_Y && !status; k++)
         largest_change = max_of(largest_change, fabs(step->h * (dy[k] - step->dy[k])) * run->norm.weight[k]);
     if (!status && all_finite(dy, N_Y))
-        step->harm = largest_change;
-    if (step->harm < HARMLESS) {
+        step->branch_error = largest_change;
+    if (step->branch_error < HARMLESS) {
         for (int k = 0; k < N_Y; k++)
             step->dy[k] = dy[k];
         step->rhs = rhs;
@@ -276,9 +276,9 @@ static double find_first_crossing(Integrator *run, Step *step, const Parameters 
 
 /*
  * Return the fraction of the first event of a step that is far longer than the previous one, while a contact is closed.
- * Event functions without bounds may cross zero and return between its stages, and stages of stiff methods are
- * inaccurate. The dense output is therefore sampled up to the event already found at `fraction`, and *event is updated.
- * Other steps, and steps of fixed length, return `fraction`.
+ * Its dense output is sampled up to the event already found at `fraction`, and *event is updated. That needs an event
+ * function without bounds that may cross zero and return between the stages: with a stiff method any that is positive
+ * at the end, otherwise one that is not clear of zero. All other steps, and steps of fixed length, return `fraction`.
  */
 static double find_first_event_of_long_step(Integrator *run, Step *step, double fraction, const Parameters *p,
     int *event)
@@ -405,10 +405,10 @@ static double compute_rate_jump(const Integrator *run, const double *dy_before)
 }
 
 /*
- * Suppress a switching point in the next step if the motion crossed it twice within a short time, such as a journal at
- * rest in its film. Called at each change of branch. Both branches must meet there, or differ by rounding only
- * (dy_before: rates of the previous branch). The next step is as short as the time between the crossings, and the
- * following ones grow.
+ * Suppress a switching point in the next step if the motion crossed it twice within a thousandth of the step length,
+ * such as a journal at rest in its film. Called at each change of branch. Both branches must meet there, or differ by
+ * rounding only (dy_before: rates of the previous branch). The next step is limited to roots.monitor: 20 times the time
+ * between the crossings, the previous limit, or 100 resolutions of time, whichever is largest.
  */
 static void suppress_repeated_switch(Integrator *run, int switch_index, const double *dy_before)
 {

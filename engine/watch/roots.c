@@ -263,10 +263,11 @@ static double compute_max_contact_overshoot(const Integrator *run, int joint)
 }
 
 /*
- * Return the tolerance to which the zero of an event function is located. Functions that must not be located after
- * their zero have a width only; contacts have a largest overshoot. At a switching point, the rates of both branches
- * differ in proportion to its function. The error of the frozen branch thus grows with the square of the distance. It
- * is step->harm tolerances at the end of the step.
+ * Return the tolerance to which the zero of an event function is located, in fractions of the step: width in time,
+ * largest overshoot after the zero, limit of the error there, and factor of that error. Functions that must not be
+ * located after their zero have a width only. Compliant contacts have an overshoot without a limit of its error. At a
+ * switching point, the error of the frozen branch grows with the square of the distance, as the rates of both branches
+ * differ in proportion to its function; it is step->branch_error error tolerances at the end of the step.
  */
 static ZeroTolerance compute_zero_tolerance(const Integrator *run, const Step *step, int event)
 {
@@ -277,7 +278,7 @@ static ZeroTolerance compute_zero_tolerance(const Integrator *run, const Step *s
         return (ZeroTolerance){width, compute_max_contact_overshoot(run, event), INFINITY, 1.0};
     return (ZeroTolerance){
         width, MAX_SWITCH_OVERSHOOT, HARMLESS_ERROR * fabs(event_function(&run->discrete, &step->rhs, event)),
-            step->harm};
+            step->branch_error};
 }
 
 /*

@@ -48,11 +48,11 @@ typedef struct {
 } Bracket;
 
 /*
- * The tolerance of a location: `width`, or a sample after the zero with f < 0 at a distance d <= beyond whose error is
- * small: harm |df/ds| d^2 <= harmless, in any common unit. beyond = 0: `width` only.
+ * The tolerance of a location: `width`, or a sample after the zero with f < 0 at a distance d <= max_overshoot. Its
+ * error must be small: error_factor |df/ds| d^2 <= max_error, in any common unit. max_overshoot = 0: `width` only.
  */
 typedef struct {
-    double width, beyond, harmless, harm;
+    double width, max_overshoot, max_error, error_factor;
 } ZeroTolerance;
 
 /* Evaluate f and slope of `now` at s, which lies within the bracket. Return a status. */
@@ -138,9 +138,9 @@ static inline double compute_allowed_overshoot(const Bracket *bracket, const Zer
 {
     const double location = clamp_to_bracket(guess, bracket);
     double steepest = 0.0;
-    for (int i = 0; i < bracket->n && tolerance->beyond > 0.0; i++)
+    for (int i = 0; i < bracket->n && tolerance->max_overshoot > 0.0; i++)
         steepest = max_of(steepest, fabs(bracket->at[i].f / (bracket->at[i].s - location)));
-    return min_of(tolerance->beyond, sqrt(tolerance->harmless / (tolerance->harm * steepest)));
+    return min_of(tolerance->max_overshoot, sqrt(tolerance->max_error / (tolerance->error_factor * steepest)));
 }
 
 /*

@@ -210,7 +210,7 @@ def _remove_node(node: Map, path: Path) -> Map:
 
 
 def _make_errors(findings: Sequence[_Finding], document: Map) -> list[InputError]:
-    """Return the findings as errors; a missing key is not reported if a mistyped one stands in its place."""
+    """Return the findings as errors; a missing key is not reported if the mapping has a key that resembles it."""
     paths_of_mistyped_keys = {
         (*finding.path[:-1], find_nearest_name(str(finding.path[-1]), finding.known_keys))
         for finding in findings

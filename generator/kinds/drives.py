@@ -11,9 +11,9 @@ from gudgeon.language.units import DIMENSIONLESS, LENGTH, Dimension
 def _make_value_field(
     dimension: Dimension | None, meaning: str = "prescribed value as a continuous expression of t"
 ) -> tuple[Field, ...]:
-    """Return the field of the prescribed value, an expression of t, as a tuple.
+    """Return the required field `value` of a drive, an expression of t, as a tuple with this one field.
 
-    `dimension` None: any; the reader replaces it by that of the target.
+    dimension: of the value; None: the reader of the drive checks it against the coordinate that is prescribed.
     """
     return (number("value", meaning, dimension, required=True, varies=OF_TIME),)
 

@@ -19,7 +19,7 @@ from gudgeon.language.tree import Number, iterate_names, list_functions
 
 
 def read_joints(reader: Reader, root: Map, point_names: PointNames) -> dict[str, Joint]:
-    """Return all joints by name; errors are collected, and joints with errors are left out."""
+    """Return the section `joints:` by name; errors are collected in the reader, and joints with errors are left out."""
     joints = {}
     for name, node in root.get_mapping("joints").list_entries():
         with reader.collect_errors():
@@ -97,7 +97,7 @@ def _check_cam_profile(reader: Reader, profile: Quantity) -> None:
 
 
 def read_forces(reader: Reader, root: Map, point_names: PointNames) -> dict[str, ForceElement]:
-    """Return all force elements by name; errors are collected, and elements with errors are left out."""
+    """Return the section `forces:` by name; errors are collected in the reader, elements with errors are left out."""
     forces = {}
     for name, node in root.get_mapping("forces").list_entries():
         with reader.collect_errors():

@@ -333,7 +333,10 @@ def _check_parameter_cycles(name: Text, scene_parameters: Mapping[str, Quantity]
 
 
 def read_events(reader: Reader, section: Map, address: str) -> dict[str, EventSpec]:
-    """Read the events of a section by name; `address` is the section's address. Errors are collected."""
+    """Return the events of a section by name, of the file or of a scene; `address` is the section's address.
+
+    Errors are collected in the reader, and events with errors are left out.
+    """
     events = {}
     for name, node in section.list_entries():
         with reader.collect_errors():

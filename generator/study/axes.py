@@ -42,9 +42,10 @@ ENSEMBLE = "all"  # name of the ensemble if the file names none
 
 
 def read_parameters(reader: Reader, root: Map) -> tuple[dict[Text, Text], list[Axis]]:
-    """Return the numbers that all runs share, and the dimensions of `parameters:` and `zip:`.
+    """Return the values that all runs share, by address, and the dimensions (Axis) of `parameters:` and `zip:`.
 
-    A single value is shared by all runs; a list or range is a dimension. Errors are collected.
+    A single value of a parameter is shared by all runs; a list or range is a dimension, and so is each entry of `zip`.
+    Values are texts of the file. Errors are collected; wrong entries are left out.
     """
     shared_values, axes = dict[Text, Text](), list[Axis]()
     for key, node in _iterate_section_entries(reader, root, "parameters"):
@@ -89,7 +90,7 @@ def _read_parameter_values(reader: Reader, node: Any, address: str, key: Text) -
 
 
 def _read_spacing(node: Map, address: str) -> str:
-    """Return the spacing of a range, linear by default. Raises BadValueError for an unknown word."""
+    """Return the spacing of a range, LINEAR (by default) or GEOMETRIC. Raises BadValueError for another word."""
     if "spacing" not in node:
         return LINEAR
     return check_word(node["spacing"], f"{address}.spacing", node.find_key("spacing"), (LINEAR, GEOMETRIC))

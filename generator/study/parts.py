@@ -88,7 +88,11 @@ def check_paragraph(node: Any, address: str, key: Any) -> str:
 
 
 def check_texts(node: Any, address: str, key: Any, expected_text: str) -> tuple[Text, ...]:
-    """Return the texts of a nonempty list, or a text alone, as a tuple. Raises BadValueError for another node."""
+    """Return the texts of a nonempty list, or a text alone, as a tuple. Raises BadValueError for another node.
+
+    address: of the node, in messages; key: the key before it, which locates an empty node; expected_text: what was
+    expected, for the message.
+    """
     if isinstance(node, Text):
         return (check_text(node, address, key, expected_text),)
     if not isinstance(node, Items) or not node:
@@ -127,7 +131,8 @@ def read_seed(node: Map, address: str) -> int:
 def check_label_of_entry(name: Text, kind: str) -> str:
     """Return the name of an option, window or measure if it is allowed. Raises BadNameError.
 
-    Allowed are ASCII letters, digits and _, at most 64 characters; null is not. `kind` is the noun in the message.
+    Allowed are ASCII letters, digits and _, at most 64 characters without a digit first; null is not. `kind` is the
+    noun in the message.
     """
     if not re.fullmatch(LABEL, name):
         hint = "expected letters, digits and _ in ASCII, at most 64, no digit first"

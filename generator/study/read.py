@@ -316,7 +316,10 @@ def _check_unique_names(names: tuple[Text, ...], kind: str) -> tuple[Text, ...]:
 
 
 def _read_expression(reader: Reader, root: Map, name: str) -> ParsedExpression | None:
-    """Return the expression at the key `name`; None if it is missing or wrong. The error is collected."""
+    """Return the parsed expression at the key `name` of a part, such as t_end; None if it is missing or wrong.
+
+    The error of a wrong one is collected.
+    """
     with reader.collect_errors():
         return parse_expression(root[name], name, root.find_key(name)) if name in root else None
     return None

@@ -102,9 +102,9 @@ def _list_required_keys(fields: Sequence[Field]) -> list[str]:
 
 
 def _describe_fields(fields: Sequence[Field], with_defaults: bool = True) -> dict[str, Json]:
-    """Return {key: schema with its meaning} of fields.
+    """Return {key: JSON Schema with the meaning as description} of fields.
 
-    With its default, too, if `with_defaults` (nothing is inherited).
+    with_defaults: add the defaults of fields that have one; not for a mapping whose missing keys are inherited.
     """
     schemas = {field.name: {**_describe_field(field), "description": field.meaning} for field in fields}
     if not with_defaults:
@@ -196,9 +196,9 @@ def _describe_kind(name: str, kind: Kind) -> Json:
 
 
 def _describe_law(role: Field, is_complete: bool) -> Json:
-    """Return the schema of a law of a contact.
+    """Return the schema of the law of one role in a contact; the keys allowed depend on the name of the law.
 
-    If `is_complete`, all required numbers must be there, as none is inherited.
+    is_complete: the law and its required keys must be given; otherwise they may be inherited from another contact.
     """
     laws = _list_kinds(role)
     all_keys: dict[str, Json] = {field.name: {} for _, law in laws for field in law.fields}

@@ -215,13 +215,13 @@ class KinematicRun:
 
     def _build_error(self, status: int) -> SolverError:
         """Build the error for a nonzero status of C: no progress, an undefined value, or no solution."""
-        failure_time, gained, steps, crawls = self._read_progress()
+        failure_time, time_advance, steps, is_slowing = self._read_progress()
         t, t_end = float(failure_time[0]), float(self.problem.t[-1])
         if status == STALLED:
-            progress = RunProgress(t, t_end - t, gained, steps, bool(crawls))
+            progress = RunProgress(t, t_end - t, time_advance, steps, bool(is_slowing))
             return (
                 build_runaway_error(progress, format_drive_states(self.compiled, self.problem.p, t))
-                if crawls
+                if is_slowing
                 else build_too_slow_error(progress)
             )
         if status == NOT_FINITE:
@@ -252,16 +252,17 @@ class KinematicRun:
     def _read_progress(self) -> tuple[Array, float, int, int]:
         """Return the progress of C: times (2,) in s of motion and works, then three values on the last steps.
 
-        These are the time gained (s), the number of steps, and 1 if they became far shorter than before.
+        These are the time by which they advanced (s), their number, and a code: 1 if they are far shorter than earlier
+        ones, 2 if their number grows exponentially with time, else 0.
         """
-        t, gained, steps = np.zeros(2), np.zeros(1), np.zeros(2, dtype=np.int_)
+        t, time_advance, steps = np.zeros(2), np.zeros(1), np.zeros(2, dtype=np.int_)
         self.compiled.lib.gudgeon_kinematic_progress(
             self.pointer(self.motion_struct, "void *"),
             self.pointer(t),
-            self.pointer(gained),
+            self.pointer(time_advance),
             self.pointer(steps, "long *"),
         )
-        return t, float(gained[0]), int(steps[0]), int(steps[1])
+        return t, float(time_advance[0]), int(steps[0]), int(steps[1])
 
     def build_trajectory(self, interrupted: bool, stopped: SolverError | None) -> Trajectory:
         """Return the complete samples as a Trajectory, with events up to the last one.

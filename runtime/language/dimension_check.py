@@ -35,11 +35,11 @@ _DimensionOrFlexible = Dimension | _Flexible
 def check_dimension(
     expr: Expr, expected: Dimension | None, get_dimension: Callable[[str], Dimension | None], location: Location
 ) -> Dimension | None:
-    """Return the dimension of an expression after checking it: `expected` if the expression fits, None if it fits any.
+    """Return the dimension of an expression, and check that it is `expected` unless that is None.
 
-    expected: None for any dimension. get_dimension(path): dimension of a name, None for one that fits any; it may
-    raise. location: of the first character. Raises UnitError with what was found and expected, and hints on names that
-    hide units.
+    An expression without a unit, a bare number, fits any dimension: `expected` is returned then, also if that is None.
+    get_dimension(path): dimension of a name, None for one that fits any; it may raise. location: of the first
+    character. Raises UnitError with what was found and expected, and hints on names that hide units.
     """
     try:
         dimension = _DimensionChecker(get_dimension, location).find_dimension(expr)

@@ -241,10 +241,11 @@ def _find_quantity(text: str, offset: int, names: Container[str]) -> _Quantity |
 
 
 def _parse_factors(text: str, position: int, is_divided: bool, names: Container[str]) -> tuple[list[_Factor], int]:
-    """Return the factors of a unit text from `position` on, and the offset where they end.
+    """Return the factors of a unit text from `position` on, such as `kg*m/s^2`, and the offset where they end.
 
     is_divided: whether a division precedes the first. names: of the file, which end the unit after an operator. Reading
-    stops at the first symbol without a meaning.
+    stops at the first symbol without a meaning. Powers include the sign of divisions and the power of parentheses;
+    None: a power that cannot be read. A speed such as km/h written as one symbol gives two factors.
     """
     factors, end, below, between = list[_Factor](), position, is_divided, ""
     while True:

@@ -35,13 +35,13 @@ def build_command_lines(source: KernelSource, portable: bool, quick: bool = Fals
     if source.cdef or not source.units:
         unit = "lanes" if source.cdef else ""
         return {"scene.o": build_unit_command(portable, [source.main], "scene.o", quick, unit)}
-    return dict(_build_part_command(part, portable, quick) for part in source.units)
+    return dict(_build_unit_command(unit, portable, quick) for unit in source.units)
 
 
-def _build_part_command(part: int, portable: bool, quick: bool) -> tuple[str, tuple[str, ...]]:
-    """Return the name of the object file of a part of a scene, and the compiler's command line for it."""
-    name = f"scene_{part}.o"
-    return name, build_unit_command(portable, [f"-DPART={part}", MAIN], name, quick)
+def _build_unit_command(unit: int, portable: bool, quick: bool) -> tuple[str, tuple[str, ...]]:
+    """Return the name of the object file of part `unit` of a scene, and the compiler's command line for it."""
+    name = f"scene_{unit}.o"
+    return name, build_unit_command(portable, [f"-DPART={unit}", MAIN], name, quick)
 
 
 class BackgroundCompilation:
@@ -60,16 +60,17 @@ class BackgroundCompilation:
         """Return the context."""
         return self
 
-    def start_part(self, part: int, texts: Mapping[str, str]) -> None:
-        """Start to compile a part of the scene, or the engine, in the background from the texts written so far.
+    def start_unit_compilation(self, unit: int, texts: Mapping[str, str]) -> None:
+        """Start to compile a compilation unit to an object file in the background, from the texts written so far.
 
-        `texts`: file names and contents. Errors are ignored: the part is then compiled when it is needed.
+        unit: ENGINE_PART (0) for the engine, or the number of a part of the scene (-DPART of MAIN). texts: contents by
+        file name. Errors are ignored: the unit is then compiled when the library is made.
         """
         try:
-            if part == ENGINE_PART:
+            if unit == ENGINE_PART:
                 self.start_shared_object(self._find_engine_object(texts[HEADER], self._quick))
             else:
-                self._start_compilation(*_build_part_command(part, self._portable, self._quick), texts)
+                self._start_compilation(*_build_unit_command(unit, self._portable, self._quick), texts)
         except (GudgeonError, OSError):
             return
 
@@ -79,7 +80,7 @@ class BackgroundCompilation:
         An empty header starts nothing.
         """
         if header and (os.cpu_count() or 1) > 1:
-            self.start_part(ENGINE_PART, {HEADER: header})
+            self.start_unit_compilation(ENGINE_PART, {HEADER: header})
 
     def list_shared_objects(self, source: KernelSource, quick: bool = False) -> list[SharedObject]:
         """Return the object files that a scene shares with others: that of the engine; [] for a library without it

@@ -2,7 +2,7 @@
 
 from _cffi_backend import FFI
 
-OF = "cb6d10cdabee2fee7ee80b544de14534b67dd53137826ef5ae25202a94ea93ce"  # SHA-256 of these declarations
+OF = "6b8331d67a083b12501464ca3b2c629b574900db64ef9fae071904d1c06197da"  # SHA-256 of these declarations
 ffi = FFI(
     "gudgeon",
     _version=0x2601,

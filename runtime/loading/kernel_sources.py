@@ -222,7 +222,10 @@ def derive_kernel_source(
         if seconds is not None and (took := perf_counter() - start) > 0.01:
             seconds["loading SymPy"] = took
         return generate_c(
-            derive_equations(read, seconds), formulation, seconds, background.start_part if background else None
+            derive_equations(read, seconds),
+            formulation,
+            seconds,
+            background.start_unit_compilation if background else None,
         )
 
 

@@ -170,7 +170,7 @@ def _yield_constraint_cells(model: Model, names: dict[sp.Symbol, str]) -> Iterat
             )
             what, text = (
                 f"Joint {owner}, {joint_type.title}: {' and '.join(ends)}",
-                _write_pivot_code(model, owner, name, rows, names),
+                _write_revolute_code(model, owner, name, rows, names),
             )
         yield (
             "markdown",
@@ -181,20 +181,23 @@ def _yield_constraint_cells(model: Model, names: dict[sp.Symbol, str]) -> Iterat
     yield "code", f"Phi = {_write_column(parts)}\nPhi"
 
 
-def _write_pivot_code(model: Model, owner: str, name: str, rows: list[Row], names: dict[sp.Symbol, str]) -> str | None:
-    """Return the Python text of a pivot's equations as the difference of two points in ground axes.
+def _write_revolute_code(
+    model: Model, joint_name: str, variable: str, rows: list[Row], names: dict[sp.Symbol, str]
+) -> str | None:
+    """Return Python code that assigns the equations of a revolute joint: the difference of two points in ground axes.
 
-    Return None for other joints, and for pivots of which an equation was dropped.
+    variable: the Python variable that receives the difference. rows: the joint's constraint equations. names: Python
+    names of symbols. Return None for other joint types, and for revolute joints of which an equation was dropped.
     """
-    joint = model.scene.mechanism.joints[owner]
+    joint = model.scene.mechanism.joints[joint_name]
     if not joint_types()[joint.kind].is_pivot or len(rows) != 2:
         return None
     lines = []
     for what, ref in (("first", joint.first), ("second", joint.second)):
         frame = model.geometry.find_point(ref)
         coordinates = [format_expression(component, model, names) for component in (frame.x, frame.y)]
-        lines.append(f"{what}_{owner} = {_write_column_by_lines(coordinates)}  # {ref.body}.{ref.point}")
-    return "\n".join((*lines, f"{name} = first_{owner} - second_{owner}"))
+        lines.append(f"{what}_{joint_name} = {_write_column_by_lines(coordinates)}  # {ref.body}.{ref.point}")
+    return "\n".join((*lines, f"{variable} = first_{joint_name} - second_{joint_name}"))
 
 
 def _write_column_by_lines(entries: list[str]) -> str:

@@ -67,7 +67,7 @@ def test_a_derivation_begins_it_and_the_library_takes_it(own_folders: Path, monk
     run = gudgeon.load(own_folders / "rod.yaml").simulate(t_end=0.5, output=3)
     assert sorted(used) == [ENGINE, "scene_1.o", "scene_2.o", "scene_3.o"]
     assert list((own_folders / "tmp").iterdir()) == []
-    monkeypatch.setattr(BackgroundCompilation, "start_part", lambda *given: None)
+    monkeypatch.setattr(BackgroundCompilation, "start_unit_compilation", lambda *given: None)
     again = gudgeon.load(own_folders / "rod.yaml", regenerate=True).simulate(t_end=0.5, output=3)
     assert len(used) == 4 and (run["rod.theta"] == again["rod.theta"]).all()
 
@@ -104,7 +104,7 @@ def test_only_what_is_asked_for_is_taken(own_folders: Path) -> None:
     texts, line = source.files, part_1(source)
     with BackgroundCompilation(False) as early:
         assert not early.is_compiling("scene_1.o", line, texts)
-        early.start_part(1, texts)
+        early.start_unit_compilation(1, texts)
         assert not early.fetch_object(made, line, {**texts, "model.h": texts["model.h"] + "\n"})
         assert not early.fetch_object(made, (*line, "-g"), texts) and not made.exists()
         assert early.fetch_object(made, line, texts) and made.stat().st_size > 1000
@@ -115,9 +115,11 @@ def test_only_what_is_asked_for_is_taken(own_folders: Path) -> None:
 def test_what_is_compiled_already_is_not_begun(own_folders: Path) -> None:
     source = pendulum()
     with BackgroundCompilation(False) as early:
-        early.start_part(ENGINE_PART, source.files)
+        early.start_unit_compilation(ENGINE_PART, source.files)
         assert not early._compilations and len(early.list_shared_objects(source)) == 1
-        early.start_part(ENGINE_PART, {"model.h": source.files["model.h"].replace("#define N_Q 3 ", "#define N_Q 4 ")})
+        early.start_unit_compilation(
+            ENGINE_PART, {"model.h": source.files["model.h"].replace("#define N_Q 3 ", "#define N_Q 4 ")}
+        )
         assert list(early._compilations) == [ENGINE]
     assert list((own_folders / "tmp").iterdir()) == []
 
@@ -156,7 +158,7 @@ def test_what_cannot_be_compiled_is_told_by_the_library(own_folders: Path, monke
     source = pendulum()
     with BackgroundCompilation(False) as early:
         broken = {**source.files, "dynamics.c": "#error of a scene\n"}
-        early.start_part(1, broken)
+        early.start_unit_compilation(1, broken)
         assert not early.fetch_object(own_folders / "scene_1.o", part_1(source), broken)
     (own_folders / "broken.c").write_text("#error of the engine\n")
     (own_folders / "rod.yaml").write_text(ROD.replace("mass: 1", "mass: 2"))  # this process has the other one
@@ -171,14 +173,14 @@ def test_what_cannot_be_compiled_is_told_by_the_library(own_folders: Path, monke
 
 def test_nothing_is_left_where_a_derivation_fails(own_folders: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     begun: list[BackgroundCompilation] = []
-    begin = BackgroundCompilation.start_part
+    begin = BackgroundCompilation.start_unit_compilation
 
     def and_fail(early: BackgroundCompilation, part: int, texts: Mapping[str, str]) -> None:
         begun.append(early)
         begin(early, part, texts)
         raise InputError("a derivation that fails behind it")
 
-    monkeypatch.setattr(BackgroundCompilation, "start_part", and_fail)
+    monkeypatch.setattr(BackgroundCompilation, "start_unit_compilation", and_fail)
     (own_folders / "rod.yaml").write_text(ROD)
     with pytest.raises(InputError, match="behind it"):
         gudgeon.load(own_folders / "rod.yaml")
@@ -196,6 +198,6 @@ def test_a_second_ctrl_c_leaves_nothing_either(own_folders: Path, monkeypatch: p
 
     monkeypatch.setattr(Programs, "stop", interrupted)
     with pytest.raises(KeyboardInterrupt), BackgroundCompilation(False) as early:
-        early.start_part(1, {**source.files, "model.h": source.files["model.h"] + "\n"})
+        early.start_unit_compilation(1, {**source.files, "model.h": source.files["model.h"] + "\n"})
     assert early._compilations["scene_1.o"][2].returncode is not None
     assert list((own_folders / "tmp").iterdir()) == []

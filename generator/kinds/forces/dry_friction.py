@@ -21,10 +21,11 @@ from gudgeon.language.units import DIMENSIONLESS, FORCE, VELOCITY
 
 
 def build_loads(target_frames: Any, element_fields: Any) -> Loads:
-    """Return the loads of dry friction: a Slip, from which the solver of a step finds the force, stick or slip.
+    """Return the loads of dry friction: a Slip without forces, from which the integrator finds the force.
 
-    target_frames: frames of both points (PointFrame).
-    element_fields: the element's values. The first body may be the ground.
+    Its slip velocity is that of the second body's point relative to the surface of the first body, along `direction`.
+    The surface moves with the first body, which may be the ground, and along `direction` at `speed` (a belt).
+    target_frames: frames of both points (PointFrame). element_fields: the element's values.
     """
     import sympy as sp
 

@@ -14,11 +14,10 @@ from gudgeon.language.units import FORCE
 
 
 def build_loads(target_frames: Any, element_fields: Any) -> Loads:
-    """Return the loads of a force at a point: its components in ground axes, its power F · ṙ and its series.
+    """Return the loads of a force at a point: components in ground axes (N), power F · ṙ, and series Fx, Fy and F (N).
 
-    target_frames: the frame of the point (PointFrame).
-    element_fields: the element's values. A force in body axes turns with the
-    body.
+    target_frames: the frame of the point (PointFrame), as a tuple of one. element_fields: the element's values. With
+    the option `axes: body` the components turn with the body. There is no potential energy.
     """
     import sympy as sp
 

@@ -41,9 +41,10 @@ class Slip:
     stribeck_velocity: Any = 0
 
     def evaluate_kinetic_force(self, v: Any) -> Any:
-        """Return the friction force (N) at a slip v (m/s) of either sign, which is positive.
+        """Return the magnitude (N) of the friction force at a slip v (m/s) of either sign.
 
-        It falls from static to kinetic with the slip; it is constant if `stribeck_velocity` is 0.
+        It falls from static to kinetic with the slip; it is the kinetic force at every slip if `stribeck_velocity` is
+        0.
         """
         import sympy as sp
 

@@ -15,7 +15,8 @@ from gudgeon.language.units import DIMENSIONLESS, TORQUE, make_dimension
 def build_loads(target_frames: Any, element_fields: Any) -> Loads:
     """Return the loads of the spring and damper: opposite moments, the potential ½ k (θ − θ_0)² and the power −d ω².
 
-    target_frames: frames of both bodies' centres of mass (PointFrame).
+    θ and ω are the angle and angular velocity of the second body relative to the first. The moment on the first body is
+    M = k (θ − θ_0) + d ω (N·m), which is also the series M. target_frames: frames of both centres of mass (PointFrame).
     element_fields: the element's values.
     """
     import sympy as sp

@@ -18,8 +18,9 @@ from gudgeon.language.units import DAMPING, FORCE, LENGTH, STIFFNESS
 def build_loads(target_frames: Any, element_fields: Any) -> Loads:
     """Return the loads of the spring and damper: opposite forces, the potential ½ k (l − l_0)² and the power −d l̇².
 
-    target_frames: frames of both points (PointFrame).
-    element_fields: the element's values. With l_0 = d = 0 no direction is used.
+    The force F = k (l − l_0) + d l̇ (N) is positive in tension: it pulls the points together. Series: F, length (m).
+    With l_0 = d = 0 the loads are k times the vector between the points, so that l = 0 is allowed. target_frames:
+    frames of both points (PointFrame). element_fields: the element's values.
     """
     import sympy as sp
 

@@ -14,10 +14,10 @@ from gudgeon.language.units import TORQUE
 
 
 def build_loads(target_frames: Any, element_fields: Any) -> Loads:
-    """Return the loads of a torque on the first body, its opposite on a second one, and their power.
+    """Return the loads of a torque on the first body, its opposite on a second one, and their power; series M (N·m).
 
-    target_frames: one or two frames of centres of mass (PointFrame).
-    element_fields: the element's values.
+    The torque is positive counterclockwise. target_frames: one or two frames of centres of mass (PointFrame).
+    element_fields: the element's values. There is no potential energy.
     """
     import sympy as sp
 

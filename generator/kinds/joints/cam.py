@@ -21,8 +21,9 @@ from gudgeon.language.units import DIMENSIONLESS, LENGTH
 
 
 def derive_constraint_equations(first_frame: Any, second_frame: Any, joint_fields: Any) -> list[Any]:
-    """Return one constraint equation: how far the follower's point is from its profile, along the axis (m).
+    """Return one constraint equation: position of the follower's point along the axis, less that of the profile (m).
 
+    Positions count from the cam's point. The profile is a function of the cam's angle relative to the body `carrier`.
     first_frame, second_frame: frames of the cam's and the follower's point (PointFrame).
     joint_fields: the joint's values (JointFields).
     """

@@ -16,8 +16,9 @@ from gudgeon.language.units import LENGTH
 
 
 def derive_constraint_equations(first_frame: Any, second_frame: Any, joint_fields: Any) -> list[Any]:
-    """Return one constraint equation (m): zero where the distance is `length`, and growing with it at the same rate.
+    """Return one constraint equation, (l² − L²)/(2 L) in m, for the distance l of the points and the `length` L.
 
+    It is positive where the points are too far apart, and about l − L near zero.
     first_frame, second_frame: frames of both points (PointFrame).
     joint_fields: the joint's values (JointFields).
     """

@@ -20,6 +20,8 @@ from gudgeon.language.units import LENGTH
 def derive_constraint_equations(first_frame: Any, second_frame: Any, joint_fields: Any) -> list[Any]:
     """Return one constraint equation: the arc by which the wheels have slipped since the start (m).
 
+    It is r_1 Δθ_1 + r_2 Δθ_2, with − for a wheel in a ring (`internal`). Angles are relative to the carrier, and Δ is
+    the change since the guess of the start.
     first_frame, second_frame: frames of the wheels (PointFrame).
     joint_fields: the joint's values (JointFields).
     """

@@ -15,8 +15,9 @@ from gudgeon.language.units import DIMENSIONLESS
 
 
 def derive_constraint_equations(first_frame: Any, second_frame: Any, joint_fields: Any) -> list[Any]:
-    """Return one constraint equation: the distance of the point from the line (m), with its sign.
+    """Return one constraint equation: the signed distance of the point from the line (m).
 
+    It is positive on the left of the line, seen along its `direction`.
     first_frame, second_frame: frames of the point and of the line's point (PointFrame).
     joint_fields: the joint's values (JointFields).
     """

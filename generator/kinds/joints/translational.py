@@ -18,6 +18,8 @@ from gudgeon.language.units import DIMENSIONLESS
 def derive_constraint_equations(first_frame: Any, second_frame: Any, joint_fields: Any) -> list[Any]:
     """Return two constraint equations: the offset from the axis (m), the angle between the bodies (rad).
 
+    The offset of the second point is positive on the left of the axis of the first body. The angle is that of the
+    second body relative to the first, less the field `angle` or, without it, the angle of the axis.
     first_frame, second_frame: frames of both points (PointFrame).
     joint_fields: the joint's values (JointFields).
     """

@@ -164,7 +164,11 @@ def compute_law_key(law: Law) -> str:
 
 
 def _iterate_option_choices(law: Law) -> Iterator[tuple[dict[str, str | bool], tuple[str, ...]]]:
-    """Yield each choice of a law: its options by name, and the names of its required and some optional parameters."""
+    """Yield every choice of a law: the values of its options by name, and the names of the given parameters.
+
+    Every combination of options occurs with every subset of the optional parameters. Required parameters, and those
+    with a default, are given in every choice.
+    """
     required_names = [
         field_of_law.name
         for field_of_law in law.parameters
@@ -197,7 +201,10 @@ def _check_name_not_reserved(law: Law, name: str) -> None:
 
 
 def _convert_to_sympy(law: Law, label: str, value: Any) -> Any:
-    """Return a value as a SymPy expression; `label` names it in messages. Raises LawError for other types."""
+    """Return a SymPy expression or a number as a SymPy expression; `label` names it in messages.
+
+    Raises LawError for other types, also for bool and str.
+    """
     import sympy as sp
 
     if isinstance(value, (bool, str)) or not isinstance(value, (sp.Expr, int, float)):
@@ -261,7 +268,7 @@ def _find_symbols(value: Any) -> set[Any]:
 
 
 def _iterate_expression_parts(value: Any) -> Iterable[Any]:
-    """Return the parts of an expression that the file gives; nothing for a number."""
+    """Return the nodes of a SymPy expression that a file gives, in preorder; nothing for a number."""
     import sympy as sp
 
     return sp.preorder_traversal(value) if isinstance(value, sp.Expr) else ()

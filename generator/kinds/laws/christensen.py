@@ -19,7 +19,10 @@ from gudgeon.generator.kinds.laws.roles import ROUGHNESS, make_overlap_fraction
 
 
 def build_load_fraction(inputs: LawInputs) -> dict[str, Any]:
-    """Return the fraction (0 to 1) of the load that the dry contact carries, for δ > 0, as steps by name."""
+    """Return the equations, by name, that lead to `share`, the fraction of the load that the dry contact carries.
+
+    It rises from 0 to 1 with the penetration δ > 0.
+    """
     import sympy as sp
 
     gone, left = sp.symbols("gone left", real=True)

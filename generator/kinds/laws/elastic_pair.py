@@ -36,9 +36,10 @@ GEOMETRY = word(
 
 
 def make_pair_stiffness(inputs: LawInputs) -> Any:
-    """Return the contact stiffness K (N/m^1.5) of Hertz as a derived constant, for the law's option `geometry`.
+    """Return the contact stiffness K (N/m^1.5) of Hertz, K = 4/3 E* √R, as a derived constant.
 
-    A corner on a wall (R_i = ∞) has the radius R_j. Equal materials give a shorter formula.
+    R = R_i R_j/(R_i ± R_j), + with the option `geometry: external`, − with `internal`; R_j for a corner on a wall
+    (R_i = ∞). E* is the contact modulus. Equal materials give a shorter formula.
     """
     import sympy as sp
 

@@ -19,7 +19,10 @@ from gudgeon.language.units import FORCE, LENGTH
 
 
 def build_normal_force(inputs: LawInputs) -> dict[str, Any]:
-    """Return the compressive normal force F_n (N) for δ > 0 and its abbreviations, as equations by name."""
+    """Return the normal force F_n (N) for δ > 0, positive in compression, as equations by name.
+
+    F_n is the elastic force F_e of the file times the hysteresis factor of the option `dissipation`.
+    """
     import sympy as sp
 
     force, delta = inputs.parameters["force"], inputs.variables["delta"]

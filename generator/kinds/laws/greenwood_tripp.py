@@ -21,7 +21,10 @@ POWER = 6.804
 
 
 def build_load_fraction(inputs: LawInputs) -> dict[str, Any]:
-    """Return the fraction (0 to 1) of the load that the dry contact carries, for δ > 0, as steps by name."""
+    """Return the equations, by name, that lead to `share`, the fraction of the load that the dry contact carries.
+
+    It rises from 0 to 1 with the penetration δ > 0.
+    """
     import sympy as sp
 
     part = sp.Symbol("part", real=True)

@@ -22,7 +22,10 @@ from gudgeon.language.units import DAMPING, STIFFNESS
 
 
 def build_normal_force(inputs: LawInputs) -> dict[str, Any]:
-    """Return the compressive normal force F_n (N) for δ > 0 and its abbreviations, as equations by name."""
+    """Return the normal force F_n = K δ + D δ̇ (N) for δ > 0 as an equation by name, positive in compression.
+
+    A negative force counts as 0 unless the option `pulls` allows it.
+    """
     import sympy as sp
 
     K = inputs.derive("spring", inputs.parameters["stiffness"], "stiffness")

@@ -16,7 +16,7 @@ from gudgeon.generator.kinds.laws.law import Law, LawInputs
 
 
 def build_normal_force(inputs: LawInputs) -> dict[str, Any]:
-    """Return the compressive normal force F_n (N) for δ > 0 and its abbreviations, as equations by name."""
+    """Return the compressive normal force F_n (N) for δ > 0, with hysteresis damping, as an equation by name."""
     import sympy as sp
 
     delta = inputs.variables["delta"]

@@ -79,7 +79,7 @@ OIL_FIELDS: tuple[Field, ...] = (VISCOUS, EXTRA_CLEARANCE, SHEAR, ANGULAR_VELOCI
 
 
 def make_film_clearance(inputs: LawInputs) -> Any:
-    """Return the clearance of the film, c + e_t (m)."""
+    """Return the clearance of the film (m), radial clearance c plus `extra_clearance`, as a derived constant."""
     return inputs.derive(
         "film_clearance", inputs.pair.c + inputs.parameters["extra_clearance"], "clearance of the film"
     )

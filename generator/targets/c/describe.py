@@ -342,7 +342,10 @@ def _describe_contours(model: Model) -> Iterator[ContourInfo]:
 
 
 def _evaluate_settings(model: Model) -> dict[str, float]:
-    """Return t_end, output and step of the scene, evaluated with the default parameters."""
+    """Return the settings under `simulate` of the scene by key, evaluated with the default parameters.
+
+    Keys are t_end (s), output (samples) and step (s), as far as the file gives them.
+    """
     from gudgeon.language.tree import evaluate
 
     defaults = {e.address: e.default for e in model.parameter_table.entries.values()}

@@ -191,8 +191,9 @@ def _print_parameters_file(program: Program) -> str:
 
 
 def _print_constraints_file(program: Program) -> str:
-    """Return the text of constraints.c: functions of all constraint equations, and `has_equal_start_parameters` if
-    integrated.
+    """Return the text of constraints.c: the functions of all constraint equations of the closed linkage.
+
+    A scene that is integrated also has `has_equal_start_parameters`.
     """
     at_start = (kernel for kernel in program.closed_linkage if kernel.name not in NOT_AT_START)
     return _print_kernels(*program.closed_linkage) + (print_start_comparison(at_start) if program.integrates else "")
@@ -366,7 +367,11 @@ def _list_direction_rotations(loop_kernels: DrivenLoopKernels) -> list[tuple[int
 
 
 def _print_closure_multipliers(model: Model, system: TreeSystem) -> list[str]:
-    """Return each closure's multiplier as a signed sum of the multipliers `lambda` of the full formulation, in C."""
+    """Return one C expression per loop closure, its multiplier: a signed sum of entries of `lambda`.
+
+    `lambda` are the multipliers of the full formulation. The expressions, such as "+ lambda[3] - lambda[5]", have
+    neither an assignment nor a semicolon.
+    """
     row_index = {row.name: r for r, row in enumerate(model.rows)}
     return [
         " ".join(f"{'+' if sign > 0 else '-'} lambda[{row_index[name]}]" for name, sign in shares.items())

@@ -192,8 +192,9 @@ class LinePrinter(ValuePrinter):
     def _print_guard(self, guard: Guard) -> list[str]:
         """Return the if statement that leaves the function, or jumps to `dependent`, if a pivot fails its test.
 
-        The test is a comparison or a call of a function. `guard.condition` restricts it to states that satisfy a
-        condition.
+        The function then returns the number of the pivot, or stores it in `pivot` before the jump. The test is a
+        comparison, which must hold, or a call of a function, which must return 0. `guard.condition` restricts the test
+        to states that satisfy a condition.
         """
         failure = self._print_call(guard.test) if isinstance(guard.test, Call) else f"!({self.print_test(guard.test)})"
         condition = f"{self.print_test(guard.condition)} && " if guard.condition else ""
@@ -253,7 +254,11 @@ class LinePrinter(ValuePrinter):
         return lines
 
     def print_statement(self, statement: Statement) -> str:
-        """Return one assignment as indented C; its comment follows if it fits in the line, else precedes it."""
+        """Return one assignment as indented C, broken into several lines if it is longer than WIDTH.
+
+        A statement that defines a local declares it as const. The comment follows if it fits in the line, else
+        precedes.
+        """
         target = self.printer.get_name(statement.target)
         left_side = f"const {self.number_type} {target}" if statement.declared_local else target
         code = break_code(f"    {left_side} = {self.print_expression(statement.value)};")

@@ -155,7 +155,8 @@ class LaneLines(functions.LinePrinter):
     def _print_line(self, line: Line) -> Sequence[str]:
         """Return one line of a kernel as lines of C for vectors.
 
-        Branches become choices by masks. A lane whose pivot fails its test is marked in `rare` instead of leaving.
+        Branches become choices by masks. A lane whose pivot fails its test is marked in `rare` instead of leaving the
+        function. Raises ValueError for a line without a counterpart.
         """
         match line:
             case Branch():

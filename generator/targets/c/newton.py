@@ -90,7 +90,10 @@ def print_tangent_functions(joints: Sequence[JointFunctions], methods: Methods, 
 def _print_contour_tangent(
     clearance: Clearance, contour: Contour, dry_slopes_call: SharedFunctionCall, render: Render
 ) -> str:
-    """Return the tangent function of a bearing with a contour, which has dry contact only."""
+    """Return the C function with the derivatives of the force of a bearing with a contour, which has dry contact only.
+
+    dry_slopes_call: the call of the derivatives of the dry contact. render: prints a template.
+    """
     arguments = [symbol.name for symbol in CONTOUR_INPUTS]
     return render(
         "play/contour_tangent.c.jinja",

@@ -51,9 +51,10 @@ class CPrinter(CachedPrinter, C99CodePrinter):
         return self.get_name(find_key(expr))
 
     def parenthesize(self, item: sp.Expr, level: float, strict: bool = False) -> str:
-        """Print an expression, in brackets if it binds less than `level`.
+        """Print an operand, in brackets if its operator binds less than `level`, or equally unless `strict`.
 
-        A decimal number gets none, a fraction of π such as 2*PI/3 does.
+        A positive rational number that is printed without a quotient gets no brackets. A number that is printed as a
+        fraction of π, such as 2*PI/3, always gets them.
         """
         if item.is_Float and (fraction := convert_to_fraction_of_pi(item)) and not fraction.is_one:
             return f"({self._print(item)})"
@@ -85,14 +86,17 @@ class CPrinter(CachedPrinter, C99CodePrinter):
         return f"{expr}.0"
 
     def _print_Rational(self, expr: sp.Rational) -> str:
-        """Print a rational number: as a quotient, or as a double if that is exact."""
+        """Print a rational number: as a quotient, or as a double if the denominator is a power of two.
+
+        Numbers with more than 15 digits above or below the line are rounded to a double.
+        """
         if max(abs(int(expr.p)), int(expr.q)) > 10**15:
             return _print_double(expr)
         p, q = int(expr.p), int(expr.q)
         return repr(p / q) if q & (q - 1) == 0 else f"{p}.0/{q}.0"  # a power of two divides exactly
 
     def _print_Mul(self, expr: sp.Mul) -> str:
-        """Print a product; a coefficient outside binary64 is split into two factors, one on each side.
+        """Print a product; a coefficient outside the range of a double is split into two factors, one on each side.
 
         A fraction of π is printed as such.
         """
@@ -290,7 +294,11 @@ class ValuePrinter:
         return f"{left_side} {test.relation} {bound}" if test.relation else left_side
 
     def _print_factor(self, value: sp.Basic | float) -> str:
-        """Return a factor of a bound as C; a threshold is printed by its name in model.h or by its place."""
+        """Return a factor of a test's bound as a C expression.
+
+        A threshold is printed as the C variable that stores it if it has a place in storage, else as its macro in
+        model.h. Other numbers are printed as literals.
+        """
         if isinstance(value, Threshold):
             return self.printer.get_name(value.place) if value.place else value.name
         return repr(value) if isinstance(value, float) else self.print_expression(value)

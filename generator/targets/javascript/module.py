@@ -44,7 +44,7 @@ def print_equations_script(program: Program) -> str:
     """Return the JavaScript that declares `gudgeonEquations`: the functions and the description that a page needs.
 
     The functions of clearance.c are included, of `dynamics` the lines up to the right-hand side of each row. `joints`
-    contains the locals of `play` with the motion of each joint, `rename_symbols` the joints of each function.
+    contains the locals of `play` with the motion of each joint, `called` the joints in which each function acts.
 
     `functions` of t, q, v, p, as far as `given` names them, return their locals and arrays by name; `numbers` are
     indices in a run's p by the name of the member of p; `bodies` stand in the order of q, `closing` are the indices of
@@ -132,7 +132,7 @@ def find_right_hand_side_locals(dynamics: Kernel, model: Model) -> set[str]:
 
 
 def _map_functions_to_joints(program: Program) -> dict[str, list[str]]:
-    """Return {function of clearance.c: labels of the joints in which it acts}."""
+    """Return {name of a function: labels of the joints with play that call it}, for functions of joints and of laws."""
     joints: defaultdict[str, list[str]] = defaultdict(list)
     for pin in program.joints:
         parts = (f"{part}_{pin.clearance.label}_" for part in ("clearance", "dry", "film"))
@@ -156,7 +156,11 @@ def _name_motion_locals(model: Model, index: int) -> list[str]:
 
 
 def make_play_kernel(model: Model) -> Kernel:
-    """Return the kernel `play`: eccentricity, its rate and angular velocities of each joint with play."""
+    """Return the kernel `play`, which stores the motion in each joint with play as locals.
+
+    They are the eccentricity and its rate in ground axes, both angular velocities, then the further arguments of the
+    joint: the normal of a wall, or the angle of a bearing with a contour.
+    """
     builder = KernelBuilder(model.symbols, "play", ["Joints with play: eccentricity, its rate, angular velocities."])
     for i, clearance in enumerate(model.clearances):
         builder.begin_section(f"{clearance.kind} {clearance.name}")

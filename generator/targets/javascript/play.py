@@ -44,9 +44,10 @@ def print_joint_functions(joint: JointFunctions, members_read: set[str]) -> list
 
 
 def list_motion_symbols(clearance: Clearance) -> tuple[sp.Symbol, ...]:
-    """Return the symbols of the relative motion that a joint's function gets.
+    """Return the symbols of the relative motion that a joint's function gets as arguments.
 
-    A corner at a wall gets the normal, too; a bearing with a contour gets its angle.
+    They are MOTION: eccentricity, its rate and both angular velocities. A corner at a wall also gets the components of
+    the normal, a bearing with a contour the bearing's angle.
     """
     if clearance.wall:
         return (*MOTION, contact.n_x, contact.n_y)

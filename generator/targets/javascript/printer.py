@@ -100,8 +100,9 @@ class JavaScriptPrinter(CPrinter):
 def print_method(kernel: Kernel, members_read: set[str], local_names: Collection[str] | None = None) -> str:
     """Return a kernel as a JavaScript method that returns an object with its locals and arrays by name.
 
-    members_read: a set that gets the read members of p. local_names: the locals to compute; None for all. If a pivot
-    vanishes, the method ends and later values are undefined. Raises ValueError for a line without a counterpart.
+    members_read: a set that gets the read members of p. local_names: the locals to compute and return, without arrays
+    and without `rhs`; None: all locals, the arrays, and `rhs` if the kernel fills it. Only a method with all locals
+    ends early if a pivot vanishes; later values are then undefined. Raises ValueError for a line without a counterpart.
     """
     readable_lines = make_readable(kernel)
     may_end = local_names is None and any(

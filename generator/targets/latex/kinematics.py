@@ -172,7 +172,10 @@ def _describe_constraints(model: Model, notation: Notation) -> list[Block]:
 
 
 def _make_row_equation(row_number: int, row: Row, model: Model, notation: Notation) -> Equation:
-    """Return constraint equation `row_number` as a formula, each term highlighted with its entries and temporaries."""
+    """Return the equation of Φ's component `row_number`, from 1, with highlighting tokens for each term.
+
+    A term has the tokens of the entries of Φ_q to which it contributes and of its temporaries.
+    """
     column_of = {q: i for i, q in enumerate(model.q, 1)}
     term_tokens: dict[sp.Expr, list[str]] = {}
     for part in sp.Add.make_args(row.phi):
@@ -246,7 +249,11 @@ def _describe_jacobian_entries(rows: Sequence[tuple[int, Row]], model: Model, no
     columns = sorted({q for _, row in rows for q in row.phi_q}, key=column_of.__getitem__)
 
     def make_jacobian_entry(row_number: int, row: Row, q: sp.Symbol) -> Name:
-        """Return one entry of Φ_q as a formula, with its token and value if it is not zero."""
+        """Return one entry of Φ_q as a formula; row_number counts from 1.
+
+        An entry that is not zero carries its highlighting token. An entry that is not constant also carries the name
+        under which the page reads its numerical value, phi_q.ROW.COLUMN.
+        """
         name = notation.format_expression(notation.expand_symbols(row.phi_q.get(q, sp.Integer(0))))
         if q not in row.phi_q:
             return name
@@ -342,9 +349,10 @@ def sort_terms_by_rates(value: sp.Expr, model: Model) -> sp.Expr:
 
 
 def _find_equivalent_forms(coefficient: sp.Expr, model: Model) -> Iterator[sp.Expr]:
-    """Yield equivalent forms of a coefficient, collected by axes of a rotating direction or by sine and cosine.
+    """Yield equivalent forms of a coefficient: common factors extracted, then also collected by groups of symbols.
 
-    A coefficient that is not a sum is its only form.
+    Groups are the components of rotating unit vectors, those of all rotating vectors, and sine and cosine of each
+    body's angle. A coefficient that is not a sum is its only form.
     """
     if not coefficient.is_Add:
         yield coefficient

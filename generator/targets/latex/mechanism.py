@@ -40,7 +40,10 @@ def make_mechanism_sections(model: Model, notation: Notation) -> list[Section]:
 
 
 def _describe_bodies(model: Model, values: ValueFormatter) -> list[Block]:
-    """Return the tables of bodies, their sides, shapes, materials and points."""
+    """Return the tables of bodies, the lengths of their `sides`, shapes, densities of materials and points.
+
+    Each body's row carries its highlighting token. Expressions that are too long for a cell follow as equations.
+    """
     rows, points = [], []
     tokens = [[f"body-{name}"] for name in model.scene.mechanism.bodies]
     for body in model.scene.mechanism.bodies.values():
@@ -173,7 +176,10 @@ def _describe_expressions(model: Model) -> list[Block]:
 
 
 def _describe_parameters(model: Model, notation: Notation, values: ValueFormatter) -> list[Block]:
-    """Return the table of parameters, as in the file and in SI units."""
+    """Return the table of the scene's parameters: name, symbol, value as in the file and in SI, unit.
+
+    Expressions that are too long for a cell follow the table as equations.
+    """
     rows = []
     for name in model.scene.parameters:
         entry = model.parameter_table.entries[f"parameters.{name}"]

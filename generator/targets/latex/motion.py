@@ -101,7 +101,10 @@ def _describe_elements(model: Model, notation: Notation) -> list[Block]:
 
 
 def _describe_friction(model: Model, friction: Friction, notation: Notation) -> list[Block]:
-    """Return slip velocity, constraint equation at stick and force at slip of a friction element."""
+    """Return the equations of a friction element: slip velocity v, the constraint v = 0 at stick, the force at slip.
+
+    The constraint has the equations of its Jacobian row J and of its right-hand side γ; the force adds Δg to g.
+    """
     name, slip, v = friction.name, friction.slip, sp.Symbol("v", real=True)
     slip_notation = notation.rename_symbols({v: make_symbol_name("v", name)})
     coordinate_number = {q: k for k, q in enumerate(model.q, 1)}

@@ -100,9 +100,11 @@ def _list_nonzero_entries(model: Model) -> list[NonzeroEntry]:
 
 
 def _print_squares(entries: Sequence[NonzeroEntry], left: int, top: int, css_class: str, cell_side: int) -> list[str]:
-    """Return a group of SVG squares, one for each nonzero entry of a matrix, whose size the page reads from it.
+    """Return an SVG group with one square for each nonzero entry of a matrix.
 
-    left, top: the position of the matrix in pixels. css_class: "entry" or "mass". cell_side: pixels.
+    left, top: the position of the matrix in pixels. css_class: "entry" or "mass". cell_side: side of an entry in
+    pixels; the group passes the side of the squares to the style sheet as --cell. `data-of` of a square is the
+    highlighting token of its entry.
     """
     squares = (
         f'<rect x="{left + cell_side * entry.column}" y="{top + cell_side * entry.row}" '
@@ -115,7 +117,7 @@ def _print_squares(entries: Sequence[NonzeroEntry], left: int, top: int, css_cla
 def _print_body_names(model: Model, top: int, cell_side: int) -> list[str]:
     """Return the SVG of the names of the bodies above their three columns, each with a rule on its left.
 
-    top: the vertical position of the matrix. cell_side: the side of an entry. Long names are shortened.
+    top: the vertical position of the matrix, cell_side: the side of an entry, both in pixels. Long names are shortened.
     """
     parts, max_characters = [], 3 * cell_side // 7  # letters that fit above three columns
     bottom = top + cell_side * len(model.rows)
@@ -128,7 +130,10 @@ def _print_body_names(model: Model, top: int, cell_side: int) -> list[str]:
 
 
 def _print_row_numbers(model: Model, top: int, cell_side: int) -> list[str]:
-    """Return the SVG of the numbers of the constraint equations on the left of a matrix."""
+    """Return SVG texts: the numbers of the constraint equations, from 1, on the left of a matrix.
+
+    top: the vertical position of the matrix, cell_side: the side of an entry, both in pixels.
+    """
     return [
         f'<text class="end" x="25" y="{top + cell_side * r + cell_side // 2 + 3}" '
         f'data-of="{make_row_token(r + 1)}">{r + 1}</text>'
@@ -137,7 +142,10 @@ def _print_row_numbers(model: Model, top: int, cell_side: int) -> list[str]:
 
 
 def _print_character_grid(n_rows: int, n_columns: int, entries: Sequence[NonzeroEntry]) -> tuple[str, ...]:
-    """Return the pattern of a matrix as numbered lines of characters; () if it is too wide."""
+    """Return the pattern of a matrix as lines of characters, FULL for nonzero entries and EMPTY for others.
+
+    Each line begins with the number of its row, from 1. () is returned for more than WIDEST_GRID columns.
+    """
     if n_columns > WIDEST_GRID:
         return ()
     grid = [[EMPTY] * n_columns for _ in range(n_rows)]
@@ -197,7 +205,11 @@ STEP_X, STEP_Y = 120, 34
 def _print_tree_svg(
     reduction_log: ReductionLog, joints: Collection[str], positions: Mapping[str, tuple[float, int]], caption: str
 ) -> str:
-    """Return the tree of bodies as SVG: a box for each body, a curve with the joint's name to its parent."""
+    """Return the tree of bodies as SVG: a box for each body, a curve with the joint's name to its parent.
+
+    joints: names of the file's joints, which get a highlighting token. positions: (row, depth) of each body. caption:
+    label of the picture.
+    """
     centres = {body: (50 + STEP_X * depth, 20 + STEP_Y * row) for body, (row, depth) in positions.items()}
     parts = []
     for link in reduction_log.tree:

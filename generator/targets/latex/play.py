@@ -114,7 +114,7 @@ def describe_onset(joint: JointWithPlay, approach_speed: Name) -> Block:
 
 
 def describe_inner_states(law: Law) -> Iterator[Block]:
-    """Yield the paragraphs on inner states of laws."""
+    """Yield a paragraph for each inner state of a law: its symbol, its meaning, and where it is integrated."""
     for state in law.states:
         message = f" is the {state.meaning}, 0 at each onset, and integrated with the motion while in contact."
         yield make_paragraph(make_symbol_name(state.name), message)

@@ -137,8 +137,8 @@ RATIO, CLIPPED = Name(r"\frac{\dot{\delta}}{\dot{\delta}^{-}}", "(δ̇/δ̇⁻)"
 def name_contact_variables(clearance: Clearance) -> dict[sp.Symbol, Name]:
     """Return {symbol: name} of the contact steps of a joint with play.
 
-    Forces and moments have the index d or f if the joint has both dry contact and film. Corners at walls have their
-    own moments.
+    Forces and moments have the index d (dry) or f (film) if the joint has both. At a corner of a slider at a wall, the
+    moment on the guide has a name for its dry part and one for the total.
     """
     step_names = {**NAMES, ratio: CLIPPED if clearance.clip_ratio else RATIO}
     parts = [part for part in _PARTS if getattr(clearance, "film" if part == "film" else "normal") is not None]

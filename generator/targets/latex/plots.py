@@ -93,12 +93,15 @@ def _compile_kernel(functions: Functions, kernel: Kernel) -> Any:
 def _evaluate_law(
     functions: Functions, call: SharedFunctionCall, parameters: Mapping[str, float], *arguments: Any
 ) -> Any:
-    """Return the results of a law for `arguments` at default parameters."""
+    """Return the results of a law, a number or a tuple, for its variables `arguments` (SI, numbers or arrays).
+
+    parameters: {field: value} of all parameters, of which the law gets those of its call.
+    """
     return _compile_kernel(functions, call.kernel)(*arguments, *(parameters[place.member] for place in call.parameters))
 
 
 def _evaluate_symbol(functions: Functions, parameters: Mapping[str, float], symbol: Any) -> float:
-    """Return the value of a symbol that is a parameter, or of a number."""
+    """Return the value (SI) of a symbol that is a parameter, or of a SymPy number."""
     return (
         parameters[functions.model.parameter_table.find_field_name(symbol)]
         if symbol in functions.model.symbols.info
@@ -109,7 +112,11 @@ def _evaluate_symbol(functions: Functions, parameters: Mapping[str, float], symb
 def _plot_normal_force(
     functions: Functions, joint: JointFunctions, call: SharedFunctionCall, parameters: Mapping[str, float]
 ) -> Plot:
-    """Return the plot of a normal force over the penetration, a curve for each of three ratios δ̇/δ̇⁻: 1, 0, −1."""
+    """Return the plot of a normal force (N) over the penetration (m), a curve for each of three ratios δ̇/δ̇⁻: 1, 0, −1.
+
+    The penetration goes up to MAX_PENETRATION_FRACTION of the clearance. A law that reads the rate itself gets the
+    ratio times FAST m/s.
+    """
     delta = np.linspace(0.0, MAX_PENETRATION_FRACTION, POINTS) * _evaluate_symbol(
         functions, parameters, joint.clearance.pair.c
     )
@@ -148,7 +155,10 @@ def _plot_friction(
 def _plot_film(
     functions: Functions, joint: JointFunctions, call: SharedFunctionCall, parameters: Mapping[str, float]
 ) -> Plot:
-    """Return the plot of both film forces over the eccentricity ratio, for rotation at 1 rad/s without squeeze."""
+    """Return the plot of the film forces F_r and F_t (N) over the eccentricity ratio from 0 to 0.9.
+
+    Both surfaces rotate at 1 rad/s and the journal rests, so that w_n = 0 and w_t = −ε/2 (in clearances per second).
+    """
     epsilon = np.linspace(0.0, 0.9, POINTS)
     radial, tangential, *_ = _evaluate_law(functions, call, parameters, epsilon, 0.0 * epsilon, -0.5 * epsilon)
     curves = (

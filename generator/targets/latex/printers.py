@@ -182,7 +182,7 @@ class TexPrinter(_BodyOrder, LatexPrinter):
         return str(super()._print_Pow(expr))
 
     def _print_Rational(self, expr: sp.Rational) -> str:
-        """Print a rational number."""
+        """Print a rational number: a whole number as it is, others as a small fraction."""
         if expr.q == 1:
             return str(expr.p)
         return rf"{'- ' if expr.p < 0 else ''}\tfrac{{{abs(expr.p)}}}{{{expr.q}}}"

@@ -152,7 +152,7 @@ GAP = 0.025  # between two columns
 def render_document(document: Document, suffix: str, **page_parts: str) -> str:
     """Return the document in the format of a file's suffix: "tex", "txt" or "html", without trailing spaces.
 
-    page_parts: further HTML for places in the frame of a page.
+    page_parts: further HTML by its name in the template, such as `head`; for "html" only.
     """
     text = _get_template_environment().get_template(f"equations.{suffix}.jinja").render(document=document, **page_parts)
     return "\n".join(line.rstrip() for line in text.splitlines()).strip("\n") + "\n"

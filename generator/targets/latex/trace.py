@@ -200,9 +200,10 @@ class _TokenCollector:
         return ""
 
     def _name_dynamics_value(self, key: Key) -> str:
-        """Return the name of a value in `dynamics`: part of a right-hand side, multiplier, or right-hand side of a row.
+        """Return the name under which a page finds a value that `dynamics` stores; "" for values that it does not show.
 
-        "" is returned for other values.
+        key: the target of the statement, a local or an array element. Multipliers are "lambda.N" with the number N of
+        the constraint equation from 1. Right-hand sides are "rhs.NAME" with the name NAME of the local.
         """
         if key in self.computed:
             return f"rhs.{key}"

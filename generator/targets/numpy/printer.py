@@ -78,7 +78,10 @@ class NumPyPrinter(CachedPrinter, PythonCodePrinter):
         return fraction.format("np.pi") if fraction else repr(float(expr))
 
     def parenthesize(self, item: sp.Expr, level: float, strict: bool = False) -> str:
-        """Print an expression, in brackets if it binds less than `level`; a fraction of π counts as one number."""
+        """Print an operand, in brackets if its operator binds less than `level`, or equally unless `strict`.
+
+        A number that is printed as a fraction of π, such as 2*np.pi/3, always gets brackets.
+        """
         if item.is_Float and (fraction := convert_to_fraction_of_pi(item)) and not fraction.is_one:
             return f"({self._print(item)})"
         return super().parenthesize(item, level, strict)
@@ -117,7 +120,7 @@ class NumPyPrinter(CachedPrinter, PythonCodePrinter):
         return f"{self.parenthesize(base, 70)}**{self.parenthesize(exponent, 70)}"
 
     def _print_table_function(self, expr: sp.Expr) -> str:
-        """Print a function of the table of functions; minima and maxima of two arguments each."""
+        """Print a function of the table of functions; a minimum or maximum as nested calls of two arguments."""
         name, arguments = f"np.{CLASSES[type(expr)].in_numpy}", list(map(self._print, expr.args))
         if isinstance(expr, (sp.Max, sp.Min)):
             return reduce(lambda first, other: f"{name}({first}, {other})", arguments)
@@ -140,9 +143,9 @@ class NumPyPrinter(CachedPrinter, PythonCodePrinter):
         return f"(np.abs({self._print(expr.args[0])}) + 1e-150)"
 
     def _print_Select(self, expr: sp.Expr) -> str:
-        """Print a choice by the sign of its first argument.
+        """Print Select(branch, a, b), a choice by a sign: b for branch < 0, else a.
 
-        The name of its variable is printed if `of.branches` holds the expression.
+        The name of its variable is printed if `of.branches` contains the expression.
         """
         if expr in self.of.branches:
             return self.get_name(self.of.branches[expr])
@@ -227,7 +230,10 @@ class LinePrinter:
                 return str(self.printer.doprint(value))
 
     def print_test(self, test: Test) -> str:
-        """Return a comparison as Python; a test of a value itself checks that it is positive and finite."""
+        """Return a comparison as Python; a test without a relation is its value.
+
+        A test of a value itself checks that the value, or its magnitude if that is compared, is positive and finite.
+        """
         value = self.print_expression(test.value)
         left_side = f"np.abs({value})" if test.compares_magnitude else value
         if test.is_relative_to_value:

@@ -162,7 +162,7 @@ def build_batch_dataset(batch: Batch, names: Iterable[str] | str = (), part: str
     if check_text(part, "part", "the name of a table") != netcdf.SERIES:
         variables = {
             variable.name: ("row", variable.values, variable.attributes)
-            for variable in _read_part_table(batch, part).variables
+            for variable in _read_table_group(batch, part).variables
         }
         return xarray.Dataset(variables)
     failure_texts = dict((failure.run, str(failure.error)) for failure in batch.failures)
@@ -198,21 +198,21 @@ def _collect_sample_variables(batch: Batch, names: Iterable[str]) -> dict[str, A
     }
 
 
-def _read_part_table(batch: Batch, part: str) -> Table:
-    """Return one of netcdf.PARTS of all runs as one table, with the run of each row. Raises UnknownNameError."""
-    if part not in netcdf.PARTS:
-        raise UnknownNameError(f"a batch has no part {part!r}", hint=f"there are: series, {', '.join(netcdf.PARTS)}")
-    if batch.states is None and part in ("impacts", "events"):
-        filled_tables = [(i, table) for i, table in build_stored_series_tables(batch) if table.group == part]
+def _read_table_group(batch: Batch, group: str) -> Table:
+    """Return one table of all runs from netcdf.PARTS, with a column of run numbers. Raises UnknownNameError."""
+    if group not in netcdf.PARTS:
+        raise UnknownNameError(f"a batch has no part {group!r}", hint=f"there are: series, {', '.join(netcdf.PARTS)}")
+    if batch.states is None and group in ("impacts", "events"):
+        filled_tables = [(i, table) for i, table in build_stored_series_tables(batch) if table.group == group]
     else:
         begun_runs = [(i, run) for i in range(len(batch)) if (run := batch.partial(i)) is not None]
         filled_tables = [
             (i, table)
             for i, run in begun_runs
             for table in netcdf.build_tables(run)
-            if table.group == part and table.length
+            if table.group == group and table.length
         ]
-    return build_long_table(part, filled_tables, {})
+    return build_long_table(group, filled_tables, {})
 
 
 def _iterate_run_variables(batch: Batch, runs: Mapping[int, Result]) -> Iterator[Variable]:

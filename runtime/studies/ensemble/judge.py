@@ -261,9 +261,10 @@ def _estimate_trials(p: float, fractions: Sequence[Array], max_trials: int) -> t
 
 
 def _compute_mean_covariance(a: Array, b: Array) -> float:
-    """Return the covariance of the means of two arrays from entries with the same index, both finite.
+    """Return the covariance of the means of two arrays, each mean over the finite entries of its own array.
 
-    It is 0 for fewer than two such entries.
+    It is n cov/(n_a n_b): n pairs of entries with the same index are both finite and have the sample covariance cov;
+    n_a, n_b: numbers of finite entries. Lengths may differ. It is 0 for fewer than two such pairs.
     """
     counts, length = (np.isfinite(a).sum(), np.isfinite(b).sum()), min(len(a), len(b))
     is_common = np.isfinite(a[:length]) & np.isfinite(b[:length])
