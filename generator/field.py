@@ -59,10 +59,10 @@ class Bound(NamedTuple):
     why: str = ""  # text of the message, "a mass is positive"; {name} is the field's name. "": its meaning
 
     def format_reason(self, field: Field, owner_name: str) -> str:
-        """Return the reason that an error gives for a number that violates the bound.
+        """Return the text that an error message gives as the reason for a value that violates the bound.
 
-        It is the bound's own text with the name of the field, or else the meaning of the field. `owner_name` names the
-        law or mapping.
+        It is `why` with {name} replaced by the field's name. Without `why` it is the meaning of the field, followed by
+        `owner_name`, the name of the law or mapping, in parentheses.
         """
         return self.why.format(name=field.name) if self.why else f"{field.meaning} ({owner_name})"
 
@@ -114,12 +114,12 @@ class Field:
 
     @property
     def any_dimension(self) -> bool:
-        """Return whether the unit is not checked."""
+        """Return whether the field's dimension is not fixed (`dimension` is None), so that its unit is not checked."""
         return self.dimension is None
 
     @property
     def default_option(self) -> str | bool:
-        """Return the default of a word, a flag or a body."""
+        """Return the default of a field that is a word, a flag or a body; any other default fails an assertion."""
         assert isinstance(self.default, (str, bool)), self.name
         return self.default
 
@@ -180,38 +180,39 @@ def vector(name: str, meaning: str, dimension: Dimension | None, **more: Any) ->
 def word(
     name: str, meaning: str, words: Iterable[str], default: str, sources: Mapping[str, str] | None = None
 ) -> Field:
-    """Declare a choice of some words; `sources` maps a word to its source in the literature.
+    """Declare an optional field whose value is one of some words.
 
-    None: no word has one.
+    `words`: the allowed ones; `default`: the word if the key is missing. `sources` maps a word to its source in the
+    literature; None: no word has one.
     """
     return Field(name, WORD, meaning, values=tuple(words), default=default, sources=sources)
 
 
 def flag(name: str, meaning: str) -> Field:
-    """Declare a flag, false by default."""
+    """Declare an optional field that is true or false, false by default."""
     return Field(name, FLAG, meaning, values=(False, True), default=False)
 
 
 def body_or_ground(name: str, meaning: str) -> Field:
-    """Declare the name of a body or the ground, which is the default."""
+    """Declare an optional field that holds the name of a body or "ground"; "ground" is the default."""
     return Field(name, BODY, meaning, default="ground")
 
 
 def declare_entry_name(
     names: str, name: str, meaning: str, required: bool = True, either: str = "", otherwise: str = ""
 ) -> Field:
-    """Declare a name of an entry of the section `names`; `either` is a key that may stand in its place.
+    """Declare a field that holds the name of an entry of the section `names`, such as a name of `bearings`.
 
-    `otherwise` says what applies if the key is missing.
+    `either`: another key that may be given instead, "" for none. `otherwise`: what applies if the key is missing.
     """
     return Field(name, NAME, meaning, names=names, required=required, either=either, otherwise=otherwise)
 
 
 def record(name: str, meaning: str, *fields: Field, required: bool = False) -> Field:
-    """Declare a mapping with known keys."""
+    """Declare a field that holds a mapping with the keys `fields` and no others; it is optional by default."""
     return Field(name, RECORD, meaning, fields=fields, required=required)
 
 
 def mapping(name: str, meaning: str, entry: Field, **more: Any) -> Field:
-    """Declare a mapping of user-defined names, each with an `entry`."""
+    """Declare a field that holds a mapping from names that the user chooses to values; `entry` declares each value."""
     return Field(name, MAPPING, meaning, entry=entry, **more)

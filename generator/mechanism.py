@@ -34,7 +34,10 @@ class Quantity:
 
     @property
     def is_zero(self) -> bool:
-        """Return whether the number is a literal zero and not `is_always_parameter`; no parameter is such a zero."""
+        """Return whether the value is a number 0 written in the file, so that its terms vanish from the equations.
+
+        A quantity with `is_always_parameter` and an expression of parameters are never such a zero.
+        """
         return not self.is_always_parameter and isinstance(self.value, Number) and self.value.value == 0.0
 
 
@@ -42,17 +45,17 @@ Vector = tuple[Quantity, Quantity]
 
 
 def make_dependent_quantity(address: str, source: Quantity, location: Location) -> Quantity:
-    """Return a quantity at an address whose value is that of another quantity, unless a run sets it.
+    """Return a quantity at `address` whose value is that of the quantity `source`, unless a run sets it.
 
-    It has the other quantity's dimension and is located at `location`.
+    It has the dimension of `source` and is located at `location` in the file.
     """
     return Quantity(address, Name(source.address), source.dimension, location, (source,))
 
 
 def make_onset_value(force: Quantity) -> Quantity:
-    """Return the value of a contact force, an expression of the penetration, at δ = 0 as a quantity of its own.
+    """Return the value at δ = 0 of a contact force, which is an expression of the penetration, as a quantity.
 
-    Its address ends with "_at_0".
+    Its address is that of the force with "_at_0" appended. It is a run-time parameter even if it is 0.
     """
     value = replace_names(force.value, {"delta": Number(0.0, "0")})
     return Quantity(f"{force.address}_at_0", value, force.dimension, force.where, is_always_parameter=True)
@@ -231,7 +234,7 @@ class Contact:
 
     @property
     def laws(self) -> tuple[LawUse, ...]:
-        """Return the laws of the contact."""
+        """Return the laws of the contact that are present, in the order normal, friction, film, mixed."""
         return tuple(use for use in (self.normal, self.friction, self.film, self.mixed) if use is not None)
 
 
@@ -316,7 +319,10 @@ def is_massless(mechanism: Mechanism) -> bool:
 
 
 def iterate_quantities(value: object) -> Iterator[Quantity]:
-    """Yield all quantities in a frozen value and in its parts, recursively; curves are skipped."""
+    """Yield all quantities in a frozen value (dataclass, mapping, tuple or list) and in its parts, recursively.
+
+    Curves and the operands of a quantity are not visited.
+    """
     if isinstance(value, Quantity):
         yield value
         return

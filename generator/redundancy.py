@@ -26,11 +26,11 @@ from gudgeon.model.compiled import Array
 
 
 def find_redundancy(model: Model, source: KernelSource) -> Redundancy:
-    """Return the constraint equations of a scene, its joints with play open, that are redundant everywhere.
+    """Return the constraint equations of the scene that are redundant at all tested configurations, and their owners.
 
-    The rank is that at the start or at the nearby configuration where it is largest. Empty if no equation is redundant,
-    or if the linkage does not assemble, which the run reports. Raises BadValueError unless the degrees of freedom are
-    those that the file expects.
+    Equations of joints with play do not count. The rank is the largest one at the start and at configurations near it.
+    The result is empty if no equation is redundant, or if the linkage does not assemble, which the run reports. Raises
+    BadValueError if the file gives the degrees of freedom as a number and those of the closed linkage differ.
     """
     if not model.rows:
         return Redundancy()
@@ -69,8 +69,9 @@ def find_redundancy(model: Model, source: KernelSource) -> Redundancy:
 def check_mass_matrix(model: Model, source: KernelSource) -> None:
     """Raise BadValueError if bodies without moment of inertia can turn freely, so that the mass matrix is singular.
 
-    The motion is tested at the start and near it; a motion that constraints determine needs no inertia. Nothing is
-    raised if the linkage does not assemble.
+    That is the case if at the start and at all tested configurations near it some motion moves no mass. Nothing is
+    tested if all moments of inertia are nonzero or the scene has no degree of freedom. Nothing is raised if the linkage
+    does not assemble.
     """
     bodies = model.scene.mechanism.bodies
     bodies_without_inertia = {
@@ -109,8 +110,8 @@ def check_mass_matrix(model: Model, source: KernelSource) -> None:
 def _find_motion_of_least_mass(phi_q: Array, has_mass: NDArray[np.bool_]) -> tuple[float, Array]:
     """Return (fraction, motion (n,)) of the motion that satisfies the constraints and moves the least mass.
 
-    phi_q: the scaled Jacobian (rows, n); has_mass: mask (n,) of coordinates with mass. The motion has norm 1; the
-    fraction is the norm of its part in coordinates with mass, 0 if some motion moves no mass.
+    phi_q: the scaled Jacobian (rows, n), possibly without rows; has_mass: mask (n,) of coordinates with mass. The
+    motion has norm 1. The fraction is the norm of its part in coordinates with mass; 0: some motion moves no mass.
     """
     _, singular_values, right_vectors = (
         np.linalg.svd(phi_q) if len(phi_q) else (None, np.zeros(0), np.eye(len(has_mass)))
@@ -127,8 +128,8 @@ def _find_motion_of_least_mass(phi_q: Array, has_mass: NDArray[np.bool_]) -> tup
 def _select_redundant_rows(rows: Sequence[Row], matrix: Array, rank_of_matrix: int) -> Redundancy:
     """Select independent constraint equations, drives first, then in file order; return the others as redundant.
 
-    matrix: the Jacobian (rows, n), of rank `rank_of_matrix`. Pivoting is a Gram–Schmidt orthogonalization of its rows.
-    The result also names the owners of all rows whose multipliers are undetermined.
+    `matrix`: the Jacobian (rows, n) of the equations `rows`, of rank `rank_of_matrix`. The result has the names of the
+    redundant equations, and the joints and drives whose multipliers are undetermined. The method is Gram–Schmidt.
     """
     order = sorted(range(len(rows)), key=lambda r: (rows[r].kind != "drive", r))
     basis = np.zeros((0, matrix.shape[1]))

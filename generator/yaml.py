@@ -54,8 +54,9 @@ class Events:
     def join_pieces(self, event: Any, in_mapping: bool) -> Any:
         """Return `event`, a value in brackets, joined with the texts after it that belong into its parentheses.
 
-        The joined events are consumed, and `event` is changed. It is returned as it is if its parentheses match, or if
-        those of a list item do not match after all pieces: it may then be a broken component of a vector.
+        `in_mapping`: the value is in a mapping in braces, where each further piece is a key without value. The joined
+        events are consumed and `event` is changed. It is returned unchanged if its parentheses match. A list item is
+        also unchanged if its parentheses stay open after all pieces: it may be a broken component of a vector.
         """
         if not _is_plain_scalar(event) or _count_open_parentheses(event.value) <= 0:
             return event
@@ -80,7 +81,7 @@ class Events:
         return event
 
     def _peek_event(self, index: int) -> Any:
-        """Return the event after `index` others without consuming it; None at the end."""
+        """Return the event after `index` further ones without consuming it; 0 is the next event. None at the end."""
         while len(self._ahead) <= index:
             try:
                 self._ahead.append(next(self._events))
@@ -145,7 +146,7 @@ class Map(dict[str, Any]):
 
     @staticmethod
     def make_map(items: Any, location: Location) -> Map:
-        """Return a mapping of `items`, as `dict` accepts them, with its location."""
+        """Return a mapping of `items` (a mapping, or pairs of key and value), with its location in the file."""
         node = Map(items)
         node.where = location
         return node
@@ -177,7 +178,7 @@ class Items(list[Any]):
 
     @staticmethod
     def make_items(items: Any, location: Location) -> Items:
-        """Return a sequence of `items` with its location."""
+        """Return a sequence of `items` with its location in the file."""
         node = Items(items)
         node.where = location
         return node
@@ -189,10 +190,11 @@ Node: TypeAlias = Text | Map | Items
 def parse_yaml(
     data: bytes, file: str, duplicate_errors: list[InputError] | None = None, expected_format: str = "gudgeon/1"
 ) -> Map:
-    """Return the mapping that a file contains, as a tree of Map, Items and Text.
+    """Return the mapping that a file contains, as a tree of Map, Items and Text with locations.
 
-    `expected_format` is for messages. Raises NotYamlError, LimitError, or UnknownKeyError for keys that are
-    given twice; these errors are appended to `duplicate_errors` instead, if it is given.
+    `expected_format` is for messages. Raises LimitError for too many bytes, levels or nodes, NotYamlError for other
+    contents, and UnknownKeyError for keys that are given twice. With `duplicate_errors` these errors are appended to
+    that list instead of raised.
     """
     if len(data) > MAX_BYTES:
         raise LimitError(f"a file of {len(data)} bytes", Location(file, 1, 1), f"expected at most {MAX_BYTES}")
@@ -282,6 +284,7 @@ class _Composer:
     """Compose the tree from ruamel's events while counting nodes and depth."""
 
     def __init__(self, text: str, file: str) -> None:
+        """Begin before the first event of `text`; `file` is the name for locations."""
         self.events = Events(YAML(typ="safe", pure=True).parse(text), text)
         self.file = file
         self.anchors: dict[str, Node] = {}
@@ -290,7 +293,7 @@ class _Composer:
         self.duplicates: list[InputError] = []
 
     def compose_document(self) -> Node | None:
-        """Return the root of the only document; None if there is none. Raises NotYamlError at a second document."""
+        """Return the root node of the document; None if there is none. Raises NotYamlError at a second document."""
         root, documents = None, 0
         for event in self.events:
             if isinstance(event, DocumentStartEvent):
@@ -304,7 +307,7 @@ class _Composer:
         return root
 
     def find_location(self, event: Any, shift: int = 0) -> Location:
-        """Return the location of an event's begin, `shift` columns further."""
+        """Return the location at which an event begins, moved to the right by `shift` columns."""
         return Location(self.file, event.start_mark.line + 1, event.start_mark.column + 1 + shift)
 
     def find_location_after_key(self, key: Any) -> Location:
@@ -312,7 +315,7 @@ class _Composer:
         return Location(self.file, key.end_mark.line + 1, key.end_mark.column + 2)
 
     def count_nodes(self, n_nodes: int, event: Any) -> None:
-        """Add a number of nodes to the count. Raises LimitError at `event` if there are too many."""
+        """Add `n_nodes` to the number of nodes read so far. Raises LimitError at `event` if there are too many."""
         self.nodes += n_nodes
         if self.nodes > MAX_NODES:
             message = (
@@ -321,9 +324,10 @@ class _Composer:
             raise LimitError(message, self.find_location(event), f"expected at most {MAX_NODES} values")
 
     def compose_node(self, event: Any, depth: int) -> Node:
-        """Return the node that begins with `event`; a node with an anchor is stored for its aliases.
+        """Return the node that begins with `event`, a Text, Items or Map; with an anchor it is stored for aliases.
 
-        Raises LimitError for too many levels or nodes, NotYamlError for a tag and what the format does not allow.
+        `depth`: its level, 0 for the root. Raises LimitError for too many levels or nodes, NotYamlError for a tag and
+        for what the format does not allow.
         """
         if isinstance(event, AliasEvent):
             return self.resolve_alias(event)
@@ -376,10 +380,10 @@ class _Composer:
         return items
 
     def compose_mapping(self, event: Any, depth: int) -> Map:
-        """Return the mapping that begins with `event`; errors of repeated and merge keys go to `duplicates`.
+        """Return the mapping that begins with `event`; errors of repeated and merge keys are appended to `duplicates`.
 
-        Of a repeated key the first value counts. Entries of a merge key are merged as intended. Raises NotYamlError for
-        a key that is not a scalar.
+        Of a repeated key the first value counts. Entries of the merge key "<<" are added for keys that the mapping
+        lacks. `depth`: the level of the mapping. Raises NotYamlError for a key that is not a scalar.
         """
         node, merged_entries = Map.make_map((), self.find_location(event)), dict[str, Any]()
         while not isinstance(key_event := next(self.events), MappingEndEvent):

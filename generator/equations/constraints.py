@@ -49,9 +49,10 @@ class Constraints(Freezable):
         self.drive_angles: dict[str, tuple[sp.Symbol, sp.Symbol, sp.Symbol]] = {}
 
     def derive_joint_rows(self, joint: Joint) -> list[Row]:
-        """Return the constraint equations of a joint in the order of its type, named "<joint>.<row>".
+        """Return the constraint equations of a joint, named "<joint>.<row>", in the order of its type's `row_names`.
 
-        Further bodies of the type, such as the carrier of a gear, are differentiated too.
+        Φ_q contains both bodies and further bodies of the type, such as the carrier of a gear; the ground has no
+        coordinates.
         """
         kind = joint_types()[joint.kind]
         first, second = self._point(joint.first), self._point(joint.second)
@@ -67,7 +68,7 @@ class Constraints(Freezable):
         ]
 
     def derive_drive_rows(self, drive: Drive) -> list[Row]:
-        """Return the constraint equation of a drive, in a list of one: the driven quantity less f(t)."""
+        """Return the constraint equation of a drive in a list of one: Φ = driven quantity − f(t), in m or rad."""
         quantity, bodies, unit = self._find_driven_quantity(drive)
         phi = quantity - self.define_drive_value(drive)
         return [self._derive_row(drive.name, drive.name, "drive", unit, phi, bodies)]
@@ -77,16 +78,18 @@ class Constraints(Freezable):
         return self.geometry.find_point(ref)
 
     def _find_coordinate_pairs(self, bodies: list[BodySymbols]) -> list[tuple[sp.Symbol, sp.Symbol]]:
-        """Return the pairs (coordinate, velocity) of the bodies that a constraint equation may depend on.
+        """Return the pairs (coordinate, velocity) by which an equation between the `bodies` is differentiated.
 
-        TreeConstraints returns those of the tree.
+        In absolute coordinates these are x, y and θ of each body; the subclass TreeConstraints returns tree
+        coordinates.
         """
         return [(q, v) for body in bodies for q, v in zip(body.q, body.v, strict=True)]
 
     def _find_driven_quantity(self, drive: Drive) -> tuple[sp.Expr, list[BodySymbols], str]:
-        """Return the quantity that a drive prescribes, the bodies on which it depends, and its unit.
+        """Return (quantity, bodies, unit): what a drive prescribes, the bodies on which it depends, and "m" or "rad".
 
-        It is a distance of two points, a coordinate of a body, or an angle, which may be relative to a reference body.
+        It is a distance of two points, a coordinate of a body, or the angle of a body, less that of its reference body
+        if any.
         """
         if drive.kind == "distance":
             first, second = (self._point(ref) for ref in drive.points)
@@ -126,9 +129,10 @@ class Constraints(Freezable):
         return length
 
     def define_drive_value(self, drive: Drive) -> sp.Symbol:
-        """Return the symbol of a drive's f(t).
+        """Return the symbol of the prescribed function f(t) of a drive.
 
-        At the first call f, f′ and f″ are defined as symbols with rules, and stored in `drive_angles`.
+        At the first call f, f′ and f″ are defined as symbols with rules for the derivatives by t, and stored in
+        `drive_angles`.
         """
         if drive.name in self.drive_angles:
             return self.drive_angles[drive.name][0]
@@ -157,7 +161,8 @@ class Constraints(Freezable):
     def _derive_row(self, name: str, owner: str, kind: str, unit: str, phi: sp.Expr, bodies: list[BodySymbols]) -> Row:
         """Return the constraint equation `phi` = 0 with Φ_q, Φ_q q̇, ν and γ by differentiation.
 
-        `bodies`: those that phi depends on; γ is expanded if that has fewer operations.
+        `name`, `owner` (joint or drive), `kind` and `unit` are stored in the row. `bodies`: those on which phi depends.
+        γ is expanded unless that needs more operations.
         """
         diff, t = self.symbols.differentiate, self.t
         coordinate_pairs = self._find_coordinate_pairs(bodies)
@@ -177,7 +182,7 @@ class Constraints(Freezable):
 def has_jumping_rate(drive: Drive) -> bool:
     """Return whether the rate of a drive may jump: its expression has switching points or a root of a square.
 
-    The linkage then follows by an impulse. Results are cached.
+    At such a jump the velocities of the linkage jump too, by an impulse. Results are cached.
     """
     if not WITH_SWITCHING_POINTS.isdisjoint(list_functions(drive.value.value)):
         return True
@@ -200,10 +205,10 @@ _SWITCHING_CLASSES = (
 
 
 def _differentiate_by_time(value: sp.Expr, t: sp.Symbol) -> sp.Expr:
-    """Return d/dt of an expression; at a switching point of min, max and abs it is the rate before the point.
+    """Return d/dt of the expression of a drive, without Dirac deltas: a jump of the value contributes no rate.
 
-    No impulse arises there: Dirac deltas are dropped. The rate of max and min is that of one argument, also where
-    several are equal.
+    Only the active branch of min, max, abs and `where` is differentiated. Where several arguments of max or min are
+    equal, the rate is that of one of them.
     """
     if value.has(*_SWITCHING_CLASSES):
         value = value.replace(Select, lambda branch, a, b: Select(branch.replace(sp.sign, BranchSign), a, b))

@@ -72,9 +72,9 @@ def iterate_contact_points(
 
 
 def _make_bearing_symbols(bearing: Bearing, parameter_table: ParameterTable) -> PairSymbols:
-    """Return radii, clearance, length and elastic constants of a bearing and its journal as parameters.
+    """Return radii, clearance, length and elastic constants of a bearing and its journal, as symbols of parameters.
 
-    The radius of the journal is derived: that of the bearing less the clearance.
+    The radius R_j of the journal is a derived parameter: the bearing's radius R_i less the clearance c.
     """
     R_i, c = (
         parameter_table.get_or_add_parameter(bearing.radius),
@@ -91,7 +91,7 @@ def _make_bearing_symbols(bearing: Bearing, parameter_table: ParameterTable) -> 
 
 
 def _make_elastic_constants(dimensions: Bearing | Guide, parameter_table: ParameterTable) -> list[sp.Expr]:
-    """Return E_i, ν_i, E_j, ν_j of bearing and journal (or guide and slider) as parameters."""
+    """Return [E_i, ν_i, E_j, ν_j] of bearing i and journal j (or guide and slider) as parameters; E in Pa."""
     materials = dimensions.bearing_material, dimensions.journal_material
     return [
         parameter_table.get_or_add_parameter(material.numbers[key]) for material in materials for key in ("E", "nu")
@@ -103,8 +103,9 @@ def _make_corner_points(
 ) -> Iterator[ContactPoint]:
     """Yield the four corners of a slider in its guide as contact points, each with its wall.
 
-    Parameters for their distances from the slider's point are derived here; labels differ from names of joints. Without
-    a corner radius in `guide` the radius is 0.
+    The distances of the corners from the slider's point become derived parameters. Names in code are
+    "<joint>_<corner>", with underscores appended until no joint has the name. Without a corner radius in `guide` the
+    radius is 0.
     """
     first = geometry.find_point(joint.first)
     a, b, c = (
@@ -138,10 +139,10 @@ def _make_corner_points(
 def _find_axis_in_slider(
     fields: JointFields, parameter_table: ParameterTable, joint_name: str
 ) -> tuple[sp.Expr, sp.Expr]:
-    """Return the components of the guide's axis in the slider's frame.
+    """Return (cos, sin) of the guide's axis in the slider's frame, with the slider at the joint's prescribed angle.
 
-    The slider is at the angle that the joint prescribes; the components are (1, 0) if that angle is the axis' own.
-    Otherwise they are derived parameters, named after `joint_name`.
+    The result is (1, 0) if the prescribed angle is that of the axis. Otherwise the components are derived parameters
+    with `joint_name` in their names.
     """
     axis_angle = fields.derive_vector_angle("axis")
     slider_angle = fields.quantity("angle", axis_angle)

@@ -53,9 +53,10 @@ def make_part_symbol(symbol: sp.Symbol, part: str) -> sp.Symbol:
 
 
 def make_gap_equations(clearance: Clearance) -> list[Assignment]:
-    """Return the equations of e, the normal n, the penetration δ and their rates, in the order of their use.
+    """Return the equations of the gap in order: e = |(e_x, e_y)|, its direction n, penetration δ = e − c, δ̇ and ė_t.
 
-    t is n turned by +90°. A bearing with a contour and a slider's corner at a wall have equations of their own.
+    ė_t is the component of ė along t, which is n turned by +90°. A bearing with a contour and a slider's corner at a
+    wall have other equations.
     """
     if clearance.contour:
         return _make_contour_gap(clearance, clearance.contour)
@@ -74,9 +75,9 @@ def make_gap_equations(clearance: Clearance) -> list[Assignment]:
 def _make_contour_gap(clearance: Clearance, contour: Contour) -> list[Assignment]:
     """Return the equations of the gap of a bearing with a contour: δ = e − c − w(β), β the angle of e in it.
 
-    An elastic force −U′(δ) has the energy U if it acts along the gradient of δ. By e that gradient is u − w′/e t, with
-    u along e and t across it; its length is `steep`. By the bearing's angle it is w′. So n is that direction, `slant` =
-    e steep, and the bearing takes the moment −F_n w′ of a force through the journal's centre.
+    w is the depth beyond the circle. The normal n is along the gradient of δ by e, u − w′/e t, whose length is `steep`
+    = `slant`/e; u is along e and t across it. A force −F_n times that gradient is conservative if F_n depends on δ
+    alone; the bearing then also takes the moment −w′ F_n.
     """
     return [
         Assignment(e, sp.sqrt(e_x**2 + e_y**2)),
@@ -112,15 +113,15 @@ def _make_wall_gap(clearance: Clearance, wall: Wall) -> list[Assignment]:
 
 
 def make_penetration_equation(clearance: Clearance) -> Assignment:
-    """Return the equation of the penetration δ of a joint; without a contour it depends on e alone."""
+    """Return the equation of the penetration δ of a joint; without a contour it reads only e and the clearance c."""
     return next(step for step in make_gap_equations(clearance) if step.symbol == delta)
 
 
 def make_contour_gap_equations(clearance: Clearance) -> list[Assignment]:
-    """Return the equations of δ, δ̇ and ė_t of a contour in directions along e and across it.
+    """Return the equations of δ, δ̇ and ė_t of a bearing with a contour, by components along e and across it.
 
-    `de_n` and `across` are the rates of e in these directions, `worn` and `worn_slope` the depth w and its derivative
-    w′.
+    `de_n` and `across` are the rates of e in these directions, `worn` and `worn_slope` the contour's depth w and w′.
+    `lean` = w′/e and `steep` = √(1 + lean²), the length of the gradient of δ, are defined on the way.
     """
     return [
         Assignment(delta, e - clearance.pair.c - worn),
@@ -132,9 +133,10 @@ def make_contour_gap_equations(clearance: Clearance) -> list[Assignment]:
 
 
 def make_lever_arm_equations(clearance: Clearance) -> list[Assignment]:
-    """Return the equations that precede the laws of a dry contact: lever arms of the contact point and slip v_t.
+    """Return the equations before the laws of a dry contact: lever arms a_i, a_j of the contact point, and slip v_t.
 
-    The contact point is at mid-penetration. With `clip_ratio` the clipped ratio of velocities follows.
+    The contact point is at mid-penetration: a_i = R_i + δ/2, a_j = R_j − δ/2, v_t = ė_t + ω_j a_j − ω_i a_i. With
+    `clip_ratio` the equation of `ratio` follows, δ̇/δ̇⁻ clipped to [−1, 1].
     """
     dimensions = clearance.pair
     clipped = [Assignment(ratio, sp.Max(-1, sp.Min(1, deltadot / stored)))] if clearance.clip_ratio else []
@@ -150,25 +152,26 @@ def make_lever_arm_equations(clearance: Clearance) -> list[Assignment]:
 
 
 def make_contour_normal_force(clearance: Clearance) -> list[Assignment]:
-    """Return the equation of the normal force of a contour, on which friction depends.
+    """Return the equation of the normal force of a contour, F_N = steep F_n, on which friction depends.
 
-    The list is empty without a contour.
+    F_n is the result of the normal law. The list is empty without a contour.
     """
     return [Assignment(F_N, steep * _make_symbol("F_n"))] if clearance.contour else []
 
 
 def resolve_contour_force(F_n: sp.Expr, friction_force: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
-    """Return the force of a contour along e and across it.
+    """Return the force on the journal of a bearing with a contour, as components (along e, across e).
 
-    −F_n acts along the gradient of δ, `friction_force` across it.
+    `F_n`: the result of the normal law; the force −F_n times the gradient of δ acts along n. `friction_force`: the
+    force along t.
     """
     return -F_n + friction_force * lean / steep, F_n * lean + friction_force / steep
 
 
 def make_dry_moment_equations(clearance: Clearance) -> list[Assignment]:
-    """Return the equations of the moments of the dry contact about the centres of bearing i and journal j.
+    """Return the equations of the moments of the dry contact: M_i = −a_i F_t on the bearing, M_j = a_j F_t.
 
-    With a contour the bearing takes −w′ F_n in addition.
+    M_i acts on the bearing and M_j on the journal, each about its own centre. With a contour −w′ F_n is added to M_i.
     """
     tangential = make_part_symbol(F_along_t, "dry")
     moment = -worn_slope * _make_symbol("F_n") if clearance.contour else 0
@@ -179,15 +182,18 @@ def make_dry_moment_equations(clearance: Clearance) -> list[Assignment]:
 
 
 def make_wall_moment_equation(F_n: sp.Expr) -> Assignment:
-    """Return the equation of the moment about the guide's point, with the lever arm of the normal force F_n."""
+    """Return the equation of the moment about the guide's point at a wall: that of the dry contact minus `along` F_n.
+
+    `along` is the position of the slider's corner along the guide, the lever arm of the normal force F_n.
+    """
     return Assignment(M_i, make_part_symbol(M_i, "dry") - along * F_n)
 
 
 def make_film_input_equations(clearance: Clearance, film: LawEquations) -> list[Assignment]:
-    """Return the equations of the eccentricity ratio ε and of the effective squeeze velocity w over the clearance.
+    """Return the equations of the film's inputs: ε = e/c, at most EPSILON_MAX, and w_n = δ̇/c, w_t, both in 1/s.
 
-    ε is capped at EPSILON_MAX. A film may have a clearance of its own, and its option selects relative or summed
-    angular velocities.
+    w_t = (ė_t − Ω e/2)/c. Ω is ω_j − ω_i if the film's option `angular_velocity` is "relative", else ω_i + ω_j. c is
+    the film's own clearance, in mixed lubrication that between the mean surfaces, otherwise the clearance of the joint.
     """
     c = clearance.constants.get("film_clearance", clearance.constants.get(MEAN_CLEARANCE, clearance.pair.c))
     angular_velocity = omega_j - omega_i if film.options.get("angular_velocity") == "relative" else omega_i + omega_j
@@ -199,10 +205,10 @@ def make_film_input_equations(clearance: Clearance, film: LawEquations) -> list[
 
 
 def make_film_moment_equations(film: LawEquations) -> list[Assignment]:
-    """Return the equations of the moments of the film about both centres.
+    """Return the equations of the moments of the film, M_i about the bearing's and M_j about the journal's centre.
 
-    Without `shear` the resultant acts at the journal's centre, and the journal's moment is 0. With it, it acts at the
-    middle between both centres, and the drag is added.
+    Without the film's option `shear` the force acts at the journal's centre: M_i = −e F_t, M_j = 0. With `shear` it
+    acts midway between the centres, and the drag T0 (ω_j − ω_i) is added to M_i and subtracted from M_j.
     """
     tangential = make_part_symbol(F_along_t, "film")
     if not film.options.get("shear", False):
@@ -220,9 +226,9 @@ def make_film_moment_equations(film: LawEquations) -> list[Assignment]:
 def make_blend_equations(clearance: Clearance, is_closed: bool = False) -> list[Assignment]:
     """Return the equations of the fraction of the dry contact: 0 at e = c, 1 at e = c + e_0 (equation 17 of the paper).
 
-    A law of mixed lubrication replaces it. For a closed contact (`is_closed`) it has no switching point at e = c, which
-    opening and closing represent. The law reads `depth` then, since it may be undefined at δ < 0, where samples before
-    a separation lie.
+    Between them it is δ/e_0. A law of mixed lubrication gives its own equations instead, the last one of the fraction.
+    For a closed contact (`is_closed`) there is no switching point at e = c, and that law reads `depth` = max(δ, 0),
+    computed before, in place of δ. It may be undefined at δ < 0, where samples before a separation lie.
     """
     if clearance.mixed is not None:
         replacement = {delta: depth if is_closed else sp.Max(0, delta)}
@@ -235,9 +241,10 @@ def make_blend_equations(clearance: Clearance, is_closed: bool = False) -> list[
 
 
 def make_resultant_equations(clearance: Clearance) -> list[Assignment]:
-    """Return the equations of the force on the journal in ground axes, and of the moments if parts are blended.
+    """Return the equations of the force (F_x, F_y) on the journal in ground axes, and of moments that are blended.
 
-    A film and a dry contact are blended by the fraction `share`; a wall has the moment of its normal force in addition.
+    With a film and a dry contact, force and moments are share · dry + (1 − share) · film. The equations of `share` come
+    first, unless a law of mixed lubrication gives it. At a wall the moment of the normal force is added to M_i.
     """
     dry, film = clearance.normal is not None, clearance.film is not None
     normal, radial = -(F_N if clearance.contour else _make_symbol("F_n")), _make_symbol("F_r")
@@ -268,9 +275,9 @@ def make_resultant_equations(clearance: Clearance) -> list[Assignment]:
 
 
 def find_moment_symbols(clearance: Clearance) -> tuple[sp.Symbol, sp.Symbol]:
-    """Return the symbols of the moments about both centres; they depend on the parts of the joint's force.
+    """Return the symbols of the moments on bearing i and journal j of a joint with play.
 
-    A film and a dry contact together have M_i and M_j, a single part has symbols of its own.
+    They are (M_i, M_j) for a film with a dry contact, (M_i, M_j_dry) at a wall, else both with "_film" or "_dry".
     """
     if clearance.normal is not None and clearance.film is not None:
         return M_i, M_j

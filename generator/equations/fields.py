@@ -26,7 +26,7 @@ class JointFields:
         self._joint, self._parameter_table, self._geometry = joint, geometry.parameter_table, geometry
 
     def direction(self, name: str) -> tuple[sp.Expr, sp.Expr]:
-        """Return a vector field as a unit vector; along an axis it is exactly (±1, 0) or (0, ±1)."""
+        """Return a vector field as a unit vector in its body's frame: exactly ±1 and 0 along an axis."""
         return derive_unit_vector(self._joint.vectors[name], self._joint.name, name, self._parameter_table)
 
     def derive_vector_angle(self, name: str) -> sp.Expr:
@@ -40,7 +40,7 @@ class JointFields:
         )
 
     def quantity(self, name: str, default: sp.Expr) -> sp.Expr:
-        """Return a number field as a parameter, or `default` if the user specified none."""
+        """Return a number field as a parameter, or `default` if the file does not give it."""
         quantity = self._joint.quantities.get(name)
         return sp.sympify(default) if quantity is None else self._parameter_table.get_or_add_parameter(quantity)
 
@@ -99,7 +99,7 @@ class JointFields:
         return derivatives[0]
 
     def derive_parameter(self, name: str, expression: sp.Expr) -> sp.Expr:
-        """Return a derived parameter of the joint from an expression of parameters; it is computed once a run."""
+        """Return `expression`, of parameters alone, as a derived parameter "<joint>_<name>", computed once a run."""
         return self._parameter_table.derive_parameter(
             f"{self._joint.name}_{name}",
             expression,
@@ -108,9 +108,9 @@ class JointFields:
         )
 
     def evaluate_at_guess(self, name: str, expression: sp.Expr) -> sp.Expr:
-        """Return `expression` as a derived parameter, with each body's angle at its value in the start.
+        """Return `expression` as a derived parameter `name`, with each body's angle at its value in the file's `start`.
 
-        A set value is used before a guess; an angle with neither is 0.
+        A value in `set` has precedence over one in `guess`; an angle with neither is 0.
         """
         start = self._geometry.mechanism.start
         values = {}
@@ -163,7 +163,7 @@ class ElementFields:
         self._element, self._geometry, self._t = element, geometry, t
 
     def direction(self, name: str) -> tuple[sp.Expr, sp.Expr]:
-        """Return a vector field as a unit vector."""
+        """Return a vector field as a unit vector; along an axis it is exactly (±1, 0) or (0, ±1)."""
         return derive_unit_vector(self._element.vectors[name], self._element.name, name, self._geometry.parameter_table)
 
     def quantity(self, name: str) -> sp.Expr:
@@ -181,7 +181,7 @@ class ElementFields:
         return self._element.options[name]
 
     def define_local(self, name: str, value: sp.Expr) -> sp.Expr:
-        """Return the value as a named local of the emitted code; numbers and symbols are returned unchanged."""
+        """Return the symbol of a new local of the emitted code with a value; a number or symbol is itself returned."""
         if value.is_number or value.is_Symbol:
             return value
         return self._geometry.symbols.add_definition(
@@ -189,11 +189,11 @@ class ElementFields:
         )
 
     def define_local_vector(self, name: str, value: tuple[sp.Expr, sp.Expr]) -> tuple[sp.Expr, sp.Expr]:
-        """Return both components as named locals of the emitted code."""
+        """Return both components as locals of the emitted code, named `name` with _x and _y; see `define_local`."""
         return self.define_local(f"{name}_x", value[0]), self.define_local(f"{name}_y", value[1])
 
     def _convert_quantity(self, quantity: Quantity) -> sp.Expr:
-        """Return a quantity: a parameter, or its expression if it contains t, coordinates or velocities."""
+        """Return a quantity as its parameter, or as its expression if it contains t, coordinates or velocities."""
         variable = MotionNameResolver(self._geometry, self._t)
         if not any(variable.is_variable(name) for name in iterate_names(quantity.value)):
             return self._geometry.parameter_table.get_or_add_parameter(quantity)
@@ -212,9 +212,9 @@ class MotionNameResolver:
         return name.path == "t" or "." in name.path
 
     def __call__(self, path: str) -> sp.Expr:
-        """Return the SymPy expression of a name, such as "t", "k", "rod.theta" or "rod.head.vx".
+        """Return the SymPy expression of a name in a force's expression: "t", "k", "rod.theta" or "rod.head.vx".
 
-        These are time, a parameter, a coordinate of a body and a coordinate or velocity of a point.
+        They are time, a parameter, a coordinate or velocity of a body, and a coordinate or velocity of a point.
         """
         if path == "t":
             return self._t

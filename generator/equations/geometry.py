@@ -208,13 +208,13 @@ class Geometry(Freezable):
         return x, y
 
     def ground_vector(self, vector: Vector) -> tuple[sp.Expr, sp.Expr]:
-        """Return both components of a vector of the ground as parameters."""
+        """Return both components of a vector of the ground as parameters; a number 0 in the file gives 0."""
         return self.parameter_table.get_or_add_parameter(vector[0]), self.parameter_table.get_or_add_parameter(
             vector[1]
         )
 
     def find_cos_and_sin(self, body: BodySymbols) -> tuple[sp.Symbol, sp.Symbol]:
-        """Return cos θ and sin θ of a body as symbols with rules; they are defined at the first call."""
+        """Return cos θ and sin θ of a body as symbols with rules for their derivatives, defined at the first call."""
         if body.name not in self._angles:
             define, name = self.symbols.add_definition, body.name
             cos = define(f"cos_theta_{name}", sp.cos(body.theta), None, f"cos of {name}.theta")
@@ -226,10 +226,11 @@ class Geometry(Freezable):
     def rotate_vector(
         self, body: BodySymbols, s: tuple[sp.Expr, sp.Expr], base_name: str, point: str = ""
     ) -> tuple[sp.Expr, sp.Expr]:
-        """Return A(θ) s of a vector s of a body as a pair of symbols; the opposite of a known arm is its negative.
+        """Return A(θ) s in ground axes, for the components s of a vector in the frame of a body.
 
-        Known vectors are not defined again, and vectors along an axis of the body use cos θ and sin θ themselves.
-        `base_name`: base of the symbols' names. `point`: the point whose arm it is, or "" for a direction.
+        A zero vector gives zeros. Components that are all −1, 0 or 1 give expressions in cos θ and sin θ. Any other
+        vector gets a pair of symbols with rules, defined once; the opposite of a known vector is its negative.
+        `base_name`: base of the symbols' names. `point`: the point to which the vector leads, or "" for a direction.
         """
         if s == (ZERO, ZERO):
             return ZERO, ZERO
@@ -256,9 +257,9 @@ class Geometry(Freezable):
         return self._rotated_vectors[body.name, *s]
 
     def find_point_at_offset(self, ref: PointRef, offset: tuple[sp.Expr, sp.Expr], base_name: str) -> PointFrame:
-        """Return the frame of a point at an offset from a named point, given in its body's frame.
+        """Return the frame of the point at an offset from a named point; the offset is in the body's frame.
 
-        `base_name` is the base of its symbols' names.
+        `base_name` is the base of the names of its symbols.
         """
         s = self._find_offset_vector(ref, offset, base_name)
         if ref.body == GROUND:

@@ -56,7 +56,7 @@ class AppliedElement:
 
 
 def apply_element(element: ForceElement, geometry: Geometry, t: sp.Symbol) -> AppliedElement:
-    """Return a force element with its loads on a geometry; `t` is the symbol of time."""
+    """Return a force element with the frames of its points and its loads; `t` is the symbol of time."""
     targets = tuple(geometry.find_point(ref) for ref in element.targets)
     loads = element_types()[element.kind].build(targets, ElementFields(element, geometry, t))
     return AppliedElement(element, targets, loads)
@@ -75,9 +75,9 @@ class Friction:
 def make_friction(
     name: str, slip: Slip, coordinate_pairs: Sequence[tuple[sp.Symbol, sp.Symbol]], t: sp.Symbol, symbols: Symbols
 ) -> Friction:
-    """Return a friction element with J = ∂v/∂q̇ and γ = −J̇ q̇ + ∂speed/∂t.
+    """Return a friction element with J = ∂v/∂q̇ and γ = −J̇ q̇ + ∂speed/∂t, so that J q̈ = γ at constant slip.
 
-    `slip`: its slip velocity and friction forces; `coordinate_pairs`: the coordinates with their velocities.
+    `slip`: its slip velocity v and friction forces; `coordinate_pairs`: the coordinates, each with its velocity.
     """
     jacobian = {q: entry for q, v in coordinate_pairs if (entry := sp.expand(symbols.differentiate(slip.v, v))) != 0}
     gamma = -sum(

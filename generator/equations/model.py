@@ -45,9 +45,9 @@ class Event:
 
 
 def make_event(event: EventSpec, geometry: Geometry, t: sp.Symbol) -> Event:
-    """Return an event of the user with its expression on a geometry.
+    """Return an event of the user with its expression in the symbols of a geometry; `t` is the symbol of time.
 
-    Raise BadValueError for an expression that is finite for no motion. `t`: the symbol of time.
+    Raise BadValueError for an expression with an infinite, undefined or imaginary constant.
     """
     expression = convert_quantity_to_sympy(event.zero, MotionNameResolver(geometry, t))
     return Event(event.name, expression, event.action, event.direction)
@@ -93,9 +93,10 @@ def set_notation(matrix: sp.Matrix, find_printer: Callable[[], Any] | None) -> N
 
 
 def list_start_values(model: Model) -> dict[str, list[tuple[Quantity, int]]]:
-    """Return the quantities of `guess`, `set` and `rates` in the file's start, each with its sign.
+    """Return the quantities of `guess`, `set` and `rates` in the file's start by these keys, each with a sign.
 
-    Eccentricities of journals follow the set values, their rates follow the rates. Those of sliders have the sign −1.
+    Eccentricities of journals are appended to `set`, their rates to `rates`. The sign of sliders is −1 and that of all
+    others 1: the kernel of the start stores sign · value.
     """
     start, eccentricities = model.scene.mechanism.start, find_eccentricity_rows(model)
     slider_names = {c.joint.name for c in model.clearances if c.wall}
@@ -114,10 +115,11 @@ def list_start_values(model: Model) -> dict[str, list[tuple[Quantity, int]]]:
 
 
 def find_eccentricity_rows(model: Model) -> list[tuple[int, Quantity, Quantity]]:
-    """Return the equations of Φ that the start violates by a journal's eccentricity: index, e and its rate.
+    """Return (index, e, ė) of each equation of Φ that the start violates by the eccentricity of a journal.
 
     Φ of such a joint is r_i − r_j = −e (physics.md, section 2), so that Φ + e = 0 and Φ_q v = ν − ė. Φ of a slider is
-    its offset and its tilt, which are −e there (`make_start_kernel`). Joints without a specified start are left out.
+    its offset or tilt itself; `list_start_values` changes the sign. Joints for which the file gives no start are left
+    out.
     """
     starts, result = model.scene.mechanism.start.play, []
     for name in model.scene.play:
@@ -206,7 +208,7 @@ class Model:
 
     @property
     def law_states(self) -> int:
-        """Return the number of inner states per joint with play: the largest of all its laws."""
+        """Return the number of internal states (bristle states) per joint with play: the largest of all its joints."""
         return max((len(clearance.states) for clearance in self.clearances), default=0)
 
     @property
@@ -221,14 +223,14 @@ class Model:
 
     @property
     def has_changing_constraints(self) -> bool:
-        """Return whether constraint equations are active only at times: dry friction or rigid contacts.
+        """Return whether some constraint equations are active only at times: there is dry friction or a rigid contact.
 
-        A vanishing pivot is then reported, not handled by the singular equations.
+        The right-hand side then reports a vanishing pivot instead of solving the dependent equations.
         """
         return bool(self.frictions or self.rigid)
 
     def compute_squared_arms(self, body: str) -> tuple[sp.Expr, ...]:
-        """Return s_x², s_y² of each joint's point on a body, s measured from its centre of mass.
+        """Return s_x², s_y² of all joint points of a body in a row, s from its centre of mass to the point.
 
         A point of several joints is counted once.
         """
@@ -238,9 +240,9 @@ class Model:
         return tuple(s**2 for point in points for s in local[point])
 
     def compute_inertia_about_joints(self, body: str) -> sp.Expr:
-        """Return the sum J + Σ m s² of a body over the points of its joints (parallel-axis theorem).
+        """Return the sum J + Σ m s² of a body, with s from its centre of mass to each point of its joints.
 
-        s leads from the centre of mass to each point.
+        J is the moment of inertia about the centre of mass, m the mass. A point of several joints is counted once.
         """
         body_symbols = self.geometry.bodies[body]
         return sp.Add(body_symbols.inertia, *(body_symbols.mass * square for square in self.compute_squared_arms(body)))
@@ -248,8 +250,8 @@ class Model:
     def has_negligible_inertia(self, body: str, joint: Joint | None) -> bool:
         """Return whether a body has nearly no moment of inertia about a joint, because its mass is lumped there.
 
-        It is less than 1e-6 of the sum over all its joints, with the default values of the file. With `joint` None, or
-        a joint of other bodies, the centre of mass replaces the joint.
+        The moment is then less than 1e-6 of J + Σ m s² over the points of all its joints, with the default values of
+        the file. With `joint` None, or a joint of other bodies, the centre of mass replaces the joint.
         """
         body_symbols, default = self.geometry.bodies[body], self.parameter_table.compute_default
         ends = [end for end in (joint.first, joint.second) if end.body == body] if joint else []
@@ -273,7 +275,8 @@ class Model:
     def derive_target(self, target: str) -> Any:
         """Return the equations in another language, derived once and then cached.
 
-        `target`: name of a folder in generator/targets. Raise ValueError for an unknown target.
+        `target`: a key of `targets`, such as "numpy" or "letters" (the printer in the notation of the documents). Raise
+        ValueError for any other name.
         """
         if target not in self.targets:
             known_targets = ", ".join(self.targets) or "none: it was not derived by the pipeline, which knows them"
@@ -416,9 +419,10 @@ def make_model(scene: Scene) -> Model:
 
 
 def add_material_parameters(scene: Scene, parameter_table: ParameterTable) -> None:
-    """Add parameters for all materials that a run may choose for this scene, and for the choice itself.
+    """Add parameters for the materials among which a run may choose, and one parameter for each choice: an index.
 
-    Materials without one of the numbers in use are left out; choices of which no number is in use get no parameter.
+    The materials of a choice are those of the file that have all its properties. A choice gets no parameter if the
+    equations use none of its properties.
     """
     for choice in scene.mechanism.choices.values():
         if any(quantity.address in parameter_table.entries for quantity in choice.numbers.values()):
@@ -446,9 +450,9 @@ def add_further_parameters(model: Model) -> None:
 
 
 def derive_stick_gain(model: Model) -> sp.Expr:
-    """Return 2α, in 1/s, of a sticking friction as a derived parameter.
+    """Return 2α, in 1/s, of Baumgarte's term for sticking friction as a derived parameter; α is "baumgarte.stick".
 
-    Methods that project stabilise nothing else.
+    Methods that project the state stabilize no other equation.
     """
     return model.parameter_table.derive_parameter(
         "two_alpha_stick", 2 * model.parameter_table.entries[STICK].symbol, "2 alpha of a stick"

@@ -11,10 +11,10 @@ from gudgeon.generator.mechanism import Body, Mechanism
 
 
 def write_scene_notes(model: Model) -> tuple[str, ...]:
-    """Return sentences for the user about a scene: what it leaves out, and consequences of its choices.
+    """Return sentences for the user about a scene: what its equations leave out, and consequences of its choices.
 
-    Topics are redundant equations, missing masses, excess equations, missing play or film, inner states, impacts,
-    gravity and drives with jumps.
+    Topics are redundant equations, missing masses, more equations than coordinates, missing play or film, internal
+    states, impacts, missing gravity and drives with jumps. Each sentence is there only if it applies.
     """
     notes = []
     if model.redundancy.dropped:
@@ -66,14 +66,20 @@ def find_drives_with_jumps(model: Model) -> tuple[str, ...]:
 
 
 def check_masses(model: Model) -> None:
-    """Raise MissingKeyError for bodies without mass or inertia if the motion of the scene depends on them."""
+    """Raise MissingKeyError for all bodies without mass or inertia if the motion of the scene depends on masses.
+
+    It does with play, degrees of freedom or friction that may stick.
+    """
     reason = _explain_need_for_masses(model)
     if reason and (errors := list(find_missing_masses(model.scene.mechanism, f"scene {model.scene.name} {reason}"))):
         raise combine_errors(errors)
 
 
 def _explain_need_for_masses(model: Model) -> str:
-    """Return why a scene needs masses, for messages: play, degrees of freedom or friction; "" if it does not."""
+    """Return why a scene needs masses, the end of a message: play, degrees of freedom or friction that may stick.
+
+    Return "" if it needs none, so that kinematics alone determines the motion.
+    """
     if model.clearances:
         return f"has play in {', '.join(clearance.name for clearance in model.clearances)}"
     if (free := model.degrees_of_freedom) > 0:
@@ -84,9 +90,9 @@ def _explain_need_for_masses(model: Model) -> str:
 
 
 def find_missing_masses(mechanism: Mechanism, reason: str) -> Iterator[MissingKeyError]:
-    """Yield one MissingKeyError for each set of missing keys (mass, inertia), with all bodies that lack them.
+    """Yield one MissingKeyError for each combination of missing keys (mass, inertia), with all its bodies.
 
-    `reason`: why they are needed, for the message.
+    `reason`: the end of the message, why masses are needed.
     """
     bodies_by_missing_keys: dict[tuple[str, ...], list[Body]] = {}
     for body in mechanism.bodies.values():

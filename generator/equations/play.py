@@ -56,12 +56,15 @@ class LawEquations:
 
     @property
     def results(self) -> tuple[str, ...]:
-        """Return the names in `steps` of the results of the role and of the rates of inner states."""
+        """Return the names in `steps` of the law's results, such as "F_n", and of the rates of its internal states."""
         return tuple(make_law_identifier(self.law, name) for name in self.law.results)
 
     @property
     def further_variables(self) -> tuple[str, ...]:
-        """Return the names of the variables that the law reads in addition to those of its role."""
+        """Return the names of the variables that the law reads in addition to those of its role.
+
+        The role is normal, friction, film or mixed.
+        """
         return tuple(symbol.name for symbol in self.variables if symbol.name in self.law.further)
 
 
@@ -73,7 +76,7 @@ class Contour:
     count: int
 
     def compute_depth(self, angle: sp.Expr, order: int) -> sp.Expr:
-        """Return the depth w at an angle in m, or its derivative of an `order` by the angle, as an expression."""
+        """Return the depth w in m beyond the bearing's circle at an angle, or its derivative of an `order` by it."""
         return make_contour_expression(self.table, self.count, order, angle)
 
 
@@ -104,12 +107,12 @@ class Clearance:
 
     @property
     def kind(self) -> str:
-        """Return what comments call it: "joint", or "corner" of a slider."""
+        """Return the word for the contact point in comments: "joint" for a journal, "corner" for a slider's corner."""
         return "corner" if self.wall else "joint"
 
     @property
     def laws(self) -> tuple[LawEquations, ...]:
-        """Return the laws that act here."""
+        """Return the laws that act here, as far as present, in the order normal, friction, film, mixed."""
         return tuple(law for law in (self.normal, self.friction, self.film, self.mixed) if law is not None)
 
     @property
@@ -119,7 +122,7 @@ class Clearance:
 
     @property
     def states(self) -> tuple[State, ...]:
-        """Return the inner states of the laws; only friction laws have any."""
+        """Return the internal states of the laws (bristle states); only friction laws have any."""
         return self.friction.law.states if self.friction else ()
 
     @property
@@ -144,17 +147,17 @@ class Clearance:
         return vx_j - vx_i, vy_j - vy_i
 
     def list_point_loads(self, F: Sequence[sp.Expr], moments: Sequence[sp.Expr]) -> list[PointLoad]:
-        """Return the loads on both bodies: F on the journal, −F on the bearing, and both moments."""
+        """Return the loads on both bodies: −F and moments[0] on the bearing, F and moments[1] on the journal."""
         return [PointLoad(self.first, -F[0], -F[1], moments[0]), PointLoad(self.second, F[0], F[1], moments[1])]
 
     def compute_power(self, F: Sequence[sp.Expr], edot: Sequence[sp.Expr], moments: Sequence[sp.Expr]) -> sp.Expr:
-        """Return the power F · ė + M_i ω_i + M_j ω_j in W of the force F and moments on the journal and bearing."""
+        """Return the power F · ė + M_i ω_i + M_j ω_j in W; F acts on the journal, `moments` are (M_i, M_j)."""
         turning = moments[0] * self.first.omega + moments[1] * self.second.omega
         return F[0] * edot[0] + F[1] * edot[1] + turning
 
 
 def make_clearances(joint: Joint, play: Play, geometry: Geometry, parameter_table: ParameterTable) -> list[Clearance]:
-    """Return the equations of one joint with play, in one object for each of its contact points."""
+    """Return the equations of one joint with play, one Clearance for each of its one or four contact points."""
     clearances = [
         _derive_clearance(joint, play, parameter_table, point)
         for point in iterate_contact_points(joint, play.bearing, geometry, parameter_table)
@@ -228,7 +231,7 @@ def _derive_clearance(
 
 
 def _make_contour(joint: Joint, play: Play, parameter_table: ParameterTable) -> Contour | None:
-    """Return the contour of a bearing as a table of parameters; None if the bearing is a circle."""
+    """Return the contour of a bearing, whose depths become an array of parameters; None if it is a circle."""
     if not play.contour:
         return None
     return Contour(parameter_table.get_or_add_array(f"contour_{joint.name}", play.contour), len(play.contour))
@@ -239,9 +242,9 @@ def _derive_law(
 ) -> LawEquations:
     """Return a law with the symbols of its parameters and variables inserted.
 
-    `law_use`: the law as the file uses it; `derive_constant` makes derived parameters from name, value and meaning.
-    Variables that the law may read but does not are left out. A user-defined law is checked (LawError), and its names
-    get the ending `__`.
+    `law_use`: the law as the file uses it; `derive_constant` makes a derived parameter from name, value and meaning.
+    Optional variables that the law does not read are left out. A user-defined law is evaluated at sampled states
+    (LawError), and its own names get the ending `__`.
     """
     law = find_all_laws()[law_use.law]
     variables = {name: sp.Symbol(name, real=True) for name in law.variables}
@@ -276,17 +279,20 @@ def _derive_law(
 
 
 def make_law_identifier(law: Law, name: str) -> str:
-    """Return the identifier for `name` in a law.
+    """Return the name that `name`, a parameter, abbreviation, state or result of a law, has in emitted code.
 
-    Names of a user-defined law get the ending `__`, except those of the role (`delta`, `F_n`). No fixed name contains
-    `__`, and neither does a result of `make_identifier`.
+    It is unchanged, except in a user-defined law: there the ending `__` is appended, unless the role of the law defines
+    the name (`delta`, `F_n`). No fixed name contains `__`, and neither does a result of `make_identifier`.
     """
     fixed = {*VARIABLES[law.role], *law.further, *RESULTS[law.role]}
     return f"{name}__" if law.name in USER_LAWS and name not in fixed else name
 
 
 def _rename_user_law(equations: LawEquations) -> LawEquations:
-    """Return the equations of a user-defined law with its abbreviations and states renamed by `make_law_identifier`."""
+    """Return the equations of a user-defined law with the ending `__` on its abbreviations and internal states.
+
+    Names that the role of the law defines stay (`make_law_identifier`).
+    """
     law = equations.law
     symbols = {
         sp.Symbol(name, real=True): sp.Symbol(make_law_identifier(law, name), real=True)

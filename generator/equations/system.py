@@ -67,10 +67,10 @@ class System:
     in_tree: ClassVar[bool] = False  # whether the coordinates are those of a tree
 
     def compute_inertia_about_joints(self, k: int) -> sp.Expr:
-        """Return the moment of inertia with which the pivot of M of coordinate k is compared; 0 for x and y.
+        """Return the moment of inertia to which the pivot of coordinate k in M is compared; 0 for x and y.
 
-        For the angle of a body it is J + Σ m s² over the points of its joints (parallel-axis theorem), s measured from
-        the centre of mass, as a derived parameter.
+        For the angle of a body it is J + Σ m s² over the points of its joints (parallel-axis theorem), as a derived
+        parameter. s leads from the centre of mass to the point.
         """
         if k % 3 != 2:
             return ZERO
@@ -87,9 +87,10 @@ class System:
         return sp.Add(*self.model.compute_squared_arms(self.model.bodies[k // 3].name)) if k % 3 == 2 else ONE
 
     def compute_generalized_forces(self, loads: Sequence[PointLoad]) -> tuple[list[sp.Expr], dict[str, sp.Expr]]:
-        """Return the generalized forces (n) Jᵀ f of loads, and those on prescribed coordinates by name.
+        """Return the generalized forces (n) Jᵀ f of loads, and those on prescribed coordinates by their names.
 
-        In absolute coordinates the second result is empty; loads on the ground are skipped.
+        In absolute coordinates no coordinate is prescribed: the second result is empty. Loads on the ground are
+        skipped.
         """
         forces = [ZERO] * len(self.q)
         for point, x, y, moment in loads:
@@ -101,9 +102,9 @@ class System:
         return forces, {}
 
     def compute_acceleration(self, point: PointFrame, a: Mapping[int, sp.Expr]) -> tuple[sp.Expr, sp.Expr]:
-        """Return r̈ of a point at accelerations a of the coordinates: r̈ of the centre of mass + θ̈ ẑ × arm − ω² arm.
+        """Return r̈ of a point in ground axes, with the accelerations `a` of the coordinates by index.
 
-        Points of the ground give (0, 0).
+        It is r̈ of the centre of mass + θ̈ ẑ × arm − ω² arm; (0, 0) for points of the ground.
         """
         if point.body is None:
             return ZERO, ZERO
@@ -115,7 +116,7 @@ class System:
         return x - theta * arm_y - omega**2 * arm_x, y + theta * arm_x - omega**2 * arm_y
 
     def compute_angular_acceleration(self, point: PointFrame, a: Mapping[int, sp.Expr]) -> sp.Expr:
-        """Return θ̈ of a point's body at accelerations a of the coordinates; 0 for the ground."""
+        """Return θ̈ of a point's body, with the accelerations `a` of the coordinates by index; 0 for the ground."""
         if point.body is None:
             return ZERO
         motion = self.motions[point.body.name]

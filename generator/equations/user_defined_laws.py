@@ -45,10 +45,10 @@ _MIN_RELATIVE_PENETRATION = 1e-6  # of the largest of them
 def read_force_expression(
     force: Quantity, delta: sp.Symbol, max_penetration: float, parameter_table: ParameterTable
 ) -> sp.Expr:
-    """Return a force of the file as an expression of `delta` and parameters, checked up to a penetration in m.
+    """Return a force of the file as an expression of `delta` and parameters, checked up to `max_penetration` in m.
 
     If SymPy does not see that the force at δ = 0 is 0, its value there becomes a parameter, which every run checks.
-    Raise BadValueError for a force that does not depend on δ, is not finite, pulls, or has no slope at δ = 0.
+    Raise BadValueError for a force that does not depend on δ, is not finite, is negative, or has no slope at δ = 0.
     """
 
     def find_symbol(path: str) -> sp.Expr:
@@ -71,9 +71,9 @@ def read_force_expression(
 
 
 def _check_force(force: Quantity, max_penetration: float, parameter_table: ParameterTable) -> None:
-    """Raise BadValueError if the force is not finite or is negative at a sampled penetration up to a largest one in m.
+    """Raise BadValueError if a force is not finite or is negative at a sampled δ from 0 to `max_penetration`.
 
-    Parameters have the scene's default values.
+    Penetrations are in m; parameters have the scene's default values.
     """
     depths = np.union1d(
         np.geomspace(_MIN_RELATIVE_PENETRATION * max_penetration, max_penetration, N_PENETRATIONS // 2),
@@ -139,7 +139,7 @@ _DimensionOrFlexible = Dimension | _Flexible
 def check_units(law: Law, law_use: LawUse) -> None:
     """Raise LawError if a result of a law has another unit than its role needs, or if unlike units are added.
 
-    `law_use`: the law as the file uses it, with options and quantities.
+    The role is normal, friction, film or mixed. `law_use`: the law as the file uses it, with options and quantities.
     """
     probed_law = probe_law(law, law_use.options, law_use.quantities)
     dimension_of_symbol: dict[str, _DimensionOrFlexible] = {f"probe_{name}": _PAIR.get(name, LENGTH) for name in PAIR}
@@ -183,9 +183,9 @@ class _DimensionFinder:
         return format_law_prefix(self.law.name, ORIGINS.get(self.law.name))
 
     def find_dimension(self, name: str, expression: sp.Expr) -> _DimensionOrFlexible:
-        """Return the dimension of an expression in the step `name`, from a cache.
+        """Return the dimension of an expression, from a cache; `name`: the result or abbreviation of the law.
 
-        Raise LawError if its terms have unlike units.
+        Raise LawError, with that name, if terms of the expression have unlike units.
         """
         if expression not in self.cache:
             self.cache[expression] = self._compute_dimension(name, expression)
@@ -217,9 +217,10 @@ class _DimensionFinder:
     def _find_common_dimension(
         self, name: str, expression: sp.Expr, dimensions: list[_DimensionOrFlexible]
     ) -> _DimensionOrFlexible:
-        """Return the common dimension of terms that are added or compared, from their dimensions.
+        """Return the common dimension of terms that are added or compared; `dimensions` are theirs, in order.
 
-        Raise LawError if they differ. A plain number other than 0 counts as dimensionless.
+        It is `_ANY_UNIT` or `_PLAIN_NUMBER` if no term has a fixed one. Raise LawError if two differ. A plain number
+        other than 0 counts as dimensionless.
         """
         known_dimensions = sorted({dimension for dimension in dimensions if isinstance(dimension, Dimension)}, key=str)
         plain_number = next(
@@ -244,10 +245,10 @@ class _DimensionFinder:
         return known_dimensions[0] if known_dimensions else _ANY_UNIT if _ANY_UNIT in dimensions else _PLAIN_NUMBER
 
     def _compute_power_dimension(self, name: str, base: sp.Expr, exponent: sp.Expr) -> _DimensionOrFlexible:
-        """Return the dimension of base**exponent.
+        """Return the dimension of base**exponent; `name`: the law's result or abbreviation, for messages.
 
-        A base without a unit, or with any unit, keeps its dimension. A base with a unit and an exponent that is not a
-        number give `_ANY_UNIT`. Raise LawError if the exponent has a unit.
+        A base that is dimensionless, a plain number or of any unit keeps its dimension. A base with a unit and an
+        exponent that is not a number give `_ANY_UNIT`. Raise LawError if the exponent has a unit.
         """
         self._check_dimensionless(name, "an exponent", self.find_dimension(name, exponent))
         base_dimension = self.find_dimension(name, base)
@@ -256,9 +257,9 @@ class _DimensionFinder:
         return base_dimension ** Fraction(str(exponent)).limit_denominator(1000) if exponent.is_number else _ANY_UNIT
 
     def _check_dimensionless(self, name: str, description: str, dimension: _DimensionOrFlexible) -> None:
-        """Raise LawError if a value that must be dimensionless has a unit.
+        """Raise LawError if a value that must be dimensionless has a fixed dimension other than 1.
 
-        `description`: the value in the message, such as "an exponent".
+        `name`: the law's result or abbreviation; `description`: the value in the message, such as "an exponent".
         """
         if isinstance(dimension, Dimension) and dimension != DIMENSIONLESS:
             message = (
@@ -353,9 +354,10 @@ class _LawNames:
 
 
 def _check_common_names(dry_laws: Sequence[_LawNames]) -> None:
-    """Raise LawError if a local of one law has another meaning in the other law of a dry contact.
+    """Raise LawError if a local of one law has the name of a local or parameter of another law of the same contact.
 
-    The derivatives of a dry contact are one function, in which each local has one meaning.
+    `dry_laws`: all laws of the contact but the film. Their derivatives are one function, in which a name has one
+    meaning.
     """
     for first_law, other_law in itertools.permutations(dry_laws, 2):
         if common_names := {*first_law.local_names} & {*other_law.local_names, *other_law.parameter_names}:
@@ -373,9 +375,10 @@ def _format_law_prefix(law: Law) -> str:
 def check_sampled_values(
     law: Law, variables: tuple[sp.Symbol, ...], steps: Mapping[str, sp.Expr], parameter_table: ParameterTable
 ) -> None:
-    """Raise LawError if a step of a law is not a finite real number at a sampled state, with the values of the file.
+    """Raise LawError if an equation of a law is not a finite real number at a sampled state, by the file's values.
 
-    `variables`: the symbols that are sampled. A fraction `share` must be between 0 and 1, and 0 at δ = 0.
+    `variables`: the symbols that are sampled; `steps`: the equations by name, in order. A fraction `share` of the dry
+    contact must be between 0 and 1, and 0 at δ = 0.
     """
     parameter_values = {
         symbol: np.float64(find_default_value(parameter_table, symbol))
@@ -409,7 +412,7 @@ def check_sampled_values(
 
 
 def _find_parameters(steps: Mapping[str, sp.Expr], parameter_table: ParameterTable) -> set[sp.Symbol]:
-    """Return the parameters that the steps of a law read."""
+    """Return the parameters, given and derived ones, that the equations of a law read."""
     members = set(parameter_table.list_symbols())
     return {symbol for step in steps.values() for symbol in step.free_symbols if symbol in members}
 

@@ -34,20 +34,20 @@ class Branch(Line):
 
     @property
     def branch(self) -> sp.Expr:
-        """Return the symbol of the active branch, a sign.
+        """Return the symbol of the active branch, the frozen sign of the switching function.
 
-        It chooses `then` or `otherwise`.
+        It chooses `then` (not below zero) or `otherwise` (below zero).
         """
         return self.value.args[0]
 
     @property
     def value_above(self) -> sp.Expr:
-        """Return the value on the branch that is not below zero."""
+        """Return the value where the switching function is not below zero, also where it is NaN."""
         return self.value.args[1]
 
     @property
     def value_below(self) -> sp.Expr:
-        """Return the value on the branch below zero."""
+        """Return the value where the switching function is below zero."""
         return self.value.args[2]
 
     @property
@@ -57,12 +57,12 @@ class Branch(Line):
 
     @property
     def writes(self) -> Names:  # type: ignore[override]
-        """Return the array or argument that is stored to."""
+        """Return the name of the array or argument to which the value is stored, in a set; empty for a local."""
         return self.target.names if isinstance(self.target, Place) else NO_NAMES
 
     @property
     def declared_local(self) -> str:  # type: ignore[override]
-        """Return the local that is declared, or ""."""
+        """Return the name of the local that the line declares, or "" if it stores to an array or argument."""
         return self.target if isinstance(self.target, str) else ""
 
 
@@ -79,10 +79,11 @@ class Branches:
         self._switching_functions: dict[sp.Expr, sp.Expr] = {}  # branches, and the difference whose sign each is
 
     def insert_branches(self, lines: Iterable[Line]) -> list[Line]:
-        """Return the lines with a `Branch` line inserted before the first line that reads each branch.
+        """Return the lines of a section with a `Branch` line before the first line that reads each conditional value.
 
-        An assignment whose value is itself a branch becomes a `Branch` line. The names found are added to `names`.
-        Called once per section, in order, by `make_readable`.
+        A conditional value is a `Select`, one of two expressions by the sign of a switching function. An assignment
+        whose value is itself a `Select` becomes a `Branch` line. The names of the results are added to `names`. Called
+        once per section, in order.
         """
         result: list[Line] = []
         for line in lines:
@@ -101,7 +102,7 @@ class Branches:
         return result
 
     def _make_branch_lines(self, expression: sp.Basic) -> list[Line]:
-        """Return a `Branch` line for each `Select` in an expression that has no name yet, inner ones first.
+        """Return a `Branch` line for each `Select` (conditional value) without a name, inner ones first.
 
         The new names are added to `names`; a `Select` between two numbers gets none.
         """
@@ -115,17 +116,14 @@ class Branches:
         return result
 
     def _needs_branch_line(self, pick: Select) -> bool:
-        """Return whether a `Select` needs a `Branch` line.
-
-        It does if it has no name yet and its two values are not both numbers.
-        """
+        """Return whether a `Select` (conditional value) has no name yet and its two values are not both numbers."""
         return pick not in self.names and not all(argument.is_Number for argument in pick.args[1:])
 
     def _make_branch_name(self, pick: Select) -> str:
-        """Return an unused name for a branch and mark it as used: "larger_k", "smaller_k" or "branch_k", k = 1, 2, ….
+        """Return an unused name for the result of a `Select` and mark it as used.
 
-        "larger" and "smaller" are for a maximum and a minimum, whose switching function is the difference of both
-        values.
+        It is "larger_k" for a maximum and "smaller_k" for a minimum, whose switching function is the difference of both
+        values, else "branch_k"; k = 1, 2, ….
         """
         branch, a, b = pick.args
         difference = self._switching_functions.get(branch)

@@ -25,11 +25,11 @@ Parts = tuple[sp.Expr, sp.Expr]
 
 
 def convert_to_complex(kernel: Kernel, complex_arrays: Iterable[Key], zero_arguments: Iterable[str] = ()) -> Kernel:
-    """Return the kernel for complex arguments, with "_complex" appended to its name.
+    """Return the kernel (generated function) for complex arguments, with "_complex" appended to its name.
 
-    `complex_arrays`: the arguments, array elements and places that are complex. `zero_arguments`: names of arguments
-    that are 0 there and are left out. Unused locals are removed. Raise ValueError for a line that has no complex
-    counterpart.
+    `complex_arrays`: names of the arguments and arrays, or their storage places, that are complex. `zero_arguments`:
+    names of arguments that are 0 there and are left out. Unused locals are removed. Raise ValueError for a line that
+    has no complex counterpart.
     """
     return _ComplexConverter(kernel, frozenset(complex_arrays), frozenset(zero_arguments)).convert_kernel()
 
@@ -64,10 +64,10 @@ class _ComplexConverter:
         return remove_unused_locals(converted)
 
     def _convert_argument(self, argument: Argument) -> list[Argument]:
-        """Return the arguments that replace one in the complex kernel.
+        """Return the list of arguments that replaces one in the complex kernel.
 
-        None replace a zero argument; a complex number becomes a real and an imaginary argument. The linearization gets
-        the type Complex…; other arguments stay.
+        It is empty for a zero argument. A complex number becomes a real and an imaginary argument, the latter with "_i"
+        in its name. The linearization gets the type "Complex…"; arrays and other arguments stay.
         """
         if argument.name in self.zero_arguments:
             return []
@@ -125,7 +125,7 @@ class _ComplexConverter:
         """Return the assignments of the real and of the imaginary part of a statement.
 
         A local with imaginary part 0 stays single; otherwise it becomes complex for all later lines. An element of a
-        real array gets the real part alone.
+        real array gets the real part alone; the imaginary part is dropped.
         """
         real, imaginary = self._split_value(line.value)
         if local := line.declared_local:
@@ -138,9 +138,9 @@ class _ComplexConverter:
         return [replace(line, value=real)]
 
     def _split_value(self, value: Value) -> tuple[Value, Value]:
-        """Return the real and the imaginary part of the value of a statement.
+        """Return the real and the imaginary part of the value of a statement; the imaginary part of a real value is 0.
 
-        The value is a place, a conditional value or an expression. Raise ValueError for other kinds of values.
+        The value is a storage place, a `Conditional` or an expression. Raise ValueError for other kinds of values.
         """
         match value:
             case Place():
@@ -156,7 +156,7 @@ class _ComplexConverter:
     def _find_part_places(self, place: Key) -> tuple[Place, Place] | None:
         """Return the places 2k and 2k + 1 of the real and imaginary part of element k of a complex array.
 
-        Return None if the place is not an element of a complex array.
+        Return None if `place` (a storage place or the name of a local) is not an element of a complex array.
         """
         match place:
             case Place(base, (*path, int() as k)) if {base, Place(base, (*path,))} & self.complex_keys:
@@ -203,7 +203,7 @@ class _ComplexConverter:
         return real * reciprocal, -imaginary * reciprocal
 
     def _multiply_factors(self, value: sp.Mul) -> Parts:
-        """Return the real and the imaginary part of a product.
+        """Return the real and the imaginary part of a product; the imaginary part is 0 if all factors are real.
 
         Complex factors are multiplied first; the product of all real factors then multiplies each part once.
         """
@@ -230,7 +230,7 @@ class _ComplexConverter:
         return real, imaginary
 
     def _convert_guard(self, line: Guard, test: Test) -> list[Line]:
-        """Return the test of a pivot with |real| + |imaginary| in place of its magnitude, in a list.
+        """Return the test of a pivot, in a list, with |real| + |imaginary| of the value in place of its magnitude.
 
         Complex magnitudes in the bound are replaced too. The line stays as it is if the tested value is real.
         """

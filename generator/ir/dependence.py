@@ -30,8 +30,9 @@ class LineMarks:
 def propagate_marks(function: Readable, find_marks: Callable[[Statement | Branch], Marks]) -> LineMarks:
     """Return the marks of all statements and parameters of a function, propagated backwards along the data dependence.
 
-    A line has its own marks, `find_marks(line)`, and those of all later lines that depend on it. The result maps the
-    target of each line, and each parameter that is read, to a set of marks; entries without marks are left out.
+    A mark is a text, such as the name of a result. A line has its own marks, `find_marks(line)`, and those of all later
+    lines that depend on it. The result maps what each line stores to, and each parameter that is read, to a set of
+    marks; entries without marks are left out.
     """
     marks_by_name: defaultdict[Key, set[str]] = defaultdict(set)
     marks_of_stored: defaultdict[Key, set[str]] = defaultdict(set)
@@ -54,9 +55,9 @@ def propagate_marks(function: Readable, find_marks: Callable[[Statement | Branch
 
 
 def _find_read_keys(line: Statement | Branch, function: Readable) -> set[Key]:
-    """Return the keys that a line reads: symbol names, places, and names of branches with a line of their own.
+    """Return what a line reads: names of symbols, storage places, and names of separate conditional values.
 
-    The target of the line itself is not included.
+    The latter have a `Branch` line of their own. The target of the line itself is not included.
     """
     keys = {find_key(symbol) for expression in line.expressions for symbol in expression.free_symbols} | set(line.reads)
     if isinstance(line, Statement) and isinstance(line.value, Place):

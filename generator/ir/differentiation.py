@@ -58,17 +58,17 @@ class Tangents:
         self._known: dict[sp.Symbol, Tangent] = {base: {base: ONE} for base in bases}
 
     def make_tangents_for_variables(self, symbol_map: Mapping[sp.Symbol, sp.Symbol]) -> Tangents:
-        """Return tangents in the same kernel for expressions that use other names for the variables.
+        """Return tangents in the same kernel for expressions that use other symbols for the variables.
 
-        `symbol_map` maps each of those variables to its symbol in this kernel; these symbols are the new bases.
-        Branches and shared powers are common to both objects.
+        Such expressions are those of a law. `symbol_map` maps each of their symbols to its symbol in this kernel; these
+        are the new base symbols. Branches and shared powers are common to both objects.
         """
         tangents = Tangents(self._symbols, self._builder, symbol_map.values(), self._owner, self._share_powers)
         tangents._branches, tangents._powers, tangents._symbol_map = self._branches, self._powers, symbol_map
         return tangents
 
     def store_tangent(self, symbol: sp.Symbol, tangent: Tangent) -> None:
-        """Store the tangent of a symbol that the kernel computes without a definition.
+        """Store the tangent of a symbol that the kernel computes without a definition: its derivatives by base symbol.
 
         Entries that are more than a number or ± a symbol become locals of the kernel.
         """
@@ -89,14 +89,14 @@ class Tangents:
         return self._known[symbol]
 
     def apply_chain_rule(self, tangent: Tangent) -> Tangent:
-        """Return the tangent by the base symbols of a value from its derivatives by other symbols (chain rule)."""
+        """Return the derivatives of a value by base symbol, from its derivatives `tangent` by other symbols."""
         return self.sum_tangents((factor, self.get_tangent(symbol)) for symbol, factor in tangent.items())
 
     def freeze_branches(self, expression: sp.Expr) -> sp.Expr:
-        """Return the expression with each switching function replaced by its active branch.
+        """Return the expression with min, max, abs, sign and similar functions on their active branches.
 
-        The variables of `make_tangents_for_variables` are replaced by those of the kernel. A branch that is read for
-        the first time is assigned by a new line of the kernel.
+        Each branch is a symbol; one that is read for the first time is assigned by a new line of the kernel. The
+        variables of `make_tangents_for_variables` are replaced by those of the kernel.
         """
         n_known = len(self._branches)
         fixed = self._symbols.switches.freeze_branches(expression, self._owner, self._branches)
@@ -131,7 +131,7 @@ class Tangents:
         return {base: value for base, value in sums.items() if value != 0}
 
     def _store_derivative(self, symbol: sp.Symbol, base: sp.Symbol, value: sp.Expr) -> sp.Expr:
-        """Return the derivative of a symbol by a base, as a new local if it is long.
+        """Return the derivative `value` of a symbol by a base symbol, as a new local if it is long.
 
         The local is called `<symbol>_by_<base>`. A number or ± a symbol is returned unchanged.
         """
@@ -152,18 +152,18 @@ class Tangents:
         return divided.replace(lambda part: part.is_Pow and bool(part.exp.free_symbols), self._split_power)
 
     def _split_power(self, power: sp.Pow) -> sp.Expr:
-        """Return x^n as x · x^(n−1), with the second factor as a local.
+        """Return the power x^n, whose exponent contains symbols, as x · x^(n−1), with the second factor as a local.
 
-        A power whose exponent has the constant term −1 becomes a local as it is.
+        A power whose exponent has the constant term −1 becomes a local as it is: it is such a factor already.
         """
         if power.exp.as_coeff_Add()[0] == -1:
             return self._store_power("power", power)
         return power.base * self._store_power("power", power.base ** (power.exp - 1))
 
     def _store_power(self, prefix: str, value: sp.Expr) -> sp.Symbol:
-        """Return the local that stores a power, created at its first use.
+        """Return the local that stores a power or reciprocal, created at its first use.
 
-        Its name is the prefix and the name of its base, or "sum" if the base is not a symbol.
+        Its name is `prefix` and the name of the power's base, or "sum" if the base is not a symbol.
         """
         if value not in self._powers:
             self._powers[value] = self._builder.append_local(f"{prefix}_{find_base_name(value)}", value)

@@ -29,7 +29,7 @@ class Slope(sp.Function):
     is_real = True
 
     def _eval_derivative(self, s: sp.Symbol) -> sp.Expr:
-        """Return the derivative of d, which holds where d is finite."""
+        """Return the derivative by `s` of the first argument d, also where the quotient replaces d. Called by SymPy."""
         return differentiate(self.args[0], s)
 
 
@@ -63,8 +63,9 @@ class NextBelow(sp.Function):
 def find_overflowing_terms(expression: sp.Expr, symbol: sp.Symbol) -> list[sp.Expr]:
     """Return the outermost terms of an expression that may be finite where their derivative by `symbol` overflows.
 
-    These are terms of a saturating function or negative power whose inner values may overflow, and terms that are a
-    `Slope` already. Empty if the expression does not depend on the symbol.
+    These are powers with negative or variable exponent and saturating functions such as tanh, if an inner value may
+    overflow as a function of the symbol. Terms that are a `Slope` already count too. Empty if the expression does not
+    depend on the symbol or no term of it can saturate.
     """
     if (
         not any(map(_is_saturating, expression.atoms(sp.Pow, *_SATURATING_CLASSES)))
@@ -81,9 +82,9 @@ def find_overflowing_terms(expression: sp.Expr, symbol: sp.Symbol) -> list[sp.Ex
 
 
 def _is_saturating(term: sp.Expr) -> bool:
-    """Return whether a term may be finite where its inner values are not.
+    """Return whether the form of a term allows a finite value where inner values overflow.
 
-    Such terms are negative or variable powers, and saturating functions.
+    Such terms are powers with a negative or variable exponent, and functions that saturate, such as tanh.
     """
     if term.is_Pow:
         return bool(term.exp.is_extended_negative or not term.exp.is_number)
@@ -91,9 +92,10 @@ def _is_saturating(term: sp.Expr) -> bool:
 
 
 def _may_overflow(part: sp.Basic, symbol: sp.Symbol) -> bool:
-    """Return whether a part of an expression may overflow as a function of `symbol`.
+    """Return whether a part of an expression depends on `symbol` and may overflow.
 
-    Such parts are exponentials, functions with poles, and high, negative or variable powers.
+    Such parts are exponentials, functions with poles, and powers with an exponent that is negative, variable or above
+    8.
     """
     if symbol not in part.free_symbols:
         return False
@@ -105,7 +107,8 @@ def _may_overflow(part: sp.Basic, symbol: sp.Symbol) -> bool:
 def make_finite_slope(term: sp.Expr, symbol: sp.Symbol, derivative: sp.Expr) -> Slope:
     """Return ∂term/∂symbol as a `Slope`: `derivative` where that is finite, else a difference quotient of the term.
 
-    The quotient is replaced by 0 for terms with switching points and for derivatives of a `Slope` with a quotient.
+    The quotient is (f(x⁺) − f(x⁻))/(x⁺ − x⁻) with x⁺, x⁻ a little above and below x. It is 0 for terms with switching
+    points, and for a `Slope` whose own quotient contains a `Slope`.
     """
     if term.has(*_SWITCHING_CLASSES) or isinstance(term, Slope) and any(x.has(Slope) for x in term.args[1:3]):
         return Slope(derivative, *_ZERO_QUOTIENT)
@@ -130,7 +133,7 @@ def has_root_of_squares(expression: sp.Expr, symbol: sp.Symbol) -> bool:
 
 
 def _is_square(term: sp.Expr) -> bool:
-    """Return whether a term is a positive number times even powers."""
+    """Return whether a term is a positive number times even powers only."""
     number, rest = term.as_coeff_Mul()
     return bool(number > 0 and all(factor.is_Pow and factor.exp.is_even for factor in sp.Mul.make_args(rest)))
 
@@ -143,7 +146,8 @@ def make_slope_or_zero(derivative: sp.Expr) -> Slope:
 def convert_for_intervals(expression: sp.Expr) -> sp.Expr:
     """Return the expression in the form for interval arithmetic, in which 0 · ∞ is 0.
 
-    It has no `Slope`, and conditional branches become Heaviside functions. Branches that are frozen over a step stay.
+    Each `Slope` becomes its derivative, and conditional values by a sign become Heaviside functions. Branches that are
+    frozen over a step stay.
     """
     expression = remove_slopes(expression)
     return expression.replace(Select, _replace_branch_by_heaviside) if expression.has(Select) else expression
@@ -155,9 +159,9 @@ def remove_slopes(expression: sp.Expr) -> sp.Expr:
 
 
 def _replace_branch_by_heaviside(branch: sp.Expr, a: sp.Expr, b: sp.Expr) -> sp.Expr:
-    """Return a branch that a sign chooses as b + H(x) (a − b); a branch frozen over a step as a `Select`.
+    """Return the conditional value "a if x ≥ 0 else b" as b + H(x) (a − b), for `branch` = sign(x).
 
-    `branch` is the sign or frozen branch; `a` and `b` are the values above and below zero.
+    For another `branch`, which is frozen over a step, return `Select(branch, a, b)` unchanged.
     """
     if not branch.has(sp.sign):
         return Select(branch, a, b)
@@ -170,10 +174,10 @@ _MAX_SAFE_DECADES = 100  # decades from 1 beyond which the square of a number ma
 
 
 def find_overflowing_squares(expression: sp.Expr, symbol: sp.Symbol) -> list[sp.Expr]:
-    """Return the outermost terms whose derivative must keep quotients v′/v together.
+    """Return the outermost terms of an expression whose derivative must keep quotients v′/v together.
 
-    Their derivative would square a value whose square may overflow or underflow, or they are a `Slope` or an
-    `UnevaluatedQuotient` already. Empty if the expression does not depend on `symbol`.
+    The usual derivative of such a term squares a value v whose square may overflow or underflow. Terms that are a
+    `Slope` or an `UnevaluatedQuotient` count too. Empty if the expression does not depend on `symbol`.
     """
     if symbol not in find_symbols(expression):
         return []
@@ -230,7 +234,7 @@ def remove_numerical_forms(expression: sp.Expr) -> sp.Expr:
 
 
 def _differentiate_by_sympy(expression: sp.Expr, symbol: sp.Symbol) -> sp.Expr:
-    """Return ∂/∂symbol as SymPy computes it; powers with variable exponents are combined."""
+    """Return ∂expression/∂symbol as SymPy computes it, with powers of variable exponents combined: x^n/x as x^(n−1)."""
     rate = differentiate(expression, symbol)
     if any(power.exp.free_symbols and power.base.has(symbol) for power in expression.atoms(sp.Pow)):
         rate = sp.powsimp(rate, combine="exp")
@@ -238,9 +242,9 @@ def _differentiate_by_sympy(expression: sp.Expr, symbol: sp.Symbol) -> sp.Expr:
 
 
 def _may_overflow_when_squared(term: sp.Expr) -> bool:
-    """Return whether differentiation of a term would square a value whose square may overflow or vanish.
+    """Return whether differentiation of a term would square a value whose square may overflow or underflow.
 
-    Such terms are v^-n with a number n, and atan(v) and similar functions.
+    Such terms are v^-n with a number n, and atan(v) and similar functions, if v contains extreme parts (`_is_extreme`).
     """
     if isinstance(term, _SQUARING_CLASSES):
         squares = term.args[0].is_Mul or bool(_find_unsquared_derivative(term))
@@ -251,15 +255,19 @@ def _may_overflow_when_squared(term: sp.Expr) -> bool:
 
 
 def _find_unsquared_derivative(term: sp.Expr) -> str:
-    """Return the text of the derivative that does not square the argument, from the table of functions.
+    """Return the text of a function's derivative in the form that does not square its argument, such as that of atan.
 
-    Return "" for terms without such a form.
+    `term`: a call of the function. Return "" if the table of functions has no such form.
     """
     return CLASSES[type(term)].far_derivative if type(term) in CLASSES else ""
 
 
 def _is_extreme(part: sp.Basic) -> bool:
-    """Return whether a part of an expression may be so large or small that its square overflows or underflows."""
+    """Return whether a part of an expression may be so large or small that its square overflows or underflows.
+
+    Such parts are numbers of magnitude 1e100 or more, products with a factor up to 1e-100, exponentials, and powers
+    with a variable exponent or one of magnitude above 8.
+    """
     if part.is_Number:
         return bool(part.is_finite and abs(part) >= sp.Float(f"1e{_MAX_SAFE_DECADES}"))
     if part.is_Mul and part.args[0].is_Number:  # a small term alone keeps a sum from 0

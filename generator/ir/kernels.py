@@ -59,7 +59,7 @@ class Kernel:
         )
 
     def contains_function(self, function: type[sp.Function]) -> bool:
-        """Return whether the value of any statement contains a SymPy function of a class."""
+        """Return whether the value of any statement contains a SymPy function of the class `function`."""
         statements = (s for section in self.sections for s in section.statements if isinstance(s, Statement))
         return any(isinstance(s.value, sp.Expr) and s.value.has(function) for s in statements)
 
@@ -108,10 +108,11 @@ def _count_by_sympy(expression: sp.Basic) -> int:
 def freeze_branches(
     switches: Switches, owner: str, sections: Iterable[Section], registered_only: bool = False
 ) -> list[Section]:
-    """Return the sections with each switching function replaced by its branch, which is frozen over a step.
+    """Return the sections with min, max, abs and similar functions on branches that are frozen over a step.
 
-    Each branch is assigned once, in a statement before the first that reads it. `owner`: whose switches are counted; ""
-    is the scene. `registered_only`: switching functions that are not registered yet stay.
+    Each branch, the sign of a switching function, is assigned once, before the first statement that reads it. `owner`:
+    the joint with play whose switches are meant; "" is the scene. `registered_only`: switching functions that the table
+    `switches` lacks stay as they are.
     """
     branches: dict[sp.Symbol, sp.Expr] = {}
     result = []
@@ -149,9 +150,9 @@ def remove_unread_lines(lines: Sequence[Line], read_names: set[str]) -> list[Lin
 
 
 def change_expression(line: Line, change: Callable[[sp.Basic], Value]) -> Line:
-    """Return a statement with `change` applied to its expression.
+    """Return a line with `change(expression)` in place of its expression, if it is a statement with one.
 
-    Lines without an expression are returned unchanged.
+    Other lines are returned unchanged.
     """
     if isinstance(line, Statement) and isinstance(line.value, sp.Basic):
         return replace(line, value=change(line.value))
@@ -165,10 +166,10 @@ FROZEN_BRANCHES_TITLE = (
 
 
 def declare_branches(kernel: Kernel, output_target: str = "unread") -> Kernel:
-    """Return the kernel with a first section that declares the frozen branches.
+    """Return the kernel with a first section that declares the branches of switching functions (frozen signs).
 
-    A kernel that reads no branch is returned unchanged. `output_target`: where the kernel writes its switching
-    functions, "", "unread" or "rhs" (see `DeclareBranches`).
+    A kernel that reads no branch is returned unchanged. `output_target`: where the kernel writes the values of its
+    switching functions: "" nowhere, "unread" to the argument g, "rhs" to g and `rhs`.
     """
     if not _has_branch_reads(kernel):
         return kernel
@@ -178,7 +179,7 @@ def declare_branches(kernel: Kernel, output_target: str = "unread") -> Kernel:
 
 
 def _has_branch_reads(kernel: Kernel) -> bool:
-    """Return whether a kernel reads the branch of a switching function, outside the section that declares branches."""
+    """Return whether a line of a kernel reads the argument `branch`, outside the section that declares branches."""
     lines = (s for section in kernel.sections if section.title != FROZEN_BRANCHES_TITLE for s in section.statements)
     return any("branch" in line.reads for line in lines)
 
@@ -193,7 +194,7 @@ class KernelBuilder:
 
     @property
     def has_jumps(self) -> bool:
-        """Return whether any line so far jumps to the code for a vanishing pivot."""
+        """Return whether any line so far may jump to the code for a vanishing pivot."""
         return any(getattr(line, "jumps", False) for _, lines in self._sections for line in lines)
 
     def begin_section(self, title: str) -> None:
@@ -205,9 +206,10 @@ class KernelBuilder:
         self._sections[-1][1].append(line)
 
     def append_local(self, name: str, value: Value, comment: str = "") -> sp.Symbol:
-        """Append the assignment of a value to a new local and return its symbol.
+        """Append the assignment of a value to a new local and return the local's symbol.
 
-        Its name is `name`, with a suffix if that is used already.
+        Its name is made from `name`: with an underscore, and a number if that name is used already. `comment` is
+        printed.
         """
         unique = self._symbols.make_unique_name(name)
         self._sections[-1][1].append(Statement(unique, value, comment))
@@ -228,9 +230,10 @@ class KernelBuilder:
     ) -> Kernel:
         """Return the kernel: inputs and definitions that the collected lines read, then the collected sections.
 
-        Empty sections are left out. `status`: the function returns 0 or the number of a failure. With an `owner` ("":
-        the scene) switching functions, or `registered_only` ones, are replaced by branches: the function then reads
-        `branch` and writes `g` (symbols/switches.py). `prune`: locals that nothing reads are removed.
+        `status`: the function returns 0 or the number of a failure. With an `owner` (a joint with play; "": the scene)
+        min, max and similar functions use frozen branches: the function reads `branch` and writes `g`.
+        `registered_only`: only functions that have a switch already do. `prune`: locals that nothing reads are removed.
+        Empty sections are left out.
         """
         if prune:
             self._sections = _prune_sections(self._sections)
@@ -273,10 +276,11 @@ class KernelBuilder:
     def _resolve_symbols(
         self, expressions: Iterable[sp.Expr], declared_names: set[str]
     ) -> tuple[list[sp.Symbol], list[sp.Symbol]]:
-        """Return the definitions to compute, in the order in which they were made, and the inputs to read.
+        """Return (definitions, inputs): symbols to compute from their definitions, and symbols to read.
 
-        Both are the symbols on which the expressions depend, directly or through definitions, without those in
-        `declared_names`, which the function's own lines define.
+        Both are the symbols on which the expressions depend, directly or through definitions, in the order in which
+        they were made. Those in `declared_names`, which the function's own lines define, are left out. Inputs are read
+        from arguments.
         """
         info, definitions = self._symbols.info, self._symbols.definitions
         found: set[sp.Symbol] = set()
@@ -323,9 +327,10 @@ class ValuePool:
         self.size = 0
 
     def store_value(self, builder: KernelBuilder, value: sp.Expr, name: str) -> sp.Expr:
-        """Store a value in the pool and return ± the symbol of its element; `name` is the base of its name.
+        """Store a value in the next element of the pool and return the symbol of that element.
 
-        A number, a parameter, or a value that is stored already up to its sign is not stored again.
+        `name` is the base of its name. A number or ± a parameter is returned unchanged. For a value that is stored
+        already, or its negative, ± the symbol of that element is returned.
         """
         for sign in (1, -1):
             if value.is_Number or self._is_parameter(sign * value):
@@ -337,7 +342,7 @@ class ValuePool:
         return symbol
 
     def store_local(self, builder: KernelBuilder, value: sp.Expr) -> sp.Expr:
-        """Store the local of which a value is ±, so that other functions read it under the same name; return the value.
+        """Store the local of which `value` is ± in the pool, under its own name for other functions; return the value.
 
         Nothing is stored if the value has no symbol or its symbol is registered already.
         """
@@ -347,7 +352,7 @@ class ValuePool:
         return value
 
     def find_index_and_sign(self, builder: KernelBuilder, value: sp.Expr) -> tuple[int, int]:
-        """Return (index, sign) of a value in the pool.
+        """Return (index, sign) of a value in the pool: the value is sign times the element.
 
         A value that is not stored yet, such as a number or parameter, is stored first.
         """

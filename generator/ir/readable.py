@@ -59,9 +59,9 @@ class FractionOfPi:
 
 
 def convert_to_fraction_of_pi(number: sp.Expr) -> FractionOfPi | None:
-    """Return a number as a simple fraction of π that has the same bits as a float; None if there is none.
+    """Return a number as a fraction of π that has the same bits as a float; None if there is none.
 
-    `number`: a SymPy float, or a rational number times π.
+    `number`: a SymPy float, or a rational number times π. A float must be k π/d with d a divisor of 360 and |k| ≤ 1000.
     """
     if number.is_Float:
         return _find_fraction_of_pi(float(sp.Float(number, 17)))
@@ -94,8 +94,8 @@ def _find_fraction_of_pi(value: float) -> FractionOfPi | None:
 def make_readable(kernel: Kernel, name_branches: bool = True) -> Readable:
     """Return the readable form of a kernel: without copies of arguments and parameters, with a line for each branch.
 
-    `name_branches`: False leaves the branches inside the expressions. Empty sections are removed; values and the order
-    of their terms stay.
+    A branch is a conditional value, of min or `where` for example; `name_branches` False leaves it inside the
+    expressions. Empty sections are removed; values and the order of their terms stay.
     """
     arguments = {argument.name for argument in kernel.arguments}
     names = dict(kernel.names)
@@ -125,8 +125,8 @@ def make_readable_statements(statements: Sequence[Statement]) -> Readable:
 def _remove_copies(lines: Sequence[Line], arguments: Collection[str], names: dict[Key, Key]) -> list[Line]:
     """Return the lines without locals that are copies of arguments or parameters.
 
-    `names` is changed in place: it maps each removed local to the place that is read instead. A local that is stored to
-    a parameter in the next line is merged with that line.
+    `names` is changed in place: it maps each removed local to the storage place that is read instead. The assignment of
+    a local that the next line stores to a parameter is merged with that line.
     """
     result: list[Line] = []
     for line in lines:
@@ -143,7 +143,10 @@ def _remove_copies(lines: Sequence[Line], arguments: Collection[str], names: dic
 
 
 def _merge_copy_to_parameter(assignment: Line, copy_line: Line) -> Statement | None:
-    """Return `p.x = value` for the lines `y = value` and `p.x = y`, where p.x is a parameter; None for other lines."""
+    """Return `p.x = value` for the successive lines `y = value` and `p.x = y`, where p.x is a parameter of the run.
+
+    Return None for all other pairs of lines.
+    """
     if not (isinstance(assignment, Statement) and isinstance(copy_line, Statement) and assignment.declared_local):
         return None
     is_copy = copy_line.value == sp.Symbol(assignment.declared_local, real=True)

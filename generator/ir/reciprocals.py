@@ -23,16 +23,16 @@ def is_division(part: sp.Basic) -> bool:
 
 
 def find_base_name(power: sp.Basic) -> str:
-    """Return the name for the base x of a power: of its symbol or struct member, or "sum" for other expressions."""
+    """Return the name of the base x of a power: its symbol or struct member, or "sum" for other expressions."""
     if isinstance(power.base, PlaceSymbol):
         return power.base.place.member
     return power.base.name if power.base.is_Symbol else "sum"
 
 
 def hoist_reciprocals(parameter_table: ParameterTable, value: sp.Expr) -> sp.Expr:
-    """Return the value with reciprocals of constant denominators as derived parameters, which are computed once a run.
+    """Return the value with divisions by constants as products with derived parameters 1/x, computed once a run.
 
-    `parameter_table`: the table of parameters, to which they are added. A value without powers is returned unchanged.
+    Constants are expressions of parameters alone. The derived parameters are added to `parameter_table`.
     """
 
     def is_constant_division(part: sp.Basic) -> bool:
@@ -53,7 +53,7 @@ def share_reciprocals(kernel: Kernel) -> Kernel:
 
 
 def _share_denominators(sections: tuple[Section, ...]) -> list[Section]:
-    """Return the sections with the reciprocal of each repeated denominator as a local.
+    """Return the sections with 1/x as a local for each denominator x that occurs more than once.
 
     The local is assigned before the first statement that reads it, and divisions become products with it.
     """

@@ -52,10 +52,10 @@ TitledLine = tuple[str, Line]  # a line and its section's title
 
 
 def split_late_sums(lines: Iterable[TitledLine], make_unique_name: Callable[[str], str]) -> list[TitledLine]:
-    """Return the lines, with titles, in which each sum is split so that terms known late are added last.
+    """Return the lines, as (section title, line), in which sums are split so that terms known late are added last.
 
-    No line then waits longer than it must for its operands. Partial sums become locals `<local>_known`;
-    `make_unique_name` returns an unused name.
+    A term is known the later, the more dependent statements precede it. Partial sums become locals `<local>_known`;
+    `make_unique_name` returns an unused name. Only sums of locals are split.
     """
     depth_by_local: dict[str, int] = {}
 
@@ -85,8 +85,8 @@ def split_late_sums(lines: Iterable[TitledLine], make_unique_name: Callable[[str
 def find_angle_differences(statements: Iterable[Statement]) -> dict[str, tuple[sp.Expr, str, int]]:
     """Return the locals that are the cosine or sine of a difference a − b, formed from those of a and b.
 
-    The result maps each such local to (a − b, the local of the other function, sign in its derivative). A local whose
-    partner is missing is left out.
+    The result maps each such local to (a − b, the name of the local of the other function, the sign in its derivative:
+    −1 for a cosine, 1 for a sine). A local without the other function is left out.
     """
     values = {
         line.declared_local: line.value
@@ -156,10 +156,11 @@ class LinearSystem:
 def derive_taylor_series(
     kernel: Kernel, find_place: FindPlace, name: str, linear: LinearSystem | None = None
 ) -> Series:
-    """Return the functions for the Taylor series of a kernel's results.
+    """Return the functions for the Taylor coefficients of a kernel's results: one of order 0, one of each higher order.
 
-    `find_place(place)`: the place of a result in the new functions, or None if it is not requested. `linear`: a linear
-    system that the kernel solves. Raise NoTaylorSeries for operations without a series.
+    `find_place(place)`: where the new functions store the result of a storage place, or None if it is not requested.
+    `name`: the base of their names. `linear`: a linear system that the kernel solves, or None. Raise NoTaylorSeries for
+    operations without a series.
     """
     lines = _find_needed_lines(kernel, find_place)
     builder = _SeriesBuilder(lines, linear)
@@ -169,9 +170,10 @@ def derive_taylor_series(
 
 
 def _find_needed_lines(kernel: Kernel, find_place: FindPlace) -> list[TitledLine]:
-    """Return the titled lines on which requested results depend; other stored values become locals.
+    """Return the lines on which requested results depend, as (section title, line); other stores become locals.
 
-    `find_place(place)` is the place of a requested result or None. Lines that handle singular equations are dropped.
+    `find_place(place)` is the new storage place of a requested result, or None. Lines that handle singular equations
+    are dropped.
     """
     lines: list[TitledLine] = []
     symbol_of_place: dict[sp.Basic, sp.Basic] = {}
@@ -217,10 +219,10 @@ class _SeriesBuilder(Rules):
         self._title, self._linear = "", linear
 
     def convert_line(self, title: str, line: Line) -> None:
-        """Convert the next line of the kernel and append it to both functions.
+        """Convert the next line of the kernel and append it to both functions, of order 0 and of order k.
 
-        A test of a pivot is added to order 0 alone, and a return is skipped. Raise NoTaylorSeries for other lines
-        that are not assignments.
+        The test of a pivot is appended to order 0 alone, and a return is skipped. Raise NoTaylorSeries for other lines
+        that are not assignments. `title`: that of the section.
         """
         self._title = title
         match line:
@@ -236,7 +238,7 @@ class _SeriesBuilder(Rules):
                 raise NoTaylorSeries(f"a {type(line).__name__.lower()} of the right-hand side is no expression")
 
     def _add_input_line(self, line: Statement, place: Place) -> None:
-        """Append a line that reads time, state or a parameter to both functions.
+        """Append a line that reads time, state or a parameter at the storage place `place` to both functions.
 
         The local is recorded as a parameter or as varying. Raise NoTaylorSeries for other places.
         """
@@ -247,10 +249,10 @@ class _SeriesBuilder(Rules):
         (self.parameters if place.base == "p" else self.varying).add(line.declared_local)
 
     def _add_assignment(self, line: Statement, value: sp.Expr) -> None:
-        """Append an assignment to both functions.
+        """Append the assignment `line` of an expression `value` to both functions, of order 0 and of order k.
 
-        At order k a result is multiplied by 1/(k + 1). Lines that factorize the linear system are added to order 0
-        alone. A local that its partner function has defined is skipped.
+        A stored result of order k is multiplied by 1/(k + 1). Lines that factorize the linear system are appended to
+        order 0 alone. The sine or cosine that its partner has defined already is skipped.
         """
         if not line.declared_local:
             self._values.append((self._title, line))
@@ -262,10 +264,10 @@ class _SeriesBuilder(Rules):
             self.define_local(line.declared_local, value)
 
     def define_local(self, target: str, value: sp.Expr, as_series: bool = False) -> sp.Symbol:
-        """Append a local to both functions, or to order 0 alone if it is constant, and return its symbol.
+        """Append the local `target` = `value` to both functions and return its symbol.
 
-        `as_series`: also a constant gets a series. A right-hand side of the linear system gets the terms of lower
-        orders subtracted.
+        A constant is appended to order 0 alone, unless `as_series`. If the local is a right-hand side of the linear
+        system A x = b, its order k is b_k minus Σ A_j x_{k-j}, j = 1 … k.
         """
         symbol = sp.Symbol(target, real=True)
         loads = self._linear.loads if self._linear else {}
@@ -287,7 +289,10 @@ class _SeriesBuilder(Rules):
         return symbol
 
     def _sum_lower_orders(self, linear: LinearSystem, row: int) -> sp.Expr:
-        """Return Σ A_j x_{k-j}, j = 1 … k, of equation `row` of the linear system, without constant entries of A."""
+        """Return Σ A_j x_{k-j}, j = 1 … k, of equation `row` of the linear system A x = b.
+
+        Entries of A that are constant in time add nothing.
+        """
         terms = []
         for column, x in linear.unknowns.items():
             entry = linear.entries.get((row, column), linear.entries.get((column, row), ZERO))
@@ -299,9 +304,10 @@ class _SeriesBuilder(Rules):
         return sp.Add(*terms)
 
     def _expand_difference(self, value: sp.Expr, symbol: sp.Symbol) -> OrderPair | None:
-        """Return orders 0 and k of the cosine or sine of a difference of angles, by its rate instead of four products.
+        """Return orders 0 and k of a local that is the cosine or sine of a difference of angles; None for other locals.
 
-        Return None if the local is not such a function.
+        `value`, `symbol`: its definition and symbol. Order k follows from the rate of the difference, without four
+        products.
         """
         if symbol.name not in self._angle_differences:
             return None
@@ -309,9 +315,9 @@ class _SeriesBuilder(Rules):
         return value, sign * self.integrate_product(self.define_value(angle), sp.Symbol(partner_name, real=True))
 
     def define_partner(self, value: sp.Expr) -> sp.Symbol:
-        """Return the symbol of another function of the same argument, such as the cosine for a sine.
+        """Return the symbol of `value`, a function in the derivative of another one, such as cos u for sin u.
 
-        It is defined, under its name in the kernel if it has one, unless it is known already.
+        If it is not known yet it is defined, under its name in the kernel if it has one.
         """
         if value in self.symbol_by_value:
             return self.symbol_by_value[value]
@@ -320,9 +326,10 @@ class _SeriesBuilder(Rules):
         )
 
     def make_series(self, name: str) -> Series:
-        """Return both functions without locals that nothing reads, the values that order k reads, and the sums S_k.
+        """Return the functions of order 0 and of order k, and what order k reads: values of order 0 and sums S_k.
 
-        Called once, after all lines have been converted.
+        Locals that nothing reads are left out. `name`: base of the functions' names. Called once, after all lines have
+        been converted.
         """
         products, n_products = list[Product](), -1
         while n_products < len(products):  # a sum that is read asks for its factors, and they for other sums
@@ -358,7 +365,7 @@ class _SeriesBuilder(Rules):
 
 
 def _make_kernel_arguments() -> tuple[tuple[Argument, ...], tuple[Argument, ...]]:
-    """Return the arguments of the function for order 0 and of that for order k."""
+    """Return (arguments of the function for order 0, arguments of that for order k > 0)."""
     rates = (make_output_argument("a"), make_output_argument("power"))
     factors = (make_output_argument(LEFT, "Wide"), make_output_argument(RIGHT, "Wide"))
     order = tuple(
@@ -370,9 +377,10 @@ def _make_kernel_arguments() -> tuple[tuple[Argument, ...], tuple[Argument, ...]
 
 
 def _make_factor_stores(products: Sequence[Product]) -> list[TitledLine]:
-    """Return the titled lines that store the factors of all sums S_k for higher orders.
+    """Return the lines, with their title, that store the factors of all sums S_k for higher orders.
 
-    They fill rows of ROW_LENGTH elements, the last of which may be shorter.
+    S_k is a convolution of two series. The left and right factors fill rows of ROW_LENGTH elements; the last one may be
+    shorter.
     """
 
     def make_coefficient(factor: Factor) -> sp.Expr:
@@ -389,13 +397,13 @@ def _make_factor_stores(products: Sequence[Product]) -> list[TitledLine]:
 
 
 def _prune_lines(lines: list[TitledLine]) -> list[TitledLine]:
-    """Return the titled lines without locals that no later line reads."""
+    """Return the pairs (section title, line) without lines that define a local which no later line reads."""
     kept_ids = {id(line) for line in remove_unread_lines([line for _, line in lines], set())}
     return [item for item in lines if id(item[1]) in kept_ids]
 
 
 def _group_sections(lines: Iterable[TitledLine]) -> tuple[Section, ...]:
-    """Return titled lines as sections; successive lines with the same title form one section."""
+    """Return pairs (section title, line) as sections; successive lines with the same title form one section."""
     sections: list[tuple[str, list[Line]]] = []
     for title, line in lines:
         if not sections or sections[-1][0] != title:

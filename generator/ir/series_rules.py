@@ -86,7 +86,7 @@ class Rules(ABC):
         """Return the symbol of another function of the same argument."""
 
     def is_constant(self, value: sp.Basic) -> bool:
-        """Return whether a value has only order 0."""
+        """Return whether a value has only order 0: it contains no local that varies with time."""
         return not any(s.name in self.varying for s in value.free_symbols)
 
     def make_unique_name(self, name: str) -> str:
@@ -108,9 +108,9 @@ class Rules(ABC):
         )
 
     def define_series(self, value: sp.Expr) -> sp.Symbol:
-        """Return the symbol of a local that holds a value as a series.
+        """Return the symbol of a local that holds a value as a series in time.
 
-        A constant gets a new local, with zeros at higher orders.
+        A constant gets a new local "still_…" with zeros at higher orders.
         """
         return (
             self.define_local(self.make_unique_name("still"), value, True)
@@ -119,11 +119,11 @@ class Rules(ABC):
         )
 
     def expand_orders(self, value: sp.Expr, symbol_of_value: sp.Symbol | None = None) -> OrderPair:
-        """Return a value at order 0 and at order k, both in names of locals.
+        """Return the coefficients of order 0 and of order k of a value, both in names of locals.
 
-        A constant is 0 at order k, and a symbol is itself at both. A sum is split into its terms; products, powers and
-        functions have rules of their own. `symbol_of_value`: the symbol of the local that is being defined as this
-        value, which a rule may read. Without it, a power with another exponent or a function defines a new local.
+        A constant is 0 at order k, a symbol is itself at both, and a sum is expanded term by term. `symbol_of_value`:
+        the symbol of the local that is being defined as this value, which a rule may read. If it is None, a function or
+        a power other than x^n with an integer n > 1 becomes a new local.
         """
         if self.is_constant(value):
             return value, sp.Integer(0)
@@ -146,9 +146,9 @@ class Rules(ABC):
         )
 
     def _expand_product(self, value: sp.Expr, symbol_of_value: sp.Symbol | None) -> OrderPair:
-        """Return a product or quotient at orders 0 and k.
+        """Return the coefficients of order 0 and of order k of a product or quotient.
 
-        It is a constant times a product of two locals, or a quotient of two. Further factors are combined in new locals
+        It is a constant times a product of two locals, or a quotient of two; more factors are combined in new locals
         first. `symbol_of_value`: the symbol of the value, or None.
         """
         constant = sp.Mul(*(factor for factor in sp.Mul.make_args(value) if self.is_constant(factor)))
@@ -185,7 +185,7 @@ class Rules(ABC):
         )
 
     def _combine_factors(self, values: list[sp.Expr]) -> list[sp.Symbol]:
-        """Return at most two symbols whose product is that of the values; a single sum is returned as it is.
+        """Return a list of at most two symbols whose product is that of the values; a single sum is returned as it is.
 
         Integer powers are repeated factors, high powers squares of lower ones; new locals hold partial products.
         """
@@ -205,14 +205,14 @@ class Rules(ABC):
         return symbols
 
     def _combine_symbols(self, parts: list[sp.Symbol]) -> sp.Symbol:
-        """Return one symbol for the product of some symbols, defined if there are several."""
+        """Return one symbol for the product of the symbols `parts`; it is defined as a local if there are several."""
         return self.define_value(sp.Mul(*parts))
 
     def _expand_power(self, value: sp.Expr, symbol_of_value: sp.Symbol) -> OrderPair:
-        """Return a power at orders 0 and k.
+        """Return the coefficients of order 0 and of order k of a power.
 
         c = a^n follows from a c' = n a' c, a square root from a = c c, and 1/a as a quotient. `symbol_of_value`: the
-        symbol of c. Raise NoTaylorSeries if the exponent varies.
+        symbol of c. Raise NoTaylorSeries if the exponent varies with time.
         """
         if not self.is_constant(value.exp):
             raise NoTaylorSeries("a power has an exponent that moves")
@@ -233,9 +233,10 @@ class Rules(ABC):
         ) * self.get_inverse(a)
 
     def _expand_function(self, value: sp.Expr, symbol_of_value: sp.Symbol) -> OrderPair:
-        """Return a function of series at orders 0 and k, by its derivative; atan2 has a rule of its own.
+        """Return the coefficients of order 0 and of order k of a function of series; atan2 has a rule of its own.
 
-        `symbol_of_value`: the symbol of the value. Raise NoTaylorSeries if the derivative is not known.
+        Order k follows from the derivative in the table of functions. `symbol_of_value`: the symbol of the value. Raise
+        NoTaylorSeries if there is none.
         """
         derivative = CLASSES[type(value)].derivative if type(value) in CLASSES else ""
         if not derivative and not isinstance(value, sp.atan2):
@@ -249,9 +250,10 @@ class Rules(ABC):
         return value.func(*u), order_k
 
     def express_at_order_zero(self, value: sp.Expr) -> sp.Expr:
-        """Return a constant as the lines of order k read it.
+        """Return a value that is constant in time as the lines of order k read it.
 
-        Parameters are read by name, other locals by their value at order 0. A longer expression becomes a local first.
+        Parameters are read by name, other locals by their stored value of order 0. A longer expression becomes a local
+        first.
         """
         if value.free_symbols and not (value.is_Symbol or (-value).is_Symbol):
             value = self.define_value(value)
@@ -260,7 +262,10 @@ class Rules(ABC):
         )
 
     def divide_series(self, a: sp.Expr, b: sp.Symbol, symbol_of_quotient: sp.Symbol) -> sp.Expr:
-        """Return order k of c = a/b from a_k = c_0 b_k + c_k b_0 + S_k; `symbol_of_quotient` is the symbol of c."""
+        """Return order k of c = a/b from a_k = c_0 b_k + c_k b_0 + S_k; `symbol_of_quotient` is the symbol of c.
+
+        S_k is the convolution of lower orders of c and b. `a` is the coefficient a_k.
+        """
         return (
             a
             - make_order_zero_symbol(symbol_of_quotient) * b
@@ -268,27 +273,27 @@ class Rules(ABC):
         ) * self.get_inverse(b)
 
     def get_inverse(self, b: sp.Symbol) -> sp.Expr:
-        """Return the symbol of 1/b_0, which order 0 stores for all higher orders."""
+        """Return the symbol of 1/b_0, b_0 the coefficient of order 0 of b; it is stored for all higher orders."""
         name = f"{b.name}_inverse"
         self.inverses[name] = b
         return PlaceSymbol(Place(VALUES)[name])
 
     def integrate_product(self, u: sp.Symbol, w: sp.Symbol) -> sp.Expr:
-        """Return order k of c with c' = u' w."""
+        """Return order k > 0 of the series c with c' = u' w."""
         return (
             u * make_order_zero_symbol(w) + self.add_convolution(Factor(u.name, True), Factor(w.name)) * INVERSE_ORDER
         )
 
     def integrate_quotient(self, u: sp.Expr, w: sp.Symbol, symbol_of_value: sp.Symbol) -> sp.Expr:
-        """Return order k of c with w c' = u'; `symbol_of_value` is the symbol of c."""
+        """Return order k > 0 of the series c with w c' = u'; `symbol_of_value` is the symbol of c, `u` order k of u."""
         return (
             u - self.add_convolution(Factor(w.name), Factor(symbol_of_value.name, True)) * INVERSE_ORDER
         ) * self.get_inverse(w)
 
     def add_convolution(self, left: Factor, right: Factor) -> sp.Symbol:
-        """Return the symbol of the sum S_k = Σ left_j right_{k-j} of two factors, j from 1 to k − 1.
+        """Return the symbol of the sum S_k = Σ left_j right_{k-j}, j from 1 to k − 1, of the series of two factors.
 
-        The sum is recorded; both orders of the factors give the same sum.
+        The sum is recorded once: exchanged factors give the same sum.
         """
         factors = (left, right) if (left.name, left.rate) <= (right.name, right.rate) else (right, left)
         name = "__".join(f"{factor.name}{'_rate' * factor.rate}" for factor in factors)
@@ -296,9 +301,9 @@ class Rules(ABC):
         return PlaceSymbol(Place(SUMS)[product.name])
 
     def define_square_later(self, symbol_of_value: sp.Symbol) -> sp.Symbol:
-        """Return a symbol for the square of the value that is being defined.
+        """Return a new symbol for the square of the local that is being defined.
 
-        Its definition is appended to `pending`, and follows that of the value.
+        Its definition is appended to `pending`, so that it follows that of the local.
         """
         name = self.make_unique_name("square")
         self.pending.append((name, symbol_of_value**2))
@@ -326,9 +331,9 @@ def _expand_angle(rules: Rules, y: sp.Symbol, x: sp.Symbol, symbol_of_angle: sp.
 
 
 def _expand_by_derivative(rules: Rules, derivative: str, u: sp.Symbol, symbol_of_value: sp.Symbol) -> sp.Expr:
-    """Return order k of c = f(u) by its derivative n/w, n a number: w c' = n u'.
+    """Return order k of c = f(u) from the text of its derivative in the table of functions.
 
-    A derivative that is a sum of terms n w gives c' = u' w for each. `derivative`: its text in the table of functions;
+    A derivative n/w with a number n gives w c' = n u'; one that is a sum of terms n w gives c' = Σ n u' w.
     `symbol_of_value`: the symbol of c.
     """
     numerator, denominator = sp.fraction(convert_derivative(derivative, u, symbol_of_value))

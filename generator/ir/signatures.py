@@ -68,8 +68,8 @@ ZERO = sp.Integer(0)
 
 
 def make_contact_arguments(index: int) -> tuple[Place, ...]:
-    """Return the last arguments of a call of the function of joint `index` with play.
+    """Return the last arguments of a call of the force function of joint `index` with play, as storage places.
 
-    They are its contact state, the parameters, and the arguments for branches.
+    They are its contact state, the parameters, the frozen branches and the switching functions.
     """
     return (DISCRETE["contact"][index], *(Place(argument.name) for argument in (PARAMETERS, *BRANCHES)))

@@ -22,23 +22,27 @@ _MakeLines = Callable[[Sequence[sp.Symbol], Sequence[Statement], int], tuple[lis
 
 
 def vectorize_sines(kernel: Kernel) -> Kernel:
-    """Return the kernel with cosines and sines computed four angles at a time, as soon as their angles are known."""
+    """Return the kernel with its cosines and sines computed four angles at a time, in vectors.
+
+    Each vector is computed as soon as its angles are known. The function is for single runs; lanes use
+    `call_sines_by_lane`.
+    """
     return _group_sines(kernel, _make_vectors)
 
 
 def call_sines_by_lane(kernel: Kernel) -> Kernel:
-    """Return the kernel with cosines and sines of angles that are vectors of several runs (lanes.h).
+    """Return the kernel for lanes, with a call for the cosine and sine of each angle, a vector over several runs.
 
-    The same functions as for single runs are used, so that the results have the same bits.
+    The functions are those of single runs, so that the results have the same bits. They are in lanes.h.
     """
     return _group_sines(kernel, _make_lane_calls)
 
 
 def _group_sines(kernel: Kernel, make_lines: _MakeLines) -> Kernel:
-    """Return the kernel with cosines and sines grouped section by section.
+    """Return the kernel with the cosines and sines of each section computed together.
 
-    A cosine or sine that an earlier section computes is not computed again (a common subexpression). `make_lines` makes
-    the lines for some angles.
+    A cosine or sine that an earlier section computes is not computed again (a common subexpression).
+    `make_lines(angles, statements, n)` makes the lines; n counts the vectors or angles before.
     """
     symbol_of_function: dict[sp.Expr, sp.Symbol] = {}
     sections: list[Section] = []
@@ -56,24 +60,25 @@ def _group_sines(kernel: Kernel, make_lines: _MakeLines) -> Kernel:
 
 
 def _reuse_known_sines(line: Line, known_symbols: Mapping[sp.Expr, sp.Symbol]) -> Line:
-    """Return a line with common subexpressions replaced: cosines and sines that an earlier section computes.
+    """Return a line with its value replaced by a local if an earlier section computes that cosine or sine.
 
-    `known_symbols` gives the symbol of the local that holds each of them. Other lines are returned unchanged.
+    `known_symbols` gives the symbol of the local by value. Other lines are returned unchanged.
     """
     return change_expression(line, lambda value: known_symbols.get(value, value))
 
 
 def _find_angle(statement: Line) -> sp.Symbol | None:
-    """Return the symbol whose cosine or sine a statement computes; None for all other lines."""
+    """Return the symbol whose cosine or sine a statement assigns; None for all other lines."""
     value = statement.value if isinstance(statement, Statement) else None
     return value.args[0] if isinstance(value, (sp.cos, sp.sin)) and value.args[0].is_Symbol else None
 
 
 def _group_sines_in_section(section: Section, make_lines: _MakeLines, n_groups: int) -> tuple[Section, int]:
-    """Return the section with the grouped cosines and sines as early as possible, and the number of groups so far.
+    """Return the section with its cosines and sines in groups, as early as possible, and the number of groups so far.
 
-    The statements that the angles depend on come first, then the groups, then the rest. A section with lines that are
-    not assignments, or without angles, is returned unchanged.
+    `make_lines` makes the lines of groups; `n_groups`: the number before. Statements that the angles depend on come
+    first, then the groups, then the rest. A section with lines that are not assignments, or without angles, is returned
+    unchanged.
     """
     statements = [
         statement
@@ -110,8 +115,8 @@ def _make_vectors(
 ) -> tuple[list[Line], int]:
     """Return the lines that compute sines and cosines in vectors of four angles, and the new number of vectors.
 
-    The lines end with `statements`, which computed them one by one and now read the vectors. `n_vectors`: their number
-    so far. More than _MAX_VECTORS vectors are computed in a loop.
+    The lines end with `statements`, which computed them one by one and now read the vectors. `n_vectors`: the number of
+    vectors before. More than _MAX_VECTORS vectors are computed in a loop. The last one repeats its last angle.
     """
     padded = [*angles, *[angles[-1]] * (-len(angles) % 4)]
     count = len(padded) // 4
@@ -132,9 +137,10 @@ def _make_vectors(
 def _make_lane_calls(
     angles: Sequence[sp.Symbol], statements: Sequence[Statement], n_angles: int
 ) -> tuple[list[Line], int]:
-    """Return a call for each angle, the statements that read its results, and the new number of angles.
+    """Return a call for each angle with the statements that read its results, and the new number of angles.
 
-    `statements`: those that computed the cosines and sines one by one; `n_angles`: the number of angles so far.
+    A call computes the cosine and sine of an angle in all lanes. `statements`: those that computed the cosines and
+    sines one by one; `n_angles`: the number of angles before.
     """
     index_by_angle = {angle: k for k, angle in enumerate(angles, n_angles)}
     lines: list[Line] = [Sines((angle,), str(k), lanes=True) for angle, k in index_by_angle.items()]

@@ -36,10 +36,10 @@ from gudgeon.generator.symbols.storage import Place
 
 
 def order_statements_near_readers(read_names: Sequence[frozenset[str]], defined_names: Sequence[str]) -> list[int]:
-    """Return an order of statements in which each is near those that read it, as a list of indices.
+    """Return an order of statements, as a list of indices, in which each is near those that read its result.
 
     Statement k reads the names `read_names[k]` and defines `defined_names[k]` ("": a result or a test). Each follows
-    the statements that it reads.
+    the statements whose results it reads.
     """
     index_by_name = {name: k for k, name in enumerate(defined_names) if name}
     dependencies = [
@@ -102,10 +102,10 @@ class TitledLine:
 
 
 def split_kernel(kernel: Kernel) -> tuple[Kernel, ...]:
-    """Return the parts of a long kernel and, last, the function that calls them.
+    """Return the parts of a long kernel as functions and, last, the function that calls them.
 
-    A kernel of at most _MAX_LINES lines, or one without enough movable lines, is returned unchanged as the only
-    element.
+    A kernel of at most _MAX_LINES lines, or one without enough movable lines (statements and tests of pivots), is
+    returned unchanged as the only element.
     """
     if sum(len(section.statements) for section in kernel.sections) <= _MAX_LINES:
         return (kernel,)
@@ -147,7 +147,10 @@ def split_kernel(kernel: Kernel) -> tuple[Kernel, ...]:
 
 
 def _find_names_read_later(pieces: Sequence[Sequence[TitledLine]]) -> list[frozenset[str]]:
-    """Return for each piece the names that later lines of the calling function read."""
+    """Return for each piece (a part, or lines between parts) the names that later lines of the calling function read.
+
+    Lines of later parts do not count: they read values of other parts from the array of passed values.
+    """
     later_read_names = [frozenset[str]()]
     for piece in reversed(pieces[1:]):
         names = later_read_names[-1]
@@ -156,10 +159,10 @@ def _find_names_read_later(pieces: Sequence[Sequence[TitledLine]]) -> list[froze
 
 
 def _list_lines(kernel: Kernel) -> tuple[list[TitledLine], dict[str, TitledLine]]:
-    """Return all lines of a kernel in order, except copies of arguments, and these copies by name.
+    """Return all lines of a kernel in order, except copies of arguments, and these copies by the name of their local.
 
-    A copy of an argument is a local; each part makes its own copy where it reads one. A line after a jump,
-    or one that reads names known to unmovable lines only, is not movable.
+    Each part makes its own copy where it reads one. A line is movable if it is a statement or a test of a pivot, stands
+    before any jump, and reads no name that only unmovable lines know.
     """
     titled_lines = [(section.title, line) for section in kernel.sections for line in section.statements]
     constant = {argument.name for argument in kernel.arguments if argument.access in (Access.CONSTANT, Access.READ)}
@@ -192,25 +195,23 @@ def _is_movable_line(line: Line) -> bool:
 
 
 def _find_copied_argument(line: Line) -> str:
-    """Return the name of the argument or array that a statement copies to a local; "" for other lines."""
+    """Return the name of the argument or array from which a statement copies to a local; "" for other lines."""
     return (
         line.value.base if isinstance(line, Statement) and line.declared_local and isinstance(line.value, Place) else ""
     )
 
 
 def _find_sine_arrays(kernel: Kernel) -> dict[str, str]:
-    """Return the arrays of sines and cosines that a loop of the function fills, by name.
-
-    The value is the type of their elements.
-    """
+    """Return the arrays of sines and cosines that a loop of the function fills: the type of their elements by name."""
     lines = [line for section in kernel.sections for line in section.statements]
     return {name: "Four" for line in lines if isinstance(line, Sines) and line.count for name in line.arrays}
 
 
 def _divide_lines(items: Sequence[TitledLine]) -> list[list[TitledLine]]:
-    """Return the lines in pieces: runs of movable lines in equal pieces, other lines between them.
+    """Return the lines in pieces: each run of movable lines in pieces of equal length, other lines between them.
 
-    A piece has at most _MAX_PART_LINES lines; a run shorter than _MIN_PART_LINES becomes unmovable.
+    A piece of movable lines becomes a part and has at most _MAX_PART_LINES lines. A run shorter than _MIN_PART_LINES
+    becomes unmovable and stays in the calling function.
     """
     pieces = []
     for movable, group in groupby(items, key=lambda item: item.movable):
@@ -230,9 +231,9 @@ def _is_part(piece: Sequence[TitledLine]) -> bool:
 
 
 def _number_passed_locals(pieces: Sequence[Sequence[TitledLine]]) -> dict[str, int]:
-    """Return an array index for every local that one piece computes and another reads, in the order of computation.
+    """Return an index in the array of passed values for every local that one piece computes and another reads.
 
-    Pieces that stay in the calling function exchange nothing through the array.
+    Indices follow the order of computation. Two pieces that both stay in the calling function pass nothing.
     """
     piece_of_local = {item.defines: k for k, piece in enumerate(pieces) for item in piece if item.defines}
     passed_names = {
@@ -256,7 +257,10 @@ def _find_unused_name(name: str, items: Sequence[TitledLine]) -> str:
 
 
 def _order_lines(items: list[TitledLine]) -> list[TitledLine]:
-    """Return the lines, each moved near its readers; unchanged if a line reads an array that another writes."""
+    """Return the lines in an order in which each is near those that read its result.
+
+    They are returned unchanged if a line reads an array that one of them writes.
+    """
     written_arrays = frozenset().union(*(item.line.writes for item in items))
     if any(written_arrays & item.line.reads for item in items):
         return items
@@ -272,10 +276,10 @@ def _make_load(name: str, place: Place) -> TitledLine:
 
 
 def _insert_argument_copies(items: Sequence[TitledLine], copies: dict[str, TitledLine]) -> list[TitledLine]:
-    """Return the lines of the calling function with the copies of arguments that it reads inserted.
+    """Return the lines of the calling function with the copies of arguments inserted that it reads.
 
-    Arguments are copied first of all, arrays after the line that fills them, because the reading line may be in a block
-    or after a label.
+    Arguments are copied first of all, elements of arrays of sines and cosines after the line that fills the array. The
+    reading line cannot copy them, because it may be in a block or after a label.
     """
     read_names = frozenset[str]().union(*(item.reads for item in items))
     needed_copies = [item for name, item in copies.items() if name in read_names]
@@ -303,19 +307,19 @@ class _Splitter:
     argument_copies: dict[str, TitledLine]
 
     def make_store_line(self, name: str) -> TitledLine:
-        """Return the line that stores a local in the array of passed values."""
+        """Return the line that stores the local `name` in its element of the array of passed values."""
         statement = Statement(Place(self.array_name)[self.index_of_passed[name]], Place(name))
         return TitledLine("values for later parts", statement, frozenset({name}), False)
 
     def make_load_line(self, name: str) -> TitledLine:
-        """Return the line that reads a local of an earlier part from the array of passed values."""
+        """Return the line that reads the local `name` of another part from the array of passed values."""
         return _make_load(name, Place(self.array_name)[self.index_of_passed[name]])
 
     def make_part(self, name: str, piece: list[TitledLine]) -> Kernel:
-        """Return one part as a function.
+        """Return the piece of lines as a function `name`.
 
-        It reads values of other parts, executes its lines, and stores values for other parts. It returns a status if it
-        tests a pivot.
+        It reads values of other parts from the array of passed values, executes its lines, and stores values that
+        others read. It returns a status if it tests a pivot.
         """
         defined = {item.defines for item in piece}
         has_test = any(isinstance(item.line, Guard) for item in piece)
@@ -344,10 +348,10 @@ class _Splitter:
         )
 
     def make_call_lines(self, name: str, piece: list[TitledLine], later_read_names: frozenset[str]) -> list[TitledLine]:
-        """Return the lines of the calling function that call part `name` and read its values.
+        """Return the lines of the calling function that call part `name` and read values that it has stored.
 
-        `later_read_names`: names that later lines of the calling function read. If the part tests pivots, its status
-        ends the function or jumps.
+        Read are those in `later_read_names`, the names that later lines of the calling function read. If the part tests
+        pivots, a status other than 0 ends the function or jumps to the code for a vanishing pivot.
         """
         arguments = tuple(Place(argument.name) for argument in self.kernel.arguments)
         call = Call(name, arguments, (Place(self.array_name),))

@@ -27,12 +27,12 @@ class Line:
 
     @property
     def names(self) -> Names:
-        """Return the names that the line reads apart from those in its expressions."""
+        """Return the names of locals and arguments that the line reads in addition to those in its expressions."""
         return NO_NAMES
 
     @cached_property
     def reads(self) -> Names:
-        """Return all names that the line reads: in expressions and elsewhere."""
+        """Return the names of all locals and arguments that the line reads: in expressions and elsewhere."""
         return self.names.union(*map(find_read_names, self.expressions))
 
 
@@ -46,22 +46,22 @@ class Statement(Line):
 
     @property
     def expressions(self) -> tuple[sp.Basic, ...]:
-        """Return the expressions in the value."""
+        """Return the SymPy expressions in the assigned value, in a tuple; empty for a storage place."""
         return (self.value,) if isinstance(self.value, sp.Basic) else self.value.expressions
 
     @property
     def names(self) -> Names:
-        """Return the other names in the value."""
+        """Return the names that the assigned value reads in addition to those in its expressions."""
         return NO_NAMES if isinstance(self.value, sp.Basic) else self.value.names
 
     @property
     def writes(self) -> Names:  # type: ignore[override]
-        """Return the array or argument that is stored to."""
+        """Return the name of the array or argument to which the value is stored, in a set; empty for a local."""
         return self.target.names if isinstance(self.target, Place) else NO_NAMES
 
     @property
     def declared_local(self) -> str:  # type: ignore[override]
-        """Return the local that is declared, or ""."""
+        """Return the name of the local that the statement declares, or "" if it stores to an array or argument."""
         return self.target if isinstance(self.target, str) else ""
 
 
@@ -124,7 +124,7 @@ class Guard(Line):
 
     @property
     def names(self) -> Names:
-        """Return the names that the test or call reads, and those that a call writes."""
+        """Return the names that the test or the call reads and, for a call, also those that it writes."""
         return self.test.names | (self.test.writes if isinstance(self.test, Call) else NO_NAMES)
 
 
@@ -208,7 +208,7 @@ class SolveDependentRows(Line):
     def names(self) -> Names:
         """Return the names of the arguments that the solution of the dependent equations reads.
 
-        Without forces it also reads `v`.
+        Without `force` (the solution in absolute coordinates) it also reads the velocities `v`.
         """
         velocities = () if self.force else ("v",)
         return frozenset(["t", "q", "discrete", PARAMETERS, "a", "rhs", *velocities])
@@ -266,9 +266,9 @@ class DeclareBranches(Line):
 
     @property
     def names(self) -> Names:
-        """Return the names that the declaration reads.
+        """Return the names of the arguments that the declaration reads.
 
-        These are `branch`, the outputs for switching functions, and `discrete` if branches are frozen.
+        These are `branch`, the outputs for switching functions by `output_target`, and `discrete` if branches are held.
         """
         outputs = {"": [], "unread": ["g"], "rhs": ["g", "rhs"]}[self.output_target]
         return frozenset(["branch", *outputs, *(["discrete"] if self.held else [])])

@@ -37,7 +37,7 @@ class Threshold(float):
     place: Place | None
 
     def __new__(cls, name: str, value: float, place: Place | None = None) -> Threshold:
-        """Return the number with the name under which targets write it, and the place from which C may read it."""
+        """Return the number `value`, named `name` in the text of every target; C may read it from `place` instead."""
         threshold = super().__new__(cls, value)
         threshold.name, threshold.place = name, place
         return threshold
@@ -57,9 +57,10 @@ class Test:
 
     @property
     def names(self) -> Names:
-        """Return the arguments from which C reads the thresholds in the bound of this test (of a pivot, for example).
+        """Return the arguments from which C reads thresholds in the bound, such as the smallest pivot allowed.
 
-        There are none if the bound is a fraction of the value itself, since no threshold is then printed.
+        There are none if the bound is a fraction of the value itself (`is_relative_to_value`): no threshold is printed
+        then.
         """
         if self.is_relative_to_value:
             return NO_NAMES
@@ -72,9 +73,9 @@ class Test:
 
     @property
     def is_relative_to_value(self) -> bool:
-        """Return whether the bound is a fraction, between 0 and 1, of the value itself.
+        """Return whether the test is value > c · value with a number c between 0 and 1, or the same with magnitudes.
 
-        The test then means value > 0 and finite.
+        Such a test means that the value is greater than 0 (with magnitudes: not 0) and finite.
         """
         if self.relation != ">" or len(self.bound) != 2 or not isinstance(self.bound[0], float):
             return False

@@ -18,8 +18,8 @@ from gudgeon.generator.symbols.storage import Place
 def make_prepare_kernel(model: Model) -> Kernel:
     """Return the C function that fills the parameter table of a run.
 
-    Values that are given replace the defaults of the file; then the derived parameters are computed from them. It must
-    be made after all parameters have been derived.
+    A value given for the run replaces the default of the file; the derived parameters are then computed. Call it after
+    all parameters have been derived.
     """
     parameters: list[Statement] = []
     info = model.symbols.info
@@ -108,9 +108,9 @@ def make_row_kernels(model: Model) -> list[Kernel]:
 
 
 def _describe_absence(model: Model, row: Row) -> str:
-    """Return why an equation does not constrain the motion, for its comment: play or redundancy.
+    """Return the end of an equation's comment that says why it does not constrain the motion: play or redundancy.
 
-    Return "" if it does.
+    Return "" if the equation constrains the motion.
     """
     if row.owner in model.scene.play:
         return f"; open, {row.owner} has play"
@@ -118,9 +118,9 @@ def _describe_absence(model: Model, row: Row) -> str:
 
 
 def _make_jacobian_kernel(model: Model) -> Kernel:
-    """Return the C function of the dense Jacobian Φ_q of all constraint equations, also of joints with play.
+    """Return the C function of the dense Jacobian Φ_q, row by row, of all equations, also of joints with play.
 
-    It writes the non-zero entries only.
+    It writes only the non-zero entries and leaves the others as they are.
     """
     builder = KernelBuilder(
         model.symbols,
@@ -138,9 +138,10 @@ def _make_jacobian_kernel(model: Model) -> Kernel:
 
 
 def make_start_kernel(model: Model) -> Kernel:
-    """Return the C function that writes the values of the file's `start`: guesses, set values and rates.
+    """Return the C function that writes the values of the file's `start` to the arrays `guess`, `set` and `rates`.
 
-    Eccentricities of journals and their rates follow those of coordinates.
+    Eccentricities of journals follow the coordinates in `set`, their rates follow in `rates`; those of sliders have the
+    opposite sign.
     """
     builder = KernelBuilder(
         model.symbols,

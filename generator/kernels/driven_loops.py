@@ -77,7 +77,7 @@ class DrivenLoopKernels:
         ]
         self.switch_kernel = self._make_switch_kernel(branches) if branches else None
         self.kernels = [*map(declare_branches, kernels), *([self.switch_kernel] if self.switch_kernel else [])]
-        self.size = self._derive_extent() if any("." in name for name in loops.names) else ZERO
+        self.size = self._derive_length_scale() if any("." in name for name in loops.names) else ZERO
 
     def _make_kernels(self) -> list[Kernel]:
         """Return the functions of the loops in the order in which they are printed.
@@ -92,9 +92,9 @@ class DrivenLoopKernels:
         ]
 
     def _make_direction_kernel(self) -> Kernel:
-        """Return the C function of the cosines and sines of the loops' angles.
+        """Return the C function that stores the cosines and sines of the loops' angles in q, after the coordinates.
 
-        They are stored in q after the coordinates, and all other functions read them.
+        All other functions of the motion read them there.
         """
         builder = KernelBuilder(
             self.symbols,
@@ -110,10 +110,10 @@ class DrivenLoopKernels:
             builder.append_store(Place("out")[first_index + k], self.symbols.definitions[symbol], symbol.name)
         return builder.build_kernel((*STATE[:2], DISCRETE, PARAMETERS, make_output_argument("out")), owner="")
 
-    def _derive_extent(self) -> sp.Expr:
-        """Return the length in m that scales steps of a slide, as a derived parameter.
+    def _derive_length_scale(self) -> sp.Expr:
+        """Return the length scale (characteristic length) of the mechanism in m, which scales steps of slides.
 
-        It is the root of the sum of squares of all points' coordinates, also on the ground.
+        It is the root of the sum of squares of all points' coordinates, also on the ground, as a derived parameter.
         """
         geometry, parameter_table = self.system.model.geometry, self.system.model.parameter_table
         ground = map(geometry.ground_vector, self.system.model.scene.mechanism.ground.values())
@@ -121,9 +121,10 @@ class DrivenLoopKernels:
         return parameter_table.derive_parameter("extent", sp.sqrt(sp.Add(*squares)), "extent of all points")
 
     def _make_step_kernel(self) -> Kernel:
-        """Return the C function of one step of Chebyshev's method onto the closures, at given coordinates.
+        """Return the C function of one step of Chebyshev's method onto the closures, to be subtracted from coordinates.
 
-        It also returns the part of order 3 alone and the number of the equation with the largest |Φ|.
+        It writes the whole step, its part of order 3 alone, and the number of the equation with the largest |Φ|, from
+        1. It returns 0, or the number of an equation that depends on others there.
         """
         builder = KernelBuilder(
             self.symbols,
@@ -155,9 +156,9 @@ class DrivenLoopKernels:
         return builder.build_kernel((*STATE[:2], DISCRETE, PARAMETERS, *outs), status=True, owner="", prune=True)
 
     def _compute_curvature(self, row: Row, step: Sequence[sp.Expr]) -> sp.Expr:
-        """Return Φ_cc[step, step] of one constraint equation, its second derivative along `step`.
+        """Return Φ_cc[step, step] of one constraint equation: its second derivative along `step`.
 
-        `step`: one component for each dependent coordinate.
+        c are the dependent coordinates; `step` has one component for each, in their order.
         """
         step_of = dict(zip([k.q for k in self.loops.known], step, strict=True))
         slope = sp.Add(*(entry * step_of[q] for q, entry in row.phi_q.items()))
@@ -168,7 +169,8 @@ class DrivenLoopKernels:
     def _make_rate_kernel(self) -> Kernel:
         """Return the C function of the first and second rates ċ, c̈ at coordinates that close the loops.
 
-        They are stored in v after the other rates. It returns 0 or the number of a dependent equation.
+        They are stored in v after the other rates. It returns 0, or the number of an equation that depends on others
+        there.
         """
         builder = KernelBuilder(
             self.symbols,
@@ -200,9 +202,10 @@ class DrivenLoopKernels:
         )
 
     def _make_third_rate_kernel(self) -> Kernel:
-        """Return the C function of the third rates, by forward differentiation: d/dt of γ − Φ_c c̈ at the same c̈.
+        """Return the C function of the third rates of the loops' coordinates c: Φ_c c⃛ = d/dt (γ − Φ_c c̈).
 
-        It returns 0 or the number of a dependent equation.
+        The derivative is by forward differentiation at constant c̈. The function returns 0, or the number of an
+        equation that depends on others there.
         """
         builder = KernelBuilder(
             self.symbols,
@@ -231,9 +234,10 @@ class DrivenLoopKernels:
         )
 
     def _find_rate_symbols(self) -> list[sp.Symbol]:
-        """Return the defined symbols that depend on the loops' rates but on no rate or coordinate of the system.
+        """Return the defined symbols that read rates of the loops, but no coordinate or rate of the free motion.
 
-        Their definitions follow the computed rates instead of standing at the beginning of the function.
+        "Read" includes other definitions. Their definitions follow the computed rates instead of standing at the
+        beginning of the function.
         """
         info, definitions = self.symbols.info, self.symbols.definitions
         varying = {k.rate for k in self.loops.known}
@@ -249,9 +253,9 @@ class DrivenLoopKernels:
         return [symbol for symbol in result if symbol not in system_symbols]
 
     def _make_switch_kernel(self, branches: Sequence[BranchOf]) -> Kernel:
-        """Return the C function of the switching functions of the loops' drives, which no other function evaluates.
+        """Return the C function of the switching functions of the loops' drives, which no other function writes.
 
-        `branches`: their branches, also repeated ones.
+        `branches`: the branches (signs of switching functions) that the other functions read, also repeated ones.
         """
         builder = KernelBuilder(
             self.symbols, "loop_switches", ["Switching functions of the drives of dependent loops."]

@@ -47,11 +47,11 @@ def make_dynamics_kernel(
     is_stabilized: bool = True,
     append_fallback: AppendFallback | None = None,
 ) -> Kernel:
-    """Return the C function of q̈ and λ at a state, with the forces of joints with play.
+    """Return the C function of q̈ and λ at a state, with the forces of joints with play: the right-hand side.
 
-    `kkt`: the factorization to print; `doc`: the function's comment. `append_fallback` appends the code for a vanishing
-    pivot; None: the default, which finds the dependent equations. Without `is_stabilized` the right-hand sides are γ
-    alone and Φ, Φ̇ are not computed: for methods that project.
+    `kkt`: the elimination to print; `doc`: the function's comment. `append_fallback` appends the code for a vanishing
+    pivot; None: the default, which finds the dependent equations. With `is_stabilized` Baumgarte's terms are added to
+    γ; without, Φ and Φ̇ are not computed: for methods that project.
     """
     model = system.model
     builder = KernelBuilder(model.symbols, name, (*doc, *describe_elimination(kkt)))
@@ -97,8 +97,8 @@ def make_dynamics_kernel(
 def describe_elimination(kkt: KKT) -> list[str]:
     """Return comment lines that name the unknowns in the order in which the pivots eliminate them.
 
-    An unknown is an acceleration, by its coordinate, or a multiplier, by its constraint equation. At most 60 pivots are
-    listed; without pivots the list is empty.
+    An unknown is an acceleration, by its coordinate, or a multiplier, by its constraint equation. Two unknowns with one
+    2 × 2 pivot are joined. At most 60 pivots are listed; without pivots the list is empty.
     """
     names = [format_coordinate_name(kkt.system.model.symbols.info[q].meaning) for q in kkt.system.q]
     names += [f"lambda of {row.name}" for row in kkt.rows] + [
@@ -112,15 +112,15 @@ def describe_elimination(kkt: KKT) -> list[str]:
 
 
 def format_coordinate_name(meaning: str) -> str:
-    """Return the name of a coordinate for comments.
+    """Return the name of a coordinate for comments; an angle in tree coordinates, called as its body, gets ".theta".
 
-    The angle of a tree, whose meaning is the name of its body, gets ".theta".
+    `meaning`: the name of the coordinate in the symbol table, such as "rod.x", or "rod" in tree coordinates.
     """
     return meaning if "." in meaning else f"{meaning}.theta"
 
 
 def _append_event_functions(model: Model, builder: KernelBuilder) -> None:
-    """Append the user's event functions, which are written at every state, also where a pivot vanishes."""
+    """Append the user's event functions, written to `rhs` at every state, also where a pivot vanishes later."""
     if model.events:
         builder.begin_section("events")
     for index, event in enumerate(model.events):
@@ -128,7 +128,7 @@ def _append_event_functions(model: Model, builder: KernelBuilder) -> None:
 
 
 def _append_clearance_call(builder: KernelBuilder, index: int, clearance: Clearance) -> list[PointLoad]:
-    """Append the call of a joint's force function and its power; return the loads on both bodies.
+    """Append the call of the force function of joint `index` with play and its power; return the loads on both bodies.
 
     They are the force and the moments that the call returns; a moment on the ground is 0.
     """
@@ -154,9 +154,10 @@ def _append_clearance_call(builder: KernelBuilder, index: int, clearance: Cleara
 
 
 def _append_constraint_rhs(model: Model, builder: KernelBuilder, kkt: KKT, is_stabilized: bool) -> dict[int, sp.Expr]:
-    """Return the right-hand side γ − 2αΦ̇ − β²Φ of each constraint equation, by node of the KKT matrix.
+    """Return the right-hand side γ − 2αΦ̇ − β²Φ of each constraint equation; append its statements.
 
-    Φ and Φ̇ are also written to `rhs`, for diagnostics. Without `is_stabilized` the right-hand side is γ.
+    Keys are the equations' numbers in the KKT matrix, after the n coordinates. Φ and Φ̇ are also written to `rhs`, for
+    diagnostics. Without `is_stabilized` the right-hand side is γ and nothing else is computed.
     """
     if not is_stabilized:
         if kkt.rows:
@@ -182,10 +183,10 @@ def _append_constraint_rhs(model: Model, builder: KernelBuilder, kkt: KKT, is_st
 def _append_slip_velocities(
     model: Model, builder: KernelBuilder, kkt: KKT, forces: list[sp.Expr]
 ) -> dict[int, sp.Expr]:
-    """Append the slip velocity and kinetic force of each friction element.
+    """Append the slip velocity and kinetic force of each friction element; return the right-hand sides for stick.
 
-    The kinetic force is added to `forces`, the generalized forces by coordinate, in place. Return the right-hand sides
-    for stick, by node.
+    These are γ − 2α v by the element's number in the KKT matrix. The kinetic force is added to `forces`, the
+    generalized forces by coordinate, in place; it is 0 at stick.
     """
     stick_rhs: dict[int, sp.Expr] = {}
     if kkt.frictions:
@@ -207,9 +208,9 @@ def _append_slip_velocities(
 
 
 def _append_friction_forces(builder: KernelBuilder, kkt: KKT, solution: dict[int, sp.Expr]) -> None:
-    """Append the force of each friction element at stick, −λ of its equation, and the rate of slip J q̈ − γ.
+    """Append the force −λ of each friction element that sticks, and the rate of slip J q̈ − γ of each element.
 
-    `solution`: accelerations and multipliers by node.
+    `solution`: accelerations and multipliers by number in the KKT matrix (coordinates, equations, frictions).
     """
     coordinate_index = {q: k for k, q in enumerate(kkt.system.q)}
     for index, friction in enumerate(kkt.frictions):
@@ -224,9 +225,10 @@ def _append_friction_forces(builder: KernelBuilder, kkt: KKT, solution: dict[int
 def _append_rigid_contact_accelerations(
     builder: KernelBuilder, system: System, solution: Mapping[int, sp.Expr]
 ) -> None:
-    """Append half the second derivative of e · e in joints with rigid surfaces; at a wall δ̈ itself.
+    """Append half the second derivative of e · e, which is e · ë + ė · ė, for joints with rigid surfaces; at a wall δ̈.
 
-    A run determines the contact forces of these joints from it. `solution`: accelerations and multipliers by node.
+    A run determines the contact forces of these joints from it. `solution`: accelerations and multipliers by number in
+    the KKT matrix; only the accelerations are read.
     """
     for index, clearance in enumerate(system.model.clearances):
         if clearance.rigid and clearance.wall:
@@ -246,9 +248,10 @@ def _append_rigid_contact_accelerations(
 def _compute_outward_acceleration(
     system: System, clearance: Clearance, wall: Wall, solution: Mapping[int, sp.Expr]
 ) -> sp.Expr:
-    """Return δ̈ at a wall of a guide from the accelerations in `solution`, by node.
+    """Return δ̈ at a wall of a guide, from the accelerations in `solution` by number of the coordinate.
 
-    δ̈ = ë · n + ω̇_i along + 2 ω_i ė · t − ω_i² e · n, from δ̇ = ė · n + ω_i e · t.
+    δ̈ = ë · n + ω̇_i along + 2 ω_i ė · t − ω_i² e · n, from δ̇ = ė · n + ω_i e · t. n is the wall's outward normal, t =
+    n turned by +90°, along = e · t.
     """
     journal_acceleration, bearing_acceleration = (
         system.compute_acceleration(point, solution) for point in (clearance.second, clearance.first)
@@ -267,9 +270,9 @@ def _compute_outward_acceleration(
 
 
 def _append_dependent_rows(builder: KernelBuilder, kkt: KKT, right_sides: Mapping[int, sp.Expr]) -> None:
-    """Append the code for a vanishing pivot, which calls engine/scene/singular.c; nothing if all pivots are constant.
+    """Append the code for a vanishing pivot, which calls engine/scene/singular.c; nothing if no pivot may jump to it.
 
-    `right_sides`: generalized forces and right-hand sides by node.
+    `right_sides`: generalized forces and right-hand sides of equations, by number in the KKT matrix.
     """
     if not builder.has_jumps:
         return
@@ -282,7 +285,7 @@ def _append_dependent_rows(builder: KernelBuilder, kkt: KKT, right_sides: Mappin
 
 
 def _append_powers(builder: KernelBuilder, kkt: KKT, prescribed_forces: Mapping[str, sp.Expr]) -> None:
-    """Append the powers in W of the drives, of the dissipative force elements and of the joints with play.
+    """Append the powers in W of all drives, of force elements with friction, and of joints with play, to `rhs`.
 
     A drive does −λᵀν, and in addition the power that inertia and loads need at a coordinate that it prescribes.
     `prescribed_forces`: the generalized loads on those coordinates by name.

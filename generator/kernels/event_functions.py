@@ -36,8 +36,8 @@ _FORCE_OUTPUTS = RHS.name  # what reads this is known only once forces or accele
 def make_event_function_kernel(dynamics: Kernel, model: Model, loop_switches: Kernel | None = None) -> Kernel | None:
     """Return the C function that evaluates the event functions alone; None if there are none or they depend on forces.
 
-    It is the part of the right-hand side `dynamics` that the switching functions and user events read. `loop_switches`:
-    the function of the switching functions of kinematically determined loops, which `dynamics` lacks.
+    It is the part of the right-hand side `dynamics` that the scene's own switching functions and user events read.
+    `loop_switches`: the function of the switching functions of driven loops, which `dynamics` lacks, or None.
     """
     switch_indices = {switch.index for switch in model.symbols.switches.list_switches("")}
     if not switch_indices and not model.events:
@@ -87,9 +87,9 @@ def make_event_function_kernel(dynamics: Kernel, model: Model, loop_switches: Ke
 
 
 def _merge_sections(*kernels: Kernel | None) -> list[Section]:
-    """Return the sections of several functions of one scene, one after the other, with each local defined once.
+    """Return the sections of several functions of one scene, one after the other.
 
-    None stands for a missing function.
+    A local that an earlier function defines is not defined again. None stands for a missing function.
     """
     defined_names: set[str] = set()
     merged = []
@@ -104,10 +104,10 @@ def _merge_sections(*kernels: Kernel | None) -> list[Section]:
 
 
 def make_ranges_kernel(event_kernel: Kernel, switch_indices: Sequence[int], n_events: int) -> Kernel:
-    """Return the C function of the ranges of all event functions over ranges of t, q and v.
+    """Return the C function of the ranges of all event functions over ranges of t, q and v (interval arithmetic).
 
     `event_kernel`: the function of their values; `switch_indices`: the numbers of the switching functions. These are
-    written to `out` first, then `n_events` user events. Sections without statements are left out.
+    written to `out` first, in this order, then `n_events` user events.
     """
     output_index: dict[Place, int] = {RHS["g"][k]: index for index, k in enumerate(switch_indices)}
     output_index |= {
@@ -130,12 +130,12 @@ def make_ranges_kernel(event_kernel: Kernel, switch_indices: Sequence[int], n_ev
 
 
 def depends_on_state(kernel: Kernel) -> bool:
-    """Return whether a function reads a coordinate or a rate, not only time and parameters."""
+    """Return whether a function reads any coordinate or rate, not only time and parameters."""
     return reads_coordinate_beyond(kernel, 0)
 
 
 def reads_coordinate_beyond(kernel: Kernel, count: int) -> bool:
-    """Return whether a function reads a coordinate with an index of `count` or more, or the rate of one."""
+    """Return whether a function reads an element of q or v with an index of `count` or more."""
     values = [
         statement.value
         for section in kernel.sections
@@ -147,10 +147,10 @@ def reads_coordinate_beyond(kernel: Kernel, count: int) -> bool:
 
 
 def _make_output_statement(statement: Statement, switch_indices: Collection[int]) -> Statement | None:
-    """Return the statement that writes an event function if `statement` computes one, else None.
+    """Return the statement that writes an event function to `rhs` if `statement` computes one, else None.
 
-    A branch gives its switching function; a user event stays as it is. `switch_indices`: the numbers of the scene's
-    switches.
+    A statement that reads the branch of a switching function gives that function's value; the store of a user event
+    stays as it is. `switch_indices`: the numbers of the scene's own switches.
     """
     value = statement.value
     if isinstance(value, BranchOf) and int(value.args[0]) in switch_indices:
@@ -178,7 +178,7 @@ class TimeTerms:
 
     @property
     def count(self) -> int:
-        """Return the number of terms, 0 without a kernel."""
+        """Return the number of terms that the function evaluates; 0 without a function."""
         statements = [s for section in self.kernel.sections for s in section.statements] if self.kernel else []
         return sum(isinstance(s, Statement) and not s.declared_local for s in statements)
 
@@ -200,7 +200,7 @@ def find_time_terms(dynamics: Kernel, motion_may_stop: bool) -> TimeTerms:
 
 
 def _collect_terms(dynamics: Kernel, motion_may_stop: bool) -> _TermCollector:
-    """Return the collector of terms after it has read all statements of a right-hand side.
+    """Return the collector of terms of time alone after it has read all statements of a right-hand side.
 
     `motion_may_stop`: sines and cosines count as terms too (`find_time_terms`).
     """
@@ -273,7 +273,7 @@ class _TermCollector:
             self.definition_by_local[local] = self.insert_time_definitions(value)
 
     def insert_time_definitions(self, expression: sp.Expr) -> sp.Expr:
-        """Return the expression with the locals that depend on time replaced by their definitions."""
+        """Return the expression with each local that depends on time alone replaced by its definition."""
         if self.find_symbol_names(expression).isdisjoint(self.definition_by_local):
             return expression
         replacements = {
@@ -293,15 +293,15 @@ class _TermCollector:
         return self._names[expression]
 
     def depends_on_time_only(self, expression: sp.Expr) -> bool:
-        """Return whether an expression depends on time, and on nothing but time and parameters."""
+        """Return whether an expression depends on time, and on nothing but time and parameters; a constant does not."""
         names = self.find_symbol_names(expression)
         return names <= self.known.keys() and (self.time in names or not names.isdisjoint(self.definition_by_local))
 
     def collect_terms(self, expression: sp.Expr) -> None:
-        """Add the terms of an expression that stages may miss to `terms`, and such terms within them.
+        """Add the transient terms of an expression to `terms`: those that may act between the stages of a step.
 
-        Nothing is added for an expression that does not depend on time alone, or that the stages show. In a sum or
-        product only the parts that may be missed count.
+        Nothing is added for an expression that does not depend on time alone, or whose stages show its behaviour. Of a
+        sum or product only the parts that may be missed are added, together and one by one.
         """
         if not self.depends_on_time_only(expression) or self.is_shown_by_stages(expression):
             return
@@ -320,9 +320,9 @@ class _TermCollector:
         return None
 
     def is_shown_by_stages(self, expression: sp.Expr) -> bool:
-        """Return whether the stages of a step show the behaviour of an expression between them; cached.
+        """Return whether the values of an expression of time at the stages of a step show its behaviour between them.
 
-        Steps end at switching points, so that each branch counts by itself.
+        Steps end at switching points, so that each branch counts by itself. The result is cached.
         """
         if expression not in self._is_shown:
             self._is_shown[expression] = self._is_shown_by_stages_uncached(self.insert_time_definitions(expression))
@@ -331,8 +331,9 @@ class _TermCollector:
     def _is_shown_by_stages_uncached(self, expression: sp.Expr) -> bool:
         """Return `is_shown_by_stages` of an expression without reading the cache.
 
-        An expression without time is shown. Sums, products and low powers of such expressions are shown, and those of
-        the functions `shown_functions` whose argument is linear in time. Of a frozen branch its second argument counts.
+        Shown are constants, time, sums, products, powers up to 4 of shown expressions, and the functions in
+        `shown_functions` of an argument that is linear in time. Of a branch, the sign of a switching function, the
+        switching function counts.
         """
         if self.time not in self.find_symbol_names(expression):
             return True
@@ -348,9 +349,9 @@ class _TermCollector:
         return isinstance(expression, self.shown_functions) and self.is_linear(expression.args[0])
 
     def is_linear(self, expression: sp.Expr) -> bool:
-        """Return whether the form of an expression shows that it is linear in time.
+        """Return whether the form of an expression shows that it is constant or linear in time.
 
-        Sums of such terms, and products with one factor that depends on time, count.
+        Sums of such terms, and products with at most one factor that depends on time, count.
         """
         time_parts = [part for part in expression.args if self.time in self.find_symbol_names(part)]
         if isinstance(expression, (sp.Add, sp.Mul)):
@@ -358,9 +359,9 @@ class _TermCollector:
         return expression.is_Symbol or not time_parts
 
     def list_needed_definitions(self, terms: list[sp.Expr]) -> list[Statement]:
-        """Return the definitions of the locals that the terms read, directly or not, in their order.
+        """Return the definitions of the locals that the terms read, directly or not, in the order of the function.
 
-        Frozen branches are replaced by signs.
+        A branch that is frozen over a step is replaced by the sign of its switching function.
         """
         pending = [symbol.name for term in terms for symbol in term.free_symbols]
         needed_names: set[str] = set()
@@ -374,7 +375,7 @@ class _TermCollector:
 
 
 def _replace_frozen_branch(statement: Statement) -> Statement:
-    """Return a statement whose branch follows the sign of its switching function instead of the frozen branch.
+    """Return a statement that reads a frozen branch with the sign of its switching function instead.
 
     Other statements are returned unchanged. Over a range of time no branch is frozen.
     """

@@ -45,10 +45,10 @@ class _Plain(StrPrinter):
 
 
 def format_formulas(law: LawEquations, names: Mapping[sp.Symbol, str]) -> list[str]:
-    """Return the equations of a law as lines of text, then the meanings of its variables.
+    """Return the equations of a law as lines of text, then one line with the meanings of its variables.
 
-    `names`: names of parameters in the law's function; others keep the names of the file. Lines are wrapped at 110
-    characters.
+    `names`: names of parameters in the law's function, by symbol; others keep the names of the file. Lines are wrapped
+    at 110 characters.
     """
     name_of_symbol = {
         **{s: strip_identifier(s) for e in law.steps.values() for s in sp.sympify(e).free_symbols},
@@ -67,7 +67,7 @@ def format_formulas(law: LawEquations, names: Mapping[sp.Symbol, str]) -> list[s
 
 
 def _describe_variables(law: LawEquations) -> Iterator[str]:
-    """Yield one line with the meanings of the law's variables; nothing if none of them is known."""
+    """Yield one line with the meanings of the law's variables; nothing if none of them has a meaning in `_MEANINGS`."""
     meanings = [f"{symbol.name}: {_MEANINGS[symbol.name]}" for symbol in law.variables if symbol.name in _MEANINGS]
     if meanings:
         yield f"{'; '.join(meanings)}."

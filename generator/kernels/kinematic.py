@@ -14,9 +14,9 @@ from gudgeon.generator.symbols.storage import Place
 
 
 def make_kinematic_kernels(system: System, closures: SquareSystem) -> list[Kernel]:
-    """Return the C functions of Newton's step at a position and of the bodies' motion at a position with its rates.
+    """Return the C functions of Newton's step with rates, and of accelerations with the motion of all bodies.
 
-    `closures`: the closures of the tree as a square system.
+    `closures`: the loop closures of the tree as a square system, one equation for each tree coordinate.
     """
     return [
         vectorize_sines(remove_unused_locals(kernel))
@@ -25,10 +25,10 @@ def make_kinematic_kernels(system: System, closures: SquareSystem) -> list[Kerne
 
 
 def _make_newton_step_kernel(system: System, closures: SquareSystem) -> Kernel:
-    """Return the C function of Newton's step Φ_q step = Φ and of the rates Φ_q rates = ν at a position.
+    """Return the C function of Newton's step, Φ_q step = Φ (to subtract), and of the rates, Φ_q rates = ν.
 
-    It also writes the largest |Φ|, and returns 0 or the number of a dependent equation. `closures`: the closures of the
-    tree as a square system.
+    It also writes the largest |Φ|, and returns 0 or the number of an equation that depends on others there. `closures`:
+    the closures of the tree as a square system.
     """
     builder = KernelBuilder(
         system.model.symbols,
@@ -56,10 +56,10 @@ def _make_newton_step_kernel(system: System, closures: SquareSystem) -> Kernel:
 
 
 def _make_body_motion_kernel(system: System, closures: SquareSystem) -> Kernel:
-    """Return the C function of the accelerations Φ_q a = γ and of the motion of all bodies at a state.
+    """Return the C function of the accelerations, Φ_q a = γ, and of position, velocity and acceleration of all bodies.
 
-    It also writes the largest |Φ̇|, and returns 0 or the number of a dependent equation. `closures`: the closures of
-    the tree as a square system.
+    It also writes the largest |Φ̇|, and returns 0 or the number of an equation that depends on others there.
+    `closures`: the closures of the tree as a square system.
     """
     builder = KernelBuilder(
         system.model.symbols,

@@ -17,7 +17,8 @@ from gudgeon.generator.symbols.storage import Place
 def make_outputs_kernel(model: Model) -> Kernel:
     """Return the C function of reactions, drive torques, element results and energies from q, q̇ and λ.
 
-    Reactions are written for each joint without play; a drive whose equation was left out has torque 0.
+    Reactions (F_x, F_y, M on the second body) are written for each joint without play. The torque of a drive is −λ, and
+    0 if its equation was left out as redundant.
     """
     builder = KernelBuilder(
         model.symbols,
@@ -57,7 +58,7 @@ def make_outputs_kernel(model: Model) -> Kernel:
 
 
 def find_element_series(model: Model) -> dict[str, tuple[sp.Expr, str]]:
-    """Return the results of the force elements by name: "coil.F" -> (value, unit)."""
+    """Return the output series of all force elements by name: {"coil.F": (expression, unit)}."""
     return {
         f"{name}.{series_name}": value
         for name, element in model.elements.items()
@@ -73,10 +74,11 @@ def find_constraining_joints(model: Model) -> list[Joint]:
 def _compute_reaction(
     model: Model, joint: Joint, rows: list[Row], multiplier: dict[str, sp.Expr]
 ) -> tuple[sp.Expr, sp.Expr, sp.Expr]:
-    """Return the force (F_x, F_y) on the second body and the moment about the joint's point, from −Φ_qᵀ λ.
+    """Return the force (F_x, F_y) in N on the second body and the moment about the joint's point, from −Φ_qᵀ λ.
 
-    `rows`: the equations of the joint; `multiplier`: λ by equation. If the second body is the ground, they follow from
-    the wrench on all other bodies of the joint.
+    `rows`: the equations of the joint; `multiplier`: λ by equation. If the second body is the ground, the result is
+    minus the forces and moments on all other bodies of the joint. The point is that of the first or second body, by
+    type.
     """
     first, second = model.geometry.find_point(joint.first), model.geometry.find_point(joint.second)
     kind = joint_types()[joint.kind]

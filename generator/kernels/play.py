@@ -33,9 +33,9 @@ from gudgeon.generator.symbols.storage import Place, Result
 def make_law_calls(
     model: Model, clearance: Clearance, shared_functions: SharedFunctions
 ) -> dict[str, SharedFunctionCall]:
-    """Return the calls of a joint's laws by role (normal, friction, film), for those that it has.
+    """Return the calls of the laws of a joint with play by role (normal, friction, film), for those that it has.
 
-    The functions are added to `shared_functions`.
+    The functions of the laws are added to `shared_functions`.
     """
     calls = {}
     for law in (clearance.normal, clearance.friction, clearance.film):
@@ -49,7 +49,10 @@ def make_law_calls(
 
 
 def _find_parameter_meanings(model: Model, equations: LawEquations) -> dict[str, str]:
-    """Return the meanings of a law's parameters, by the names that they have in the law's function."""
+    """Return the meaning of each parameter of a law, for comments, by its name in the law's function.
+
+    Derived parameters are included. `equations`: the law with its symbols.
+    """
     info = model.symbols.info
     law = equations.law
     derived = {
@@ -61,7 +64,7 @@ def _find_parameter_meanings(model: Model, equations: LawEquations) -> dict[str,
 
 
 def make_law_name(equations: LawEquations) -> str:
-    """Return the C name of a law, with the options that are not the defaults.
+    """Return the C name of a law: its name, then its options with other values than the defaults, joined by "_".
 
     A user-defined law gets "own_" before its name and "__" after it, so that no other function has the name.
     """
@@ -75,9 +78,10 @@ def make_law_name(equations: LawEquations) -> str:
 
 
 def _make_law_kernel(model: Model, clearance: Clearance, equations: LawEquations) -> Kernel:
-    """Return the C function of a law for one joint: its steps become locals, its results are written to `F_…_out`.
+    """Return the C function of a law for one joint with play.
 
-    Reciprocals are shared, and branches are those of the joint's switches.
+    Abbreviations of the law become locals, and its results are written to the arguments "<result>_out". Reciprocals are
+    shared, and min, max and similar functions use the frozen branches of the joint's switches.
     """
     results = equations.results
     fields = name_joint_parameters(model, clearance)
@@ -99,9 +103,10 @@ def _make_law_kernel(model: Model, clearance: Clearance, equations: LawEquations
 
 
 def describe_law(equations: LawEquations, names: Mapping[sp.Symbol, str] | None = None) -> list[str]:
-    """Return the lines of a law's C comment: title, formula, source, validity, options and their sources.
+    """Return the lines of a law's C comment: title, formulas, source, validity, options and their sources.
 
-    `names`: names of parameters in the formula; None: as in the law's file.
+    `names`: names of parameters in the formulas, by symbol; None: as in the law's file. Sources are those of options
+    that differ from the default.
     """
     law = equations.law
     if names is None:
@@ -163,9 +168,9 @@ class JointFunctions:
 
     @property
     def further_places(self) -> tuple[Place, ...]:
-        """Return the places of these further variables at a joint.
+        """Return the storage places from which the normal law's further variables are read at a joint.
 
-        For rigid surfaces it is the force in the contact state.
+        They are locals of the same names; for rigid surfaces the contact force in the contact state is the only one.
         """
         return (CONTACT["force"],) if self.clearance.rigid else tuple(map(Place, self.further_variables))
 
@@ -176,9 +181,9 @@ class JointFunctions:
 
 
 def make_joint_functions(model: Model, clearance: Clearance, shared_functions: SharedFunctions) -> JointFunctions:
-    """Return a joint with play with its laws, the statements around them, and its switches.
+    """Return a joint with play as calls of its laws and the statements before, between and after them.
 
-    Functions of laws are added to `shared_functions`.
+    The functions of its laws are added to `shared_functions`. The numbers of its switches are included.
     """
     name, film = clearance.name, clearance.film
 
@@ -208,9 +213,9 @@ def make_joint_functions(model: Model, clearance: Clearance, shared_functions: S
 
 
 def _guard_values(clearance: Clearance, steps: Sequence[Assignment]) -> Mapping[sp.Symbol, Conditional]:
-    """Return the values that replace those of steps which divide by zero at e = 0, by symbol.
+    """Return conditional values, by symbol, for the equations in `steps` that divide by zero at e = 0.
 
-    There are none for a wall, and further ones for a contour.
+    At e = 0 the normal is (1, 0). A wall needs none; a contour needs further ones.
     """
     if not clearance.contour:
         return {} if clearance.wall else _GUARDED_NORMAL
@@ -232,9 +237,9 @@ def _guard_values(clearance: Clearance, steps: Sequence[Assignment]) -> Mapping[
 def _make_statements(
     model: Model, steps: Sequence[Assignment], owner: str, guards: Mapping[sp.Symbol, Conditional]
 ) -> Statements:
-    """Return steps as statements that read parameters in place and take branches from the joint's switches.
+    """Return equations as statements that read parameters from their struct and use the frozen branches of a joint.
 
-    `guards`: conditional values that replace the steps' own. `owner`: the name of the joint.
+    `guards`: conditional values that replace those of the equations, by symbol. `owner`: the name of the joint.
     """
     statements = []
     for step in steps:
@@ -250,9 +255,9 @@ def _make_statements(
 def make_derivative_calls(
     model: Model, clearance: Clearance, shared_functions: SharedFunctions
 ) -> dict[str, SharedFunctionCall]:
-    """Return the calls of the derivatives of the film, the dry contact and their blend ("share"), if present.
+    """Return the calls of the derivatives of a joint's force by part: "film", "dry", and "share" if it has both.
 
-    The functions are added to `shared_functions`.
+    "share" is the fraction of the dry contact. The functions are added to `shared_functions`.
     """
     kernels = {}
     if clearance.film is not None:
@@ -271,9 +276,9 @@ def make_derivative_calls(
 
 
 def _make_slope_name(clearance: Clearance, part: str) -> str:
-    """Return the C name of the derivatives of one part of a joint, from the names of its laws.
+    """Return the C name of the derivatives of one part of a joint's force, made from the names of its laws.
 
-    part: "film", "dry" or "share".
+    part: "film", "dry" or "share", the fraction of the dry contact.
     """
     laws = {"film": [clearance.film], "dry": [clearance.normal, clearance.friction], "share": [clearance.mixed]}[part]
     return "_".join([f"{part}_slopes", *(make_law_name(law) for law in laws if law)])

@@ -53,7 +53,7 @@ class Integrated:
 
     @property
     def switch_indices(self) -> list[int]:
-        """Return the numbers of the scene's own switches, without those of joints with play."""
+        """Return the sorted numbers of the scene's own switches, without those of joints with play."""
         return sorted(switch.index for switch in self.system.model.symbols.switches.list_switches(""))
 
 
@@ -152,7 +152,7 @@ class Program:
 
     @property
     def integrates(self) -> bool:
-        """Return whether a state is left to integrate."""
+        """Return whether anything is integrated; otherwise drives determine the motion, or nothing moves."""
         return self.methods is not None
 
     @property
@@ -162,19 +162,20 @@ class Program:
 
     @property
     def right_hand_side(self) -> list[Kernel]:
-        """Return the right-hand side in absolute coordinates, followed by its event functions if it is integrated.
+        """Return the right-hand side in absolute coordinates, followed by its event functions if they are used.
 
-        These are left out in the reduced formulation or if they depend on forces.
+        The result is a list. Event functions are used in the full formulation of a scene that is integrated, unless
+        they depend on forces.
         """
         watches = self.event_functions is not None and self.formulation == "full" and self.integrates
         return [self.dynamics, self.event_functions] if watches and self.event_functions else [self.dynamics]
 
     @property
     def has_lanes(self) -> bool:
-        """Return whether several runs can share vectors (lanes).
+        """Return whether several runs of the scene can be integrated together, each in one lane of a vector.
 
-        They cannot if the constraint equations differ between runs, if a contour is given or if loops are dependent; a
-        scene without integration or tree has none.
+        That needs the reduced formulation and something to integrate. Dry friction, rigid contacts, contours of
+        bearings and driven loops exclude it.
         """
         has_contours = any(clearance.contour for clearance in self.model.clearances)
         is_excluded = self.model.has_changing_constraints or has_contours
@@ -229,7 +230,7 @@ def make_program(model: Model, formulation: str = "reduced") -> Program:
 
 
 def _derive_tree_functions(model: Model, pivots: tuple[str, ...]) -> tuple[TreeFunctions, Integrated]:
-    """Derive the functions of the reduced formulation, and the system that is integrated.
+    """Return the functions of the reduced formulation, and the system that is integrated with its elimination.
 
     `pivots`: names of the equations to which a status number of the absolute formulation refers.
     """
@@ -249,10 +250,10 @@ def _derive_tree_functions(model: Model, pivots: tuple[str, ...]) -> tuple[TreeF
 
 
 def _derive_methods(model: Model, integrated: Integrated, with_complex_kernels: bool) -> Methods:
-    """Derive the functions that integrators need in addition to the right-hand side.
+    """Return the functions that integrators need in addition to the right-hand side.
 
-    `with_complex_kernels`: with the functions for stages solved together; a scene with a film has them anyway, one with
-    rigid surfaces never.
+    `with_complex_kernels`: with those for methods that solve all stages together. A scene with a film has them anyway,
+    one with rigid surfaces never.
     """
     derivatives = SharedFunctions()
     derivative_calls = {
@@ -282,10 +283,10 @@ def _derive_methods(model: Model, integrated: Integrated, with_complex_kernels: 
 
 
 def _derive_kinematic_functions(model: Model, kkt: KKT, integrated: Integrated) -> KinematicFunctions:
-    """Derive the functions of a kinematically driven scene.
+    """Return the functions of a kinematically driven scene (dof = 0), whose positions follow by Newton's method.
 
-    They are in tree coordinates unless the pattern of the closures leaves a coordinate undetermined; then a projection
-    in absolute coordinates replaces them.
+    They are in tree coordinates if the reduced formulation is chosen and the pattern of the closures determines all
+    coordinates. Otherwise a projection in absolute coordinates replaces them.
     """
     rows = SquareSystem(integrated.system, [not angle for angle in integrated.angles])
     if integrated.reduced and rows.is_solvable:

@@ -23,8 +23,8 @@ FILM_MASS_FACTOR = 1e6  # times the mass of all bodies: what projections give to
 def make_projection_kernel(system: System, rows: tuple[Row, ...], name: str) -> tuple[Kernel, KKT]:
     """Return the C function of x = M⁻¹Φ_qᵀ(Φ_q M⁻¹Φ_qᵀ)⁻¹ r, and the KKT elimination that it prints.
 
-    x is the smallest in the metric of M with Φ_q x = r. `rows`: the equations; `name`: the function's name. Light
-    bodies count with a least mass.
+    x is the smallest in the metric of M with Φ_q x = r. `rows`: the equations; `name`: the function's name. In M, light
+    bodies count with a least mass (`raise_small_masses`).
     """
     system = raise_small_masses(system)
     model, kkt = system.model, KKT(system, rows)
@@ -53,7 +53,7 @@ def make_projection_kernel(system: System, rows: tuple[Row, ...], name: str) -> 
 
 
 def add_film_masses(system: System) -> System:
-    """Return the system with M + κ Bᵀ B, B = ∂e/∂q of the joints with films, for projections.
+    """Return the system with the mass matrix M + κ Σ BᵀB for projections, B = ∂e/∂q of each joint with a film.
 
     κ is 1e6 times the mass of all bodies. Without films or equations the system itself is returned.
     """
@@ -103,10 +103,10 @@ def raise_small_masses(system: System) -> System:
 
 
 def make_closing_kernel(system: System, name: str = "closing_step") -> Kernel:
-    """Return the C function of one Newton step onto Φ = 0 and one onto Φ̇ = 0, with one factorization.
+    """Return the C function of one Newton step dq onto Φ = 0 and one step dv onto Φ̇ = 0, both to be subtracted.
 
-    A film turns a change of ė by a tolerance into a force that nothing carries, so that e and ė are kept as they are.
-    `name`: the function's name.
+    Both use one factorization, and light bodies count with a least mass. Motions that squeeze a film have 1e6 times the
+    mass of all bodies, so that e and ė nearly keep their values. `name`: the function's name.
     """
     metric_system = raise_small_masses(system)
     kkt = KKT(add_film_masses(metric_system), system.rows)

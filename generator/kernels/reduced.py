@@ -17,7 +17,7 @@ from gudgeon.generator.kernels.dynamics import make_dynamics_kernel
 from gudgeon.generator.kernels.event_functions import make_event_function_kernel, reads_coordinate_beyond
 from gudgeon.generator.kernels.projection import make_projection_kernel
 from gudgeon.generator.reduction.reduction import TreeSystem
-from gudgeon.generator.reduction.tree import Link
+from gudgeon.generator.reduction.tree import TreeEdge
 from gudgeon.generator.solvers.kkt import KKT
 from gudgeon.generator.symbols.storage import Place, PlaceSymbol
 
@@ -30,7 +30,7 @@ _DOC = (
 
 
 def has_singular_fallback(system: TreeSystem) -> bool:
-    """Return whether the absolute formulation solves where a pivot vanishes.
+    """Return whether the absolute formulation solves the equations of motion where a pivot vanishes.
 
     It does not in scenes without closures, or with dry friction or rigid contacts, where a vanishing pivot is reported.
     """
@@ -45,8 +45,8 @@ def make_conversion_kernels(model: Model, system: TreeSystem) -> list[Kernel]:
 def make_reduced_kernels(system: TreeSystem) -> tuple[list[Kernel], KKT, DrivenLoopKernels | None]:
     """Return closures, right-hand side, event functions and projection in tree coordinates, with the KKT elimination.
 
-    The functions of kinematically determined loops are returned last, or None; their switches are among the event
-    functions. Event functions are left out for a driven motion, or if they read dependent coordinates.
+    The functions of driven loops are returned last, or None; their switching functions are among the event functions.
+    Event functions are left out if drives determine the motion, or if they read dependent coordinates.
     """
     kkt = KKT(system, allow_early_pairs=has_singular_fallback(system))
     dynamics = make_dynamics_kernel(
@@ -68,7 +68,7 @@ def make_reduced_kernels(system: TreeSystem) -> tuple[list[Kernel], KKT, DrivenL
 def _append_absolute_solution(builder: KernelBuilder, kkt: KKT, right_sides: Mapping[int, sp.Expr]) -> None:
     """Append the code for a vanishing pivot: the absolute formulation solves and finds the dependent equations.
 
-    Nothing is appended if no pivot is tested; `right_sides` is not used.
+    Nothing is appended if no pivot may jump to it; `right_sides` is not used.
     """
     if not builder.has_jumps:
         return
@@ -98,9 +98,9 @@ def _make_expand_kernel(system: TreeSystem) -> Kernel:
 
 
 def _make_reduce_kernels(model: Model, system: TreeSystem) -> list[Kernel]:
-    """Return the C functions of tree coordinates and rates, and of accelerations, from absolute ones.
+    """Return the C functions that compute tree coordinates and rates, and accelerations, from absolute ones.
 
-    The second one is left out if the absolute formulation never solves.
+    The second function is left out if the absolute formulation never solves (`has_singular_fallback`).
     """
     coordinate_pairs = list(zip(model.q, model.v, strict=True))
     differentiate, find_variables = model.symbols.differentiate, model.symbols.find_variables
@@ -151,30 +151,34 @@ def _make_reduce_kernels(model: Model, system: TreeSystem) -> list[Kernel]:
 def _express_tree_coordinates(model: Model, system: TreeSystem, names: Sequence[str]) -> list[sp.Expr]:
     """Return the tree coordinates `names` as expressions in absolute ones.
 
-    They are angles of bodies, x and y of free bodies, and slides along their axes.
+    They are angles of bodies, x and y of bodies that move freely, and displacements of slides along their axes.
     """
     slides: dict[str, sp.Expr] = {}
-    for link in system.tree.links:
-        body = model.geometry.bodies[link.body]
-        for name, value in zip(link.coordinates, (body.x, body.y), strict=False):
-            slides[name] = value if link.joint is None else _compute_slide(model, link)
+    for tree_edge in system.tree.edges:
+        body = model.geometry.bodies[tree_edge.body]
+        for name, value in zip(tree_edge.coordinates, (body.x, body.y), strict=False):
+            slides[name] = value if tree_edge.joint is None else _compute_slide(model, tree_edge)
     return [slides[name] if name in slides else model.geometry.bodies[name].theta for name in names]
 
 
-def _compute_slide(model: Model, link: Link) -> sp.Expr:
-    """Return the displacement in m of the joint's point on the second body along the axis on the first.
+def _compute_slide(model: Model, tree_edge: TreeEdge) -> sp.Expr:
+    """Return the displacement in m along a joint's axis: from its point on the first body to that on the second.
 
-    `link` must have a joint.
+    The axis is fixed in the first body. `tree_edge`: the edge of the spanning tree that belongs to the joint; an edge
+    without a joint fails an assertion.
     """
-    assert link.joint is not None
+    assert tree_edge.joint is not None
     geometry = model.geometry
-    first, second = geometry.find_point(link.joint.first), geometry.find_point(link.joint.second)
-    u_x, u_y = first.direction(JointFields(link.joint, geometry).direction("axis"))
+    first, second = geometry.find_point(tree_edge.joint.first), geometry.find_point(tree_edge.joint.second)
+    u_x, u_y = first.direction(JointFields(tree_edge.joint, geometry).direction("axis"))
     return u_x * (second.x - first.x) + u_y * (second.y - first.y)
 
 
 def _make_closure_kernels(system: TreeSystem) -> list[Kernel]:
-    """Return the two C functions of Φ of the loop closures and of its rate Φ̇, each one value per closure."""
+    """Return the C functions of Φ of the loop closures (m and rad) and of its rate Φ̇ = Φ_q v − ν, in a list.
+
+    Each writes one value for each closure to `out`.
+    """
 
     def make_kernel(name: str, doc: str, reads_velocity: bool, get_value: Callable[[Row], sp.Expr]) -> Kernel:
         """Return the C function `name` that writes one value of each closure to `out`.

@@ -10,7 +10,7 @@ from gudgeon.generator.equations.model import Model
 from gudgeon.generator.equations.system import System
 from gudgeon.generator.reduction.frames import CONSTANT, Affine
 from gudgeon.generator.reduction.reduction import TreeSystem
-from gudgeon.generator.reduction.tree import Link, Tree
+from gudgeon.generator.reduction.tree import Tree, TreeEdge
 from gudgeon.generator.solvers.kkt import KKT
 from gudgeon.generator.solvers.sparsity import Block
 
@@ -35,7 +35,7 @@ def build_reduction_log(
         rows=tuple(row.name for row in model.all_rows),
         jacobian=sum(len(row.phi_q) for row in model.rows),
         steps=tuple(step for step in steps if step.owners),
-        tree=tuple(TreeBody(x.body, x.parent, x.joint.name if x.joint else "") for x in tree.links) if tree else (),
+        tree=tuple(TreeBody(x.body, x.parent, x.joint.name if x.joint else "") for x in tree.edges) if tree else (),
         costs=tree.costs if tree else (),
         before=_measure_factorization(absolute_kkt),
         after=_measure_factorization(solved_kkt) if solved_kkt else None,
@@ -47,14 +47,17 @@ def build_reduction_log(
 
 
 def _list_unknown_names(model: Model, system: System) -> tuple[str, ...]:
-    """Return the names of the unknowns of a system: tree coordinates, or all absolute coordinates."""
+    """Return the names of the unknowns of a system: tree coordinates, or else all absolute coordinates."""
     if isinstance(system, TreeSystem):
         return system.unknowns
     return tuple(model.symbols.info[q].meaning for q in model.q)
 
 
 def _measure_factorization(kkt: KKT) -> Solve:
-    """Return the size and cost of a factorization: unknowns, equations, non-zeros of the matrix and of L, products."""
+    """Return the size and cost of a factorization: unknowns n, equations, non-zeros of the matrix and of L, products.
+
+    Non-zeros of the matrix [M Φ_qᵀ; Φ_q 0] include both triangles and the diagonal of M.
+    """
     elimination = kkt.elimination
     return Solve(
         kkt.n,
@@ -80,19 +83,20 @@ def _list_removal_steps(model: Model) -> Iterator[Step]:
 def _make_reduction_steps(model: Model, system: TreeSystem) -> Iterator[Step]:
     """Yield the steps from the absolute constraint equations to the loop closures of the tree.
 
-    They concern angles, shared points, joints, slides and loops that drives determine.
+    They eliminate angles, exchange pairs of bodies at shared points, and eliminate joints of the tree, slides that
+    others determine, and loops that drives determine. Some may be empty.
     """
     yield from _make_angle_steps(model, system.tree)
     yield from _make_shared_point_steps(system.tree)
-    links = [link for link in system.tree.links if link.joint]
+    tree_edges = [tree_edge for tree_edge in system.tree.edges if tree_edge.joint]
     for step_kind in (message.HINGES, message.SLIDES):
-        matching_links = [link for link in links if link.slides == (step_kind == message.SLIDES)]
+        matching_edges = [tree_edge for tree_edge in tree_edges if tree_edge.slides == (step_kind == message.SLIDES)]
         yield Step(
             step_kind,
-            _list_joint_names(matching_links),
-            tuple(f"{link.body}.{axis}" for link in matching_links for axis in "xy"),
-            tuple(name for link in matching_links for name in link.coordinates),
-            tuple(row for link in matching_links for row in link.rows),
+            _list_joint_names(matching_edges),
+            tuple(f"{tree_edge.body}.{axis}" for tree_edge in matching_edges for axis in "xy"),
+            tuple(name for tree_edge in matching_edges for name in tree_edge.coordinates),
+            tuple(row for tree_edge in matching_edges for row in tree_edge.rows),
         )
     if system.slides:
         names = dict.fromkeys(k for expression in system.slides.values() for k in expression if k != CONSTANT)
@@ -105,15 +109,16 @@ def _make_reduction_steps(model: Model, system: TreeSystem) -> Iterator[Step]:
         )
 
 
-def _list_joint_names(links: Iterable[Link]) -> tuple[str, ...]:
-    """Return the names of the joints of some links of the tree, without links that have no joint."""
-    return tuple(link.joint.name for link in links if link.joint)
+def _list_joint_names(tree_edges: Iterable[TreeEdge]) -> tuple[str, ...]:
+    """Return the names of the joints of some edges of the spanning tree; an edge without joint is left out."""
+    return tuple(tree_edge.joint.name for tree_edge in tree_edges if tree_edge.joint)
 
 
 def _make_angle_steps(model: Model, tree: Tree) -> Iterator[Step]:
-    """Yield three steps, the elimination of prescribed, of constant, and of dependent angles; each may be empty.
+    """Yield three steps, the elimination of prescribed, of constant and of dependent angles; each may be empty.
 
-    Each equation used has eliminated one angle; a dependent one is affine in other angles.
+    Each equation used has eliminated one angle. A prescribed angle follows from drives alone, a dependent one also from
+    other angles.
     """
     drives = model.scene.mechanism.drives
 
@@ -137,12 +142,13 @@ def _make_angle_steps(model: Model, tree: Tree) -> Iterator[Step]:
 
 
 def _make_shared_point_steps(tree: Tree) -> Iterator[Step]:
-    """Yield the exchange of the file's pairs of points at shared points for the pairs that tree and closures use.
+    """Yield for each shared point the exchange of pairs of points that coincide: those of the file for those in use.
 
-    Points whose pairs stay are left out.
+    A shared point is one at which three or more bodies meet. Pairs in use are those of tree and closures. Points whose
+    pairs stay are left out.
     """
     for hub in tree.shared_points:
-        joints_in_use = [link.joint for link in tree.links if link.joint in hub.pairs]
+        joints_in_use = [tree_edge.joint for tree_edge in tree.edges if tree_edge.joint in hub.pairs]
         joints_in_use += [joint for joint in tree.closing_pairs if joint in hub.pairs]
         added_rows = tuple(
             row for joint in joints_in_use if joint and joint not in hub.joints for row in hub.list_pair_rows(joint)

@@ -52,9 +52,9 @@ class SharedFunctions:
     ) -> SharedFunctionCall:
         """Return the call that replaces a joint's own function, and store the shared function if it is new.
 
-        `parameter_names`: names in the function of the parameters that a joint has (`p.pin_radius` -> `R_i`). `joint`:
-        its label, appended to the name if an unequal function has that name. `meanings` by parameter name are added to
-        the function's comment.
+        `parameter_names`: names of the joint's parameters in the function, by storage place (`p.pin_radius` -> `R_i`).
+        `joint`: its label, appended to the name if an unequal function has that name. `meanings`, by name of the
+        parameter, are added to the function's comment.
         """
         text_names, parameters = _name_parameters(kernel, parameter_names)
         names = [text_names[place] for place in parameters]
@@ -84,10 +84,10 @@ class SharedFunctions:
 
 
 def name_joint_parameters(model: Model, clearance: Clearance) -> dict[Place, str]:
-    """Return the names of parameters in the equations of a joint with play by place, those of its laws first.
+    """Return the names, in the equations of a joint with play, of its parameters by storage place.
 
-    Then follow dimensions, derived parameters, the transition, parameters of user expressions and reciprocals. A
-    parameter or name that occurs twice counts once.
+    First come the parameters of its laws, then dimensions, derived parameters, the transition, parameters of user
+    expressions and reciprocals. A parameter or name that occurs twice counts once.
     """
     laws = clearance.laws
     named_symbols = [
@@ -120,7 +120,7 @@ def name_joint_parameters(model: Model, clearance: Clearance) -> dict[Place, str
 
 
 def _list_file_parameters(model: Model, laws: Iterable[LawEquations]) -> Iterator[tuple[str, sp.Symbol]]:
-    """Yield the parameters that laws' user expressions read, with their names, in the file's order."""
+    """Yield (name, symbol) of each parameter that force expressions of the laws read, in the file's order."""
     user_expressions = [law.parameters[expression.name] for law in laws for expression in law.law.expressions]
     used_symbols = set().union(*(value.free_symbols for value in user_expressions))
     for entry in model.parameter_table.entries.values():
@@ -129,9 +129,10 @@ def _list_file_parameters(model: Model, laws: Iterable[LawEquations]) -> Iterato
 
 
 def _name_parameters(kernel: Kernel, parameter_names: Mapping[Place, str]) -> tuple[dict[Key, str], list[Place]]:
-    """Return the names of symbols and parameters in the shared function, and its parameters in argument order.
+    """Return the names of parameters in the shared function, and the parameters themselves in argument order.
 
-    `parameter_names`: names by place; other parameters keep their field's name and follow.
+    The first result has names by storage place, and by the symbols that are copies of parameters. `parameter_names`:
+    names by place; other parameters keep the name of their field and follow.
     """
     place_of_key: dict[Key, Place] = {
         line.declared_local: place for line in _iterate_lines(kernel) if (place := _find_copied_parameter(line))
@@ -154,7 +155,7 @@ def _iterate_lines(kernel: Kernel) -> Iterator[Line]:
 
 
 def _find_copied_parameter(line: Line) -> Place | None:
-    """Return the parameter that a local is a copy of; None if the line is not such a copy."""
+    """Return the parameter that a statement copies to a local; None if the line is not such a copy."""
     place = line.value if isinstance(line, Statement) and isinstance(line.value, Place) else None
     return place if place and place.is_parameter else None
 
@@ -172,9 +173,9 @@ def _remove_parameter_copies(kernel: Kernel) -> tuple[Section, ...]:
 
 
 def _make_arguments(kernel: Kernel, parameter_names: list[str], has_switches: bool) -> tuple[Argument, ...]:
-    """Return the arguments with named parameters instead of the struct.
+    """Return the arguments of a function with one argument for each named parameter instead of the struct.
 
-    The arguments for branches stay, followed by the number of the first switch, only if the function has switches.
+    The arguments for branches stay only if the function has switches; the number of the first switch then follows them.
     """
     result: list[Argument] = []
     for argument in kernel.arguments:
@@ -198,9 +199,9 @@ def _find_switch_indices(kernel: Kernel) -> set[int]:
 
 
 def _list_distinguishing_parts(kernel: Kernel) -> Iterator[object]:
-    """Yield the parts that distinguish two functions, in the names of the printed text.
+    """Yield the parts by which two shared functions are compared, in the names of the printed text.
 
-    For each line these are its target, its kind and its expressions.
+    For each line these are its target, its kind (the relation of a condition, or a storage place) and its expressions.
     """
     first_switch = kernel.first_switch or 0
 

@@ -28,7 +28,7 @@ NAME = "taylor"
 
 
 def make_taylor_series(program: Program) -> Series:
-    """Return the Taylor series of accelerations and powers of a program.
+    """Return the functions for the Taylor coefficients of accelerations and powers of a program.
 
     Raise BadValueError if the motion is not smooth.
     """
@@ -63,7 +63,8 @@ def _get_smooth_system(program: Program) -> TreeSystem:
 def _derive_series(system: TreeSystem) -> Series:
     """Return the Taylor series of accelerations and powers, from a right-hand side derived again for it.
 
-    The linear system of that right-hand side is recorded.
+    Its linear system (the KKT matrix, right-hand sides and unknowns) is passed on, so that higher orders reuse its
+    factors.
     """
     kkt = _RecordedKKT(system, allow_early_pairs=has_singular_fallback(system))
     dynamics = remove_unused_locals(
@@ -87,10 +88,10 @@ class _RecordedKKT(KKT):
         threshold: Threshold = SINGULAR,
         pair_threshold: Threshold = VANISHING,
     ) -> Factor:
-        """Append the factorization, with the default thresholds as constants, and return it.
+        """Append the factorization of the KKT matrix, with the values of the thresholds as constants, and return it.
 
-        No discrete state is passed to the series, from which C reads the thresholds otherwise. `jump_on_failure`: a
-        vanishing pivot jumps instead of returning its number.
+        Elsewhere C reads thresholds from the discrete state, which is not passed to the series. `jump_on_failure`: a
+        vanishing pivot jumps to other code instead of returning its number.
         """
         threshold, pair_threshold = (Threshold(limit.name, limit) for limit in (threshold, pair_threshold))
         return super().factorize(builder, jump_on_failure, threshold, pair_threshold)
@@ -98,10 +99,10 @@ class _RecordedKKT(KKT):
     def solve(
         self, builder: KernelBuilder, factor: Factor, b: Mapping[int, sp.Expr], prefix: str = ""
     ) -> dict[int, sp.Expr]:
-        """Append the solution and return it by node; record the right-hand sides and the unknowns.
+        """Append the solution of the KKT system and return it by node (number of coordinate, equation, friction).
 
-        The names of the right-hand sides go to `loads`, the symbols of the unknowns to `unknowns`. `b`: the right-hand
-        side by node, absent ones zero; `prefix` begins the names of the locals.
+        The names of the right-hand sides go to `loads`, the symbols of the unknowns to `unknowns`. `factor`: the result
+        of `factorize`. `b`: the right-hand side by node, absent ones zero; `prefix` begins the names of the locals.
         """
         builder.begin_section("right-hand side")
         load_symbols = {
@@ -114,16 +115,16 @@ class _RecordedKKT(KKT):
 
 
 def _ignore_vanishing_pivot(builder: KernelBuilder, kkt: KKT, right_sides: Mapping[int, sp.Expr]) -> None:
-    """Append nothing for a vanishing pivot: another method takes the step then.
+    """Append nothing for a vanishing pivot; the caller's value of `append_fallback` for `make_dynamics_kernel`.
 
-    It is passed to `make_dynamics_kernel` as `append_fallback`.
+    At such a state another method takes the step.
     """
 
 
 def _find_result_place(target: Place) -> Place | None:
-    """Return the place of a result in the series, for accelerations and powers.
+    """Return where the functions of the series store a result: "a" as it is, powers of `rhs` in "power".
 
-    None stands for results that a series does not need.
+    `target`: the storage place in the right-hand side. None stands for results that a series does not need.
     """
     match target:
         case Place("a"):

@@ -53,10 +53,11 @@ class DrivenLoops:
 def add_directions(
     driven_loops: DrivenLoops, system: System, frames: Iterable[Frame], prescribed_names: set[str]
 ) -> DrivenLoops:
-    """Return the driven loops with the directions in their closures: C stores their cosines and sines after q.
+    """Return the driven loops with the directions in their closures, whose cosines and sines C stores after q.
 
-    Directions that turn only with dependent and prescribed coordinates count, if the closures read them. The places of
-    their symbols are changed. `prescribed_names`: names of the coordinates that drives prescribe.
+    A direction counts if its angle depends on dependent and prescribed coordinates only and a closure reads it. The
+    storage places of its symbols are set. `frames`: all frames; `prescribed_names`: names of the coordinates that
+    drives prescribe.
     """
     symbols = system.model.symbols
     read_symbols = _find_read_symbols(
@@ -93,9 +94,9 @@ def _find_read_symbols(symbols: Symbols, expressions: Iterable[sp.Expr]) -> set[
 def find_blocks(pattern: Sequence[set[int]], n: int, excluded_coordinates: set[int]) -> list[Block]:
     """Return the square blocks without excluded coordinates in solving order, of at most MAX_BLOCK_ROWS equations each.
 
-    `pattern`: coordinates by equation, for usable equations; `n`: number of coordinates. A coordinate is free if it has
-    no equation of its own, or if a free one reaches it. Coordinates of an equation without a coordinate of its own are
-    not determined. A free coordinate reaches all coordinates that are matched with an equation in which it occurs.
+    `pattern`: coordinates in each usable equation; `n`: number of coordinates. Equations and coordinates are matched in
+    pairs. A coordinate is free if it is unmatched, or if its equation contains a free one. Blocks contain no free
+    coordinate, none of an unmatched equation, and read only coordinates of earlier blocks and their own.
     """
     row_of_column = match_rows(pattern)
     free = {column for column in range(n) if column not in row_of_column}
@@ -133,10 +134,10 @@ def find_blocks(pattern: Sequence[set[int]], n: int, excluded_coordinates: set[i
 
 
 def find_dependent_coordinates(system: System, excluded_names: set[str]) -> tuple[list[int], list[int]]:
-    """Return the dependent coordinates and their equations by number.
+    """Return the numbers of the coordinates that drives determine through loops, and of the equations that give them.
 
-    Equations in `excluded_names` determine nothing. Friction that may stick needs a free coordinate. If the drives
-    alone determined its slip, its force would be part of the closures' multipliers, so such a loop is not reduced.
+    Equations in `excluded_names` determine nothing. A loop is left out if the drives alone would then determine the
+    slip of a friction that may stick: its force would be part of the closures' multipliers.
     """
     index_of = {q: k for k, q in enumerate(system.q)}
     usable = [r for r, row in enumerate(system.rows) if row.name not in excluded_names]
@@ -180,7 +181,7 @@ def prescribe_coordinates(
         return system.mass.get((max(k, j), min(k, j)), ZERO)
 
     def compute_applied_force(k: int) -> sp.Expr:
-        """Return the applied force on a coordinate minus M c̈ of the dependent coordinates."""
+        """Return the applied force on coordinate k minus Σ M_kc c̈ of the dependent coordinates c."""
         return sp.Add(
             system.applied[k], *(-find_mass_entry(k, c) * x.second for c, x in zip(columns, dependent, strict=True))
         )
@@ -226,10 +227,11 @@ def prescribe_coordinates(
 def _set_places(
     system: System, names: Sequence[str], free_indices: Sequence[int], dependent_indices: Sequence[int]
 ) -> tuple[DependentCoordinate, ...]:
-    """Set the places of coordinates and rates in C; return the dependent coordinates with their rates.
+    """Set the storage places of coordinates and rates in C; return the dependent coordinates with their rates.
 
-    Symbols of second and third rates are new. `free_indices`, `dependent_indices`: numbers of the free and of the
-    dependent coordinates.
+    In q free coordinates come before dependent ones; in v second and third rates follow, as new symbols.
+    `free_indices`, `dependent_indices`: numbers of the free and of the dependent coordinates; `names`: those of all
+    coordinates.
     """
     symbols = system.model.symbols
     info = symbols.info
@@ -256,7 +258,7 @@ def _reduce_prescribed_coordinate(
     dependent_indices: Sequence[int],
     dependent_coordinates: Sequence[DependentCoordinate],
 ) -> PrescribedCoordinate:
-    """Return a prescribed coordinate with the dependent accelerations in its applied force.
+    """Return a coordinate that a drive prescribes, with −M c̈ of the dependent coordinates c in its applied force.
 
     `new_index`: new number of each free coordinate; `dependent_indices`: old numbers of the dependent ones.
     """
@@ -272,9 +274,9 @@ def _reduce_prescribed_coordinate(
 def _reduce_row(
     row: Row, rates: Mapping[sp.Symbol, sp.Symbol], second_rates: Mapping[sp.Symbol, sp.Symbol], system: System
 ) -> Row:
-    """Return a constraint equation with Φ_s ṡ = ν − Φ_c ċ and Φ_s s̈ = γ − Φ_c c̈.
+    """Return a constraint equation in the free coordinates s: Φ_s ṡ = ν − Φ_c ċ and Φ_s s̈ = γ − Φ_c c̈.
 
-    `rates`, `second_rates`: first and second rates of the dependent coordinates, by coordinate.
+    c are the dependent coordinates. `rates`, `second_rates`: their first and second rates, by coordinate.
     """
     rate_of = dict(zip(system.q, system.v, strict=True))
     free_entries = {q: entry for q, entry in row.phi_q.items() if q not in rates}
@@ -289,7 +291,10 @@ def _reduce_row(
 
 
 def _reduce_friction(friction: Friction, second_rates: Mapping[sp.Symbol, sp.Symbol]) -> Friction:
-    """Return a friction element with J s̈ = γ − J_c c̈; the slip itself contains the dependent rates."""
+    """Return a friction element in the free coordinates s, J s̈ = γ − J_c c̈, with the dependent coordinates c.
+
+    The slip itself is unchanged. `second_rates`: c̈ by coordinate.
+    """
     dependent_terms = (-entry * second_rates[q] for q, entry in friction.jacobian.items() if q in second_rates)
     free_entries = {q: entry for q, entry in friction.jacobian.items() if q not in second_rates}
     return replace(friction, jacobian=free_entries, gamma=sp.Add(friction.gamma, *dependent_terms))
@@ -301,9 +306,9 @@ def _reduce_motion(
     dependent_indices: Sequence[int],
     dependent_coordinates: Sequence[DependentCoordinate],
 ) -> Motion:
-    """Return the motion of a body with J of the free coordinates; dependent accelerations are in the bias.
+    """Return the motion of a body with the Jacobian of the free coordinates; dependent accelerations are in the bias.
 
-    `new_index`: new number of each free coordinate.
+    `new_index`: new number of each free coordinate; `dependent_indices`: old numbers of the dependent ones.
     """
     second_rates = {c: x.second for c, x in zip(dependent_indices, dependent_coordinates, strict=True)}
     bias = tuple(

@@ -19,9 +19,10 @@ CONSTANT = ""
 
 
 def substitute_coordinate(affine: Affine, name: str, value: Affine) -> Affine:
-    """Return `affine` with the coordinate `name` replaced by the affine expression `value`, without zero coefficients.
+    """Return the affine expression `affine` with the coordinate `name` replaced by `value`, also affine.
 
-    It is returned unchanged if it does not contain the coordinate.
+    Affine expressions are coefficients by coordinate, the constant under "". Zero coefficients are left out. `affine`
+    is returned unchanged if it does not contain the coordinate.
     """
     if name not in affine:
         return affine
@@ -73,22 +74,26 @@ class Motions:
         self._arms: dict[tuple[str, sp.Expr, sp.Expr], Pair] = {}
 
     def derive_coefficients(self, name: str, affine: Affine) -> Affine:
-        """Return an affine expression with its coefficients as derived parameters; `name`: base of their names."""
+        """Return an affine expression (coefficients by coordinate) with its coefficients as derived parameters.
+
+        `name`: base of their names, which end in "_by_<coordinate>" or "_by_constant".
+        """
         return {k: self.parameter_table.derive_parameter(f"{name}_by_{k or 'constant'}", c) for k, c in affine.items()}
 
     def compute_value(self, affine: Affine) -> sp.Expr:
-        """Return the value of an affine expression."""
+        """Return the value of an affine expression: the constant plus Σ coefficient · coordinate."""
         terms = (c if k == CONSTANT else c * self.coordinates[k].q for k, c in affine.items())
         return sp.Add(*terms)
 
     def compute_rate(self, affine: Affine) -> sp.Expr:
-        """Return the rate of an affine expression."""
+        """Return the rate of an affine expression: Σ coefficient · rate of the coordinate."""
         return sp.Add(*(c * self.coordinates[k].v for k, c in affine.items() if k != CONSTANT))
 
     def find_derivative_rules(self, columns: Mapping[str, sp.Expr]) -> dict[sp.Symbol, sp.Expr]:
-        """Return the derivatives of a quantity by unknown coordinates and by t, from its columns ∂/∂z by coordinate.
+        """Return the derivatives of a quantity by unknown coordinates and by t, as a mapping by symbol.
 
-        The derivative by t is through the prescribed coordinates; it is absent if it is 0.
+        `columns`: its derivatives ∂/∂z by all coordinates z. Those that drives prescribe give the derivative by t, Σ
+        ∂/∂z ż; it is absent if it is 0.
         """
         rules: dict[sp.Symbol, sp.Expr] = {}
         time_derivative = ZERO
@@ -101,9 +106,9 @@ class Motions:
         return rules | ({self.t: time_derivative} if time_derivative != 0 else {})
 
     def find_rate_derivative_rules(self, columns: Mapping[str, sp.Expr]) -> dict[sp.Symbol, sp.Expr]:
-        """Return the derivatives of a rate Σ column · ż by unknown coordinates, their rates and t.
+        """Return the derivatives of a rate Σ ∂/∂z ż by unknown coordinates, their rates and t, as a mapping by symbol.
 
-        `columns`: ∂/∂z of the quantity, which depend on the motion themselves.
+        `columns`: the derivatives ∂/∂z of the quantity by all coordinates z, which depend on the motion themselves.
         """
         variables = [self.coordinates[k].q for k in columns if self.coordinates[k].acceleration is None] + [self.t]
         rate = sp.Add(*(entry * self.coordinates[k].v for k, entry in columns.items()))
@@ -114,13 +119,16 @@ class Motions:
         return rules
 
     def define_value(self, base_name: str, value: sp.Expr, columns: Mapping[str, sp.Expr]) -> sp.Symbol:
-        """Return a new symbol for `value`, with derivatives by its columns; `base_name`: base of its name."""
+        """Return a new symbol for `value`, a quantity whose derivatives by coordinate are `columns`.
+
+        `base_name`: base of its name.
+        """
         symbol = self.symbols.add_definition(base_name, value)
         self.symbols.rules[symbol] = self.find_derivative_rules(columns)
         return symbol
 
     def define_rate(self, base_name: str, value: sp.Expr, columns: Mapping[str, sp.Expr]) -> sp.Symbol:
-        """Return a new symbol for a rate, with derivatives by the columns of the quantity.
+        """Return a new symbol for `value`, the rate of a quantity whose derivatives by coordinate are `columns`.
 
         `base_name`: base of its name.
         """
@@ -129,9 +137,10 @@ class Motions:
         return symbol
 
     def make_frame(self, name: str, affine: Affine) -> Frame:
-        """Return the frame that turns with θ = `affine`; its cosine and sine are one pair of symbols.
+        """Return the frame that turns with the angle θ = `affine`; its cosine and sine are new symbols.
 
-        A longer angle or rate becomes a symbol of its own.
+        The angle and its rate become symbols of their own, unless they are symbols already. `name`: base of their
+        names.
         """
         angle_coefficients = {k: c for k, c in affine.items() if k != CONSTANT}
         theta, omega = self.compute_value(affine), self.compute_rate(affine)
@@ -147,10 +156,11 @@ class Motions:
         return frame
 
     def rotate_vector(self, frame: Frame, w: Pair, base_name: str) -> Pair:
-        """Return A(θ) w as a pair of symbols; the opposite of a known arm is its negative.
+        """Return A(θ) w, the vector with components w in a frame, in ground axes.
 
-        Arms of the ground, zero arms and arms along the frame's axes need no new symbols. `base_name`: base of their
-        names.
+        It is w itself for the ground or for w = (0, 0). Components that are both −1, 0 or 1 give expressions in the
+        frame's cos θ and sin θ. Any other w gets a pair of symbols, made once; the opposite of a known vector is its
+        negative. `base_name`: base of the symbols' names.
         """
         x, y = w
         if not frame.angle_coefficients or w == (ZERO, ZERO):
@@ -173,9 +183,9 @@ class Motions:
         return self._arms[frame.name, x, y]
 
     def derive_vector(self, base_name: str, vector: Pair, field_base_name: str = "") -> Pair:
-        """Return both components of a constant vector as derived parameters.
+        """Return both components of a constant vector as derived parameters, or minus that of the opposite.
 
-        `base_name`: base of their names; `field_base_name`: base of their fields' names.
+        `base_name`: base of their names; `field_base_name`: base of their fields' names, "" if it is the same.
         """
         x, y = (
             self.parameter_table.derive_signed_parameter(

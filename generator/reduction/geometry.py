@@ -18,7 +18,7 @@ from gudgeon.generator.equations.geometry import BodySymbols, Geometry, PointFra
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.mechanism import GROUND, PointRef
 from gudgeon.generator.reduction.frames import CONSTANT, ONE, ZERO, Affine, Coordinate, Frame, Motions, Pair
-from gudgeon.generator.reduction.tree import Link, Tree
+from gudgeon.generator.reduction.tree import Tree, TreeEdge
 from gudgeon.generator.symbols.parameter_table import ParameterTable
 from gudgeon.generator.symbols.storage import Place
 from gudgeon.generator.symbols.symbols import Symbols
@@ -53,20 +53,20 @@ class TreePoint(PointFrame):
 
     @cached_property
     def columns(self) -> Mapping[str, Pair]:
-        """Return ∂(x, y)/∂z by coordinate, computed once."""
+        """Return ∂(x, y)/∂z of the point by coordinate z, prescribed ones included, computed once."""
         geometry: TreeGeometry = self.geometry  # type: ignore[assignment]
         return geometry.compute_jacobian_columns(self.terms)
 
     @property
     def angle_coefficients(self) -> Mapping[str, sp.Expr]:
-        """Return ∂θ/∂z of the point's body by coordinate."""
+        """Return ∂θ/∂z of the point's body by coordinate z; empty for a point of the ground."""
         geometry: TreeGeometry = self.geometry  # type: ignore[assignment]
         return geometry.frame_of[self.body.name].angle_coefficients if self.body else {}
 
     def expand_arms(self) -> TreePoint:
-        """Return the same point with its position and velocity as sums of arms.
+        """Return the same point with position and velocity written as sums of rotated arms instead of one symbol each.
 
-        In differences of two points, common arms then cancel.
+        In the difference of two points, common arms then cancel.
         """
         geometry: TreeGeometry = self.geometry  # type: ignore[assignment]
         rate = geometry.motions.coordinates
@@ -94,28 +94,31 @@ class TreeGeometry(Geometry):
         self._coms: dict[str, TreePoint] = {}
 
     def place_bodies(self, motions: Motions, slides: Mapping[str, Affine]) -> None:
-        """Make coordinates and frames, then position body by body along the tree.
+        """Make coordinates and frames, then position body by body along the tree. Called once.
 
-        Called once. `motions`: makes the symbols of coordinates, frames and their rates, and derived parameters of
-        coefficients; it gets an entry in `coordinates` for each independent coordinate, in q and v by their order along
-        the tree. `slides`: slides that drives or other slides determine; they get no coordinate.
+        `motions` makes the symbols of coordinates and frames, and derived parameters of coefficients. It gets an entry
+        in `coordinates` for each independent coordinate, numbered in q and v along the tree. `slides`: slides that
+        drives or other slides determine; they get no coordinate.
         """
         self.motions = motions
         n_coordinates = 0
         free_bodies = set(self.tree.free)
-        for link in self.tree.links:
-            for name in link.coordinates:
+        for tree_edge in self.tree.edges:
+            for name in tree_edge.coordinates:
                 self.slides[name] = motions.derive_coefficients(name, slides.get(name, {name: ONE}))
                 n_coordinates += self._add_coordinate(name, n_coordinates) if name not in slides else 0
-            if link.body in free_bodies:
-                n_coordinates += self._add_coordinate(link.body, n_coordinates)
-        for link in self.tree.links:
-            self._set_frame(link.body)
-        for link in self.tree.links:
-            self._set_base_point(link)
+            if tree_edge.body in free_bodies:
+                n_coordinates += self._add_coordinate(tree_edge.body, n_coordinates)
+        for tree_edge in self.tree.edges:
+            self._set_frame(tree_edge.body)
+        for tree_edge in self.tree.edges:
+            self._set_base_point(tree_edge)
 
     def _add_coordinate(self, name: str, index: int) -> int:
-        """Add an unknown coordinate with an index in q and v; return how many were added: 1."""
+        """Add an unknown coordinate with an index in q and v, and return 1, the number of added coordinates.
+
+        `name`: a body for an angle, else that of a slide.
+        """
         new, owner = self.symbols.add_symbol, name.replace(".", "_")
         names = (f"{owner}_theta", f"{owner}_omega") if name in self.tree.free else (owner, f"{owner}_rate")
         q, v = (new(n, Place(array)[index], name) for n, array in zip(names, "qv", strict=True))
@@ -151,7 +154,11 @@ class TreeGeometry(Geometry):
         self.frame_of[body] = frame
 
     def rotate_to_frame(self, body: str, vector: Pair, base_name: str) -> Pair:
-        """Return a vector of a body in its frame's axes; `base_name`: base of the names of derived parameters."""
+        """Return the components of a vector of a body in its frame, in which the body has a constant angle.
+
+        They are derived parameters; `base_name`: base of their names. Without an angle the vector is returned
+        unchanged.
+        """
         offset = self._offset[body]
         if offset == 0 or vector == (ZERO, ZERO):
             return vector
@@ -161,32 +168,42 @@ class TreeGeometry(Geometry):
         rotated = (cos * vector[0] - sin * vector[1], sin * vector[0] + cos * vector[1])
         return self.motions.derive_vector(base_name, rotated, f"{base_name}_in_frame")
 
-    def _set_base_point(self, link: Link) -> None:
-        """Set the base point by which the parent positions a body, then make the body's symbols."""
-        body = link.body
-        if link.joint is None:
+    def _set_base_point(self, tree_edge: TreeEdge) -> None:
+        """Set the base point of a body, the point of its parent that positions it, then make the body's symbols.
+
+        `tree_edge`: the edge of the spanning tree. Without a joint the base point moves along the axes of the ground. A
+        joint with a slide moves it along its axis.
+        """
+        body = tree_edge.body
+        if tree_edge.joint is None:
             unit_vectors = ((ONE, ZERO), (ZERO, ONE))
-            terms = {(GROUND, name): unit for name, unit in zip(link.coordinates, unit_vectors, strict=True)}
+            terms = {(GROUND, name): unit for name, unit in zip(tree_edge.coordinates, unit_vectors, strict=True)}
             base, own_point = self._make_free_base(terms), (ZERO, ZERO)
         else:
-            first, second = link.joint.first, link.joint.second
+            first, second = tree_edge.joint.first, tree_edge.joint.second
             parent, child, sign = (first, second, 1) if second.body == body else (second, first, -1)
             base, own_point = self.find_point(parent), self.local_vectors[body, child.point]
-            if link.slides:
-                axis = JointFields(link.joint, self._model.geometry).direction("axis")
-                w = self.rotate_to_frame(first.body, axis, f"{link.joint.name}_axis")
-                base = self._make_sliding_base(base, first.body, link.coordinates[0], (sign * w[0], sign * w[1]))
+            if tree_edge.slides:
+                axis = JointFields(tree_edge.joint, self._model.geometry).direction("axis")
+                w = self.rotate_to_frame(first.body, axis, f"{tree_edge.joint.name}_axis")
+                base = self._make_sliding_base(base, first.body, tree_edge.coordinates[0], (sign * w[0], sign * w[1]))
         self._base[body] = base, self.rotate_to_frame(body, own_point, f"{body}_base")
         self._derive_body_symbols(body)
 
     def _make_free_base(self, terms: Terms) -> TreePoint:
-        """Return the base point of a body that moves freely, at its two slides along the axes of the ground."""
+        """Return the base point of a body that moves freely: the point (x, y) of the ground given by its two slides.
+
+        `terms`: unit vectors along x and y, each with its slide.
+        """
         position = tuple(self.motions.compute_value(self.slides[name]) for _, name in terms)
         speed = tuple(self.motions.compute_rate(self.slides[name]) for _, name in terms)
         return TreePoint(self, None, (ZERO, ZERO), terms, (position[0], position[1]), (speed[0], speed[1]))
 
     def _make_sliding_base(self, base: TreePoint, body: str, slide: str, w: Pair) -> TreePoint:
-        """Return the base point moved by a slide along an axis w, which is fixed in a body's frame."""
+        """Return the base point moved by `slide` along an axis w, given in the frame of the body `body`.
+
+        Position, velocity and terms of the result contain the slide.
+        """
         frame, value, rate = self.frame_of[body], self.get_slide_value(slide), self.get_slide_rate(slide)
         u_x, u_y = self.motions.rotate_vector(frame, w, f"axis_{slide}")
         terms = self._add_terms(base.terms, {(frame.name, slide): w}, slide)
@@ -198,18 +215,18 @@ class TreeGeometry(Geometry):
         return TreePoint(self, None, (ZERO, ZERO), terms, position, speed)
 
     def get_slide_value(self, slide: str) -> sp.Expr:
-        """Return the value of a slide; 1 for a term without one."""
+        """Return the value in m of a slide (a translational coordinate); 1 for the name "", a term without slide."""
         return self.motions.compute_value(self.slides[slide]) if slide else ONE
 
     def get_slide_rate(self, slide: str) -> sp.Expr:
-        """Return the rate of a slide; 0 for a term without one."""
+        """Return the rate in m/s of a slide (a translational coordinate); 0 for the name "", a term without slide."""
         return self.motions.compute_rate(self.slides[slide]) if slide else ZERO
 
     def _add_terms(self, terms: Terms, added_terms: Terms, base_name: str) -> Terms:
-        """Return the sum of terms, without those that are zero.
+        """Return the sum of two sums of terms, without those that are zero.
 
-        Vectors with the same frame and slide are added, as derived parameters; `base_name`: base of their names.
-        `terms`, `added_terms`: vectors w by (frame, slide).
+        `terms`, `added_terms`: vectors w by (frame, slide), of which a position is the sum. Vectors with the same frame
+        and slide are added, as derived parameters; `base_name`: base of their names.
         """
         result = dict(terms)
         for key, w in added_terms.items():
@@ -219,7 +236,7 @@ class TreeGeometry(Geometry):
         return {key: w for key, w in result.items() if w != (ZERO, ZERO)}
 
     def compute_position(self, terms: Terms) -> Pair:
-        """Return the position (x, y) = Σ value A(θ) w of terms.
+        """Return the position (x, y) = Σ value A(θ) w of a sum of terms; value is that of the slide, 1 without one.
 
         `terms`: vectors w by (frame, slide).
         """
@@ -246,9 +263,9 @@ class TreeGeometry(Geometry):
         return result
 
     def compute_bias(self, terms: Terms) -> Pair:
-        """Return r̈ of terms if no coordinate accelerates: Σ (−θ̇² value + 2 θ̇ rate ẑ) A w, as (x, y).
+        """Return r̈ of a sum of terms for z̈ = 0: Σ (−θ̇² value + 2 θ̇ rate ẑ) A(θ) w, as (x, y).
 
-        `terms`: vectors w by (frame, slide).
+        `terms`: vectors w by (frame, slide); value and rate are those of the slide. z are all coordinates.
         """
         x, y = ZERO, ZERO
         for (name, slide), w in terms.items():
@@ -262,7 +279,7 @@ class TreeGeometry(Geometry):
         return x, y
 
     def find_slide_rates(self, slide: str) -> dict[str, sp.Expr]:
-        """Return ∂value/∂z of a slide by coordinate; empty for a term without a slide ("")."""
+        """Return ∂value/∂z of a slide by coordinate z; empty for the name "", a term without slide."""
         return {k: c for k, c in self.slides[slide].items() if k != CONSTANT} if slide else {}
 
     def _make_point(self, body: str, vector: Pair, base_name: str, names: tuple[str, str, str, str]) -> TreePoint:
@@ -290,7 +307,7 @@ class TreeGeometry(Geometry):
         return TreePoint(self, self.bodies.get(body), arm, terms, position, speed)
 
     def is_simple(self, value: sp.Expr) -> bool:
-        """Return whether a value is a symbol, its negative, or a number, which needs no local."""
+        """Return whether a value is a symbol, its negative, or a number, so that it needs no symbol of its own."""
         return bool(value.is_Symbol or (-value).is_Symbol or value.is_Number)
 
     def _derive_body_symbols(self, body: str) -> None:
@@ -334,7 +351,7 @@ class TreeGeometry(Geometry):
         self._coms[body] = replace(com, body=self.bodies[body])
 
     def centre_of_mass(self, body: str) -> TreePoint:
-        """Return the centre of mass of a body as a point."""
+        """Return the centre of mass of a body as a point in tree coordinates, made with the body's symbols."""
         return self._coms[body]
 
     def find_cos_and_sin(self, body: BodySymbols) -> tuple[sp.Expr, sp.Expr]:
@@ -343,13 +360,16 @@ class TreeGeometry(Geometry):
         return x, y
 
     def rotate_vector(self, body: BodySymbols, vector: Pair, base_name: str, point: str = "") -> Pair:
-        """Return A(θ) s of a vector of a body in ground axes; `base_name`: base of the names of symbols."""
+        """Return A(θ) s in ground axes, for the components s of a vector in a body's own frame.
+
+        `base_name`: base of the names of new symbols; `point` is not used.
+        """
         return self.motions.rotate_vector(
             self.frame_of[body.name], self.rotate_to_frame(body.name, vector, base_name), base_name
         )
 
     def find_point_at_offset(self, ref: PointRef, offset: Pair, base_name: str) -> TreePoint:
-        """Return the frame of a point at an offset from a named point, given in its body's frame.
+        """Return the frame of the point at an offset from a named point; the offset is in the body's own frame.
 
         `base_name`: base of the names of symbols.
         """
@@ -360,7 +380,10 @@ class TreeGeometry(Geometry):
         return self._make_point(ref.body, s, base_name, names)
 
     def find_point(self, ref: PointRef) -> TreePoint:
-        """Return the frame of a named point of a body or of the ground, made once."""
+        """Return the frame of a named point of a body or of the ground, made at the first call.
+
+        An empty name at the ground is its origin. Raise KeyError for an unknown point.
+        """
         key = ref.body, ref.point
         if key not in self._points:
             if ref.body == GROUND:

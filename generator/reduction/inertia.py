@@ -35,9 +35,10 @@ class Inertia:
         self.mass = self._derive_mass()
 
     def _sum_body_constants(self) -> None:
-        """Sum α = Σ m w·u, β = Σ m w × u and Σ m w over the bodies by terms, without terms that do not move.
+        """Sum α = Σ m w·u, β = Σ m w × u and Σ m w over the bodies, by pair of terms and by term.
 
-        Each pair of terms is stored in one order.
+        A position is a sum of terms, vectors w by (frame, slide); terms of the ground do not count. Each pair is stored
+        in one order only.
         """
         for body in self.geometry.bodies.values():
             moving_terms = [
@@ -54,10 +55,10 @@ class Inertia:
                     self._alpha_and_beta[key] = alpha + body.mass * dot, beta + sign * body.mass * cross
 
     def _find_angle_difference(self, first: Frame, second: Frame) -> Pair:
-        """Return cos and sin of θ_2 − θ_1 for two frames.
+        """Return (cos, sin) of θ_2 − θ_1 for two frames.
 
-        They are (1, 0) for the same frame, and those of the frame that turns if the other one does not. If both turn,
-        they are symbols with rules, which are defined at the first call.
+        They are (1, 0) for the same frame. If only one frame turns, they follow from its own cosine and sine. If both
+        turn, they are symbols with derivative rules, defined at the first call.
         """
         if first.name == second.name:
             return ONE, ZERO
@@ -74,9 +75,9 @@ class Inertia:
         return self._angle_differences[first.name, second.name]
 
     def _set_derivative_rules(self, cos: sp.Symbol, sin: sp.Symbol, first: Frame, second: Frame) -> None:
-        """Set the derivatives of a cosine and sine of ψ, the angle from the `first` to the `second` frame.
+        """Set the derivatives of symbols for cos ψ and sin ψ, ψ the angle from the `first` to the `second` frame.
 
-        d cos = −sin dψ and d sin = cos dψ. P and Q have the same rules.
+        d cos = −sin dψ and d sin = cos dψ. P and Q of `find_products` have the same rules.
         """
         angle_coefficients = {
             k: second.angle_coefficients.get(k, ZERO) - first.angle_coefficients.get(k, ZERO)
@@ -126,7 +127,10 @@ class Inertia:
         return value if value.is_Number else self.symbols.add_definition(base_name, value)
 
     def _find_jacobian_columns(self, T: Term) -> dict[str, Pair]:
-        """Return ∂r_T/∂z = (turn ẑ + slide) A w as pairs (turn, slide) by coordinate."""
+        """Return ∂r_T/∂z of a term T by coordinate z, as pairs (turn, slide): ∂r_T/∂z = (turn ẑ + slide) A w.
+
+        ẑ turns a vector by +90°; A w is the term's vector in ground axes.
+        """
         frame, along, value = (
             self.geometry.frames[T[0]],
             self.geometry.find_slide_rates(T[1]),
@@ -136,7 +140,10 @@ class Inertia:
         return {k: (frame.angle_coefficients.get(k, ZERO) * value, along.get(k, ZERO)) for k in names}
 
     def _iterate_term_pairs(self) -> Iterable[tuple[Term, Term]]:
-        """Yield ordered pairs of terms that some body has together, in both orders."""
+        """Yield the ordered pairs of terms (parts of a position) that some body has together, in both orders.
+
+        A pair of a term with itself is yielded once.
+        """
         for T, U in self._alpha_and_beta:
             yield T, U
             if T != U:
@@ -166,9 +173,9 @@ class Inertia:
         return result
 
     def hoist_constants(self, name: str, value: sp.Expr) -> sp.Expr:
-        """Return a sum with the constant factor of each product as a derived parameter; `name`: base of their names.
+        """Return a sum in which the constant factor of each product is a derived parameter, named after `name`.
 
-        Products with the same variable part are added.
+        Products with the same variable part are combined first. Constants contain numbers and parameters only.
         """
         groups: dict[sp.Expr, sp.Expr] = {}
         for term in sp.Add.make_args(sp.expand(value)):
@@ -180,13 +187,16 @@ class Inertia:
         )
 
     def _derive_constant(self, name: str, value: sp.Expr) -> sp.Expr:
-        """Return a constant as a derived parameter; the negative of a symbol is one already."""
+        """Return a constant as a derived parameter, ± one that exists; minus a symbol is returned unchanged."""
         return (
             value if (-value).is_Symbol else self.parameter_table.derive_signed_parameter(name, value, "constant of M")
         )
 
     def derive_velocity_terms(self) -> dict[str, sp.Expr]:
-        """Return h_k = Σ_b m_b ∂r_b/∂z_k · r̈_b at z̈ = 0, by coordinate, prescribed ones included."""
+        """Return the velocity terms (centrifugal and Coriolis) h_k = Σ_b m_b ∂r_b/∂z_k · r̈_b at z̈ = 0, by z_k.
+
+        z_k are all coordinates, prescribed ones included. The equations of motion are M z̈ + h = applied forces.
+        """
         h: dict[str, sp.Expr] = {}
         for T, U in self._iterate_term_pairs():
             P, Q = self.find_products(T, U)
@@ -202,7 +212,7 @@ class Inertia:
         return {k: self.hoist_constants(f"spin_{k}", value) for k, value in h.items()}
 
     def derive_weights(self) -> dict[str, sp.Expr]:
-        """Return the generalized weights Σ_b m_b g · ∂r_b/∂z_k by coordinate, without zeros."""
+        """Return the generalized weights Σ_b m_b g · ∂r_b/∂z_k by coordinate z_k, without zeros; g is gravity."""
         g_x, g_y = self.gravity
         sums: dict[str, sp.Expr] = {}
         for T, (m_x, m_y) in self._mass_moments.items():

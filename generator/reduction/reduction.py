@@ -45,7 +45,7 @@ class TreeSystem(System):
 
     @cached_property
     def _rotating_bodies(self) -> dict[str, dict[str, sp.Expr]]:
-        """Return for each coordinate the bodies that turn with it, in the order of the model, and their rates by it."""
+        """Return for each coordinate the bodies that turn with it, each with ∂θ/∂coordinate, in model order."""
         geometry, rotating_bodies = self.model.geometry, dict[str, dict[str, sp.Expr]]()
         assert isinstance(geometry, TreeGeometry)
         for body in geometry.bodies:
@@ -55,7 +55,7 @@ class TreeSystem(System):
         return rotating_bodies
 
     def _find_rotating_bodies(self, k: int) -> dict[str, sp.Expr]:
-        """Return the bodies that turn with coordinate k, and their rates by it; none for a slide."""
+        """Return the bodies that turn with coordinate k, each with ∂θ/∂coordinate; empty for a slide."""
         return self._rotating_bodies.get(self.unknowns[k], {})
 
     def compute_inertia_of_unit_mass(self, k: int) -> sp.Expr:
@@ -66,9 +66,10 @@ class TreeSystem(System):
         )
 
     def compute_inertia_about_joints(self, k: int) -> sp.Expr:
-        """Return the moment of inertia with which the pivot of M of coordinate k is compared; 0 for a slide.
+        """Return the moment of inertia to which the pivot of coordinate k in M is compared; 0 for a slide.
 
-        For an angle it is Σ (∂θ/∂k)² (J + Σ m s²) over the bodies that turn with it, a derived parameter.
+        For an angle it is Σ (∂θ/∂k)² (J + Σ m s²) over the bodies that turn with it, as a derived parameter. s leads
+        from the centre of mass to each point of a joint.
         """
         name = self.unknowns[k]
         inertia = sp.Add(
@@ -79,9 +80,9 @@ class TreeSystem(System):
         )
 
     def compute_generalized_forces(self, loads: Sequence[PointLoad]) -> tuple[list[sp.Expr], dict[str, sp.Expr]]:
-        """Return the generalized forces of loads, and those on prescribed coordinates by name.
+        """Return the generalized forces of loads by tree coordinate, and those on prescribed coordinates by name.
 
-        Forces with the same, or the opposite, lever arm are added first.
+        A generalized force is Σ (∂r/∂z · F + ∂θ/∂z M). Forces with the same, or the opposite, ∂r/∂z are added first.
         """
         levers: dict[str, dict[tuple[sp.Expr, sp.Expr], list[sp.Expr]]] = {}
         moments: dict[str, sp.Expr] = {}
@@ -150,10 +151,10 @@ def reduce_model(model: Model) -> TreeSystem:
 
 
 def _eliminate_driven_loops(model: Model, system: TreeSystem) -> TreeSystem:
-    """Return the system with coordinates that drives determine as functions of t.
+    """Return the system with the coordinates that drives determine through loops as functions of t.
 
-    A scene without degrees of freedom, closures or such coordinates is returned unchanged, since nothing is integrated
-    or determined.
+    The system is returned unchanged without degrees of freedom, closures or such coordinates. A drive whose rate may
+    jump determines nothing.
     """
     if model.degrees_of_freedom <= 0 or not system.rows:
         return system
@@ -172,9 +173,9 @@ def _eliminate_driven_loops(model: Model, system: TreeSystem) -> TreeSystem:
 
 
 def _make_tree_geometry(model: Model, tree: Tree, slides: Mapping[str, Affine]) -> tuple[TreeGeometry, TreeConstraints]:
-    """Return the geometry of a tree, with new symbols, coordinates and bodies, and its constraints.
+    """Return the geometry of a tree, with new symbols for coordinates, bodies and points, and its constraints.
 
-    `slides`: slides that are functions of other coordinates.
+    `slides`: the slides that are affine functions of other slides and drives.
     """
     symbols = model.symbols.copy_parameters_only()
     parameter_table = model.parameter_table.copy_for_symbols(symbols)
@@ -193,7 +194,7 @@ def _make_tree_geometry(model: Model, tree: Tree, slides: Mapping[str, Affine]) 
 def _derive_closures(model: Model, tree: Tree, constraints: TreeConstraints) -> tuple[Row, ...]:
     """Return the constraint equations that the tree does not satisfy by itself, in the order of the model.
 
-    Pairs that shared points need in addition follow.
+    Equations of the pairs of bodies that close shared points (points of three or more bodies) follow.
     """
     mechanism = model.scene.mechanism
     closure_names = [row.name for row in model.rows if row.name not in tree.rows]
@@ -212,9 +213,10 @@ def _derive_closures(model: Model, tree: Tree, constraints: TreeConstraints) -> 
 def _find_determined_slide(
     model: Model, geometry: TreeGeometry, constraints: TreeConstraints, rows: Sequence[Row]
 ) -> tuple[str, str, Affine] | None:
-    """Return an equation that is linear in slides with constant coefficients, one of its slides, and the slide's value.
+    """Return (equation, slide, value) for an equation that gives a slide by other slides and drives.
 
-    The value is affine in other slides and drives. Return None if there is no such equation.
+    The equation is linear in slides with constant coefficients; the value is affine. Names stand for the first two.
+    Return None if there is no such equation; that of a drive whose rate may jump does not count.
     """
     names = {c.q: name for name, c in geometry.motions.coordinates.items()}
     drives = {c.q: name for name, c in geometry.motions.coordinates.items() if c.acceleration is not None}
@@ -245,9 +247,9 @@ def _make_system(
     constraints: TreeConstraints,
     rows: tuple[Row, ...],
 ) -> TreeSystem:
-    """Return the system on the tree: joints with play, force elements, M and the applied forces.
+    """Return the system of the equations of motion on the tree: joints with play, force elements, M and applied forces.
 
-    `slides`: slides that are functions of others, and the equations that determine them; `rows`: the closures.
+    `slides`: the slides that are functions of others, and the equations that give them; `rows`: the closures.
     """
     reduced = _make_tree_model(model, geometry, constraints, rows)
     coordinates = geometry.motions.coordinates
@@ -258,7 +260,7 @@ def _make_system(
     velocity_terms, weights = inertia.derive_velocity_terms(), inertia.derive_weights()
 
     def compute_applied_force(name: str) -> sp.Expr:
-        """Return the weight minus velocity terms and minus M times prescribed accelerations, of a coordinate."""
+        """Return the weight on a coordinate minus its velocity terms and minus M times prescribed accelerations."""
         prescribed_forces = sum(
             (inertia.mass.get((name, k), ZERO) * coordinate.acceleration for k, coordinate in prescribed.items()), ZERO
         )
@@ -332,9 +334,9 @@ def _make_tree_model(
 
 
 def _derive_motion(geometry: TreeGeometry, body: str, index_of: Mapping[str, int]) -> Motion:
-    """Return J and bias of a body's centre of mass and angle.
+    """Return the Jacobian and bias of a body's centre of mass and angle: r̈ = J s̈ + bias for the unknowns s.
 
-    `index_of`: index of each unknown; prescribed coordinates contribute to the bias.
+    `index_of`: index of each unknown; the accelerations of prescribed coordinates are in the bias.
     """
     com, angle_coefficients = geometry.centre_of_mass(body), geometry.frame_of[body].angle_coefficients
     coordinates = geometry.motions.coordinates

@@ -31,18 +31,19 @@ class SharedPoint:
 
     @property
     def rows(self) -> list[str]:
-        """Return the names of the equations of the file's joints that make the points coincide."""
+        """Return the names of the constraint equations by which the file's joints make the points coincide."""
         return [row for joint in self.joints for row in self.list_pair_rows(joint)]
 
     @staticmethod
     def list_pair_rows(joint: Joint) -> list[str]:
-        """Return the names of the equations of a pair that make its points coincide."""
+        """Return the names of the constraint equations by which a joint makes its two points coincide."""
         return [f"{joint.name}.{row}" for row in joint_types()[joint.kind].carries]
 
     def find_closing_pairs(self, tree_joints: Iterable[Joint], compute_cost: Callable[[Joint], int]) -> list[Joint]:
         """Return the cheapest pairs that connect the points which the tree leaves unconnected (Kruskal's algorithm).
 
-        `tree_joints`: joints of the tree; `compute_cost` returns the cost of a pair.
+        A pair is a revolute joint between two of the points. `tree_joints`: joints of the tree; `compute_cost` returns
+        the cost of a pair.
         """
         groups = {point: {point} for point in self.points}
         result = []
@@ -82,9 +83,9 @@ class SharedPoint:
 
 
 def find_shared_points(joints: Iterable[Joint]) -> list[SharedPoint]:
-    """Return the shared points: points of three or more bodies with as many joints as a tree needs.
+    """Return the shared points: points of three or more bodies that as many joints connect as a tree of them needs.
 
-    Only joints that hold points together count, and at least one must be a pivot.
+    Only joints that make their points coincide count, and at least one must be revolute.
     """
     groups: dict[Point, list[Joint]] = {}
     for joint in joints:
@@ -103,9 +104,10 @@ def find_shared_points(joints: Iterable[Joint]) -> list[SharedPoint]:
 
 
 def _make_pairs(group: Sequence[Joint], template: Joint) -> list[Joint]:
-    """Return the file's joints, and a joint for every other pair of points on different bodies.
+    """Return the joints `group` of a shared point, and a new joint for every other pair of points of different bodies.
 
-    `template`: a pivot of the group, of which the new joints are copies with other points.
+    `template`: a revolute joint of the group, of which the new joints are copies with other points. Their names are
+    "<body>.<point>=<body>.<point>".
     """
     known_pairs = {frozenset(find_end_points(joint)) for joint in group}
     ref_of_point = {

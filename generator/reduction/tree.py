@@ -26,8 +26,11 @@ from gudgeon.generator.solvers.sparsity import find_elimination_below
 
 
 @dataclass(frozen=True)
-class Link:
-    """A body with the parent that positions it; without a `joint` the body moves freely (two slides of its own)."""
+class TreeEdge:
+    """An edge of the spanning tree: a body and the parent that positions it; without `joint` the body moves freely.
+
+    A body that moves freely has two slides of its own, along x and y.
+    """
 
     body: str
     parent: str
@@ -35,28 +38,31 @@ class Link:
 
     @property
     def slides(self) -> bool:
-        """Return whether the joint positions the body along an axis only, so that one coordinate is a slide."""
+        """Return whether the joint of this tree edge positions the body along an axis only, so that it adds a slide."""
         return self.joint is not None and len(joint_types()[self.joint.kind].carries) == 1
 
     @property
     def coordinates(self) -> tuple[str, ...]:
-        """Return the names of the slides that the link adds: two without a joint, one of a slide, else none."""
+        """Return the names of the translational coordinates that the tree edge adds.
+
+        They are "<body>.x" and "<body>.y" without a joint, "<joint>.slide" for a joint with a slide, else none.
+        """
         if self.joint is None:
             return f"{self.body}.x", f"{self.body}.y"
         return (f"{self.joint.name}.slide",) if self.slides else ()
 
     @property
     def rows(self) -> tuple[str, ...]:
-        """Return the names of the constraint equations that the link satisfies by itself; none without a joint."""
+        """Return the names of the constraint equations that the tree edge satisfies by itself; none without a joint."""
         if self.joint is None:
             return ()
         return tuple(f"{self.joint.name}.{row}" for row in joint_types()[self.joint.kind].carries)
 
 
-def find_path(links: Iterable[Link], body: str) -> list[Link]:
-    """Return the links from the root to a body, the root's first; empty for the ground."""
-    by_body = {link.body: link for link in links}
-    result: list[Link] = []
+def find_path(tree_edges: Iterable[TreeEdge], body: str) -> list[TreeEdge]:
+    """Return the tree edges among `tree_edges` from the root to a body, the root's first; empty for the ground."""
+    by_body = {tree_edge.body: tree_edge for tree_edge in tree_edges}
+    result: list[TreeEdge] = []
     while body != GROUND:
         result.append(by_body[body])
         body = by_body[body].parent
@@ -72,10 +78,10 @@ _FREE_ENTRY_COST = 5  # an entry of M with x or y of a body that moves freely
 def _find_coupled_coordinates(
     index_of: Mapping[str, int], moving_coordinates: Iterable[frozenset[str]], free_indices: set[int]
 ) -> list[set[int]]:
-    """Return the coordinates that are coupled with each one in M; x and y of a free body are not coupled.
+    """Return for each coordinate the numbers of those with which it is coupled in M.
 
-    `index_of`: number of each coordinate; `moving_coordinates`: coordinates that move each centre of mass;
-    `free_indices`: numbers of x and y of free bodies.
+    `index_of`: number of each coordinate; `moving_coordinates`: coordinates that move each centre of mass.
+    `free_indices`: numbers of x and y of free bodies, which are not coupled with each other.
     """
     coupled: list[set[int]] = [set() for _ in index_of]
     for names in moving_coordinates:
@@ -85,9 +91,12 @@ def _find_coupled_coordinates(
     return coupled
 
 
-def _make_key(links: Iterable[Link]) -> frozenset[tuple[str, str]]:
-    """Return the set of (body, joint that places it) that distinguishes a tree from others."""
-    return frozenset((link.body, link.joint.name if link.joint else "") for link in links)
+def _make_key(tree_edges: Iterable[TreeEdge]) -> frozenset[tuple[str, str]]:
+    """Return the set of (body, joint that positions it) of a tree's edges, which identifies the tree.
+
+    The joint is "" for a body that moves freely.
+    """
+    return frozenset((tree_edge.body, tree_edge.joint.name if tree_edge.joint else "") for tree_edge in tree_edges)
 
 
 class OperationEstimate:
@@ -115,49 +124,57 @@ class OperationEstimate:
         satisfied = used_rows.union(*(shared_point.rows for shared_point in shared_points))
         self.rows = [(r.name, sorted({body_of[q] for q in r.phi_q})) for r in model.rows if r.name not in satisfied]
 
-    def __call__(self, links: tuple[Link, ...], limit: float = math.inf) -> int:
-        """Return the estimated operations of the right-hand side on a tree, computed once for equal trees.
+    def __call__(self, tree_edges: tuple[TreeEdge, ...], limit: float = math.inf) -> int:
+        """Return the estimated operations of the right-hand side in the coordinates of a tree, from a cache.
 
-        If they exceed `limit`, a lower bound above it may be returned.
+        `tree_edges`: the edges of the spanning tree. If the operations exceed `limit`, a lower bound above it may be
+        returned.
         """
-        key = _make_key(links)
+        key = _make_key(tree_edges)
         if key not in self.costs:
-            self.costs[key] = self._count_operations(links, limit)
+            self.costs[key] = self._count_operations(tree_edges, limit)
         return self.costs[key]
 
-    def find_cheapest(self, trees: Sequence[tuple[Link, ...]]) -> tuple[Link, ...]:
-        """Return the first of the cheapest trees, the last one being estimated first.
+    def find_cheapest(self, trees: Sequence[tuple[TreeEdge, ...]]) -> tuple[TreeEdge, ...]:
+        """Return the tree with the least estimated operations, the first of several; the last tree is estimated first.
 
-        `costs` contains a lower bound for a tree that costs more than a later one. `costs` is replaced.
+        `costs` is replaced by those of these trees, in their order. It has a lower bound for a tree that costs more
+        than a later one.
         """
         limit = math.inf
-        for links in reversed(trees):
-            limit = min(limit, self(links, limit))
-        self.costs = {_make_key(links): self(links) for links in trees}
+        for tree_edges in reversed(trees):
+            limit = min(limit, self(tree_edges, limit))
+        self.costs = {_make_key(tree_edges): self(tree_edges) for tree_edges in trees}
         return min(trees, key=self)
 
-    def _count_operations(self, links: tuple[Link, ...], limit: float) -> int:
+    def _count_operations(self, tree_edges: tuple[TreeEdge, ...], limit: float) -> int:
         """Return the estimated operations of the right-hand side on a tree, or a lower bound above `limit`.
 
-        Entries of M and of closures count, and the elimination. Each leaf body with nearly no inertia about its joint
-        costs 10⁶ more.
+        Entries of M and of the closures count, and the elimination. Each leaf body with nearly no inertia about its
+        joint adds 10⁶.
         """
-        satisfied_rows = {row for link in links for row in link.rows}
-        paths: dict[str, list[Link]] = {}
+        satisfied_rows = {row for tree_edge in tree_edges for row in tree_edge.rows}
+        paths: dict[str, list[TreeEdge]] = {}
         moving_coordinates: dict[str, frozenset[str]] = {GROUND: frozenset()}  # coordinates that move a body's points
         coordinates_of_masses: list[frozenset[str]] = []  # coordinates that move a centre of mass
-        carriers = {link.parent for link in links if link.joint}  # what moves them also moves the bodies on them
-        for link in links:
-            paths[link.body] = [*paths.get(link.parent, []), link]
-            moving_coordinates[link.body] = (
-                moving_coordinates[link.parent] | self.angle_coordinates[link.body] | set(link.coordinates)
+        carriers = {
+            tree_edge.parent for tree_edge in tree_edges if tree_edge.joint
+        }  # what moves them also moves the bodies on them
+        for tree_edge in tree_edges:
+            paths[tree_edge.body] = [*paths.get(tree_edge.parent, []), tree_edge]
+            moving_coordinates[tree_edge.body] = (
+                moving_coordinates[tree_edge.parent]
+                | self.angle_coordinates[tree_edge.body]
+                | set(tree_edge.coordinates)
             )
-            if link.body not in carriers:
+            if tree_edge.body not in carriers:
                 coordinates_of_masses.append(
-                    frozenset(link.coordinates) if link.joint is None else moving_coordinates[link.body]
+                    frozenset(tree_edge.coordinates) if tree_edge.joint is None else moving_coordinates[tree_edge.body]
                 )
         index_of = {name: k for k, name in enumerate(sorted(frozenset().union(*moving_coordinates.values())))}
-        free_indices = {index_of[name] for link in links if link.joint is None for name in link.coordinates}
+        free_indices = {
+            index_of[name] for tree_edge in tree_edges if tree_edge.joint is None for name in tree_edge.coordinates
+        }
         neighbours = _find_coupled_coordinates(index_of, coordinates_of_masses, free_indices)
         cost = sum(
             _FREE_ENTRY_COST if k in free_indices or j in free_indices else _PAIR_COST
@@ -165,7 +182,9 @@ class OperationEstimate:
             for j in coupled
             if j < k
         )
-        open_pairs = [(joint.name, [joint.first.body, joint.second.body]) for joint in self.find_closing_pairs(links)]
+        open_pairs = [
+            (joint.name, [joint.first.body, joint.second.body]) for joint in self.find_closing_pairs(tree_edges)
+        ]
         for name, bodies in (*self.rows, *open_pairs, *open_pairs):  # two rows each
             if name not in satisfied_rows:
                 indices = {index_of[index] for index in self._find_moving_coordinates(paths, bodies)}
@@ -173,7 +192,7 @@ class OperationEstimate:
                 neighbours.append(indices)
                 for index in indices:
                     neighbours[index] = neighbours[index] | {len(neighbours) - 1}
-        cost += _LEAF_WITHOUT_INERTIA_COST * len(self._find_leaves_without_inertia(links))
+        cost += _LEAF_WITHOUT_INERTIA_COST * len(self._find_leaves_without_inertia(tree_edges))
         if cost > limit:
             return cost
         elimination = find_elimination_below(
@@ -181,43 +200,55 @@ class OperationEstimate:
         )
         return cost + _PRODUCT_COST * elimination.cost if elimination else math.floor(limit) + 1
 
-    def _find_leaves_without_inertia(self, links: tuple[Link, ...]) -> list[Link]:
-        """Return the links of leaf bodies with nearly no moment of inertia about their joint or centre of mass.
+    def _find_leaves_without_inertia(self, tree_edges: tuple[TreeEdge, ...]) -> list[TreeEdge]:
+        """Return the edges of leaf bodies with nearly no moment of inertia about their joint or centre of mass.
 
-        A leaf carries no other body. Bodies that slide or do not turn freely are left out.
+        The centre of mass counts for a body that moves freely. A leaf carries no other body. Bodies with a slide, and
+        those whose angle is not a coordinate of their own, are left out.
         """
-        parents = {link.parent for link in links}
-        ends = [link for link in links if link.body not in parents and set(self.angles[link.body]) == {link.body}]
-        return [link for link in ends if not link.slides and self._has_negligible_inertia(link)]
+        parents = {tree_edge.parent for tree_edge in tree_edges}
+        ends = [
+            tree_edge
+            for tree_edge in tree_edges
+            if tree_edge.body not in parents and set(self.angles[tree_edge.body]) == {tree_edge.body}
+        ]
+        return [tree_edge for tree_edge in ends if not tree_edge.slides and self._has_negligible_inertia(tree_edge)]
 
-    def _has_negligible_inertia(self, link: Link) -> bool:
-        """Return whether a body has nearly no inertia about the joint that carries it, from a cache."""
-        key = link.body, link.joint.name if link.joint else ""
+    def _has_negligible_inertia(self, tree_edge: TreeEdge) -> bool:
+        """Return whether a body has nearly no moment of inertia about the joint that positions it, from a cache.
+
+        `tree_edge`: the edge of the spanning tree. For a body that moves freely the centre of mass replaces the joint.
+        """
+        key = tree_edge.body, tree_edge.joint.name if tree_edge.joint else ""
         if key not in self._light:
-            self._light[key] = self.model.has_negligible_inertia(link.body, link.joint)
+            self._light[key] = self.model.has_negligible_inertia(tree_edge.body, tree_edge.joint)
         return self._light[key]
 
-    def find_closing_pairs(self, links: tuple[Link, ...]) -> list[Joint]:
-        """Return the pairs of bodies that the shared points need in addition to those of the tree."""
-        paths: dict[str, list[Link]] = {}
-        for link in links:
-            paths[link.body] = [*paths.get(link.parent, []), link]
+    def find_closing_pairs(self, tree_edges: tuple[TreeEdge, ...]) -> list[Joint]:
+        """Return the pairs of bodies, as joints, that close the shared points in addition to the pairs of the tree.
+
+        A shared point is one where three or more bodies meet. Pairs with few coordinates are preferred.
+        """
+        paths: dict[str, list[TreeEdge]] = {}
+        for tree_edge in tree_edges:
+            paths[tree_edge.body] = [*paths.get(tree_edge.parent, []), tree_edge]
 
         def count_coordinates(joint: Joint) -> int:
             """Return the number of coordinates in the closure of a pair."""
             return len(self._find_moving_coordinates(paths, [joint.first.body, joint.second.body]))
 
-        tree_joints = [link.joint for link in links if link.joint]
+        tree_joints = [tree_edge.joint for tree_edge in tree_edges if tree_edge.joint]
         return [
             joint
             for shared_point in self.shared_points
             for joint in shared_point.find_closing_pairs(tree_joints, count_coordinates)
         ]
 
-    def _find_moving_coordinates(self, paths: Mapping[str, list[Link]], bodies: Sequence[str]) -> set[str]:
-        """Return the coordinates in an equation between bodies; those of their common path do not count.
+    def _find_moving_coordinates(self, paths: Mapping[str, list[TreeEdge]], bodies: Sequence[str]) -> set[str]:
+        """Return the names of the coordinates in an equation between bodies.
 
-        `paths`: the links from the root to each body. `bodies`: one body or two; a body without a path is the ground.
+        `paths`: the tree edges from the root to each body. `bodies`: one body or two; a body without a path is the
+        ground. For two bodies the coordinates of their common path do not count, except those of its last body.
         """
         n_shared = 0
         if len(bodies) == 2:
@@ -226,8 +257,10 @@ class OperationEstimate:
                 k for k, (a, body) in enumerate(zip(first_path, second_path, strict=False)) if a is not body
             )
             n_shared = max(next(differing_indices, min(len(first_path), len(second_path))) - 1, 0)
-        links = [link for body in bodies for link in paths.get(body, [])[n_shared:]]
-        return {key for link in links for key in (*self.angle_coordinates[link.body], *link.coordinates)}
+        tree_edges = [tree_edge for body in bodies for tree_edge in paths.get(body, [])[n_shared:]]
+        return {
+            key for tree_edge in tree_edges for key in (*self.angle_coordinates[tree_edge.body], *tree_edge.coordinates)
+        }
 
 
 _MAX_DEPTHS = (None, 5, 3, 2, 1)  # how many bodies a chain may have before it is cut
@@ -236,27 +269,27 @@ _MAX_COORDINATES_FOR_EXCHANGE = 24  # more coordinates than that: the tree is no
 
 @dataclass(frozen=True)
 class Tree:
-    """A spanning tree: angles of the bodies in free ones ("L7") and drives ("crank1"), and links, parents first."""
+    """A spanning tree: angles of the bodies in free ones ("L7") and drives ("crank1"), and edges, parents first."""
 
     angles: Mapping[str, Affine]
     free: tuple[str, ...]  # bodies whose angles are coordinates
-    links: tuple[Link, ...]
-    rows: frozenset[str]  # equations that angles and links satisfy by themselves, or that shared points replace
+    edges: tuple[TreeEdge, ...]
+    rows: frozenset[str]  # equations that angles and edges satisfy by themselves, or that shared points replace
     closing_pairs: tuple[Joint, ...]  # pairs of bodies at a shared point that the tree does not connect
     shared_points: tuple[SharedPoint, ...]
     solved: Mapping[str, str]  # equations used for angles, each with the body whose angle it gives
     costs: tuple[int, ...]  # estimated operations (or a lower bound) of the trees tried, the first grown breadth first
 
     def find_multiplier_terms(self, row: str) -> dict[str, int]:
-        """Return the multiplier of a closure as a sum of those of the file's equations: sign by equation.
+        """Return the multiplier of a closure as a sum of multipliers of the file's equations: sign 1 or −1 by equation.
 
-        A closure that is an equation of the file itself gives {row: 1}.
+        `row`: the name of the closure. A closure that is an equation of the file itself gives {row: 1}.
         """
         name, _, component = row.rpartition(".")
         for shared_point in self.shared_points:
             for joint in self.closing_pairs:
                 if joint in shared_point.pairs and joint.name == name:
-                    spanning = [link.joint for link in self.links if link.joint in shared_point.pairs]
+                    spanning = [tree_edge.joint for tree_edge in self.edges if tree_edge.joint in shared_point.pairs]
                     spanning += [pair for pair in self.closing_pairs if pair in shared_point.pairs]
                     signs = shared_point.find_multiplier_signs([j for j in spanning if j is not None], joint)
                     return {f"{owner}.{component}": sign for owner, sign in signs.items()}
@@ -264,9 +297,9 @@ class Tree:
 
 
 def is_impulsive_drive(model: Model, row: Row) -> bool:
-    """Return whether an equation is that of a drive whose rate jumps in a scene with degrees of freedom.
+    """Return whether an equation is that of a drive whose rate may jump, in a scene with degrees of freedom.
 
-    It remains a constraint equation, since the jump causes an impulse.
+    Such an equation remains a constraint equation, since the jump causes an impulse.
     """
     return (
         row.kind == "drive"
@@ -276,9 +309,9 @@ def is_impulsive_drive(model: Model, row: Row) -> bool:
 
 
 def solve_angles(model: Model) -> tuple[dict[str, Affine], dict[str, str]]:
-    """Return the angles of all bodies in free ones and drives, and the equations used.
+    """Return the angles of all bodies as affine expressions in free angles and drives, and the equations used.
 
-    Each of these is stored with the body whose angle it gives.
+    The second result maps each equation to the body whose angle it gives. Equations of drives are used first.
     """
     angles: dict[str, Affine] = {body.name: {body.name: sp.Integer(1)} for body in model.bodies}
     used_rows: dict[str, str] = {}
@@ -300,9 +333,10 @@ def solve_angles(model: Model) -> tuple[dict[str, Affine], dict[str, str]]:
 
 
 def _express_linear_angles(model: Model, row: Row, angles: Mapping[str, Affine]) -> Affine | None:
-    """Return an equation as an affine expression in free angles and drives.
+    """Return a constraint equation as an affine expression in free angles and drives, which is 0.
 
-    Return None if it is not linear in angles with constant coefficients, or if it is a drive whose rate jumps.
+    `angles`: the angles of the bodies so far. Return None if the equation is not linear in angles with constant
+    coefficients, or if it is that of a drive whose rate may jump.
     """
     body_of = {body.theta: body.name for body in model.bodies}
     if not all(q in body_of and model.parameter_table.is_constant(coefficient) for q, coefficient in row.phi_q.items()):
@@ -324,10 +358,10 @@ def _express_linear_angles(model: Model, row: Row, angles: Mapping[str, Affine])
 
 
 def choose_tree(model: Model) -> Tree:
-    """Return the tree of the least estimated operations among a few, improved by exchanges of joints in loops.
+    """Return the spanning tree with the least estimated operations among a few candidates.
 
-    Candidates are grown breadth first with chains of different greatest lengths. Trees with many coordinates are not
-    improved.
+    Candidates are grown breadth first with different limits for the length of chains. The first one, without a limit,
+    is improved by exchanges of joints in loops if it is the best and there are at most 24 free angles.
     """
     angles, solved = solve_angles(model)
     used_rows = frozenset(solved)
@@ -344,13 +378,19 @@ def choose_tree(model: Model) -> Tree:
         best = estimate.find_cheapest(trees)
     elif (best := min(trees, key=estimate)) == trees[0]:
         best = _improve_by_exchange(model, edges, best, estimate)
-    rows = used_rows.union(*(link.rows for link in best), *(shared_point.rows for shared_point in shared_points))
+    rows = used_rows.union(
+        *(tree_edge.rows for tree_edge in best), *(shared_point.rows for shared_point in shared_points)
+    )
     closing = tuple(estimate.find_closing_pairs(best))
     return Tree(angles, free, best, rows, closing, tuple(shared_points), solved, tuple(estimate.costs.values()))
 
 
 def _find_edges(model: Model, angles: Mapping[str, Affine]) -> list[Joint]:
-    """Return the joints that can position a body: all their equations exist, and a slide's bodies turn together."""
+    """Return the joints that can position a body: those of which all equations for that exist.
+
+    A joint with a slide also needs bodies that turn together: their angles differ by a constant. `angles`: those of the
+    bodies as affine expressions in free angles and drives.
+    """
     row_names = {row.name for row in model.rows}
 
     def find_angle_coefficients(body: str) -> dict[str, sp.Expr]:
@@ -372,11 +412,11 @@ def _find_edges(model: Model, angles: Mapping[str, Affine]) -> list[Joint]:
 
 def _grow_tree(
     model: Model, edges: Sequence[Joint], selected_joints: Sequence[Joint], max_depth: int | None
-) -> tuple[Link, ...]:
-    """Return a tree, grown breadth first from the ground along some joints, as links with parents first.
+) -> tuple[TreeEdge, ...]:
+    """Return a spanning tree as edges with parents first, grown breadth first from the ground along some joints.
 
-    `selected_joints`: the joints that may be used. Bodies that no joint reaches move freely; with a `max_depth`, longer
-    chains are cut. None: no limit.
+    `edges`: all joints that can position a body; `selected_joints`: those that may be used. Bodies that no joint
+    reaches move freely. With a `max_depth`, a chain of more bodies is cut; None: no limit.
     """
     joints_of_body: dict[str, list[Joint]] = {name: [] for name in (GROUND, *model.geometry.bodies)}
     names = {joint.name for joint in selected_joints}
@@ -384,62 +424,63 @@ def _grow_tree(
         if joint.name in names:
             joints_of_body[joint.first.body].append(joint)
             joints_of_body[joint.second.body].append(joint)
-    links: list[Link] = []
+    tree_edges: list[TreeEdge] = []
     depth_of_body: dict[str, int] = {GROUND: 0}
     pending = [GROUND]
     bodies = list(model.geometry.bodies)
     while pending or len(depth_of_body) <= len(bodies):
         if not pending:
             root = next(body_name for body_name in bodies if body_name not in depth_of_body)
-            links.append(Link(root, GROUND))
+            tree_edges.append(TreeEdge(root, GROUND))
             depth_of_body[root] = 1
             pending = [root]
         body = pending.pop(0)
         for joint in joints_of_body[body]:
             neighbour = joint.second.body if joint.first.body == body else joint.first.body
             if neighbour not in depth_of_body and (max_depth is None or depth_of_body[body] < max_depth):
-                links.append(Link(neighbour, body, joint))
+                tree_edges.append(TreeEdge(neighbour, body, joint))
                 depth_of_body[neighbour] = depth_of_body[body] + 1
                 pending.append(neighbour)
-    return tuple(links)
+    return tuple(tree_edges)
 
 
 def _improve_by_exchange(
-    model: Model, edges: Sequence[Joint], links: tuple[Link, ...], estimate: OperationEstimate
-) -> tuple[Link, ...]:
-    """Return the tree after exchanging joints of loops with those of the tree as long as that reduces the estimate.
+    model: Model, edges: Sequence[Joint], tree_edges: tuple[TreeEdge, ...], estimate: OperationEstimate
+) -> tuple[TreeEdge, ...]:
+    """Return the tree after exchanges of a joint outside it with one in the loop that it closes, while that is cheaper.
 
-    The first exchange that reduces it is made; trees with other numbers of links do not count.
+    The first exchange that reduces the estimate is made, then the search begins again. Trees with another number of
+    edges do not count.
     """
-    lowest_cost = estimate(links)
+    lowest_cost = estimate(tree_edges)
     improved = True
     while improved:
         improved = False
-        tree_joints = [link.joint for link in links if link.joint]
+        tree_joints = [tree_edge.joint for tree_edge in tree_edges if tree_edge.joint]
         for joint in [candidate_joint for candidate_joint in edges if candidate_joint not in tree_joints]:
-            for other in _find_loop_joints(links, joint):
+            for other in _find_loop_joints(tree_edges, joint):
                 candidate = _grow_tree(
                     model,
                     edges,
                     [candidate_joint for candidate_joint in (*tree_joints, joint) if candidate_joint is not other],
                     None,
                 )
-                if len(candidate) == len(links) and (cost := estimate(candidate)) < lowest_cost:
-                    links, lowest_cost, improved = candidate, cost, True
+                if len(candidate) == len(tree_edges) and (cost := estimate(candidate)) < lowest_cost:
+                    tree_edges, lowest_cost, improved = candidate, cost, True
                     break
             if improved:
                 break
-    return links
+    return tree_edges
 
 
-def _find_loop_joints(links: Sequence[Link], joint: Joint) -> list[Joint]:
+def _find_loop_joints(tree_edges: Sequence[TreeEdge], joint: Joint) -> list[Joint]:
     """Return the tree's joints in the loop that `joint` closes.
 
-    They are on one path from the root to its bodies but not on both.
+    They are those on the path from the root to one of its bodies but not to the other.
     """
-    first_path, second_path = find_path(links, joint.first.body), find_path(links, joint.second.body)
+    first_path, second_path = find_path(tree_edges, joint.first.body), find_path(tree_edges, joint.second.body)
     return [
-        link.joint
-        for link in (*first_path, *second_path)
-        if (link in first_path) != (link in second_path) and link.joint
+        tree_edge.joint
+        for tree_edge in (*first_path, *second_path)
+        if (tree_edge in first_path) != (tree_edge in second_path) and tree_edge.joint
     ]

@@ -1,7 +1,7 @@
 """Derivatives of the force in a joint with play by position and velocity, by forward differentiation.
 
-They are the derivatives of (F along n, F along t, M_i, M_j) by (e, δ̇, ė_t, ω_i, ω_j); for laws with inner states also
-those of the states' rates and by the states. templates/c/play/tangent.c.jinja turns them into ground axes. With a
+They are the derivatives of (F along n, F along t, M_i, M_j) by (e, δ̇, ė_t, ω_i, ω_j); for laws with internal states
+also those of the states' rates and by the states. templates/c/play/tangent.c.jinja turns them into ground axes. With a
 contour, n and t are along e and across it, and so are the rates. Its depth and slope are inputs too, from which
 contour_tangent.c.jinja forms the derivatives by the angle.
 """
@@ -43,12 +43,18 @@ _FORCE = PlaceSymbol(CONTACT["force"])  # of surfaces that do not give
 
 
 def find_input_variables(clearance: Clearance) -> tuple[sp.Symbol, ...]:
-    """Return the variables by which the force of a joint is differentiated; with a contour also its depth and slope."""
+    """Return the variables by which the force of a joint is differentiated: (e, δ̇, ė_t, ω_i, ω_j).
+
+    With a contour they are e, its rates along e and across it, ω_i, ω_j, and the contour's depth and slope.
+    """
     return CONTOUR_INPUTS if clearance.contour else INPUTS
 
 
 def _make_kernel_arguments(clearance: Clearance) -> tuple[Argument, ...]:
-    """Return the arguments of the C function of the derivatives of one part of a joint's force."""
+    """Return the arguments of the C function that computes one part of a joint's force and its derivatives.
+
+    They are the input variables, the contact state, the parameters, those of the branches, and the result `out`.
+    """
     input_arguments = (Argument(symbol.name) for symbol in find_input_variables(clearance))
     output = make_output_argument("out", "ContourSlopes" if clearance.contour else "PinSlopes")
     return (*input_arguments, CONTACT, PARAMETERS, *BRANCHES, output)
@@ -58,9 +64,9 @@ class _DerivativeBuilder:
     """Builder of one C function: steps and laws with their tangents by the inputs."""
 
     def __init__(self, model: Model, clearance: Clearance, part: str) -> None:
-        """Begin the C function of one `part` of a joint's force, "film" or "dry", with the inputs as base symbols.
+        """Begin the C function of one `part` of a joint's force, "film" or "dry", and of its derivatives by the inputs.
 
-        Inner states of laws are inputs too.
+        Internal states of laws (bristle states) are inputs too.
         """
         self.model, self.clearance, self.part = model, clearance, part
         rate_names = "de_n, across" if clearance.contour else "deltadot, de_t"
@@ -83,16 +89,16 @@ class _DerivativeBuilder:
         self.builder.begin_section(title)
 
     def append_assignment(self, step: Assignment) -> None:
-        """Append an equation symbol = value of contact_steps.py, and its tangent."""
+        """Append an equation symbol = value of contact_steps.py, and its derivatives by the inputs."""
         value = read_parameters_at_places(self.model, step.value)
         value_on_branch = self.tangents.store_powers(self.tangents.freeze_branches(value))
         self.builder.append_line(Statement(step.symbol.name, value_on_branch))
         self.tangents.store_tangent(step.symbol, self.tangents.compute_gradient(value, step.symbol))
 
     def append_law(self, equations: LawEquations, arguments: Sequence[sp.Symbol]) -> dict[str, sp.Symbol]:
-        """Append a law; return its results by name, whose tangents are known from then on.
+        """Append the equations of a law with derivatives by the inputs; return the symbols of its results by name.
 
-        `arguments`: the symbols that are the variables of the law, whose tangents must be known.
+        `arguments`: the symbols for the law's variables, in order, whose derivatives must be known.
         """
         law_tangents = self.tangents.make_tangents_for_variables(dict(zip(equations.variables, arguments, strict=True)))
         results = {}
@@ -109,9 +115,10 @@ class _DerivativeBuilder:
         return results
 
     def finish_kernel(self, values: Sequence[sp.Expr]) -> Kernel:
-        """Append the results and their derivatives by the inputs, and return the function.
+        """Append the results and their derivatives by the inputs to the function, and return it.
 
-        The results are (F along n, F along t, M_i, M_j), then the rates of inner states; missing ones are 0.
+        `values`: (F along n, F along t, M_i, M_j), then the rates of the laws' internal states (bristle states);
+        missing ones are 0.
         """
         self.begin_section("results")
         for row, value in enumerate([*values, *[ZERO] * (4 + len(self.states) - len(values))]):
@@ -123,7 +130,10 @@ class _DerivativeBuilder:
 
 
 def make_film_derivative_kernel(model: Model, clearance: Clearance, film: LawEquations) -> Kernel:
-    """Return the C function of the film's force and moments and of their derivatives by the inputs."""
+    """Return the C function of the film's force and moments and of their derivatives.
+
+    The values are (F along n, F along t, M_i, M_j). The derivatives are by (e, δ̇, ė_t, ω_i, ω_j).
+    """
     derivative_builder = _DerivativeBuilder(model, clearance, "film")
     derivative_builder.begin_section("eccentricity ratio and effective squeeze velocity")
     for step in contact.make_film_input_equations(clearance, film):
@@ -142,10 +152,10 @@ def make_film_derivative_kernel(model: Model, clearance: Clearance, film: LawEqu
 
 
 def make_dry_derivative_kernel(model: Model, clearance: Clearance, normal: LawEquations) -> Kernel:
-    """Return the C function of the dry contact's force and moments and of their derivatives.
+    """Return the C function of the dry contact's force and moments and of their derivatives by the inputs.
 
     It is defined at δ < 0 too, with zero force, since samples before a separation lie there. While the contact is open,
-    the ratio of velocities is 1 with derivative 0.
+    the ratio of velocities is 1 with derivative 0. `normal`: the normal law.
     """
     derivative_builder = _DerivativeBuilder(model, clearance, "dry")
     builder, tangents = derivative_builder.builder, derivative_builder.tangents
@@ -196,23 +206,23 @@ def make_dry_derivative_kernel(model: Model, clearance: Clearance, normal: LawEq
 
 
 def replace_stored_speed(step: Assignment) -> Assignment:
-    """Return the equation without the choice between stored and present approach speed, which C makes.
+    """Return the equation of `ratio`, the clipped δ̇/δ̇⁻, with the local `unclipped` in place of the quotient.
 
-    The ratio of velocities keeps only its clipping; other equations are returned unchanged.
+    C chooses between the stored approach speed δ̇⁻ and the present one before. Other equations are returned unchanged.
     """
     speed_ratio = contact.deltadot / contact.stored
     return Assignment(step.symbol, step.value.subs(speed_ratio, UNCLIPPED)) if step.symbol == contact.ratio else step
 
 
 def read_parameters_at_places(model: Model, value: sp.Expr) -> sp.Expr:
-    """Return a step's value with parameters, and the reciprocals of parameters, read from their struct."""
+    """Return an expression with parameters, and the reciprocals of parameters, read from the struct Parameters."""
     return model.symbols.read_at_places(hoist_reciprocals(model.parameter_table, value))
 
 
 def make_fraction_derivative_kernel(model: Model, clearance: Clearance) -> Kernel:
-    """Return the C function of the fraction of the dry contact in a transition, and of its derivative by e.
+    """Return the C function of the fraction of the dry contact in a transition, and of its derivative by δ.
 
-    A law of mixed lubrication may define the fraction; it is read at depth max(δ, 0) then.
+    The rate of δ with e is 1 without a contour. A law of mixed lubrication may define the fraction; it reads max(δ, 0).
     """
     builder = KernelBuilder(
         model.symbols,

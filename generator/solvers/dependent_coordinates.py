@@ -32,9 +32,10 @@ class DependentCoordinates:
     def __init__(
         self, system: System, rows: Sequence[Row], avoided_pairs: frozenset[tuple[str, str]] = frozenset()
     ) -> None:
-        """Place all bodies in an order in which each follows from equations of placed ones.
+        """Assign to each coordinate, where possible, the equation that gives it from coordinates assigned before.
 
-        `rows`: the equations; `avoided_pairs`: pairs (body, joint) that are used only if nothing else places the body.
+        `rows`: the equations; `avoided_pairs`: pairs (body, joint) that are used only if nothing else gives the body's
+        position.
         """
         self.model: Model = system.model
         self.rows, self._avoided_pairs = rows, avoided_pairs
@@ -48,10 +49,10 @@ class DependentCoordinates:
             pass
 
     def _find_constant_coordinates(self, entries: dict[int, sp.Expr]) -> set[int]:
-        """Return the coordinates whose entry in an equation is ±1, angles excluded.
+        """Return the coordinates x and y whose entry in an equation is 1 or −1.
 
-        Of an equation in angles alone these are all coordinates, if the entries are constant. `entries`: entries of Φ_q
-        by coordinate.
+        Of an equation in angles alone, all its coordinates are returned if the entries are constant. `entries`: entries
+        of Φ_q of the equation by coordinate.
         """
         if all(k % 3 == 2 and self.model.parameter_table.is_constant(entry) for k, entry in entries.items()):
             return set(entries)
@@ -62,9 +63,10 @@ class DependentCoordinates:
         return self._constant_coordinates[r] - self._placed
 
     def _place_single_coordinates(self) -> bool:
-        """Place a coordinate by each equation in which only that one is not placed yet; return whether there was any.
+        """Place a coordinate by each equation with exactly one unplaced coordinate of entry ±1; return whether any.
 
-        Only the best of the candidates are used.
+        To place it is to assign it that equation, which gives it. In an equation of angles alone all constant entries
+        count. Only the best candidates are used (`_select_candidates`).
         """
         candidates = [
             (min(self._find_unplaced_coordinates(r)), r)
@@ -77,7 +79,10 @@ class DependentCoordinates:
         return bool(candidates)
 
     def _place_body_on_line(self) -> bool:
-        """Place x and y of a body by the first unused equation that contains both; return whether any was placed."""
+        """Place x and y of a body together by the first unused equation that contains both; return whether it exists.
+
+        No x or y of another body in the equation may be unplaced.
+        """
         for r, entries in enumerate(self._entries):
             places = sorted(k for k in entries if k % 3 < 2 and k not in self._placed)
             if r not in self._used_rows and len(places) == 2 and places[0] // 3 == places[1] // 3:
@@ -86,9 +91,9 @@ class DependentCoordinates:
         return False
 
     def _place_free_body(self) -> bool:
-        """Mark a body as placed that no equation connects with placed ones; return whether there was any.
+        """Mark a coordinate as placed that no equation gives by placed ones; return whether there was any.
 
-        It is the first body of an equation that is not placed yet; x and y are marked together.
+        It is the first coordinate of an equation that is not placed yet; x and y of a body are marked together.
         """
         tied_coordinates = [
             *self._constant_coordinates,
@@ -100,19 +105,19 @@ class DependentCoordinates:
         return first_unplaced is not None
 
     def _record_group(self, coordinates: tuple[int, ...], r: int) -> None:
-        """Record coordinates as placed by equation r.
+        """Record that equation r gives `coordinates`: one, or x and y of a body on a line.
 
-        The group is appended, and the coordinates and the equation are marked as used.
+        The group (coordinates, r) is appended, and the coordinates and the equation are marked as used.
         """
         self.groups.append((coordinates, r))
         self._placed |= set(coordinates)
         self._used_rows.add(r)
 
     def _select_candidates(self, candidates: Pairs) -> Pairs:
-        """Return the best of the candidates (coordinate, equation): pairs that are not avoided before others.
+        """Return the best of the candidates (coordinate, equation that gives it): pairs that are not avoided first.
 
-        Among these, joints that place both x and y of a body come first. If only avoided pairs are left, those of one
-        body are returned.
+        Among these, joints that give both x and y of a body come first. If only avoided pairs (body, joint) are left,
+        those of one body are returned.
         """
         joint_candidates = {(k, self.rows[r].owner) for k, r in candidates}
         is_complete = {
@@ -153,10 +158,10 @@ class DependentCoordinates:
 
 
 def order_dependent_coordinates(system: System, rows: Sequence[Row]) -> DependentCoordinates:
-    """Return the order in which bodies are placed, if possible by joints about which they have inertia.
+    """Return the order in which equations give the bodies' coordinates, by joints about which bodies have inertia.
 
-    The order is determined again with pairs (body, joint) avoided that `find_leaves_without_inertia` returns, until
-    there are no new ones.
+    Joints that `find_leaves_without_inertia` returns are avoided where possible; the order is determined again until it
+    returns no new ones.
     """
     avoided_pairs: set[tuple[str, str]] = set()
     while True:
@@ -192,7 +197,7 @@ class FirstPivots:
 
 
 def _add_sibling_coordinate(k: int) -> set[int]:
-    """Return the indices of x and y of a body if coordinate k is one of them, else {k} for an angle."""
+    """Return the indices {x, y} of a body if coordinate k is one of them, else {k} for its angle."""
     return {k} if k % 3 == 2 else {k - k % 3, k - k % 3 + 1}
 
 

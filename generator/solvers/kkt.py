@@ -78,7 +78,8 @@ class KKT:
     def _group_pivots(self) -> list[list[int]]:
         """Return the pivots as blocks of one or two nodes, in elimination order.
 
-        Two are a coordinate with its equation, or neighbours of the same kind that elimination couples.
+        A node is the number of a coordinate, then of a constraint equation, then of a friction. Two in a block are a
+        coordinate with the equation that gives it, or neighbours of the same kind that elimination couples.
         """
         order, structure = self.elimination.order, self.elimination.structure
         changed_nodes = {i for column in structure.values() for i in column}
@@ -100,7 +101,7 @@ class KKT:
         return blocks
 
     def _find_inertias_of_angles(self) -> dict[int, sp.Expr]:
-        """Return the angles that are pivots by themselves, with the moment of inertia that turns with them.
+        """Return, by angle that is a pivot without an equation, the moment of inertia to which the pivot is compared.
 
         An angle is left out if that inertia is its entry of M anyway, or 0.
         """
@@ -117,11 +118,11 @@ class KKT:
         threshold: Threshold = SINGULAR,
         pair_threshold: Threshold = VANISHING,
     ) -> Factor:
-        """Append the statements of L and D⁻¹, with tests of the pivots, and return both.
+        """Append the statements of L and D⁻¹ of the KKT matrix, with tests of the pivots, and return both.
 
-        A pivot below `threshold` of its size fails. With `jump_on_failure` the function then jumps to the code for
-        vanishing pivots, else it returns the pivot's number, from 1. `pair_threshold`: the same threshold for both
-        equations of a joint together.
+        A pivot of an equation fails if it is below `threshold` times its size. With `jump_on_failure` the function then
+        jumps to the code for vanishing pivots, else it returns the pivot's number, from 1. `pair_threshold`: the
+        threshold for the two equations of a joint relative to their common size.
         """
         builder.begin_section(FACTORS)
         L: Entries = {}
@@ -159,11 +160,11 @@ class KKT:
         on_failure: tuple[bool, int],
         thresholds: tuple[Threshold, Threshold],
     ) -> dict[int, dict[int, sp.Expr]]:
-        """Return D⁻¹ of a block by node, and append its statements.
+        """Return D⁻¹ of a block of one or two nodes, {node: {node: entry}}, and append its statements.
 
-        `earlier_columns`: columns with an entry in each row; `factors`: L and W so far, W before the division by the
-        pivots. `on_failure`: whether a vanishing pivot jumps, and the number of equations before the block.
-        `thresholds`: those of one and of two equations.
+        Nodes are coordinates, then equations. `earlier_columns`: columns with an entry in each row; `factors`: L and W
+        so far, W before the division by the pivots. `on_failure`: whether a vanishing pivot jumps, and the number of
+        equations before the block. `thresholds`: those of one equation and of a joint's pair.
         """
         (L, W), (jump_on_failure, count) = factors, on_failure
         if block[0] in self.first_pivots.partner:
@@ -191,7 +192,8 @@ class KKT:
     ) -> dict[int, dict[int, sp.Expr]]:
         """Return D⁻¹ of a coordinate with its equation: [m c; c 0]⁻¹ = [0 1/c; 1/c −m/c²] with the constant entry c.
 
-        m is what elimination leaves of the mass; no pivot is tested.
+        The result is {node: {node: entry}}, as `_invert_block` returns it. m is what elimination leaves of the mass; no
+        pivot is tested.
         """
         k, row = block
         entry = self.entries[row, k]
@@ -216,9 +218,10 @@ class KKT:
         on_failure: tuple[bool, int],
         thresholds: tuple[Threshold, Threshold],
     ) -> dict[int, dict[int, sp.Expr]]:
-        """Return the inverse of a 2 × 2 block by its determinant, with tests; for equations, D is negative.
+        """Return the inverse of a 2 × 2 block of D by its determinant, and append its statements with tests.
 
-        The arguments are those of `_invert_block`.
+        The block has two coordinates or two constraint equations. D of equations is negative definite; its negative is
+        formed and tested. Arguments and result are those of `_invert_block`.
         """
         L, W = factors
         first, second = block
@@ -229,22 +232,23 @@ class KKT:
             for k in block
         }
 
-        def compute_remainder(i: int, k: int, is_included: Callable[[int], bool]) -> sp.Expr:
-            """Return the rest of entry (i, k) after elimination of some earlier columns.
+        def compute_schur_entry(i: int, k: int, is_included: Callable[[int], bool]) -> sp.Expr:
+            """Return entry (i, k) of the Schur complement; of two equations its negative.
 
-            `is_included(j)` selects them.
+            It is the entry of M minus Σ L W over the earlier columns j that `is_included(j)` selects. For two
+            equations, whose entry is 0, it is Σ L W itself, which is positive on the diagonal.
             """
             eliminated = sum((L[i, j] * W[k, j] for j in earlier_columns[i] if (k, j) in L and is_included(j)), ZERO)
             return eliminated if is_row_pair else mass[i, k] - eliminated
 
         name = [self.names[k] for k in block]
-        scale_values = [compute_remainder(k, k, lambda j: j < self.n) for k in block] if is_row_pair else []
+        scale_values = [compute_schur_entry(k, k, lambda j: j < self.n) for k in block] if is_row_pair else []
         scale = [builder.append_local(f"scale_{name[i]}", value) for i, value in enumerate(scale_values)]
         size = [
             self._compute_row_size(builder, k, pivot_values)
             for k, pivot_values in zip(block, scale, strict=is_row_pair)
         ]
-        pivots = [compute_remainder(k, k, lambda j: j >= self.n or not is_row_pair) for k in block]
+        pivots = [compute_schur_entry(k, k, lambda j: j >= self.n or not is_row_pair) for k in block]
         values = (
             [pivot_values + is_included for pivot_values, is_included in zip(scale, pivots, strict=True)]
             if is_row_pair
@@ -254,7 +258,7 @@ class KKT:
             append_local_unless_simple(builder, f"pivot_{name[i]}", value) for i, value in enumerate(values)
         ]
         cross_entry = append_local_unless_simple(
-            builder, f"pivot_{name[0]}__{name[1]}", compute_remainder(second, first, lambda j: True)
+            builder, f"pivot_{name[0]}__{name[1]}", compute_schur_entry(second, first, lambda j: True)
         )
         determinant = builder.append_local(
             f"determinant_{name[0]}__{name[1]}", pivot_values[0] * pivot_values[1] - cross_entry**2
@@ -281,13 +285,11 @@ class KKT:
         }
 
     def _compute_row_size(self, builder: KernelBuilder, k: int, scale: sp.Symbol) -> sp.Symbol:
-        """Return the size with which the pivot of equation k is compared.
+        """Return the size with which the pivot of equation k (number of the node) is compared.
 
-        `scale` is the size before this call. It is returned unchanged in tree coordinates, for the equations of the
-        first pivots, for friction, and for an equation without coordinates of a point. Otherwise Σ Φ_q²/m of the
-        coordinates x and y of the bodies is added: where links are in line, an equation that closes a loop may vanish
-        as a whole once dependent coordinates are eliminated from it. The sum is then stored in a local, which is
-        returned.
+        It is `scale` in tree coordinates, for the equations of the first pivots, for friction, and for an equation
+        without x and y. Otherwise Σ Φ_q²/m of the coordinates x and y is added, in a new local. Where bodies are in
+        line, an equation that closes a loop may vanish as a whole once dependent coordinates are eliminated from it.
         """
         if self.system.in_tree or k in self.first_pivots.rows or k >= self.first_friction:
             return scale
@@ -316,9 +318,9 @@ class KKT:
     ) -> None:
         """Append tests of the pivots of a joint's x and y against the sum of their sizes; only in tree coordinates.
 
-        One of these equations vanishes as a whole where links are in line, and is not small compared with itself there.
-        `block`: both nodes; `scale`: their sizes; `pivots`: the first pivot and the determinant. `on_failure`: whether
-        failure jumps, the number of equations before the block, and the threshold.
+        One of these equations vanishes as a whole where bodies are in line, and is not small compared with itself
+        there. `block`: both nodes; `scale`: their sizes; `pivots`: the first pivot and the determinant. `on_failure`:
+        whether failure jumps, the number of equations before the block, and the threshold.
         """
         first_row, second_row = (self.rows[k - self.n] for k in block)
         if not self.system.in_tree or first_row.owner != second_row.owner or first_row.unit != second_row.unit:
@@ -337,7 +339,7 @@ class KKT:
         W: Mapping[tuple[int, int], sp.Expr],
         jump_on_failure: bool,
     ) -> sp.Expr:
-        """Return 1/D of coordinate k, with D = M_kk minus L W of the columns that are eliminated before it.
+        """Return 1/D of coordinate k, with D = M_kk − Σ L W over the columns that are eliminated before it.
 
         It is a derived parameter if there are no such columns and M_kk is constant, else a new local. With
         `jump_on_failure`, the pivot of a coordinate in `inertias_of_angles` is tested first; 1/D is then a local also
@@ -362,9 +364,10 @@ class KKT:
     def _append_small_inertia_test(
         self, builder: KernelBuilder, k: int, pivot: sp.Expr, *earlier_pivots: sp.Expr
     ) -> None:
-        """Append a jump for an angle of which elimination leaves nearly no inertia; nothing for other coordinates.
+        """Append a jump to the code for vanishing pivots if elimination leaves nearly no inertia of the angle k.
 
-        `pivot` is its own pivot times those in `earlier_pivots`.
+        The bound is 1e-3 of its entry in `inertias_of_angles`; nothing is appended for a coordinate without one.
+        `pivot` is its own pivot times those in `earlier_pivots`, by which the bound is multiplied too.
         """
         if k in self.inertias_of_angles:
             status = len(self.rows) + len(self.frictions) + 1 + list(self.inertias_of_angles).index(k)
@@ -373,7 +376,7 @@ class KKT:
             )
 
     def _make_mass_name(self, mass: sp.Expr, k: int) -> str:
-        """Return the name of the mass of node k for derived parameters."""
+        """Return the name of M_kk for derived parameters: that of the mass's symbol, else "mass_<coordinate>"."""
         return mass.name if isinstance(mass, sp.Symbol) else f"mass_{self.names[k]}"
 
     def _invert_row_pivot(
@@ -386,7 +389,7 @@ class KKT:
         on_failure: tuple[bool, int],
         threshold: Threshold,
     ) -> sp.Expr:
-        """Return 1/D of an equation after a test of its pivot −D, which must exceed `threshold` times the row's size.
+        """Return 1/D of an equation, negative, after a test that −D exceeds `threshold` times the equation's size.
 
         −D is the sum of L W over the columns that are eliminated before it. A NaN fails the test too. `on_failure`:
         whether failure jumps, and the pivot's number. The equation of a friction element is tested only while it
@@ -415,9 +418,10 @@ class KKT:
     def solve(
         self, builder: KernelBuilder, factor: Factor, b: Mapping[int, sp.Expr], prefix: str = ""
     ) -> dict[int, sp.Expr]:
-        """Append the forward and backward substitution; return the solution by node.
+        """Append the forward and backward substitution; return the solution by node: accelerations, then multipliers.
 
-        `b`: the right-hand side by node, absent ones zero; `prefix` begins the names of the locals.
+        `factor`: the result of `factorize`. `b`: the right-hand side by node (number of coordinate, equation,
+        friction), absent ones zero; `prefix` begins the names of the locals.
         """
         builder.begin_section("forward substitution")
         columns: dict[int, list[int]] = {k: [] for k in self.elimination.order}

@@ -31,7 +31,7 @@ from gudgeon.generator.symbols.storage import Place, PlaceSymbol
 from gudgeon.generator.symbols.symbols import Symbols
 
 ZERO = sp.Integer(0)
-Pair = tuple[int, int]  # node (coordinates, equations, frictions, inner states), column (coordinate or state)
+Pair = tuple[int, int]  # node (coordinates, equations, frictions, internal states), column (coordinate or state)
 
 
 @dataclass
@@ -55,7 +55,7 @@ class Linearization:
     """Prints common statements (contacts, tangents) into a function and returns the parts in its symbols."""
 
     def __init__(self, system: System, builder: KernelBuilder) -> None:
-        """Begin with new symbols for the accelerations, multipliers and inner states, which are held constant.
+        """Begin with new symbols for accelerations, multipliers and internal states of laws, held constant.
 
         `builder`: the function to which statements are appended.
         """
@@ -85,13 +85,13 @@ class Linearization:
             self._make_constant_symbol(f"held_lambda_{row.name}", RHS["lambda"][r]) for r, row in enumerate(system.rows)
         ]
         self.sticks: list[sp.Symbol] = []  # 1 in stick, 0 in slip
-        self.rates: list[sp.Expr] = []  # of the inner states
+        self.rates: list[sp.Expr] = []  # of the internal states
         self.powers: list[sp.Expr] = [ZERO] * N_WORK
 
     def derive_parts(self) -> LinearizedParts:
-        """Append all statements and return the non-zero parts of the linearization.
+        """Append all statements of the linearization to the function and return its non-zero entries by part.
 
-        Called once.
+        Parts are M, Φ_q and the derivatives of equations and powers by q, v, internal states and t. Called once.
         """
         loads = [load for element in self.model.elements.values() for load in element.list_point_loads()]
         self.powers[0] = sp.Add(*(-x * row.nu for x, row in zip(self.multiplier, self.system.rows, strict=True)))
@@ -114,13 +114,14 @@ class Linearization:
         return self.parts
 
     def _make_constant_symbol(self, base_name: str, place: Place) -> sp.Symbol:
-        """Return a new symbol that is read at a place and held constant in derivatives."""
+        """Return a new symbol that is read at the storage place `place` and held constant in derivatives."""
         return self.symbols.add_symbol(base_name.replace(".", "_"), place)
 
     def _append_clearance(self, index: int, clearance: Clearance) -> list[PointLoad]:
-        """Append the call of a joint's derivatives; return its loads as symbols whose tangents are known.
+        """Append the call of the derivatives of a joint's force; return its loads as symbols with known derivatives.
 
-        The rates of its inner states and its power are recorded. `index`: number of the joint with play.
+        The rates of its internal states (bristle states) and its power are recorded. `index`: number of the joint with
+        play.
         """
         name, builder, out = clearance.label, self.builder, RHS["clearance"][index]
         builder.begin_section(f"clearance {clearance.kind} {clearance.name}")
@@ -180,7 +181,10 @@ class Linearization:
         return clearance.list_point_loads(values[:2], moments)
 
     def _add_constraint_equations(self) -> None:
-        """Add Φ_q, V = R2_v − 2α Φ_q, Q = R2_q − β² Φ_q and R2_t of the constraint equations to the parts."""
+        """Add the derivatives of the constraint equations to the parts: Φ_q, V, Q and R2_t.
+
+        R2 = Φ_q a − γ + 2α Φ̇ + β² Φ at constant accelerations a; V = R2_v − 2α Φ_q and Q = R2_q − β² Φ_q.
+        """
         if self.system.rows:
             self.builder.begin_section("constraints")
         two_alpha, beta_squared = self._derive_gains()
@@ -203,19 +207,23 @@ class Linearization:
                 self.parts.by_t[node] = value
 
     def _derive_gains(self) -> tuple[sp.Expr, sp.Expr]:
-        """Return 2α and β² of Baumgarte's terms as derived parameters."""
+        """Return (2α, β²) of Baumgarte's terms 2α Φ̇ + β² Φ as derived parameters, in 1/s and 1/s²."""
         alpha, beta = self.model.baumgarte
         derive = self.model.parameter_table.derive_parameter
         return derive("two_alpha", 2 * alpha, "2 alpha"), derive("beta_squared", beta**2, "beta^2")
 
     def _add_jacobian(self, node: int, jacobian: Mapping[sp.Symbol, sp.Expr]) -> None:
-        """Add the entries of an equation's Jacobian to the parts; `node`: number of the equation."""
+        """Add the entries of an equation's Jacobian, by coordinate, to the part `phi_q`.
+
+        `node`: number of the equation.
+        """
         self.parts.phi_q |= {(node, self.q[q]): entry for q, entry in jacobian.items()}
 
     def _add_derivatives(self, node: int, value: sp.Expr, sign: int, velocities_only: bool = False) -> None:
-        """Add `sign` times the derivatives of one residual to the parts by v, q, z and t.
+        """Add `sign` times the derivatives of `value`, a term of a residual, by v, q, z and t to the parts.
 
-        With `velocities_only` only those by v are added. `node`: number of the equation.
+        z are the internal states of laws. With `velocities_only` only those by v are added. `node`: number of the
+        equation.
         """
         tangent = self.tangents.compute_gradient(value)
         for part, index_of in ((self.parts.by_v, self.v), (self.parts.by_q, self.q), (self.parts.by_z, self.z)):
@@ -226,13 +234,17 @@ class Linearization:
 
     @staticmethod
     def _select_entries(tangent: Tangent, index_of: Mapping[sp.Symbol, int]) -> dict[int, sp.Expr]:
-        """Return the entries of a tangent by the numbers of the symbols in `index_of`; others are left out."""
+        """Return the entries of a tangent, the derivatives by symbol, by the numbers of these in `index_of`.
+
+        Symbols that `index_of` does not contain are left out.
+        """
         return {index_of[symbol]: value for symbol, value in tangent.items() if symbol in index_of}
 
     def _add_friction_equations(self, residual: list[sp.Expr]) -> None:
-        """Add the equations of stick, the forces of slip and their power to the parts; the mode is held constant.
+        """Add the equations of stick, the forces of slip and their power to the parts; stick or slip is held constant.
 
-        `residual`, by coordinate, gets the difference between the present and the kinetic force, in place.
+        `residual`, by coordinate, gets −Jᵀ f in place. f is the friction force: the present one, held constant, at
+        stick, and −sign(v) · kinetic force at slip.
         """
         if self.system.frictions:
             self.builder.begin_section("friction: slip, or stick as a constraint equation")
@@ -258,10 +270,10 @@ class Linearization:
             self._add_friction_power(node, friction, force - sign * kinetic, stick)
 
     def _add_friction_power(self, node: int, friction: Friction, force: sp.Expr, stick: sp.Symbol) -> None:
-        """Add the power of a friction force at the velocity on which it acts, and its derivative by the multiplier.
+        """Add the power of a friction force at the velocity on which it acts, and its derivative by the multiplier λ.
 
-        The multiplier at stick is −λ. `force`: the friction force as held; `stick`: 1 at stick, else 0. At prescribed
-        coordinates the drive does the power.
+        At stick the force is −λ. `node`: number of the equation of stick; `force`: the friction force as held; `stick`:
+        1 at stick, else 0. At prescribed coordinates the drive does the power.
         """
         velocity = friction.slip.v + friction.slip.speed
         self.powers[1] += force * velocity
@@ -275,9 +287,9 @@ class Linearization:
                 self.parts.power_row[0, node] = self.parts.power_row.get((0, node), ZERO) + stick * prescribed_velocity
 
     def _add_motion_equations(self, residual: list[sp.Expr]) -> None:
-        """Add M, R1_q, R1_v and R1_t of the equations of motion to the parts.
+        """Add M and the derivatives by q, v, z, t of R1 = M a + Φ_qᵀ λ − g (equations of motion) to the parts.
 
-        `residual`, by coordinate, is completed in place.
+        z are the internal states of laws. `residual`, by coordinate, holds −g and is completed in place.
         """
         self.builder.begin_section("coordinates")
         for (i, j), value in self.system.mass.items():
@@ -291,7 +303,7 @@ class Linearization:
             self._add_derivatives(k, value, 1)
 
     def _add_powers(self) -> None:
-        """Add the derivatives of the powers by q, v, inner states and t to the parts, and append their statements.
+        """Add the derivatives of the powers by q, v, internal states and t to the parts, and append their statements.
 
         The power of the drives also gets those by multipliers and accelerations. Nothing is added if all powers are 0.
         """

@@ -1,14 +1,14 @@
 """Functions for implicit methods: Newton's matrix of the equations of motion, and solutions (I/η − J) u = r + s f_t.
 
-J is the Jacobian of y' = f(t, y) with y = (q, v, works, inner states z) and η = h γ of the method. Eliminating
+J is the Jacobian of y' = f(t, y) with y = (q, v, works, internal states z) and η = h γ of the method. Eliminating
 u_q = η (r_q + u_v) leaves, with the parts of linearization.py and κ = 1 + 2αη + β²η² (1 + 2αη for a stick),
     [M + η R1_v + η² R1_q   Φ_qᵀ] [u_v ]   [ η (M r_v − η R1_q r_q − s R1_t)                         ]
     [Φ_q + η/κ (V + η Q)    0   ] [η μ ] = [ η/κ (Φ_q (r_v − η β² r_q) − η Q r_q − s R2_t)           ]
     u_w = η (r_w + P_q u_q + P_v u_v + P_z u_z + P_λ μ + s P_t),   μ the multipliers' own change.
-Where laws have inner states, u_z is unknown as well: the first equations have the additional term η R1_z u_z, and
+Where laws have internal states, u_z is unknown as well: the first equations have the additional term η R1_z u_z, and
     (1 + η R3_z) u_z + η (R3_v + η R3_q) u_v = η (r_z − η R3_q r_q − s R3_t).
 At η = 0 the matrix is the KKT matrix, with 1 in the rows of z. It is factorized as L U without pivoting in an order
-chosen on its symmetric pattern, inner states first, a constraint equation only after the coordinates in it. A
+chosen on its symmetric pattern, internal states first, a constraint equation only after the coordinates in it. A
 coordinate that an equation gives by others (dependent_coordinates.py) is the unknown of that equation, and its
 multiplier that of the coordinate's equation: both pivots are the constant entry. E. Hairer, G. Wanner, Solving
 Ordinary Differential Equations II, Springer (1996), IV.8 and VII.
@@ -55,7 +55,10 @@ class Newton:
     """The C functions of Newton's method for one system: linearize, factor, substitute and solve."""
 
     def __init__(self, system: System) -> None:
-        """Derive the functions in this order, since each reads the values that the one before stores."""
+        """Derive the C functions linearize, factor, substitute and solve, in this order.
+
+        Each reads values that the one before stores. `system`: the equations of motion that are integrated.
+        """
         self.system, self.model = system, system.model
         self.n, self.m = len(system.q), len(system.rows)
         self.first_state = self.n + self.m + len(system.frictions)
@@ -79,7 +82,7 @@ class Newton:
         return KernelBuilder(self.model.symbols, name, doc)
 
     def _make_linearize_kernel(self) -> Kernel:
-        """Return the function that writes all parts of the linearization to `lin->value`.
+        """Return the C function that writes all parts of the linearization at a state to `lin->value`.
 
         Afterwards `self.parts` is in symbols that read them there, and `self.sticks` and `self.tables` are set.
         """
@@ -109,9 +112,9 @@ class Newton:
         return declare_branches(builder.build_kernel(arguments, owner="", prune=True))
 
     def _store_parts(self, builder: KernelBuilder, parts: LinearizedParts, tangents: Tangents) -> LinearizedParts:
-        """Return the parts with each value stored once in the pool, up to its sign.
+        """Return the parts of the linearization with each value stored in the array `lin->value`, once up to its sign.
 
-        `tangents` stores shared denominators and powers.
+        Values of the result are the symbols that read the array. `tangents` stores shared denominators and powers.
         """
 
         def store_value(value: sp.Expr, name: str) -> sp.Expr:
@@ -147,7 +150,11 @@ class Newton:
         )
 
     def _make_tables(self, builder: KernelBuilder) -> dict[str, list[tuple[int, int, int, int]]]:
-        """Return the entries of each part in `lin->value`: (row, column, index, sign); columns are those of y."""
+        """Return, by part, the entries of the linearization as (row, column, index, sign).
+
+        An entry is sign times element `index` of `lin->value`. Rows are nodes (coordinates, equations, frictions,
+        internal states) or works; columns are those of y = (q, v, works, internal states).
+        """
         parts, n, z = self.parts, self.n, 2 * self.n + N_WORK
 
         def make_table(part: Mapping[Pair, sp.Expr], first_column: int = 0) -> list[tuple[int, int, int, int]]:
@@ -167,9 +174,10 @@ class Newton:
         }
 
     def _make_matrix_entries(self, builder: KernelBuilder) -> dict[Pair, sp.Expr]:
-        """Return the entries of Newton's matrix by (row, column), of both triangles.
+        """Return the entries of Newton's matrix by (row, column), of both triangles, for the η of the method.
 
-        Numbers and symbols stay, other entries become locals.
+        Rows and columns are nodes: coordinates, constraint equations, frictions, internal states. Numbers and symbols
+        stay, other entries become locals.
         """
         parts = self.parts
         self._append_scales(builder, {self._find_scale(node) for node, _ in {**parts.by_v, **parts.by_q}})
@@ -188,24 +196,24 @@ class Newton:
         return entries | {(k, node): value for (node, k), value in parts.phi_q.items()}
 
     def _name_entry(self, builder: KernelBuilder, index: Pair, value: sp.Expr) -> sp.Expr:
-        """Return an entry of the matrix unchanged if it is simple, else as a named local.
+        """Return an entry of Newton's matrix: unchanged if it is a number or ± a symbol, else as a new local.
 
-        `index`: its row and column.
+        `index`: its row and column, from which the local is named.
         """
         name = f"n_{self.names[index[0]]}__{self.names[index[1]]}"
         return value if is_simple(value) else builder.append_local(name, value)
 
     def _find_scale(self, node: int) -> sp.Symbol:
-        """Return the factor η or η/κ by which the change of an equation is multiplied.
+        """Return the symbol of the factor, η or η/κ, of the derivatives of the equation `node` in Newton's matrix.
 
-        η for equations of coordinates and inner states, η/κ for constraints and sticks, whose κ differ.
+        It is η for equations of coordinates and internal states, η/κ for constraints and sticks, whose κ differ.
         """
         if node < self.n or node >= self.first_state:
             return ETA
         return ETA_ROW if node < self.n + self.m else ETA_STICK
 
     def _append_scales(self, builder: KernelBuilder, scales: Collection[sp.Symbol]) -> None:
-        """Append η/κ to the function, the factors of changes of equations, if among the `scales` that it reads.
+        """Append the factors η/κ of constraints and of sticks to the function, those that are in `scales`.
 
         η = h γ of the method. κ = 1 + 2αη + β²η² for constraints (Baumgarte's α and β), 1 + 2αη for sticks, with α of
         `derive_stick_gain`. The section "eta/kappa" begins also without a factor.
@@ -220,10 +228,10 @@ class Newton:
             builder.append_line(Statement(ETA_STICK.name, ETA / (1 + ETA * derive_stick_gain(self.model))))
 
     def _make_factor_kernel(self) -> Kernel:
-        """Return the function of L U of the matrix, L with unit diagonal.
+        """Return the C function that factorizes Newton's matrix at η as L U, L with unit diagonal.
 
         Entries that are neither numbers nor known are stored in `lin->lu`. It sets `elimination`, `lower`, `upper` and
-        `inverse`.
+        `inverse`. The function returns 0, or the number of the node, from 1, whose pivot vanished.
         """
         states = range(self.first_state, self.nodes)
         note = ", inner states" if states else ""
@@ -261,7 +269,7 @@ class Newton:
     def _finish_function(self, builder: KernelBuilder, arguments: Sequence[Argument], status: bool = False) -> Kernel:
         """Return the built function, without locals that nothing reads.
 
-        It reads the parameters of the run through `linearization_argument` if it needs them.
+        If it reads parameters of the run, they are declared first, read from the argument of the linearization.
         """
         kernel = builder.build_kernel(arguments, status, prune=True)
         parameter_section = Section("numbers of the run", (DeclareParameters(),))
@@ -269,9 +277,9 @@ class Newton:
         return replace(kernel, sections=(parameter_section, *kernel.sections)) if reads_parameters else kernel
 
     def _make_substitute_kernel(self) -> Kernel:
-        """Return the function that replaces x = b by the solution of N x = b, by forward and backward substitution.
+        """Return the C function that overwrites x = b by the solution of N x = b, N Newton's matrix factorized as L U.
 
-        Nodes are coordinates, then equations, frictions and inner states.
+        x has one element for each node: coordinates, then equations, frictions and internal states.
         """
         builder = self._begin_function(
             "newton_substitute", ["x (all nodes) holds b and becomes the solution of N x = b."]
@@ -294,7 +302,11 @@ class Newton:
         return self._finish_function(builder, (self.linearization_argument, make_output_argument("x")))
 
     def _make_solve_kernel(self) -> Kernel:
-        """Return the function that computes u from r, both (2n + works + inner states), for a factor s of f_t."""
+        """Return the C function that solves (1/η − J) u = r + s f_t for u.
+
+        r and u are vectors (q, v, works, internal states); s is a number. It calls the function of
+        `_make_substitute_kernel`.
+        """
         n, parts = self.n, self.parts
         states = range(self.first_state, self.nodes)
         builder = self._begin_function(
@@ -346,13 +358,13 @@ class Newton:
         return self._finish_function(builder, arguments)
 
     def _find_state_index(self, state: int) -> int:
-        """Return the index in y of the node of an inner state."""
+        """Return the index in y = (q, v, works, internal states) of the internal state whose node is `state`."""
         return 2 * self.n + N_WORK + state - self.first_state
 
     def _compute_work_change(self, w: int) -> sp.Expr:
-        """Return u_w of work w as an expression in r, u and x.
+        """Return u_w, the component of the solution u for work w, as an expression in r, the other u, and x.
 
-        x holds u_v, that is η (δa + r_v), followed by η μ.
+        x is the result of the substitution: u_v by coordinate, followed by η μ by equation.
         """
         parts, n = self.parts, self.n
         terms = [PlaceSymbol(Place("r")[2 * n + w]), sp.Symbol("s") * parts.power_t.get(w, ZERO)]
@@ -366,7 +378,10 @@ class Newton:
 
 
 def make_complex_kernels(newton: Newton) -> tuple[Kernel, ...]:
-    """Return the functions of Newton's matrix at complex η: factorization, substitution and solution with s = 0."""
+    """Return the functions of Newton's matrix at complex η: factorization, substitution, and solution with s = 0.
+
+    They are for methods that solve all stages together.
+    """
     arrays = ("eta", "r", "u", "x", newton.linearization_argument["lu"])
     return tuple(
         convert_to_complex(kernel, arrays, ("s",))
@@ -381,7 +396,7 @@ class Factors:
     """L, U and inverse pivots of Newton's matrix, printed column by column."""
 
     def __init__(self, newton: Newton, builder: KernelBuilder, entries: Mapping[Pair, sp.Expr]) -> None:
-        """Begin without pivots; `entries` are those of the matrix by (row, column)."""
+        """Begin without pivots; `entries` are those of Newton's matrix by (row, column), statements go to `builder`."""
         self.newton, self.builder, self.entries = newton, builder, entries
         self.lower: dict[Pair, sp.Expr] = {}  # (later equation, earlier unknown)
         self.upper: dict[Pair, sp.Expr] = {}  # (earlier unknown, later unknown)
@@ -389,7 +404,7 @@ class Factors:
         self._earlier_pivots: dict[int, list[int]] = {k: [] for k in range(newton.nodes)}
 
     def eliminate_node(self, k: int, later_nodes: Sequence[int]) -> None:
-        """Append pivot k, its column of L and its row of U; `later_nodes`: the nodes in them."""
+        """Append pivot k of Newton's matrix with its column of L and row of U; `later_nodes`: the nodes in them."""
         self.inverse[k] = self._invert_pivot(k)
         names, equation = self.newton.names, self.newton.equation.get(k, k)
         for i in later_nodes:
@@ -404,7 +419,7 @@ class Factors:
             self._earlier_pivots[k if i == equation else i].append(k)
 
     def _sum_products(self, i: int, k: int, pivots: Sequence[int] | None = None) -> sp.Expr:
-        """Return Σ L U of earlier pivots for the entry of equation i in the unknown k.
+        """Return Σ_j L_ij U_jk over earlier pivots j, to be subtracted from the entry of equation i in the unknown k.
 
         `pivots`: those that count; None: all.
         """
@@ -412,10 +427,11 @@ class Factors:
         return sp.Add(*(self.lower[i, j] * self.upper[j, k] for j in columns if (j, k) in self.upper))
 
     def _invert_pivot(self, k: int) -> sp.Expr:
-        """Return 1/pivot of node k, with a test of the pivot.
+        """Return 1/pivot of node k, and append a test of the pivot that fails with the number k + 1.
 
-        The rest of an equation is compared with its value if it were independent of the others. Constant entries,
-        missing inner states and masses need no test; at slip a friction's multiplier is 0.
+        The pivot of a constraint equation is compared with its value if the equation were independent of the others,
+        any other one with its entry. Constant entries, missing internal states and masses need no test; at slip 0 is
+        returned.
         """
         newton, builder, name = self.newton, self.builder, self.newton.names[k]
         entry = self.entries.get((newton.equation.get(k, k), k), ZERO)
@@ -425,7 +441,7 @@ class Factors:
                 if is_unit(entry)
                 else newton.factors.store_local(builder, builder.append_local(f"inverse_pivot_{name}", 1 / entry))
             )
-        if entry.is_Number and entry == 1:  # an inner state that this joint does not have
+        if entry.is_Number and entry == 1:  # an internal state that this joint does not have
             return entry
         if not self._earlier_pivots[k] and entry in newton.model.masses:
             return newton.model.parameter_table.derive_parameter(f"inverse_{entry}", 1 / entry, "1/M")
@@ -455,9 +471,10 @@ class Factors:
         return newton.factors.store_local(builder, builder.append_local(f"inverse_pivot_{name}", value))
 
     def _store_factor(self, name: str, value: sp.Expr) -> sp.Expr:
-        """Return a factor as a value that other functions may read.
+        """Return a factor as a value that other functions may read, as they read the array `lin->lu`.
 
-        It is unchanged if it is simple, else a stored local.
+        A number or ± a symbol other than η and η/κ is unchanged; another value becomes the local `name`. The local is
+        stored.
         """
         is_stored_elsewhere = is_simple(value) and not value.free_symbols & {
             ETA,

@@ -49,9 +49,10 @@ class Factor:
 
 
 def append_friction_mode(builder: KernelBuilder, name: str, index: int) -> tuple[sp.Symbol, sp.Symbol]:
-    """Return two locals for a friction element's mode: 1 at stick and 0 else; the sign of the slip (0: none).
+    """Return two locals for the mode of a friction element: (1 at stick and else 0, sign of the slip).
 
-    `index`: number of the element, whose discrete state the function reads.
+    The sign is 1 or −1, and 0 without slip. `name`, `index`: the element and its number; the mode is read from the
+    discrete state.
     """
     mode_place = DISCRETE["mode"][index]
     mode = builder.append_local(f"mode_{name}", mode_place, "0 stick, 1 or -1 the sign of the slip, 2 held")
@@ -64,10 +65,10 @@ def append_friction_mode(builder: KernelBuilder, name: str, index: int) -> tuple
 def make_pivot_guard(
     on_failure: Sequence[int], pivot_number: int, value: sp.Expr, *bound_factors: sp.Expr | float
 ) -> Guard:
-    """Return the test that a pivot of a block is above a bound.
+    """Return the test that a pivot is greater than a bound, the product of `bound_factors`.
 
-    `on_failure`: whether failure jumps, and the number of equations before the block. `pivot_number`: number of the
-    pivot in the block, 1 or 2. The bound is the product of `bound_factors`.
+    `value`: the pivot. `on_failure`: whether failure jumps, and the number of equations before the block.
+    `pivot_number`: number of the pivot in the block, 1 or 2. If the test fails, the sum of both numbers is the status.
     """
     jumps, count = on_failure
     return Guard(Test(value, ">", bound_factors), count + pivot_number, bool(jumps))
@@ -79,15 +80,15 @@ def is_simple(value: sp.Expr) -> bool:
 
 
 def append_local_unless_simple(builder: KernelBuilder, name: str, value: sp.Expr) -> sp.Expr:
-    """Return the value, as a new local of that name unless it is simple."""
+    """Return the value as a new local of that name, or unchanged if it is a number, a symbol or its negative."""
     return value if is_simple(value) else builder.append_local(name, value)
 
 
 def find_row_pairs(rows: Sequence[Row], n: int, pattern: Sequence[frozenset[int]]) -> dict[int, int]:
-    """Return the pairs of equations of a joint in the same coordinates, of which there are more than two.
+    """Return the pairs of successive equations of one joint that have entries in the same coordinates, more than two.
 
-    Equations are nodes from n on, `pattern` has the neighbours of each node; each equation is returned with its
-    partner.
+    The result maps the node of each equation to that of its partner. Nodes are coordinates, then from n on equations;
+    `pattern` has the neighbours of each node in the graph of the KKT matrix.
     """
     partner_of_row: dict[int, int] = {}
     for node, (row, next_row) in enumerate(pairwise(rows), n):

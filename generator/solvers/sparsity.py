@@ -36,7 +36,7 @@ class Elimination:
 
     @property
     def cost(self) -> int:
-        """Return the cost in products, with at most eight divisions that wait for each other.
+        """Return the cost in products; at most eight divisions that wait for each other count, 20 products each.
 
         In longer chains other work fills the time.
         """
@@ -51,13 +51,13 @@ def choose_elimination(
     first: Sequence[int] = (),
     partner: Mapping[int, int] = NO_PAIRS,
 ) -> Elimination:
-    """Return the cheapest of a few greedy elimination orders.
+    """Return the cheapest of a few greedy elimination orders of the KKT matrix, whose graph is `pattern`.
 
-    Nodes below `n_coordinates` are coordinates, the others equations; nodes from `last` on come after all others.
-    Equations in `pairs` (each with its partner, in the same coordinates) may be eliminated once two of their
-    coordinates are. Their 2 × 2 pivot then vanishes where two links are in line, so that the caller must test it. Nodes
-    in `first` come before all others, in their order. A node with a `partner`, an equation with a constant entry in it,
-    is eliminated together with that equation. `last` None: no node comes after all others.
+    Nodes below `n_coordinates` are coordinates, the others equations; nodes from `last` on come after all others (None:
+    no node). Equations in `pairs` (each with its partner, in the same coordinates) may be eliminated once two of their
+    coordinates are. Their 2 × 2 pivot then vanishes where two bodies are in line, so that the caller must test it.
+    Nodes in `first` come before all others, in their order; one with a `partner`, an equation with a constant entry in
+    it, is eliminated together with that equation.
     """
     elimination = find_elimination_below(math.inf, pattern, n_coordinates, last, pairs, first, partner)
     assert elimination is not None
@@ -145,10 +145,9 @@ def _eliminate_in_order(
 ) -> Elimination | None:
     """Return the elimination of the nodes in `first` with their partners, then of the others by the best order.
 
-    Return None if the products exceed `limit`.
-
-    `eager`: a coordinate that is in none of the partners any more follows at once. Along a chain of bodies from its
-    end, each is then coupled only with the one that carries it.
+    Return None if the products exceed `limit`. `eager`: a coordinate that occurs in no remaining equation of `first`
+    follows at once. Along a chain of bodies from its end, each is then coupled only with the one that carries it. The
+    other arguments are those of `choose_elimination`.
     """
     graph = [set(neighbours) for neighbours in pattern]
     columns = dict[int, set[int]]()
@@ -194,10 +193,10 @@ def _eliminate_in_order(
 
 
 def _eliminate_node(node: int, partner: int | None, graph: Sequence[set[int]], columns: dict[int, set[int]]) -> int:
-    """Eliminate a node with its partner from the graph in place, and return the number of products.
+    """Eliminate a node, with its partner if it has one, from the graph in place; return the number of products.
 
-    The columns of both are stored in `columns`. The partner's neighbours are coupled with those of both. `partner`
-    None: the node is eliminated alone.
+    The columns of both are stored in `columns`. The neighbours of a node eliminated alone are coupled with each other;
+    with a partner, its neighbours are coupled with those of both.
     """
     eliminated = {node} if partner is None else {node, partner}
     node_neighbours = graph[node] - eliminated
@@ -222,8 +221,9 @@ def _eliminate_greedily(
 ) -> Elimination | None:
     """Return the greedy elimination that takes the node with the least `key` next; None above `limit` products.
 
-    An equation is ready once all its coordinates are eliminated, one in `pairs` after two. key(graph, node, depth):
-    depth is the number of divisions before the node.
+    An equation is ready once all its coordinates are eliminated, one in `pairs` (of two equations) once two are.
+    `key(graph, node, depth)`: graph has the neighbours of each node, depth is the number of divisions that must precede
+    the node.
     """
     graph = [set(neighbours) for neighbours in pattern]
     n_missing = [
@@ -276,9 +276,10 @@ def _eliminate_greedily(
 
 
 def _compute_division_depth(order: Sequence[int], structure: Mapping[int, tuple[int, ...]], n_coordinates: int) -> int:
-    """Return the length of the longest chain of divisions that wait for each other.
+    """Return the length of the longest chain of divisions of which each needs the result of the one before.
 
-    Pivots that elimination does not change are computed beforehand; two that form a block count as one.
+    Pivots that elimination does not change are computed beforehand; two that form a block count as one. `structure`:
+    the later nodes in the column of each node.
     """
     changed_nodes = set[int]().union(*structure.values())
     depths = dict.fromkeys(order, 0)
@@ -302,16 +303,16 @@ class Block:
 
 
 def match_rows(pattern: Sequence[set[int]]) -> dict[int, int]:
-    """Return a maximum matching of equations with unknowns, as the equation by unknown (augmenting paths).
+    """Return a maximum matching of equations with unknowns (augmenting paths): {unknown: equation}.
 
     `pattern`: the unknowns of each equation.
     """
     row_of_unknown: dict[int, int] = {}
 
     def assign_unknown(row: int, visited_unknowns: set[int]) -> bool:
-        """Return whether the equation gets an unknown, after moving other equations if necessary.
+        """Return whether equation `row` gets an unknown, after other equations have been moved if necessary.
 
-        `visited_unknowns` collects unknowns that have been visited.
+        `visited_unknowns` collects the unknowns that have been tried.
         """
         for column in sorted(pattern[row]):
             if column not in visited_unknowns:
@@ -327,9 +328,10 @@ def match_rows(pattern: Sequence[set[int]]) -> dict[int, int]:
 
 
 def find_triangular_blocks(pattern: Sequence[set[int]], n: int) -> tuple[Block, ...] | None:
-    """Return the blocks of a square pattern in solving order.
+    """Return the diagonal blocks of a square pattern's block triangular form, in solving order.
 
-    None if the pattern is not square or some unknown has no equation. `pattern`: the unknowns of each equation.
+    None if the pattern is not square or no matching gives every unknown an equation. `pattern`: the unknowns of each
+    equation; `n`: the number of unknowns.
     """
     if len(pattern) != n:
         return None

@@ -57,7 +57,7 @@ class SquareSystem:
 
     @property
     def is_solvable(self) -> bool:
-        """Return whether there are as many equations as coordinates and the pattern determines all of them."""
+        """Return whether there are as many equations as coordinates and each can be matched with one of its own."""
         return self.blocks is not None
 
     @property
@@ -66,9 +66,9 @@ class SquareSystem:
         return max((len(block.rows) for block in self.blocks or ()), default=0)
 
     def factorize(self, builder: KernelBuilder) -> list[Solver]:
-        """Append the factorization of all blocks and return their solvers.
+        """Append the factorization of all blocks and return their solvers, in solving order.
 
-        The printed function returns the number, from 1, of an equation of the block that is singular.
+        The printed function fails with the number, from 1, of an equation of the block that is singular.
         """
         builder.begin_section("blocks of constraint equations that are solved one after the other")
         solvers = []
@@ -80,7 +80,10 @@ class SquareSystem:
         return solvers
 
     def _factorize_single(self, builder: KernelBuilder, block: Block) -> Solver:
-        """Return the solver of a block of one equation, with a test of its pivot unless that is a number."""
+        """Return the solver of a block of one equation: 1/pivot, with a test of the pivot unless that is a number.
+
+        The pivot is compared with a bound of its magnitude for any direction of the arms.
+        """
         (row,), (column,) = block.rows, block.columns
         pivot = self.entries[row][column]
         if pivot.is_Number:
@@ -102,7 +105,7 @@ class SquareSystem:
     def _factorize_pair(self, builder: KernelBuilder, block: Block) -> Solver:
         """Return the solver of a block of two equations by Cramer's rule, with a test of its determinant.
 
-        The determinant is compared with its largest value for any direction of the arms.
+        The determinant is compared with a bound of its magnitude for any direction of the arms.
         """
         name = f"{self.names[block.rows[0]]}__{self.names[block.rows[1]]}"
         (a, b), (c, d) = self._extract_block(block)
@@ -115,10 +118,10 @@ class SquareSystem:
         return Solver(block, builder.append_local(f"inverse_{name}", 1 / determinant))
 
     def _compute_entry_bound(self, builder: KernelBuilder, row: int, column: int, block: Block) -> sp.Expr:
-        """Return the largest value of an entry for any direction of its arms, within a factor of two.
+        """Return a bound of the magnitude of an entry for any direction of its arms, at most twice the largest value.
 
-        For an angle it is |c| + |dc/dθ|, for a slide the sum of |c| over the block's slides: units are not mixed. A
-        longer expression becomes a local.
+        For an angle it is |c| + |∂c/∂θ|, for a slide the sum of |c| over the block's slides, so that units are not
+        mixed. A longer expression becomes a local.
         """
         entries = self.entries[row]
         if self._is_slide[column]:
@@ -133,7 +136,10 @@ class SquareSystem:
         )
 
     def _factorize_dense(self, builder: KernelBuilder, block: Block) -> Solver:
-        """Return the solver of a larger block, which the engine factorizes at run time with pivoting."""
+        """Return the solver of a block of three or more equations, which the engine factorizes with pivoting.
+
+        If the block is singular at run time, the function fails with the number of the block's first equation.
+        """
         n, name = len(block.rows), self._symbols.make_unique_name(f"block_{self.names[block.rows[0]]}")
         values, order = f"{name}_values", f"{name}_order"
         builder.append_line(Declare(Number.REAL, values, (n * n,)))
@@ -151,9 +157,10 @@ class SquareSystem:
     def solve(
         self, builder: KernelBuilder, solvers: Sequence[Solver], rhs: Sequence[sp.Expr], prefix: str
     ) -> list[sp.Expr]:
-        """Append the solution x for one right-hand side and return it by coordinate.
+        """Append the solution x of Φ_q x = `rhs` and return its components in the order of the coordinates.
 
-        `rhs`: one value for each equation; `prefix` begins the names of its locals.
+        `solvers`: the result of `factorize`; `rhs`: one value for each equation; `prefix` begins the names of the
+        locals.
         """
         x: dict[int, sp.Expr] = {}
         for solver in solvers:
@@ -175,9 +182,10 @@ class SquareSystem:
     def _solve_block(
         self, builder: KernelBuilder, solver: Solver, rhs: Sequence[sp.Expr], prefix: str
     ) -> Sequence[sp.Expr | Place]:
-        """Return the solution of one block for its right-hand side `rhs`, one value for each of its equations.
+        """Return the unknowns of one block for its right-hand side `rhs`, one value for each of its equations.
 
-        A block of more than two equations appends a call of the engine. `prefix` begins the names of its locals.
+        A block of more than two equations appends a call of the engine; the result is then read from an array. `prefix`
+        begins the names of its locals.
         """
         if len(rhs) == 1:
             return [rhs[0] * solver.inverse]

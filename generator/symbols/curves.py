@@ -66,10 +66,10 @@ class KnotsOf(sp.Function):
 
 
 def make_curve_expression(curve: Curve, x: sp.Expr) -> sp.Expr:
-    """Return a curve of the file at x as a SymPy expression.
+    """Return the value of a curve of the file at x as a SymPy expression.
 
-    Beyond its range a curve is held or continued linearly, by min and max, whose switching points end steps. A periodic
-    curve, or one that stops a run there, has no continuation.
+    Beyond its range the curve is constant or linear, by its `extrapolate`, through min and max, whose switching points
+    end steps. A periodic curve, or one that stops a run there, is not continued.
     """
     name, zero, one = Str(curve.name), sp.Integer(0), sp.Integer(1)
     if curve.is_periodic or curve.extrapolate == STOP:
@@ -124,8 +124,9 @@ class ContourOf(sp.Function):
 
 
 def make_contour_expression(table: str, n_depths: int, order: int, angle: sp.Expr) -> sp.Expr:
-    """Return the k-th derivative (`order`) by the angle of a bearing's contour at an angle.
+    """Return the depth of a bearing's contour at an angle, or its derivative of an `order` by the angle.
 
-    `table`: the array of Parameters that holds its depths in m; `n_depths`: their number.
+    The result is a SymPy expression. `table`: the array of Parameters that holds its depths in m; `n_depths`: their
+    number.
     """
     return ContourOf(Str(table), sp.Integer(n_depths), sp.Integer(order), angle)

@@ -12,7 +12,7 @@ _CHAIN_RULE = sp.Function._eval_derivative
 
 @lru_cache(100_000)
 def find_symbols(expression: sp.Basic) -> frozenset[sp.Symbol]:
-    """Return the free symbols of an expression, from a cache."""
+    """Return the free symbols of an expression; results of sums and products are combined from cached ones."""
     if expression.is_Add or expression.is_Mul:
         return frozenset[sp.Symbol]().union(*map(find_symbols, expression.args))
     return frozenset(expression.free_symbols)

@@ -23,7 +23,7 @@ CLASSES: Mapping[Any, Function] = {getattr(sp, name): function for name, functio
 
 
 def find_classes(predicate: Callable[[Function], bool]) -> tuple[Any, ...]:
-    """Return SymPy's classes of all functions of the table whose entry satisfies the predicate."""
+    """Return SymPy's classes of the functions of a file's expressions whose table entry satisfies the predicate."""
     return tuple(class_ for class_, function in CLASSES.items() if predicate(function))
 
 
@@ -39,9 +39,9 @@ def make_ramp(t: sp.Expr, start: sp.Expr, duration: sp.Expr) -> sp.Expr:
 
 
 def make_conditional(left: sp.Expr, right: sp.Expr, then: sp.Expr, otherwise: sp.Expr) -> sp.Expr:
-    """Return a conditional branch: `then` where left < right, else `otherwise`; the function `where` of files.
+    """Return the conditional expression: `then` where left < right, else `otherwise`; the function `where` of files.
 
-    If both values are equal, one of them is returned.
+    The result is a `Select` by the sign of left − right, or the common value if `then` and `otherwise` are equal.
     """
     return then if then == otherwise else Select(sp.sign(left - right), otherwise, then)
 
@@ -76,18 +76,18 @@ _BUILDERS: dict[str, Callable[..., sp.Expr]] = {
 
 
 def convert_to_sympy(expr: Expr, find_symbol: Callable[[str], sp.Expr]) -> sp.Expr:
-    """Return a parsed expression `expr` as a SymPy expression.
+    """Return a parsed expression `expr` of a file as a SymPy expression.
 
     `find_symbol(path)` returns the SymPy expression of a name. A number stays the binary64 value that the user wrote;
-    integers stay exact, so that they fold.
+    one of integer value becomes an exact integer, so that SymPy combines it with others.
     """
     return _Converter(find_symbol).convert_node(expr)
 
 
 def convert_derivative(derivative: str, x: sp.Expr, f: sp.Expr) -> sp.Expr:
-    """Return a derivative of the table of functions as a SymPy expression.
+    """Return the text of a derivative in the table of functions as a SymPy expression.
 
-    `derivative`: its text in x and f; `x`: the argument; `f`: the value of the function there.
+    `derivative`: the text, in x and f; `x`: the argument; `f`: the value of the function there.
     """
     return convert_to_sympy(parse(derivative, Location("functions.py", 1, 1)), {"x": x, "f": f}.__getitem__)
 
@@ -107,7 +107,7 @@ class _Converter:
         return self._expression_by_id[id(expr)]
 
     def _convert_node_uncached(self, expr: Expr) -> sp.Expr:
-        """Convert one node of the tree to SymPy, without reading the cache.
+        """Return the SymPy expression of one node of the tree, without reading the cache.
 
         Floats of integer value below 1e15 become integers, and names what the resolver returns for them. Operands are
         converted through the cache. Products and powers that SymPy would expand to extreme numbers stay unevaluated.
@@ -153,7 +153,7 @@ class _Converter:
         return apply_unexpanded(lambda a, b: self._make_power_without_squares(a, b, left), a, exponent)
 
     def _make_power_without_squares(self, base: sp.Expr, exponent: sp.Expr, *operands: Expr) -> sp.Expr:
-        """Return base**exponent; of a sum to a multiple of 1/2, squares under the root are taken out.
+        """Return base**exponent; from a sum to the power k/2, squares are taken out of the root.
 
         `operands`: the unconverted base, or both arguments of hypot, whose numbers are then read as written.
         """
@@ -167,7 +167,7 @@ class _Converter:
         )
 
     def _convert_with_decimals(self, expr: Expr) -> sp.Expr:
-        """Return an expression with its numbers as the exact decimals that the user wrote.
+        """Return an expression with its numbers as exact rational numbers, the decimals that the user wrote.
 
         Only sums, products, quotients and small integer powers are converted in this way.
         """
@@ -195,9 +195,10 @@ def _count_bits(expression: sp.Expr) -> int:
 
 
 def _apply_operator(operator: str, a: sp.Expr, b: sp.Expr) -> sp.Expr:
-    """Return the sum, difference, product or quotient of two expressions.
+    """Return a + b, a − b, a · b or a / b for the operator "+", "-", "*" or "/".
 
-    A product of exponentials becomes the exponential of a sum.
+    In a product or quotient, several exponentials become the exponential of a sum, and operands that SymPy would expand
+    to extreme numbers stay unevaluated.
     """
     match operator:
         case "+":
@@ -222,12 +223,12 @@ def _merge_exponentials(product: sp.Expr) -> sp.Expr:
 
 
 def _make_unexpanded_square(a: sp.Expr) -> sp.Expr:
-    """Return the square of an expression."""
+    """Return the square of an expression, of an `Unevaluated` where SymPy would expand it to extreme numbers."""
     return apply_unexpanded(sp.Pow, a, sp.Integer(2))
 
 
 def _make_exact_if_simple(exponent: sp.Expr) -> sp.Expr:
-    """Return an exponent such as 0.5 or 1.5 as an exact rational number; others unchanged.
+    """Return a float exponent such as 0.5 or 1.5, with a denominator up to 8, as a rational number; others unchanged.
 
     (u**2)**0.5 is then |u| and has its switching point.
     """
@@ -236,7 +237,10 @@ def _make_exact_if_simple(exponent: sp.Expr) -> sp.Expr:
 
 
 def _compute_numeric_power(a: sp.Expr, b: sp.Expr) -> sp.Expr:
-    """Return the power of two numbers as binary64 computes it: the exact 10**10**10 would not fit into memory."""
+    """Return the power of two numbers as binary64 computes it, as an integer if it is one below 1e15.
+
+    The exact value of 10**10**10, for example, would not fit into memory.
+    """
     with np.errstate(all="ignore"):
         value = float(np.power(np.float64(a), np.float64(b)))
     return sp.Integer(int(value)) if abs(value) < 1e15 and value == int(value) else sp.Float(value, 17)

@@ -34,7 +34,7 @@ class ParameterEntry:
 
     @property
     def depends_on_parameters(self) -> bool:
-        """Return whether the default depends on other parameters."""
+        """Return whether the default is an expression of other parameters."""
         return bool(self.value.free_symbols)
 
 
@@ -71,24 +71,24 @@ class ParameterTable(Freezable):
             self._get_or_add_named_parameter(name)
 
     def copy_for_symbols(self, symbols: Symbols) -> ParameterTable:
-        """Return a copy of the table that adds new symbols to another symbol table, `symbols`.
+        """Return a copy of the table that adds new symbols to the symbol table `symbols`.
 
-        Copy and original share the dictionaries of parameters.
+        Copy and original share the dictionaries of parameters: a parameter added to one is in both.
         """
         copy_ = copy.copy(self)
         copy_.symbols = symbols
         return copy_
 
     def is_constant(self, expression: sp.Expr) -> bool:
-        """Return whether an expression contains only parameters and numbers.
+        """Return whether an expression contains only parameters and numbers, so that it is constant in a run.
 
-        `prepare` can then compute it once a run.
+        The function `prepare` can then compute it once a run.
         """
         info = self.symbols.info
         return all(s in info and info[s].is_parameter for s in expression.free_symbols)
 
     def _get_or_add_named_parameter(self, name: str) -> sp.Symbol:
-        """Return the symbol of an entry of the section `parameters`.
+        """Return the symbol of the entry `name` of the section `parameters`.
 
         The entry is added if necessary, after all entries on which it depends.
         """
@@ -109,11 +109,10 @@ class ParameterTable(Freezable):
         return self.entries[f"parameters.{name}"].symbol
 
     def _add_parameter(self, address: str, base_name: str, quantity: Quantity, place: Place = OWN_FIELD) -> sp.Symbol:
-        """Add a parameter with an address and the expression of a quantity; return its symbol.
+        """Add the parameter of a quantity at an address, after those in its expression; return its symbol.
 
-        `base_name`: base of the symbol's name; `place`: its place in Parameters. Its default is the value of the
-        expression with all defaults. Parameters in the expression are added first; a quantity without names has its
-        number as value.
+        `base_name`: base of the symbol's name; `place`: its storage place in Parameters. Its default is the value of
+        the expression with all defaults. The entry's `value` is the expression in symbols, or the number without names.
         """
         parts = {part.address: part for part in quantity.operands}
 
@@ -136,9 +135,10 @@ class ParameterTable(Freezable):
         return symbol
 
     def get_or_add_parameter(self, quantity: Quantity, zero: bool = False) -> sp.Expr:
-        """Return the parameter of a quantity, added at its first use.
+        """Return the symbol of a quantity's parameter, added at its first use.
 
-        A scene may replace the quantity. A literal zero gives 0 unless `zero` is True.
+        The scene may have another quantity for the address. A number 0 in the file gives 0, without a parameter, unless
+        `zero` is True.
         """
         quantity = self._instead.get(quantity.address, quantity)
         if quantity.is_zero and not zero:
@@ -150,9 +150,10 @@ class ParameterTable(Freezable):
         return self.entries[quantity.address].symbol
 
     def get_or_add_array(self, base_name: str, quantities: Sequence[Quantity]) -> str:
-        """Return the name of an array of Parameters that holds the values of several quantities, in their order.
+        """Return the name of an array in Parameters that holds the values of several quantities, in their order.
 
-        Quantities that have an array already get the same name.
+        The array is named after `base_name`. If the first quantity is the first one of an array already, that array is
+        used.
         """
         name = next((k for k, s in self.tables.items() if s[0] == self._find_symbol(quantities[0])), "")
         if not name:
@@ -166,7 +167,7 @@ class ParameterTable(Freezable):
         return name
 
     def _find_symbol(self, quantity: Quantity) -> sp.Symbol | None:
-        """Return the symbol of a quantity's parameter, or None if the quantity has none."""
+        """Return the symbol of a quantity's parameter, or None if none has been added for its address."""
         entry = self.entries.get(quantity.address)
         return entry.symbol if entry else None
 
@@ -175,7 +176,7 @@ class ParameterTable(Freezable):
     ) -> sp.Symbol:
         """Return the symbol of a parameter that no file specifies, such as a Baumgarte gain; added at first use.
 
-        `base_name`: base of its name.
+        `base_name`: base of its name; `default`: its value in SI units.
         """
         if address not in self.entries:
             symbol = self.symbols.add_symbol(base_name, OWN_FIELD, address)
@@ -197,11 +198,11 @@ class ParameterTable(Freezable):
         field_base_name: str = "",
         role: ParameterRole | None = None,
     ) -> sp.Expr:
-        """Return a derived parameter, which `prepare` computes once a run, as a symbol.
+        """Return the symbol of a derived parameter, which the function `prepare` computes once a run.
 
-        Numbers and parameters are returned unchanged; an equal expression gets the same symbol. `base_name`: base of
+        A number or a parameter is returned unchanged; an equal expression gets the same symbol. `base_name`: base of
         its name; `field_base_name`: that of its field in Parameters, if it differs; `role`: its role in a joint or
-        element. `role` None: it has none.
+        element, or None.
         """
         if expression.is_number or (expression.is_Symbol and self.symbols.info[expression].is_parameter):
             return expression
@@ -219,9 +220,9 @@ class ParameterTable(Freezable):
     def derive_signed_parameter(
         self, base_name: str, expression: sp.Expr, meaning: str = "", field_base_name: str = ""
     ) -> sp.Expr:
-        """Return a derived parameter, or −s if the opposite expression has the symbol s already (`derive_parameter`).
+        """Return the derived parameter of an expression, or −s if the opposite expression has the symbol s already.
 
-        Opposite arms then share one parameter.
+        Opposite arms then share one parameter. The arguments are those of `derive_parameter`.
         """
         opposite = self._derived_by.get(-expression)
         return self.derive_parameter(base_name, expression, meaning, field_base_name) if opposite is None else -opposite

@@ -39,7 +39,7 @@ def extract_squares(base: sp.Expr, exponent: sp.Expr, decimals: sp.Expr | None =
 
 
 def convert_to_decimal(number: sp.Expr) -> sp.Expr:
-    """Return a float as the shortest decimal number that is read as it; other expressions unchanged."""
+    """Return a float as the shortest decimal that rounds to it, an exact rational; other expressions unchanged."""
     return sp.Rational(repr(float(number))) if number.is_Float and number.is_finite else number
 
 
@@ -53,11 +53,11 @@ def _find_scale(polynomial: sp.Expr) -> sp.Expr:
 
 
 def _convert_to_polynomial(expression: sp.Expr, atoms: dict[sp.Expr, sp.Dummy]) -> sp.Expr:
-    """Return an expression as a polynomial in dummy symbols.
+    """Return an expression as a polynomial in dummy symbols, with its floats as exact decimals.
 
-    Each part that is not a sum, product or small power gets a dummy. `atoms` maps these parts to their dummies and is
-    extended in place. The degree is the one written: SymPy would take x^0.1 and x^0.0001 for powers of one generator,
-    with as many terms as memory holds.
+    Each part that is not a sum, product or power up to DEGREE gets a dummy. `atoms` maps these parts to their dummies
+    and is extended in place. The degree is the one written: SymPy would take x^0.1 and x^0.0001 for powers of one
+    generator, with as many terms as memory holds.
     """
     if expression.is_Number:
         return convert_to_decimal(expression)

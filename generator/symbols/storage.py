@@ -29,7 +29,7 @@ class Place:
     expressions: ClassVar[tuple[sp.Basic, ...]] = ()
 
     def __getitem__(self, step: str | int) -> Place:
-        """Return the place of a field or element within this one."""
+        """Return the storage place of a field (text) or element (number) within this one."""
         return Place(self.base, (*self.path, step))
 
     def __str__(self) -> str:
@@ -38,17 +38,20 @@ class Place:
 
     @property
     def names(self) -> frozenset[str]:
-        """Return the base as a set: what a line that reads the place reads."""
+        """Return the name of the argument or local that contains the place, in a set."""
         return frozenset([self.base])
 
     @property
     def is_parameter(self) -> bool:
-        """Return whether the place is a parameter of the run."""
+        """Return whether the place is a field of the argument that holds the parameters of a run."""
         return self.base == PARAMETERS and self.path != ()
 
     @property
     def member(self) -> str:
-        """Return the path within the struct: `mass`, `contour_A[3]`."""
+        """Return the path within the struct as text, without the argument: `mass`, `contour_A[3]`.
+
+        It is "" for a whole argument.
+        """
         return str(self).partition(".")[2]
 
 
@@ -82,7 +85,7 @@ Key: TypeAlias = str | Place  # what a value is known by: the name of a local or
 
 
 def find_key(symbol: sp.Symbol) -> Key:
-    """Return the place of a symbol that is read at one, else the symbol's name."""
+    """Return the storage place of a symbol that is read at one (a PlaceSymbol), else the symbol's name."""
     return symbol.place if isinstance(symbol, PlaceSymbol) else str(symbol.name)
 
 
@@ -119,7 +122,7 @@ class Freezable:
 
 
 def _convert_containers(owner: Freezable, type_map: dict[type, Any]) -> None:
-    """Convert each attribute of an object whose type is a key of `type_map` to the type that is its value."""
+    """Convert the attributes of an object, each whose type is a key of `type_map`, to the type that the map gives."""
     for name, value in vars(owner).items():
         if type(value) in type_map:
             setattr(owner, name, type_map[type(value)](value))

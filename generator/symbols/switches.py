@@ -25,7 +25,7 @@ class _Remainder(sp.Function):
     is_real = True
 
     def _eval_derivative(self, s: sp.Symbol) -> sp.Expr:
-        """Return the derivative by `s` between jumps: that of a, minus that of b for each period passed.
+        """Return the derivative by `s` between jumps: a′ − b′ ⌊a/b⌋ for the remainder of a by b.
 
         Called by SymPy.
         """
@@ -96,8 +96,9 @@ class Select(sp.Function):
         return cls(-branch, b, a) if (-branch).is_Symbol else None
 
     def _eval_derivative(self, s: sp.Symbol) -> sp.Expr:
-        """Return the derivative by `s` of the active branch only; that of the other may be infinite.
+        """Return the derivative by `s` on each branch, as a `Select` by the same branch.
 
+        If both derivatives are equal, that value is returned. The derivative on the other branch may be infinite.
         Called by SymPy.
         """
         branch, a, b = self.args
@@ -108,10 +109,10 @@ class Select(sp.Function):
 def select_extreme(
     arguments: Sequence[sp.Expr], find_branch: Callable[[sp.Expr], sp.Expr], is_maximum: bool
 ) -> sp.Expr:
-    """Return the maximum (`is_maximum`) or minimum of some expressions as nested `Select`.
+    """Return the maximum (`is_maximum`) or minimum of expressions as nested conditional values (`Select`).
 
-    `find_branch(g)` returns the branch of a switching function g, a difference of two of them. The result does not
-    depend on the order of the arguments.
+    `find_branch(g)` returns the branch, the sign of a switching function g, here the difference of two expressions. The
+    result does not depend on the order of the arguments.
     """
     ordered = sorted(arguments, key=lambda a: (a.is_Number, str(a)))
     extreme = ordered[0]
@@ -207,9 +208,9 @@ class Switches(Freezable):
     unused_indices: list[int] = field(default_factory=list)  # numbers of the scene's own switches in the other table
 
     def copy_for_functions(self) -> Switches:
-        """Return the table for other functions of the same scene.
+        """Return a table of switches for other functions of the same scene, such as those in tree coordinates.
 
-        Switches of joints are shared, those of the scene are new, with the same numbers.
+        Switches of joints are shared. Those of the scene are left out, and their numbers are given to new ones.
         """
         joint_switches = {key: switch for key, switch in self.switch_by_key.items() if switch.owner}
         return Switches(joint_switches, sorted(switch.index for switch in self.list_switches("")))
@@ -220,9 +221,9 @@ class Switches(Freezable):
         return 1 + max([*(switch.index for switch in self.switch_by_key.values()), *self.unused_indices], default=-1)
 
     def find_switch(self, owner: str, g: sp.Expr) -> tuple[Switch, int] | None:
-        """Return the switch of a switching function g and 1, or −1 if it is stored for −g.
+        """Return (switch, 1) of a switching function g, or (switch, −1) if it is stored for −g; None if there is none.
 
-        Return None if there is none.
+        `owner`: the joint with play to which it belongs, "" for the scene.
         """
         for sign in (1, -1):
             if (switch := self.switch_by_key.get((owner, sp.expand(sign * g)))) is not None:
@@ -230,9 +231,10 @@ class Switches(Freezable):
         return None
 
     def get_or_add_switch(self, owner: str, g: sp.Expr) -> tuple[Switch, int]:
-        """Return the switch of a switching function g, and 1, or −1 if it is stored for −g.
+        """Return (switch, 1) of a switching function g, or (switch, −1) if it is stored for −g.
 
-        A new switch is added if there is none; a frozen table raises AssertionError.
+        A new switch is added if there is none; a frozen table raises AssertionError. `owner`: the joint with play to
+        which it belongs, "" for the scene.
         """
         if (known_switch := self.find_switch(owner, g)) is not None:
             return known_switch

@@ -24,10 +24,10 @@ OWN_FIELD = Place(PARAMETERS)[""]  # the home of a parameter whose field is call
 
 
 def make_identifier(base_name: str) -> str:
-    """Return the identifier of something that a file calls `base_name`: single underscores, the last one at its end.
+    """Return the identifier for a name of a file: with single underscores, the last one at its end.
 
-    Other characters become underscores. No fixed name of the generator, of the engine or of a language has that form,
-    so that none can be equal to it.
+    Other characters than letters and digits become underscores: "rod.head" gives "rod_head_". No fixed name of the
+    generator, of the engine or of a language has that form, so that none can be equal to it.
     """
     return re.sub(r"[\W_]+", "_", base_name).strip("_") + "_"
 
@@ -76,7 +76,10 @@ class Symbols(Freezable):
         return copy_
 
     def copy_parameters_only(self) -> Symbols:
-        """Return a symbol table for other functions of the same library, which shares only the parameters."""
+        """Return a new symbol table for other functions of the same scene, which shares only the parameters.
+
+        Switches of joints are shared too. A parameter that is added to the new table gets a name and entry in both.
+        """
         other_table = Symbols()
         other_table._shared_table, other_table.switches = self, self.switches.copy_for_functions()
         for symbol, info in self.info.items():
@@ -85,7 +88,7 @@ class Symbols(Freezable):
         return other_table
 
     def add_shared_parameter(self, symbol: sp.Symbol) -> None:
-        """Add a parameter that was made in the other table of the same library, with its definition.
+        """Add a parameter of the other symbol table of the same scene to this table, with its definition.
 
         Nothing happens if there is no other table or the symbol is known.
         """
@@ -112,7 +115,7 @@ class Symbols(Freezable):
         return candidate
 
     def find_shorter_names(self, used_names: Collection[str]) -> dict[Key, Key]:
-        """Return shorter names for names that carry a number: without the number, or with the smallest unused one.
+        """Return shorter names for names that end with a number: without the number, or with the smallest unused one.
 
         `used_names`: all names in the function. The result maps each old name to its new one; names that stay are left
         out.
@@ -139,22 +142,21 @@ class Symbols(Freezable):
         return {name: candidate for name, candidate in short_names.items() if name != candidate}
 
     def _is_parameter_field(self, name: str) -> bool:
-        """Return whether a parameter's field has this name, which must not stand for something else."""
+        """Return whether a parameter's field in the struct Parameters has this name."""
         return self._find_place(name) == Place(PARAMETERS)[name]
 
     def _find_place(self, name: str) -> Place | None:
-        """Return the place of the symbol with a name; None for a local or an unknown name."""
+        """Return the storage place of the symbol with a name; None for a local or an unknown name."""
         info = self.info.get(sp.Symbol(name, real=True))
         return info.place if info else None
 
     def add_symbol(
         self, base_name: str, place: Place | None = None, meaning: str = "", unit: str = "", field_base_name: str = ""
     ) -> sp.Symbol:
-        """Return a new real symbol, with an unused name made from `base_name`.
+        """Return a new real symbol, with an unused name made from `base_name`, and record its place, meaning and unit.
 
-        `place`: the place where it is read; with OWN_FIELD it is a field of Parameters, called as `field_base_name` or
-        else as the symbol. Terms are ordered by the symbol's own name. `place` None: the symbol is not read but defined
-        by an expression.
+        `place`: the storage place where it is read; None: it is defined by an expression. With OWN_FIELD it is a field
+        of Parameters, called as `field_base_name`, or as the symbol if that is "".
         """
         shared_table = self._shared_table if place and place.is_parameter else None
         name, field_name = (
@@ -170,7 +172,7 @@ class Symbols(Freezable):
     def _make_name_for_both_tables(self, base_name: str, shared_table: Symbols | None) -> str:
         """Return an unused name made from `base_name` that the table `shared_table` does not contain either.
 
-        The name is added there too. `shared_table` may be None.
+        The name is marked as used in both. `shared_table` None: only this table counts.
         """
         name = self.make_unique_name(base_name)
         while shared_table is not None and name in shared_table._names:
@@ -188,7 +190,7 @@ class Symbols(Freezable):
         unit: str = "",
         field_base_name: str = "",
     ) -> sp.Symbol:
-        """Return a new symbol that stands for `expression`; the other arguments are those of `add_symbol`.
+        """Return a new symbol that stands for `expression`, its definition; other arguments are those of `add_symbol`.
 
         A parameter's definition is stored in the shared table too.
         """
@@ -199,7 +201,10 @@ class Symbols(Freezable):
         return symbol
 
     def differentiate(self, expression: sp.Expr, variable: sp.Symbol) -> sp.Expr:
-        """Return the derivative of an expression by `variable`, with the rules of derived symbols (chain rule)."""
+        """Return the derivative of an expression by `variable` by the chain rule, with the rules of derived symbols.
+
+        A symbol other than `variable` that has no rule for it counts as constant.
+        """
         result = sp.Integer(0)
         for symbol in sorted(find_symbols(expression), key=lambda s: s.name):
             inner_derivative = sp.Integer(1) if symbol == variable else self.rules.get(symbol, {}).get(variable)
@@ -208,14 +213,17 @@ class Symbols(Freezable):
         return result
 
     def find_variables(self, expression: sp.Expr) -> set[sp.Symbol]:
-        """Return the symbols by which `differentiate` may give a derivative other than 0."""
+        """Return the symbols of an expression, and those by which the rules of its symbols give derivatives.
+
+        `differentiate` returns 0 for all others.
+        """
         symbols = find_symbols(expression)
         return set(symbols).union(*(self.rules[symbol] for symbol in symbols if symbol in self.rules))
 
     def differentiate_definitions(self, expression: sp.Expr, variable: sp.Symbol) -> sp.Expr:
         """Return the derivative of an expression by `variable`, through the definitions of derived symbols.
 
-        It is for symbols that no rule names: rates that a drive prescribes.
+        It is for variables that no rule contains: rates that a drive prescribes.
         """
         result = sp.Integer(0)
         for symbol in sorted(find_symbols(expression), key=lambda s: s.name):

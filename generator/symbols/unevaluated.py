@@ -73,9 +73,9 @@ def apply_unexpanded(operation: Callable[..., sp.Expr], *operands: sp.Expr) -> s
 
 
 def _has_new_extreme_numbers(result: sp.Expr, operands: tuple[sp.Expr, ...]) -> bool:
-    """Return whether a result contains extreme numbers, or several high powers as factors, that are new.
+    """Return whether a result contains extreme numbers that no operand has, or is a product of several high powers.
 
-    New are those that no operand contains.
+    Extreme numbers are beyond 60 decades from 1. The product counts only if no operand is a product with a high power.
     """
     extreme_numbers = {part for part in result.atoms(sp.Number) if _is_extreme(part)}
     if extreme_numbers and not extreme_numbers <= set().union(*(part.atoms(sp.Number) for part in operands)):
@@ -88,7 +88,7 @@ def _has_new_extreme_numbers(result: sp.Expr, operands: tuple[sp.Expr, ...]) -> 
 
 
 def _count_high_powers(product: sp.Mul) -> int:
-    """Return the number of factors of a product that are high powers."""
+    """Return the number of factors of a product that are powers with an exponent of magnitude above 16."""
     exponents = [factor.exp for factor in product.args if factor.is_Pow]
     return sum(bool(exponent.is_Number and abs(exponent) > _MAX_POWER) for exponent in exponents)
 

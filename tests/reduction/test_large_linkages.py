@@ -64,7 +64,7 @@ def test_the_tree_of_a_long_chain_is_the_cheapest_of_all_candidates() -> None:
     model = make_chain(30)
     tree = choose_tree(model)
     estimate = OperationEstimate(model, tree.angles, frozenset(tree.solved), tree.shared_points)
-    assert estimate(tree.links) == min(tree.costs)
+    assert estimate(tree.edges) == min(tree.costs)
     assert len(tree.costs) == 5 and tree.costs[0] > min(tree.costs)
 
 

@@ -193,7 +193,7 @@ def test_the_tree_taken_is_the_cheapest() -> None:
     tree = choose_tree(model)
     estimate = OperationEstimate(model, tree.angles, frozenset(tree.solved), tree.shared_points)
     costs = simulation.source.story.costs
-    assert estimate(tree.links) == min(costs) < costs[0]
+    assert estimate(tree.edges) == min(costs) < costs[0]
 
 
 @pytest.mark.parametrize("name", ["nine_bar_press", "slider_crank"])

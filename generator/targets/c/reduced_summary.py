@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from gudgeon.generator.kernels.dynamics import format_coordinate_name
 from gudgeon.generator.reduction.frames import CONSTANT
 from gudgeon.generator.reduction.reduction import TreeSystem
-from gudgeon.generator.reduction.tree import Link
+from gudgeon.generator.reduction.tree import TreeEdge
 
 _MAX_LISTED = 40  # bodies, unknowns or closures
 
@@ -20,7 +20,10 @@ def describe_reduced_file(system: TreeSystem) -> list[str]:
     joints with play.
     """
     tree, unknowns = system.tree, list(map(format_coordinate_name, system.unknowns))
-    links = [f"{link.body}: {_describe_position(link)}; {_describe_angle(system, link.body)}" for link in tree.links]
+    tree_edges = [
+        f"{tree_edge.body}: {_describe_position(tree_edge)}; {_describe_angle(system, tree_edge.body)}"
+        for tree_edge in tree.edges
+    ]
     stored_coordinates = [f"q[{k}] = {name} ({_get_unit(name)})" for k, name in enumerate(unknowns)]
     if system.driven_loops:
         names = map(format_coordinate_name, system.driven_loops.names)
@@ -32,7 +35,7 @@ def describe_reduced_file(system: TreeSystem) -> list[str]:
         "M a + Phi_q^T lambda = g and Phi_q a = gamma with q = s. Joints outside the tree are the loop closures Phi.",
         "",
         "Tree, parents first (body: how it is positioned; its angle):",
-        *_format_comment_list(links, "\n"),
+        *_format_comment_list(tree_edges, "\n"),
         "Unknowns, with rates in v and accelerations in a at the same index:",
         *_format_comment_list(stored_coordinates or ["none"]),
         "Loop closures, with the places of their multipliers:",
@@ -45,12 +48,12 @@ def describe_reduced_file(system: TreeSystem) -> list[str]:
     ]
 
 
-def _describe_position(link: Link) -> str:
-    """Return in words how a link of the tree positions its body: freely, or on its parent by a joint."""
-    if link.joint is None:
+def _describe_position(tree_edge: TreeEdge) -> str:
+    """Return in words how an edge of the spanning tree positions its body: freely, or on its parent by a joint."""
+    if tree_edge.joint is None:
         return "moves freely, x and y are unknowns"
-    displacement = f", displaced by {link.coordinates[0]}" if link.slides else ""
-    return f"on {link.parent} by {link.joint.name}{displacement}"
+    displacement = f", displaced by {tree_edge.coordinates[0]}" if tree_edge.slides else ""
+    return f"on {tree_edge.parent} by {tree_edge.joint.name}{displacement}"
 
 
 def _describe_angle(system: TreeSystem, body: str) -> str:
