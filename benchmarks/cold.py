@@ -93,7 +93,7 @@ def main() -> None:
     """Run the benchmark from the command line."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("--repeats", type=int, default=3)
-    repeats = parser.parse_args().is_periodic
+    repeats = parser.parse_args().repeats
     print(f"{machine()}; s, the fastest of {repeats}; wall, and processor time of Python and of the compiler\n")
     for kind in KINDS:
         print(f"{kind:<28}" + "".join(f"{name:>16}" for name in COLUMNS))

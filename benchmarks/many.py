@@ -236,7 +236,7 @@ def main() -> None:
     parts = {side_by_side: options.beside, outside: options.outside, series: options.series}
     if any(parts.values()):
         for part in (part for part, expected in parts.items() if expected):
-            part(options.is_periodic)
+            part(options.repeats)
         return
     simulation = gudgeon.load("nine_bar_press", scene="lubricated", quick=False)
     parameters = grid(options.clearances, options.speeds)
@@ -249,17 +249,14 @@ def main() -> None:
         print(f"  {rtol:<7.0e} {error:.1e}")
         if error <= REQUIRED_ERROR:
             break
-    one, two, cpu_one, cpu_two = least(simulation, parameters, rtol, options.is_periodic)
+    one, two, cpu_one, cpu_two = least(simulation, parameters, rtol, options.repeats)
     n = len(reference)
     print("\n             ms a run   CPU ms a run")
     print(f"  1 thread   {1e3 * one / n:8.2f}   {1e3 * cpu_one / n:12.2f}")
     print(f"  2 threads  {1e3 * two / n:8.2f}   {1e3 * cpu_two / n:12.2f}")
-    print(
-        f"  two threads are {one / two:.2f} times as fast as one; two that only hash: "
-        f"{machine(options.is_periodic):.2f}"
-    )
+    print(f"  two threads are {one / two:.2f} times as fast as one; two that only hash: {machine(options.repeats):.2f}")
     for part in parts:
-        part(options.is_periodic)
+        part(options.repeats)
 
 
 if __name__ == "__main__":

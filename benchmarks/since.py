@@ -121,7 +121,7 @@ def main() -> None:
         print(f"  {'':<44}{'before':>9}{'now':>9}{'ratio':>9}")
         for name, scene in COLD:
             least = dict.fromkeys(places, math.inf)
-            for k in range(options.is_periodic + 1):  # the first writes Python's compiled modules
+            for k in range(options.repeats + 1):  # the first writes Python's compiled modules
                 for side, place in places.items():
                     took = cold(place, name, scene)
                     least[side] = min(least[side], took) if k else math.inf
@@ -131,7 +131,7 @@ def main() -> None:
             for side, place in places.items():
                 batch(place, of, f"{caches}/{side}")
             sleep(COMPILED)
-            for _ in range(options.is_periodic):
+            for _ in range(options.repeats):
                 for side, place in places.items():
                     least[side] = min(least[side], batch(place, of, f"{caches}/{side}"))
             print_row(f"{of.title}, ms", least)

@@ -141,10 +141,10 @@ def main() -> None:
     parser.add_argument("--batches", action="store_true", help="runs in batches, without a study")
     parser.add_argument("--large", action="store_true", help="batches of 100,000 on two threads")
     options = parser.parse_args()
-    for scene, (t_end, required) in (*LARGE.items(),) * options.is_periodic if options.large else ():
+    for scene, (t_end, required) in (*LARGE.items(),) * options.repeats if options.large else ():
         print(f"  100,000 {scene} presses of {t_end} s: {large(scene):.1f} s (asked: at most {required:g})", flush=True)
     if options.batches:
-        batches(options.is_periodic)
+        batches(options.repeats)
     if options.batches or options.large:
         return
     if options.one:
@@ -152,7 +152,7 @@ def main() -> None:
         return
     least = {of: {1: math.inf, 2: math.inf} for of in (TENTH, WHOLE)}
     print("  threads    runs  failed   ms a run: wall    CPU  alone    MB: before  most")
-    for of, threads in [(TENTH, 1), (TENTH, 2)] * options.is_periodic + [(WHOLE, 1), (WHOLE, 2)]:
+    for of, threads in [(TENTH, 1), (TENTH, 2)] * options.repeats + [(WHOLE, 1), (WHOLE, 2)]:
         found = run_separately(of, threads)
         each = [1e3 * found[name] / found["runs"] for name in ("wall", "cpu", "alone")]
         text = f"{each[0]:16.3f}{each[1]:7.3f}{each[2]:7.3f}{found['before']:14.0f}{found['most']:6.0f}"

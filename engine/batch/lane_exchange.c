@@ -31,7 +31,7 @@ typedef struct {
 #if TAYLOR
 #define CLEARED_BYTES (offsetof(LaneGroup, integrator) + offsetof(LaneIntegrator, series.terms))
 #else
-#define CLEARED_BYTES sizeof(LaneGroup)
+#define CLEARED_BYTES offsetof(LaneGroup, step)
 #endif
 
 /* Return whether entry i of a group holds a run. */
@@ -54,7 +54,10 @@ static void load_lane_parameters(LaneGroup *group, int k, int i)
 }
 
 #if IMPLICIT_STAGES && !TAYLOR
-/* Load the iteration history of a run into lane k: first guesses of the stages follow from it. */
+/*
+ * Load what methods with iterated stages need of a run into lane k: its iteration history, from which first guesses of
+ * the stages follow, and the scales of film forces.
+ */
 static void gather_history(LaneIntegrator *lanes, int k, Integrator *run)
 {
     update_iteration_history(run);
@@ -62,6 +65,9 @@ static void gather_history(LaneIntegrator *lanes, int k, Integrator *run)
     lanes->newton.convergence_rate[k] = run->newton.convergence_rate;
     lanes->newton.force_found[k] = run->newton.force_found;
     lanes->newton.continues[k] = -run->newton.continues;
+    lanes->films.lightest[k] = run->films.lightest;
+    for (int kind = 0; kind < 2; kind++)
+        lanes->norm.min_size[kind][k] = run->norm.min_size[kind];
     for (int j = 0; j < N_Y; j++) {
         lanes->newton.before_y[j][k] = run->newton.before_y[j];
         lanes->newton.before_dy[j][k] = run->newton.before_dy[j];
@@ -164,6 +170,9 @@ static void scatter_step(const LaneGroup *group, int k, Step *step)
     step->stage_values_lane = (const double *)lane_step->stage_values + k;
     step->dense_ready = lane_step->dense_ready && !lane_step->has_no_dense[k] ? IN_LANE : 0;
     step->lanes = LANES;
+    for (int i = 0; i < 2; i++)
+        step->residual[i] = lane_step->residual[i][k];
+    step->film_error = lane_step->film_error[k];
     step->n_stored_stages = lane_step->n_stored_stages;
     for (int s = 0; s < lane_step->n_stored_stages; s++)
         step->node[s] = lane_step->node[s];

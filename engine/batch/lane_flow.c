@@ -48,15 +48,20 @@ static int advance_run_to_next_step(LaneGroup *group, int i, int trial_result, i
 /* Return whether the next step of run i of the group is by this method (BY_...). */
 static int needs_method(const LaneGroup *group, int i, int method) { return group->next_method[i] == method; }
 
-/* Return the number of lanes that have a run whose next step is by this method; run i belongs to lane i % LANES. */
-static int count_lanes_of_method(const LaneGroup *group, int method)
+/*
+ * Count, for each method, the lanes that have a run whose next step is by that method (count, LANE_KINDS of them). Run
+ * i belongs to lane i % LANES.
+ */
+static void count_lanes_of_methods(const LaneGroup *group, int *count)
 {
-    int has_lane[LANES] = {0}, count = 0;
+    unsigned char has_lane[LANE_KINDS + 1][LANES] = {0}; /* the row after the last: runs without a next step */
     for (int i = 0; i < MAX_GROUP_RUNS; i++)
-        has_lane[i % LANES] |= needs_method(group, i, method);
-    for (int k = 0; k < LANES; k++)
-        count += has_lane[k];
-    return count;
+        has_lane[group->next_method[i] < 0 ? LANE_KINDS : group->next_method[i]][i % LANES] = 1;
+    for (int method = 0; method < LANE_KINDS; method++) {
+        count[method] = 0;
+        for (int k = 0; k < LANES; k++)
+            count[method] += has_lane[method][k];
+    }
 }
 
 /*
@@ -133,10 +138,9 @@ static int try_lane_steps(LaneGroup *group, int method, int *lists_full)
 static int advance_lanes(LaneGroup *group, int *lists_full)
 {
     int n_reported = 0, best_method = 0, count[LANE_KINDS];
-    for (int method = 0; method < LANE_KINDS; method++) {
-        count[method] = count_lanes_of_method(group, method);
+    count_lanes_of_methods(group, count);
+    for (int method = 0; method < LANE_KINDS; method++)
         best_method = count[method] > count[best_method] ? method : best_method;
-    }
     if (count[best_method] > 1)
         return try_lane_steps(group, best_method, lists_full);
     for (int i = 0; i < MAX_GROUP_RUNS; i++) {

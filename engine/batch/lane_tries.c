@@ -39,8 +39,8 @@ static int is_step_rejected(LaneIntegrator *run, LaneStep *step)
 }
 
 /*
- * Project the end of a step onto the constraints and compute the rates there, in all lanes. Return 0. Lanes with a
- * large projection or numbers that are not finite are marked as rare.
+ * Project the end of a step onto the constraints and compute the rates and the residuals of the closures there, in all
+ * lanes. Return 0. Lanes with a large projection or numbers that are not finite are marked as rare.
  */
 static int finish_step(LaneIntegrator *run, LaneStep *step, const LaneParameters *p)
 {
@@ -51,6 +51,8 @@ static int finish_step(LaneIntegrator *run, LaneStep *step, const LaneParameters
     run->discrete.rare |= compute_constraint_distance(run, before, step->y) > MAX_CONSTRAINT_DRIFT;
     evaluate_run_rhs(run, step->t + step->h, step->y, p, step->dy, &step->rhs);
     run->discrete.rare |= find_nonfinite_lanes(step->dy, NULL, N_Y);
+    step->residual[0] = step->residual[1] = broadcast(0.0);
+    accept_state(step->t + step->h, step->y, &run->discrete, p, &step->rhs, &step->residual[0], &step->residual[1]);
     return 0;
 }
 
@@ -117,6 +119,9 @@ static int is_error_not_finite(LaneIntegrator *run, Lanes error)
     run->discrete.rare |= ~(lanes_fabs(error) <= DBL_MAX);
     return 0;
 }
+
+/* Return component i of stage s (a rate or an increment) in all lanes. */
+static inline Lanes read_stage_component(const LaneStep *step, int s, int i) { return step->k[s][i]; }
 
 /*
  * Linearize the equations of all lanes and factorize Newton's matrix 1 - hg J, hg = h gamma in s. Return 0. Lanes with
@@ -189,16 +194,15 @@ static void record_iterated_stage(LaneIntegrator *run, LaneStep *step, LaneBits 
     evaluate_lane_event_functions(run, rhs, event_functions);
     for (int j = 0; j < N_EVENT_FUNCTIONS; j++) {
         values[j] = select_value(is_active, event_functions[j], values[j]);
-        step->lowest[j] = select_value(is_active, lanes_min_of(step->lowest[j], event_functions[j]), step->lowest[j]);
+        step->lowest[j] = lanes_min_of(step->lowest[j], values[j]); /* no change in lanes that keep their value */
     }
     step->node[step->n_stored_stages++] = node;
     for (int i = 0; i < N_CLEARANCES; i++) {
-        const Lanes rate = rhs->clearance[i].deltadot, *const old = step->rate[i];
-        const Lanes low = lanes_min_of(old[0], rate), high = lanes_max_of(old[1], rate);
-        step->rate[i][0] = select_value(is_active, low, old[0]);
-        step->rate[i][1] = select_value(is_active, high, old[1]);
+        Lanes *const rate = &values[STAGE_GAP_RATES + i];
         values[STAGE_FORCES + i] = select_value(is_active, compute_squared_force(rhs, i), values[STAGE_FORCES + i]);
-        values[STAGE_GAP_RATES + i] = select_value(is_active, rate, values[STAGE_GAP_RATES + i]);
+        *rate = select_value(is_active, rhs->clearance[i].deltadot, *rate);
+        step->rate[i][0] = lanes_min_of(step->rate[i][0], *rate);
+        step->rate[i][1] = lanes_max_of(step->rate[i][1], *rate);
     }
     for (int k = 0; k < 2 * N_X && N_WATCHED > 0; k++) {
         step->min_state[k] = select_value(is_active, lanes_min_of(step->min_state[k], y[k]), step->min_state[k]);
@@ -213,7 +217,16 @@ static int mark_failed_stages(LaneIntegrator *run, LaneBits has_failed)
     return 0;
 }
 
+#include "../scalar_simd/film_error.h"
 #include "../scalar_simd/radau.h"
+
+/* Compute the error of film forces at the ends of a step by radau5 or radau9 in all lanes. */
+static void compute_film_errors(const LaneIntegrator *run, int method, LaneStep *step)
+{
+    if (has_films() && any_of(step->is_accepted))
+        step->film_error = compute_film_error_at_ends(run, step,
+            method == BY_RADAU5 ? &radau5_end_rates : &radau9_end_rates, FILM_PART);
+}
 #endif
 
 /* Try a step of length h (s) by `method` (BY_...) in all lanes. Return 0 or a status. */
@@ -284,5 +297,9 @@ static void try_lanes(LaneIntegrator *run, int method, Lanes h, const LaneParame
 #if !TAYLOR
     if (method == BY_DOP853)
         compute_dense_output(run, p, step);
+#if IMPLICIT_STAGES
+    if (method >= BY_RADAU5)
+        compute_film_errors(run, method, step);
+#endif
 #endif
 }

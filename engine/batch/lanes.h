@@ -191,9 +191,9 @@ typedef struct {
 
 /* ErrorNorm of several runs. */
 typedef struct {
-    Lanes weight[N_Y];
+    Lanes weight[N_Y], min_size[2];
 #if TAYLOR
-    Lanes energy_scale, work_scale, speed[2], speed_floor[2], min_size[2], inverse_scale[2 * N_X];
+    Lanes energy_scale, work_scale, speed[2], speed_floor[2], inverse_scale[2 * N_X];
 #endif
 } LaneNorm;
 
@@ -218,6 +218,9 @@ typedef struct {
     } series;
 #else
     struct {
+        Lanes lightest;
+    } films;
+    struct {
         LaneLinear linear;
 #if IMPLICIT_STAGES
         Lanes last_h, before_y[N_Y], before_dy[N_Y], convergence_rate, force_found;
@@ -240,6 +243,8 @@ typedef struct {
     double node[N_STAGES];
     Lanes stage_values[N_STAGES][AT_LEAST_ONE(N_STAGE_VALUES)], lowest[AT_LEAST_ONE(N_EVENT_FUNCTIONS)],
         rate[AT_LEAST_ONE(N_CLEARANCES)][2];
+    Lanes residual[2]; /* largest |Phi| and |Phi_dot| of the closures at the end */
+    Lanes film_error;  /* with Radau: error of film forces at the ends */
     Lanes min_state[2 * N_X + 1], max_state[2 * N_X + 1];
     LaneBits is_accepted, is_failed, has_no_stages, has_no_dense;
 } LaneStep;

@@ -59,8 +59,10 @@ static int commit_step(Integrator *run, Step *step, double fraction, double t_ne
     update_error_weights(run);
     for (int i = 0; i < N_CLEARANCES; i++)
         update_compression(run, i, run->rhs.clearance[i].deltadot);
+    /* the end of the step in the lanes is the new state, at the same time to the last bit */
+    const int knows_residuals = step->stage_values_lane && fraction >= 1.0 && run->t == step->t + step->h;
     const double drift = run->residuals.phi_dot_max; /* at a jump of a drive, rates are those before the impulse */
-    status = record_accepted_state(run, p);
+    status = record_accepted_state(run, knows_residuals ? step->residual : NULL, p);
     if (DRIVE_IMPULSES && event >= N_CLEARANCES && event < N_CLEARANCES + N_SWITCHES)
         set_phi_dot_max(run, drift);
     if (!status && event < 0 && run->roots.skip >= 0) { /* away from the switching point, on either branch */

@@ -32,35 +32,8 @@ static double find_largest_film_force(const RhsOutputs *rhs, int *joint)
     return most;
 }
 
-#define RATE_ROUNDED (64.0 * DBL_EPSILON) /* relative rounding of velocities in the dense output */
-
-/*
- * Return the relative error of film forces: the difference of the accelerations `dy` of a state and `rate` of the dense
- * output. The scale is the acceleration of the lightest body by `film_force` (N). If larger, it is `scale_fraction` of
- * the largest acceleration of the same kind (length or angle). Rounding of velocities over the step is subtracted. The
- * result is 0 if film_force is 0.
- */
-static double compute_relative_film_error(const Integrator *run, const Step *step, const double *rate, const double *dy,
-    double film_force, double scale_fraction)
-{
-    const double rate_rounding = RATE_ROUNDED / step->h;
-    double difference[2] = {0.0, 0.0}, largest[2], fraction = 0.0;
-    largest[0] = film_force / run->films.lightest;
-    largest[1] = largest[0] * run->norm.min_size[1] / run->norm.min_size[0];
-    for (int k = N_X; k < 2 * N_X && film_force > 0.0; k++) {
-        const int kind = !!is_angle[k - N_X];
-        difference[kind] = max_of(difference[kind], fabs(rate[k] - dy[k]) - rate_rounding * fabs(run->y[k]));
-        largest[kind] = max_of(largest[kind], scale_fraction * max_of(fabs(run->dy[k]),
-            max_of(fabs(rate[k]), fabs(dy[k]))));
-    }
-    for (int kind = 0; kind < 2; kind++)
-        fraction = max_of(fraction, largest[kind] > 0.0 ? difference[kind] / largest[kind] : 0.0);
-    return fraction;
-}
-
 #define FILM_FORCE 1e4 /* times rtol: allowed relative error of a film force inside a step */
 #define RODAS5P_FILM 3.0 /* factor for rodas5p, whose dense output has errors all along the step */
-#define FILM_PART 0.03 /* of the largest acceleration: smaller effects of film forces are less accurate */
 #define FILM_FADED 1e-3 /* of the largest film force of a run: smallest scale of film errors in the audit */
 #define FILM_AUDIT 1e5 /* times rtol: limit in the audit, at least 1e-3; explicit methods: tenfold, no control */
 
@@ -88,12 +61,11 @@ static double evaluate_relative_film_error(Integrator *run, const Step *step, do
     const Parameters *p)
 {
     double y[N_Y], dy[N_Y], rate[N_Y];
-    int joint;
     RhsOutputs rhs;
     if (evaluate_state_at(run, step, theta, p, y, dy, &rhs))
         return -1.0;
     interpolate_rates(step, theta, 2 * N_X, rate);
-    return compute_relative_film_error(run, step, rate, dy, max_of(min_force, find_largest_film_force(&rhs, &joint)),
+    return compute_relative_film_error(run, step, rate, dy, max_of(min_force, compute_largest_film_force(&rhs)),
         FILM_PART);
 }
 
@@ -105,9 +77,8 @@ static double evaluate_relative_film_error(Integrator *run, const Step *step, do
  */
 static double measure_film_error(Integrator *run, Step *step, const Parameters *p)
 {
-    int joint;
-    const double force_at_ends = max_of(find_largest_film_force(&step->rhs, &joint),
-        find_largest_film_force(&run->rhs, &joint));
+    const double force_at_ends =
+        max_of(compute_largest_film_force(&step->rhs), compute_largest_film_force(&run->rhs));
     const double fraction = compute_dense_output(run, p, step)
         ? -1.0 : evaluate_relative_film_error(run, step, step->method->max_error_fraction, force_at_ends, p);
     if (fraction < 0.0)
@@ -129,49 +100,24 @@ static int has_inaccurate_film_force_at_event(Integrator *run, const Step *step,
         p) > compute_film_error_limit(run);
 }
 
-/*
- * Compute the rates of the velocities (`rate` N_X ... 2 N_X - 1) of a stiff method's dense output at one end of a step.
- * They are (sum of stage_weights times the n stages + end_weight (y - y0)) / h. Stages are read from the lane if the
- * step was computed in lanes.
- */
-static void compute_end_rates(
-    const Integrator *run, const Step *step, const double *stage_weights, int n, double end_weight, double *rate)
-{
-    const double *k = step->stages_lane ? step->stages_lane : step->k[0];
-    const int stride = step->stages_lane ? step->lanes : 1;
-    for (int i = N_X; i < 2 * N_X; i++) {
-        rate[i] = end_weight * (step->y[i] - run->y[i]);
-        for (int s = 0; s < n; s++)
-            rate[i] += stage_weights[s] * k[(s * N_Y + i) * stride];
-        rate[i] /= step->h;
-    }
-}
-
 #define FILM_SMALL 0.02 /* of the limit: with smaller errors at the ends, the error inside is measured rarely */
 #define FILM_LONGER 1.5 /* times the last measured step: longer steps are measured */
 enum { FILM_STEPS = 16 /* steps between two measurements */ };
 
 /*
  * Return the error of film forces at both ends of a step in multiples of its limit, without evaluating a right-hand
- * side. At the beginning it is the error of the dense output, at the end that of the iteration of velocities.
- * scale_fraction: see compute_relative_film_error(). Return 0 for explicit methods and without films. The result of
- * measure_film_error() was up to 37 times as large, for errors far below the limit.
+ * side, by compute_film_error_at_ends(). For scale_fraction = FILM_PART, the lanes have computed it. Return 0 for
+ * explicit methods and without films. The result of measure_film_error() was up to 37 times as large, for errors far
+ * below the limit.
  */
 static double estimate_film_error_at_ends(const Integrator *run, const Step *step, double scale_fraction)
 {
-    const Method *method = step->method;
-    double rate[N_Y];
-    int joint;
-    if (!method->stiff || !has_films())
+    if (!step->method->stiff || !has_films())
         return 0.0;
-    const double film_force = find_largest_film_force(&step->rhs, &joint);
-    compute_end_rates(run, step, method->begin_weights, method->n_begin_weights, method->begin_weight_of_end, rate);
-    double fraction = compute_relative_film_error(run, step, rate, run->dy, film_force, scale_fraction);
-    if (method->n_end_weights) {
-        compute_end_rates(run, step, method->end_weights, method->n_end_weights, method->end_weight_of_end, rate);
-        fraction = max_of(fraction, compute_relative_film_error(run, step, rate, step->dy, film_force, scale_fraction));
-    }
-    return fraction / compute_film_error_limit(run);
+    const int is_known = step->stage_values_lane && step->method->lane >= BY_RADAU5 && scale_fraction == FILM_PART;
+    return (is_known ? step->film_error
+        : compute_film_error_at_ends(run, step, step->method->end_rates, scale_fraction))
+        / compute_film_error_limit(run);
 }
 
 /*

@@ -22,9 +22,7 @@ struct Method {
     const double *error_nodes;      /* fractions of a step, ascending, of its error estimate */
     int n_error_nodes;
     double max_error_fraction; /* of a stiff method: fraction with the largest error of its dense output */
-    double begin_weights[8], begin_weight_of_end; /* for h times the rates at the begin: of stages, y - y0 */
-    double end_weights[4], end_weight_of_end; /* the same at the end, for methods with iterated stages */
-    int n_begin_weights, n_end_weights;
+    const EndRateWeights *end_rates; /* of a stiff method: rates of its dense output at the ends, from stages */
     int controls_length;           /* whether the method itself chooses the length of a step */
 };
 

@@ -120,15 +120,11 @@ static const Method radau5 = {.name = "radau5", .try = radau5_try_step, .dense =
     .interpolate = radau_interpolate, .power = 1.0 / 4.0, .stiff = 1, .lane = BY_RADAU5, .unstable = INFINITY,
     .bounded = INFINITY, .stages = 3, .degree = 5, .turned = 0xA, .error_nodes = radau5_error_nodes,
     .n_error_nodes = COUNT_OF(radau5_error_nodes), .max_error_fraction = 0.85,
-    .begin_weights = {10.048809399827416, -1.3821427331607489}, .n_begin_weights = 2, .begin_weight_of_end = 1.0 / 3.0,
-    .end_weights = {5.5319726474218083, -7.5319726474218083}, .n_end_weights = 2, .end_weight_of_end = 5.0};
+    .end_rates = &radau5_end_rates};
 
 /* The method Radau IIA of order 9 with five stages. */
 static const Method radau9 = {.name = "radau9", .try = radau9_try_step, .dense = radau9_compute_dense_output,
     .interpolate = radau_interpolate, .power = 1.0 / 6.0, .stiff = 1, .lane = BY_RADAU9, .unstable = INFINITY,
     .bounded = INFINITY, .stages = 5, .degree = 5, .turned = 0xA, .error_nodes = radau9_error_nodes,
     .n_error_nodes = COUNT_OF(radau9_error_nodes), .max_error_fraction = 0.74,
-    .begin_weights = {27.780933944064637, -3.6414784980492132, 1.2525477211691187, -0.59200316718454287},
-    .n_begin_weights = 4, .begin_weight_of_end = 0.2,
-    .end_weights = {8.4124242235942887, -6.970256115656661, 8.7771142041504732, -18.219282311088101},
-    .n_end_weights = 4, .end_weight_of_end = 13.0};
+    .end_rates = &radau9_end_rates};

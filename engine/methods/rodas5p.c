@@ -64,6 +64,10 @@ static void rodas5p_interpolate(const Integrator *run, const Step *step, double 
         y[i] = run->y[i] + s * (d[0][i] + (1.0 - s) * (d[1][i] + s * (d[2][i] + s * d[3][i])));
 }
 
+/* Rates of the dense output of rodas5p at the beginning of a step. */
+static const EndRateWeights rodas5p_end_rates = {
+    .begin = {RODAS5P_BEGINS}, .n_begin = RODAS5P_STAGES, .begin_weight_of_end = 1.0};
+
 /* The Rosenbrock method rodas5p. */
 static const Method rodas5p = {.name = "rodas5p",
     .try = rodas5p_try_step,
@@ -80,6 +84,4 @@ static const Method rodas5p = {.name = "rodas5p",
     .error_nodes = rodas5p_error_nodes,
     .n_error_nodes = COUNT_OF(rodas5p_error_nodes),
     .max_error_fraction = 0.5,
-    .begin_weights = {RODAS5P_BEGINS},
-    .n_begin_weights = RODAS5P_STAGES,
-    .begin_weight_of_end = 1.0};
+    .end_rates = &rodas5p_end_rates};

@@ -57,6 +57,12 @@ static StageValues get_stage_values(const Step *step, int k)
 /* Return the value of the i-th stage from `values`. */
 static double read_stage(StageValues values, int i) { return values.first[i * values.stride]; }
 
+/* Return component i of stage s (a rate or an increment) of a step, from the lane if the step was computed in lanes. */
+static inline double read_stage_component(const Step *step, int s, int i)
+{
+    return step->stages_lane ? step->stages_lane[(s * N_Y + i) * step->lanes] : step->k[s][i];
+}
+
 /* Discard all that is stored of the stages of a step: values, extrema, crossed switching points, range of the state. */
 static void discard_stages(Step *step)
 {
@@ -123,6 +129,7 @@ static int find_closure_correction(Integrator *run, int is_active, double t, con
 
 #include "../scalar_simd/project.h"
 #include "../scalar_simd/distance.h"
+#include "../scalar_simd/film_error.h"
 #include "singular_policy.c"
 
 /*

@@ -194,6 +194,8 @@ static double find_cubic_maximum(double value_0, double slope_0, double value_1,
  */
 static void find_largest_eccentricity(Integrator *run, Step *step, double fraction, int joint, const Parameters *p)
 {
+    if (!(run->rhs.clearance[joint].deltadot > 0.0 && step->rhs.clearance[joint].deltadot < 0.0))
+        return;
     Clearance clearance_low = run->rhs.clearance[joint], clearance_high = step->rhs.clearance[joint];
     double low_fraction = 0.0, high_fraction = fraction;
     for (int n = 0; n < 6 && clearance_low.deltadot > 0.0 && clearance_high.deltadot < 0.0; n++) {
@@ -288,13 +290,11 @@ static int may_have_inner_maximum(const Step *step, double fraction, int joint, 
 /*
  * Return the largest known force in N of a joint inside a step up to `fraction`, from its stages. If a compliant
  * contact continues and few stages are inside, the force in the middle is evaluated on the dense output as well. 0:
- * none.
+ * none. force_begin, force_end: forces at both ends, N.
  */
 static double find_largest_force_within_step(
-    Integrator *run, Step *step, double fraction, int joint, const Parameters *p)
+    Integrator *run, Step *step, double fraction, int joint, double force_begin, double force_end, const Parameters *p)
 {
-    const double force_begin = compute_force_magnitude(&run->rhs.clearance[joint]),
-        force_end = compute_force_magnitude(&step->rhs.clearance[joint]);
     double most = 0.0;
     int n_inner = 0;
     const StageValues forces = get_stage_values(step, STAGE_FORCES + joint);
@@ -339,8 +339,9 @@ static void find_inner_peaks(Integrator *run, Step *step, double fraction, const
             find_rigid_peak(run, step, fraction, i, force_begin[i], force_end[i], p);
 #endif
         const int has_force = run->discrete.contact[i].closed || has_film(i);
-        const double larger_end = max_of(force_begin[i], force_end[i]),
-                     largest_inner = has_force ? find_largest_force_within_step(run, step, fraction, i, p) : 0.0;
+        const double larger_end = max_of(force_begin[i], force_end[i]);
+        const double largest_inner = has_force
+            ? find_largest_force_within_step(run, step, fraction, i, force_begin[i], force_end[i], p) : 0.0;
         has_inner_peak[i] = is_compliant(i) && largest_inner > (step->method->stiff ? MAXIMUM_RATIO_STIFF
             : MAXIMUM_RATIO) * larger_end;
         const double candidate = !is_compliant(i) ? 0.0 : has_inner_peak[i] ? largest_inner : larger_end;

@@ -61,18 +61,30 @@ static int is_outside_contact_laws(const Integrator *run, const Parameters *p)
 }
 
 /*
+ * Update the largest residuals of the closures with those of the present state. residuals: largest |Phi| and |Phi_dot|
+ * there; NULL: they are computed. Return 0 or the status of accept_state().
+ */
+static int update_residuals(Integrator *run, const double *residuals, const Parameters *p)
+{
+    if (!residuals)
+        return accept_state(run->t, run->y, &run->discrete, p, &run->rhs, &run->residuals.phi_max,
+            &run->residuals.phi_dot_max);
+    run->residuals.phi_max = max_of(residuals[0], run->residuals.phi_max);
+    run->residuals.phi_dot_max = max_of(residuals[1], run->residuals.phi_dot_max);
+    return 0;
+}
+
+/*
  * Update peaks, envelope, residuals and the ratio deltadot/deltadot_minus at an accepted state. Return 0, NOT_FINITE if
  * the state or its rates are not finite, OUTSIDE if a penetration exceeds the contact laws, or the status of
- * accept_state(). Called at the start and after each accepted step.
+ * accept_state(). Called at the start and after each accepted step. residuals: see update_residuals().
  */
-static int record_accepted_state(Integrator *run, const Parameters *p)
+static int record_accepted_state(Integrator *run, const double *residuals, const Parameters *p)
 {
-    const RhsOutputs *rhs = &run->rhs;
     double sum = 0.0;
     for (int k = 0; k < N_Y; k++)
         sum += run->dy[k] + run->y[k];
-    const int status = accept_state(run->t, run->y, &run->discrete, p, rhs, &run->residuals.phi_max,
-        &run->residuals.phi_dot_max);
+    const int status = update_residuals(run, residuals, p);
     if (status)
         return status;
     for (int i = 0; i < N_CLEARANCES; i++)
@@ -263,7 +275,7 @@ static int initialize_discrete_state(Integrator *run, const Parameters *p)
             record_nan_event(run, i, run->t);
     }
     run->ready = 1;
-    return status ? status : record_accepted_state(run, p);
+    return status ? status : record_accepted_state(run, NULL, p);
 }
 
 /*

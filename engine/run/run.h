@@ -84,6 +84,9 @@ typedef struct {
     /* of a step computed in lanes: stages, dense output, stage values, with a stride of `lanes` numbers; NULL: here */
     const double *stages_lane, *dense_lane, *stage_values_lane;
     int lanes;
+    /* of a step computed in lanes: largest |Phi| and |Phi_dot| of the closures at its end; with Radau, error of film
+     * forces at its ends (scalar_simd/film_error.h) */
+    double residual[2], film_error;
     /* stages so far; their nodes, stored values (N_STAGE_VALUES), smallest event functions */
     int n_stored_stages;
     double node[N_STAGES], stage_values[N_STAGES][AT_LEAST_ONE(N_STAGE_VALUES)];
@@ -179,7 +182,7 @@ typedef struct {
 
 /*
  * Error of film forces: last measured error, length of that step (s), steps before it; smallest mass of a body with a
- * film, kg. Written by: methods/defect.c.
+ * film, kg. Written by: methods/defect.c. Copied by: batch/lane_exchange.c.
  */
 typedef struct {
     double error, h, lightest;

@@ -64,6 +64,16 @@ static const RadauTable RADAU9 = {
         {-144.05356518917777, 63.630162942362741, -17.885204671340986, -5.2913930818439813, 5.6},
         {199.88739542347736, -127.022853068795, 92.10283313613322, -64.167375490815583, 25.2}}};
 
+/* Rates of the dense output of each method at the ends of a step. */
+static const EndRateWeights radau5_end_rates = {
+    .begin = {10.048809399827416, -1.3821427331607489}, .n_begin = 2, .begin_weight_of_end = 1.0 / 3.0,
+    .end = {5.5319726474218083, -7.5319726474218083}, .n_end = 2, .end_weight_of_end = 5.0};
+static const EndRateWeights radau9_end_rates = {
+    .begin = {27.780933944064637, -3.6414784980492132, 1.2525477211691187, -0.59200316718454287}, .n_begin = 4,
+    .begin_weight_of_end = 0.2,
+    .end = {8.4124242235942887, -6.970256115656661, 8.7771142041504732, -18.219282311088101}, .n_end = 4,
+    .end_weight_of_end = 13.0};
+
 #define RADAU_STAGES 3
 #define RADAU(name) radau5_##name
 #define RADAU_TABLE RADAU5

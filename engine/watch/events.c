@@ -21,6 +21,15 @@ static void flip_ignored_branches(Integrator *run, const Step *step)
 /* Search every switching point again: end the suppression of a repeated one. */
 static void clear_suppressed_switch(Integrator *run) { run->roots.skip = -1; }
 
+/* Return whether any switching function of active branches is negative at the end of a step. */
+static int has_negative_switch_at_end(const Integrator *run, const Step *step)
+{
+    int has_negative = 0;
+    for (int k = 0; k < N_SWITCHES; k++)
+        has_negative |= run->discrete.branch[k] * step->rhs.g[k] < 0.0;
+    return has_negative;
+}
+
 /*
  * Mark in step->passed the switching points that the step may pass without an event, and return whether there is any.
  * They are those of contact laws whose branches meet, and a suppressed repeated one (suppress_repeated_switch), crossed
@@ -34,6 +43,10 @@ static int ignore_harmless_switches(Integrator *run, Step *step, const Parameter
     int has_passed = 0;
     RhsOutputs rhs;
     step->branch_error = INFINITY;
+    if (!has_negative_switch_at_end(run, step)) {
+        memset(step->passed, 0, sizeof step->passed);
+        return 0;
+    }
     for (int k = 0; k < N_SWITCHES; k++) {
         const int gap_function = N_CLEARANCES + k;
         const int is_of_law = meets[k] && watched_as[gap_function] < 0 && run->control.fixed <= 0.0;
@@ -239,11 +252,15 @@ static double find_first_crossing(Integrator *run, Step *step, const Parameters 
 {
     double first = 1.0, max_fraction = 1.0; /* no event is later than that */
     double at_end[AT_LEAST_ONE(N_EVENT_FUNCTIONS)];
+    int has_negative = 0;
     Candidate candidates[AT_LEAST_ONE(N_EVENT_FUNCTIONS)];
     int n = 0;
     *event = -1;
     evaluate_event_functions(&run->discrete, &step->rhs, at_end);
-    for (int k = 0; k < N_EVENT_FUNCTIONS; k++) {
+    for (int k = N_CLEARANCES; k < N_EVENT_FUNCTIONS; k++)
+        has_negative |= (step->lowest[k] < 0.0) | (at_end[k] < 0.0);
+    const int only_gaps = !N_WATCHED && !N_FRICTIONS && !has_negative; /* all others are clear of zero */
+    for (int k = 0; k < (only_gaps ? N_CLEARANCES : N_EVENT_FUNCTIONS); k++) {
         const int is_clear = k >= N_CLEARANCES && watched_as[k] < 0 && !is_contact_force_function(run, k)
             && !(step->lowest[k] < 0.0) && !(at_end[k] < 0.0);
         Candidate candidate;

@@ -78,9 +78,9 @@ class Lanes:
                     run_of_lane[k] = i
                     if runs.has_shared_rows:
                         runs.arrays["sample_block"][i] = free_rows.pop()
-            before = list(run_of_lane)
+            before = self.ffi.unpack(run_of_lane, len(rows))
             status = self.lib.gudgeon_lanes(*arguments, run_of_lane)
-            empty_lanes = [k for k, i in enumerate(run_of_lane) if i == NONE and k < len(rows)]
+            empty_lanes = [k for k, i in enumerate(self.ffi.unpack(run_of_lane, len(rows))) if i == NONE]
             for k in empty_lanes if status != LISTS else range(len(rows)):
                 if before[k] != NONE:
                     _fetch_results(runs, before[k], rows[k], step_logs[k] if step_logs else None)
