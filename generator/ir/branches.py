@@ -12,6 +12,7 @@ import sympy as sp
 
 from gudgeon.generator.ir.statements import Line, Statement
 from gudgeon.generator.ir.values import NO_NAMES, Names
+from gudgeon.generator.symbols.derivatives import find_operation_classes
 from gudgeon.generator.symbols.storage import Key, Place
 from gudgeon.generator.symbols.switches import BranchOf, Select
 
@@ -106,7 +107,7 @@ class Branches:
 
         The new names are added to `names`; a `Select` between two numbers gets none.
         """
-        if not expression.has(Select):
+        if Select not in find_operation_classes(expression):
             return []
         result: list[Line] = []
         for part in sp.postorder_traversal(expression):

@@ -22,7 +22,8 @@ from gudgeon.generator.ir.finite_slopes import (
 from gudgeon.generator.ir.kernels import KernelBuilder
 from gudgeon.generator.ir.reciprocals import find_base_name, is_division
 from gudgeon.generator.ir.statements import Statement
-from gudgeon.generator.symbols.derivatives import find_symbols
+from gudgeon.generator.symbols.derivatives import find_operation_classes, find_symbols
+from gudgeon.generator.symbols.symbol_sums import is_signed_symbol
 from gudgeon.generator.symbols.symbols import Symbols
 
 Tangent = Mapping[sp.Symbol, sp.Expr]  # base symbol -> derivative by it; absent: zero
@@ -135,7 +136,7 @@ class Tangents:
 
         The local is called `<symbol>_by_<base>`. A number or ± a symbol is returned unchanged.
         """
-        if value.is_Number or value.is_Symbol or (-value).is_Symbol:
+        if value.is_Number or is_signed_symbol(value):
             return value
         return self._builder.append_local(f"{symbol.name}_by_{base.name}", self.store_powers(value))
 
@@ -144,7 +145,7 @@ class Tangents:
 
         With `share_powers` its powers become locals too. A value without powers is returned unchanged.
         """
-        if not value.has(sp.Pow):
+        if sp.Pow not in find_operation_classes(value):
             return value
         divided = value.replace(is_division, lambda part: self._store_power("inverse", 1 / part.base) ** -part.exp)
         if not self._share_powers:

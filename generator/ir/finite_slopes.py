@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import sympy as sp
 
-from gudgeon.generator.symbols.derivatives import differentiate, find_symbols
+from gudgeon.generator.symbols.derivatives import differentiate, find_operation_classes, find_symbols
 from gudgeon.generator.symbols.from_expressions import CLASSES, convert_derivative, find_classes
 from gudgeon.generator.symbols.switches import DifferentiableMax, DifferentiableMin, Select
 from gudgeon.generator.symbols.unevaluated import UnevaluatedQuotient
@@ -150,12 +150,20 @@ def convert_for_intervals(expression: sp.Expr) -> sp.Expr:
     frozen over a step stay.
     """
     expression = remove_slopes(expression)
-    return expression.replace(Select, _replace_branch_by_heaviside) if expression.has(Select) else expression
+    return (
+        expression.replace(Select, _replace_branch_by_heaviside)
+        if Select in find_operation_classes(expression)
+        else expression
+    )
 
 
 def remove_slopes(expression: sp.Expr) -> sp.Expr:
     """Return the expression with each `Slope` replaced by its derivative, without the test for overflow."""
-    return expression.replace(Slope, lambda derivative, *_: derivative) if expression.has(Slope) else expression
+    return (
+        expression.replace(Slope, lambda derivative, *_: derivative)
+        if Slope in find_operation_classes(expression)
+        else expression
+    )
 
 
 def _replace_branch_by_heaviside(branch: sp.Expr, a: sp.Expr, b: sp.Expr) -> sp.Expr:

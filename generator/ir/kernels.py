@@ -15,8 +15,8 @@ import sympy as sp
 from gudgeon.generator.ir.signatures import Argument
 from gudgeon.generator.ir.statements import DeclareBranches, Line, SolveDependentRows, Statement
 from gudgeon.generator.ir.values import Value
-from gudgeon.generator.symbols.derivatives import find_symbols
-from gudgeon.generator.symbols.storage import PARAMETERS, Key, Place
+from gudgeon.generator.symbols.derivatives import find_operation_classes, find_symbols
+from gudgeon.generator.symbols.storage import PARAMETERS, Key, Place, make_real_symbol
 from gudgeon.generator.symbols.switches import BranchOf, Switches
 from gudgeon.generator.symbols.symbols import SymbolInfo, Symbols
 
@@ -61,19 +61,22 @@ class Kernel:
     def contains_function(self, function: type[sp.Function]) -> bool:
         """Return whether the value of any statement contains a SymPy function of the class `function`."""
         statements = (s for section in self.sections for s in section.statements if isinstance(s, Statement))
-        return any(isinstance(s.value, sp.Expr) and s.value.has(function) for s in statements)
+        return any(isinstance(s.value, sp.Expr) and function in find_operation_classes(s.value) for s in statements)
 
 
 def count_operations(expression: sp.Expr) -> int:
     """Return the number of operations of an expression as SymPy counts them, but without negations.
 
-    These are folded into additions. Sums and products without quotients are counted here, because SymPy takes ten times
-    as long; other parts by SymPy.
+    These are folded into additions. Reciprocals of symbols, and sums and products without quotients are counted here,
+    because SymPy takes ten times as long; other parts by SymPy.
     """
     n_operations, pending = 0, [sp.sympify(expression)]
     while pending:
         expression_ = pending.pop()
         if expression_.is_Symbol or expression_.is_Integer:
+            continue
+        if expression_.is_Pow and expression_.exp is sp.S.NegativeOne and expression_.base.is_Symbol:
+            n_operations += 1
             continue
         if expression_.is_Add or _is_plain_product(expression_):
             parts = (
@@ -121,14 +124,14 @@ def freeze_branches(
         for statement in section.statements:
             if isinstance(statement, Statement) and isinstance(statement.value, sp.Expr):
                 if isinstance(statement.value, BranchOf):  # assigned by the author of the kernel: once is enough
-                    if (branch_symbol := sp.Symbol(statement.declared_local, real=True)) not in branches:
+                    if (branch_symbol := make_real_symbol(statement.declared_local)) not in branches:
                         branches[branch_symbol] = statement.value
                         statements.append(statement)
                     continue
                 n_known = len(branches)
                 value = switches.freeze_branches(statement.value, owner, branches, registered_only)
                 statements += [Statement(s.name, branch) for s, branch in list(branches.items())[n_known:]]
-                statement = replace(statement, value=value)
+                statement = statement if value is statement.value else replace(statement, value=value)
             statements.append(statement)
         result.append(Section(section.title, tuple(statements)))
     return result
@@ -154,9 +157,10 @@ def change_expression(line: Line, change: Callable[[sp.Basic], Value]) -> Line:
 
     Other lines are returned unchanged.
     """
-    if isinstance(line, Statement) and isinstance(line.value, sp.Basic):
-        return replace(line, value=change(line.value))
-    return line
+    if not (isinstance(line, Statement) and isinstance(line.value, sp.Basic)):
+        return line
+    value = change(line.value)
+    return line if value is line.value else replace(line, value=value)
 
 
 LINEARIZATION = "lin"  # the argument that holds the linearized equations of motion
@@ -213,7 +217,7 @@ class KernelBuilder:
         """
         unique = self._symbols.make_unique_name(name)
         self._sections[-1][1].append(Statement(unique, value, comment))
-        return sp.Symbol(unique, real=True)
+        return make_real_symbol(unique)
 
     def append_store(self, target: Place, value: Value, comment: str = "") -> None:
         """Append a statement that stores a value at a place of an argument or array."""
@@ -332,11 +336,14 @@ class ValuePool:
         `name` is the base of its name. A number or ± a parameter is returned unchanged. For a value that is stored
         already, or its negative, ± the symbol of that element is returned.
         """
-        for sign in (1, -1):
-            if value.is_Number or self._is_parameter(sign * value):
-                return value
-            if sign * value in self._symbols_by_value:
-                return sign * self._symbols_by_value[sign * value]
+        if value.is_Number or self._is_parameter(value):
+            return value
+        if value in self._symbols_by_value:
+            return self._symbols_by_value[value]
+        if self._is_parameter(negative := -value):
+            return value
+        if negative in self._symbols_by_value:
+            return -self._symbols_by_value[negative]
         symbol = self._symbols.add_symbol(name, self.array[self._append_value(builder, value)])
         self._symbols_by_value[value], self._index_by_value[symbol] = symbol, self._index_by_value[value]
         return symbol
@@ -356,9 +363,10 @@ class ValuePool:
 
         A value that is not stored yet, such as a number or parameter, is stored first.
         """
-        for sign in (1, -1):
-            if sign * value in self._index_by_value:
-                return self._index_by_value[sign * value], sign
+        if value in self._index_by_value:
+            return self._index_by_value[value], 1
+        if (negative := -value) in self._index_by_value:
+            return self._index_by_value[negative], -1
         return self._append_value(builder, value), 1
 
     def _append_value(self, builder: KernelBuilder, value: sp.Expr) -> int:

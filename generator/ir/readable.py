@@ -16,7 +16,7 @@ import sympy as sp
 from gudgeon.generator.ir.branches import Branches
 from gudgeon.generator.ir.kernels import Kernel, Section
 from gudgeon.generator.ir.statements import Line, Statement
-from gudgeon.generator.symbols.storage import Key, Place
+from gudgeon.generator.symbols.storage import Key, Place, make_real_symbol
 
 _DENOMINATORS = tuple(k for k in range(1, 361) if 360 % k == 0)  # whole and half degrees, turns in a minute
 _MAX_NUMERATOR = 1000  # times PI
@@ -99,12 +99,10 @@ def make_readable(kernel: Kernel, name_branches: bool = True) -> Readable:
     """
     arguments = {argument.name for argument in kernel.arguments}
     names = dict(kernel.names)
-    used_names = {
-        name
-        for section in kernel.sections
-        for line in section.statements
-        for name in (*line.reads, line.declared_local)
-    }
+    used_names = set[str]()
+    for section in kernel.sections:
+        for line in section.statements:
+            used_names.update(line.reads, (line.declared_local,))
     branches = Branches(used_names | arguments | {str(name_) for name_ in names.values()})
     sections = []
     for section in kernel.sections:
@@ -149,6 +147,7 @@ def _merge_copy_to_parameter(assignment: Line, copy_line: Line) -> Statement | N
     """
     if not (isinstance(assignment, Statement) and isinstance(copy_line, Statement) and assignment.declared_local):
         return None
-    is_copy = copy_line.value == sp.Symbol(assignment.declared_local, real=True)
-    is_stored = is_copy and isinstance(copy_line.target, Place) and copy_line.target.is_parameter
-    return replace(assignment, target=copy_line.target) if is_stored else None
+    if not (isinstance(copy_line.target, Place) and copy_line.target.is_parameter):
+        return None
+    is_copy = copy_line.value == make_real_symbol(assignment.declared_local)
+    return replace(assignment, target=copy_line.target) if is_copy else None

@@ -14,7 +14,8 @@ import sympy as sp
 
 from gudgeon.generator.ir.kernels import Kernel, Section, change_expression
 from gudgeon.generator.ir.statements import Line, Sines, Statement
-from gudgeon.generator.symbols.storage import Place
+from gudgeon.generator.symbols.derivatives import find_symbols
+from gudgeon.generator.symbols.storage import Place, make_real_symbol
 
 _MAX_VECTORS = 4  # groups, beyond which they are computed in a loop
 # Angles, statements that turn them, how many a kernel has numbered before: lines, how many it has numbered then.
@@ -53,9 +54,7 @@ def _group_sines(kernel: Kernel, make_lines: _MakeLines) -> Kernel:
         sections.append(new_section)
         for statement in section.statements:
             if _find_angle(statement) is not None and isinstance(statement, Statement) and statement.declared_local:
-                symbol_of_function.setdefault(
-                    sp.sympify(statement.value), sp.Symbol(statement.declared_local, real=True)
-                )
+                symbol_of_function.setdefault(sp.sympify(statement.value), make_real_symbol(statement.declared_local))
     return replace(kernel, sections=tuple(sections))
 
 
@@ -88,19 +87,23 @@ def _group_sines_in_section(section: Section, make_lines: _MakeLines, n_groups: 
     if len(statements) < len(section.statements):
         return section, n_groups
     index_by_target = {statement.target: k for k, statement in enumerate(statements)}
-    dependencies: list[frozenset[int]] = []  # earlier statements that each one reads, directly or not
+    operands: list[list[int]] = []  # earlier statements that each one reads
+    reads_sines: list[bool] = []  # whether each one reads a cosine or sine, directly or not
     for k, statement in enumerate(statements):
-        read_symbols = statement.value.free_symbols if isinstance(statement.value, sp.Basic) else set()
-        read_indices = [
-            index_by_target[symbol.name] for symbol in read_symbols if index_by_target.get(symbol.name, k) < k
-        ]
-        dependencies.append(frozenset(read_indices).union(*(dependencies[index] for index in read_indices)))
-    trigonometric = [k for k, statement in enumerate(statements) if _find_angle(statement) is not None]
-    trigonometric = [k for k in trigonometric if not dependencies[k] & set(trigonometric)]
-    angles = list(dict.fromkeys(a for k in trigonometric if (a := _find_angle(statements[k])) is not None))
+        names = (symbol.name for symbol in find_symbols(statement.value))
+        operands.append([index for name in names if (index := index_by_target.get(name, k)) < k])
+        reads_sines.append(any(reads_sines[j] or _find_angle(statements[j]) is not None for j in operands[k]))
+    trigonometric = {
+        k: angle for k, statement in enumerate(statements) if (angle := _find_angle(statement)) and not reads_sines[k]
+    }
+    angles = list(dict.fromkeys(trigonometric.values()))
     if not angles:
         return section, n_groups
-    early_indices = frozenset[int]().union(*(dependencies[k] for k in trigonometric))
+    early_indices, pending = set[int](), [operand for k in trigonometric for operand in operands[k]]
+    while pending:
+        if (k := pending.pop()) not in early_indices:
+            early_indices.add(k)
+            pending += operands[k]
     early_statements = [statement for k, statement in enumerate(statements) if k in early_indices]
     late_statements = [
         statement for k, statement in enumerate(statements) if k not in early_indices and k not in trigonometric

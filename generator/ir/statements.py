@@ -54,6 +54,11 @@ class Statement(Line):
         """Return the names that the assigned value reads in addition to those in its expressions."""
         return NO_NAMES if isinstance(self.value, sp.Basic) else self.value.names
 
+    @cached_property
+    def reads(self) -> Names:
+        """Return all names that the value reads."""
+        return find_read_names(self.value) if isinstance(self.value, sp.Basic) else super().reads
+
     @property
     def writes(self) -> Names:  # type: ignore[override]
         """Return the name of the array or argument to which the value is stored, in a set; empty for a local."""

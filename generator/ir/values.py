@@ -12,7 +12,7 @@ from typing import ClassVar, TypeAlias
 
 import sympy as sp
 
-from gudgeon.generator.symbols.derivatives import find_symbols
+from gudgeon.generator.symbols.derivatives import find_operation_classes, find_symbols
 from gudgeon.generator.symbols.storage import Place, PlaceSymbol
 from gudgeon.generator.symbols.switches import BranchOf, ComparedMagnitude
 
@@ -20,14 +20,14 @@ Names = frozenset[str]
 NO_NAMES: Names = frozenset()
 
 
-@lru_cache(100_000)
+@lru_cache(1_000_000)
 def find_read_names(value: sp.Basic) -> Names:
     """Return the names that an expression reads: locals and arguments; with a `BranchOf` also `branch` and `g`.
 
     A symbol of a place counts as the argument that contains it. Results are cached.
     """
     names = frozenset(s.place.base if isinstance(s, PlaceSymbol) else s.name for s in find_symbols(value))
-    return names | ({"branch", "g"} if value.has(BranchOf) else NO_NAMES)
+    return names | ({"branch", "g"} if BranchOf in find_operation_classes(value) else NO_NAMES)
 
 
 class Threshold(float):

@@ -38,6 +38,8 @@ from gudgeon.generator.solvers.newton import Newton, make_complex_kernels
 from gudgeon.generator.solvers.sparsity import Block
 from gudgeon.generator.solvers.square_rows import SquareSystem
 
+MAX_COORDINATES_FOR_LANES = 900  # 192 take a compiler 50 s: of larger linkages nobody waits for the vector code
+
 
 @dataclass(frozen=True)
 class Integrated:
@@ -175,10 +177,11 @@ class Program:
         """Return whether several runs of the scene can be integrated together, each in one lane of a vector.
 
         That needs the reduced formulation and something to integrate. Dry friction, rigid contacts, contours of
-        bearings and driven loops exclude it.
+        bearings, driven loops and more than MAX_COORDINATES_FOR_LANES coordinates exclude it.
         """
         has_contours = any(clearance.contour for clearance in self.model.clearances)
-        is_excluded = self.model.has_changing_constraints or has_contours
+        is_large = len(self.model.q) > MAX_COORDINATES_FOR_LANES
+        is_excluded = self.model.has_changing_constraints or has_contours or is_large
         return self.methods is not None and self.tree is not None and not (self.tree.chains or is_excluded)
 
 

@@ -21,6 +21,7 @@ from gudgeon.generator.reduction.frames import CONSTANT, ONE, ZERO, Affine, Coor
 from gudgeon.generator.reduction.tree import Tree, TreeEdge
 from gudgeon.generator.symbols.parameter_table import ParameterTable
 from gudgeon.generator.symbols.storage import Place
+from gudgeon.generator.symbols.symbol_sums import is_signed_symbol
 from gudgeon.generator.symbols.symbols import Symbols
 
 Term = tuple[str, str]  # frame, slide ("" without)
@@ -308,7 +309,7 @@ class TreeGeometry(Geometry):
 
     def is_simple(self, value: sp.Expr) -> bool:
         """Return whether a value is a symbol, its negative, or a number, so that it needs no symbol of its own."""
-        return bool(value.is_Symbol or (-value).is_Symbol or value.is_Number)
+        return bool(value.is_Number) or is_signed_symbol(value)
 
     def _derive_body_symbols(self, body: str) -> None:
         """Make the symbols (x, y, θ) of a body and of its rates, as functions of the coordinates.

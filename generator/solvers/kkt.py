@@ -30,6 +30,7 @@ from gudgeon.generator.solvers.pivots import (
     make_pivot_guard,
 )
 from gudgeon.generator.solvers.sparsity import Elimination, choose_elimination
+from gudgeon.generator.symbols.symbol_sums import add_products, subtract_products
 
 Entries = dict[tuple[int, int], sp.Expr]
 FACTORS = "L D L^T of the KKT matrix [M Phi_q^T; Phi_q 0]"  # title of a section
@@ -142,10 +143,10 @@ class KKT:
                 for k in block:
                     common_columns = [j for j in earlier_columns[k] if (i, j) in L]
                     value = self.entries.get((i, k), self.entries.get((k, i), ZERO))
-                    value -= sum((L[i, j] * W[k, j] for j in common_columns), ZERO)
+                    value = subtract_products(value, ((L[i, j], W[k, j]) for j in common_columns))
                     W[i, k] = append_local_unless_simple(builder, f"w_{self.names[i]}__{self.names[k]}", value)
                 for k in block:
-                    value = sum((W[i, j] * entry for j, entry in inverse[k].items()), ZERO)
+                    value = add_products(ZERO, ((W[i, j], entry) for j, entry in inverse[k].items()))
                     L[i, k] = append_local_unless_simple(builder, f"l_{self.names[i]}__{self.names[k]}", value)
             for i in later_nodes:
                 earlier_columns[i] += block
@@ -202,7 +203,7 @@ class KKT:
             if is_unit(entry)
             else self.system.model.parameter_table.derive_parameter(f"inverse_{self.names[row]}", 1 / entry)
         )
-        mass = self.system.mass[k, k] - sum((L[k, j] * W[k, j] for j in earlier_columns[k]), ZERO)
+        mass = subtract_products(self.system.mass[k, k], ((L[k, j], W[k, j]) for j in earlier_columns[k]))
         mass = append_local_unless_simple(builder, f"inertia_{self.names[k]}", mass)
         return {
             k: {row: inverse_entry},
@@ -238,8 +239,8 @@ class KKT:
             It is the entry of M minus Σ L W over the earlier columns j that `is_included(j)` selects. For two
             equations, whose entry is 0, it is Σ L W itself, which is positive on the diagonal.
             """
-            eliminated = sum((L[i, j] * W[k, j] for j in earlier_columns[i] if (k, j) in L and is_included(j)), ZERO)
-            return eliminated if is_row_pair else mass[i, k] - eliminated
+            eliminated = ((L[i, j], W[k, j]) for j in earlier_columns[i] if (k, j) in L and is_included(j))
+            return add_products(ZERO, eliminated) if is_row_pair else subtract_products(mass[i, k], eliminated)
 
         name = [self.names[k] for k in block]
         scale_values = [compute_schur_entry(k, k, lambda j: j < self.n) for k in block] if is_row_pair else []
@@ -347,7 +348,7 @@ class KKT:
         """
         mass = self.system.mass[k, k]
         if jump_on_failure and k in self.inertias_of_angles:
-            value = mass - sum((L[k, j] * W[k, j] for j in earlier_columns), ZERO)
+            value = subtract_products(mass, ((L[k, j], W[k, j]) for j in earlier_columns))
             pivot = append_local_unless_simple(builder, f"pivot_{self.names[k]}", value)
             self._append_small_inertia_test(builder, k, pivot)
             constant = self.system.model.parameter_table.is_constant(mass)
@@ -358,7 +359,7 @@ class KKT:
                 f"inverse_{self._make_mass_name(mass, k)}", 1 / mass, "1/M"
             )
             return inverse
-        value = mass - sum((L[k, j] * W[k, j] for j in earlier_columns), sp.Integer(0))
+        value = subtract_products(mass, ((L[k, j], W[k, j]) for j in earlier_columns))
         return builder.append_local(f"inverse_pivot_{self.names[k]}", 1 / value)
 
     def _append_small_inertia_test(
@@ -396,12 +397,12 @@ class KKT:
         sticks; if it slips, 0 is returned, so that its multiplier is zero.
         """
         name = self.names[k]
-        eliminated = sum((L[k, j] * W[k, j] for j in earlier_columns if j < self.n), sp.Integer(0))
+        eliminated = add_products(ZERO, ((L[k, j], W[k, j]) for j in earlier_columns if j < self.n))
         scale = builder.append_local(f"scale_{name}", eliminated)
         pivot: sp.Expr = scale
         earlier_rows = [j for j in earlier_columns if j >= self.n]
         if earlier_rows:
-            value = scale + sum((L[k, j] * W[k, j] for j in earlier_rows), sp.Integer(0))
+            value = add_products(scale, ((L[k, j], W[k, j]) for j in earlier_rows))
             pivot = builder.append_local(f"pivot_{name}", value)
         test, (jump_on_failure, status) = (
             Test(pivot, ">", (threshold, self._compute_row_size(builder, k, scale))),
@@ -429,15 +430,14 @@ class KKT:
             columns[i].append(k)
         z: dict[int, sp.Expr] = {}
         for k in self.elimination.order:
-            value = b.get(k, sp.Integer(0)) - sum(
-                (factor.L[k, j] * z[j] for j in columns[k] if z[j] != 0), sp.Integer(0)
-            )
+            value = subtract_products(b.get(k, ZERO), ((factor.L[k, j], z[j]) for j in columns[k]))
             z[k] = append_local_unless_simple(builder, f"{prefix}z_{self.names[k]}", value)
         builder.begin_section("backward substitution")
         x: dict[int, sp.Expr] = {}
         for k in reversed(self.elimination.order):
-            value = sum((z[j] * entry for j, entry in factor.inverse[k].items()), ZERO)
-            value -= sum((factor.L[i, k] * x[i] for i in self.elimination.structure[k] if (i, k) in factor.L), ZERO)
+            value = add_products(ZERO, ((z[j], entry) for j, entry in factor.inverse[k].items()))
+            later = (i for i in self.elimination.structure[k] if (i, k) in factor.L)
+            value = subtract_products(value, ((factor.L[i, k], x[i]) for i in later))
             kind = "acceleration" if k < self.n else "lambda"
             x[k] = builder.append_local(f"{prefix}{kind}_{self.names[k]}", value)
         return x

@@ -47,6 +47,7 @@ from gudgeon.generator.solvers.pivots import SINGULAR, is_simple
 from gudgeon.generator.solvers.sparsity import choose_elimination
 from gudgeon.generator.symbols.storage import Place, PlaceSymbol
 from gudgeon.generator.symbols.switches import ComparedMagnitude
+from gudgeon.generator.symbols.symbol_sums import subtract_products
 
 ZERO = sp.Integer(0)
 
@@ -292,11 +293,13 @@ class Newton:
             earlier_columns[i].append(j)
         for k in order:
             i = self.equation.get(k, k)
-            value = PlaceSymbol(Place("x")[i]) - sp.Add(*(self.lower[i, j] * x[j] for j in earlier_columns[i]))
+            factors = ((self.lower[i, j], x[j]) for j in earlier_columns[i])
+            value = subtract_products(PlaceSymbol(Place("x")[i]), factors)
             x[k] = builder.append_local(f"b_{self.names[k]}", value)
         builder.begin_section("backward")
         for k in reversed(order):
-            value = x[k] - sp.Add(*(self.upper[k, j] * x[j] for j in self.elimination.structure[k]))
+            factors = ((self.upper[k, j], x[j]) for j in self.elimination.structure[k])
+            value = subtract_products(x[k], factors)
             x[k] = builder.append_local(f"x_{self.names[k]}", value * self.inverse[k])
             builder.append_store(Place("x")[k], x[k])
         return self._finish_function(builder, (self.linearization_argument, make_output_argument("x")))
@@ -409,8 +412,8 @@ class Factors:
         names, equation = self.newton.names, self.newton.equation.get(k, k)
         for i in later_nodes:
             target_row = k if i == equation else i  # the unknown's own equation stays for the multiplier
-            column = self.entries.get((target_row, k), ZERO) - self._sum_products(target_row, k)
-            row = self.entries.get((equation, i), ZERO) - self._sum_products(equation, i)
+            column = self._subtract_products(self.entries.get((target_row, k), ZERO), target_row, k)
+            row = self._subtract_products(self.entries.get((equation, i), ZERO), equation, i)
             self.lower[target_row, k] = self._store_factor(
                 f"l_{names[target_row]}__{names[k]}", column * self.inverse[k]
             )
@@ -418,13 +421,14 @@ class Factors:
         for i in later_nodes:
             self._earlier_pivots[k if i == equation else i].append(k)
 
-    def _sum_products(self, i: int, k: int, pivots: Sequence[int] | None = None) -> sp.Expr:
-        """Return Σ_j L_ij U_jk over earlier pivots j, to be subtracted from the entry of equation i in the unknown k.
+    def _subtract_products(self, value: sp.Expr, i: int, k: int, pivots: Sequence[int] | None = None) -> sp.Expr:
+        """Return `value` − Σ L U of earlier pivots for the entry of equation i in the unknown k.
 
         `pivots`: those that count; None: all.
         """
         columns = self._earlier_pivots[i] if pivots is None else pivots
-        return sp.Add(*(self.lower[i, j] * self.upper[j, k] for j in columns if (j, k) in self.upper))
+        factors = ((self.lower[i, j], self.upper[j, k]) for j in columns if (j, k) in self.upper)
+        return subtract_products(value, factors)
 
     def _invert_pivot(self, k: int) -> sp.Expr:
         """Return 1/pivot of node k, and append a test of the pivot that fails with the number k + 1.
@@ -452,9 +456,11 @@ class Factors:
             if j < newton.n or j in newton.equation or j >= states or k < newton.n or k >= states
         ]
         row_pivots = [j for j in self._earlier_pivots[k] if j not in independent_pivots]
-        scale = builder.append_local(f"scale_{name}", entry - self._sum_products(k, k, independent_pivots))
+        scale = builder.append_local(f"scale_{name}", self._subtract_products(entry, k, k, independent_pivots))
         pivot = (
-            builder.append_local(f"pivot_{name}", scale - self._sum_products(k, k, row_pivots)) if row_pivots else scale
+            builder.append_local(f"pivot_{name}", self._subtract_products(scale, k, k, row_pivots))
+            if row_pivots
+            else scale
         )
         size = entry if k < newton.n or k >= states else scale
         stick = newton.sticks[k - newton.n - newton.m] if newton.n + newton.m <= k < states else None

@@ -13,6 +13,7 @@ from gudgeon.generator.ir.kernels import KernelBuilder
 from gudgeon.generator.ir.signatures import DISCRETE
 from gudgeon.generator.ir.statements import Guard
 from gudgeon.generator.ir.values import Conditional, Test, Threshold
+from gudgeon.generator.symbols.symbol_sums import is_signed_symbol
 
 ZERO = sp.Integer(0)
 
@@ -76,7 +77,7 @@ def make_pivot_guard(
 
 def is_simple(value: sp.Expr) -> bool:
     """Return whether a value is a number, a symbol or its negative, which needs no local."""
-    return bool(value.is_Number or value.is_Symbol or (-value).is_Symbol)
+    return bool(value.is_Number) or is_signed_symbol(value)
 
 
 def append_local_unless_simple(builder: KernelBuilder, name: str, value: sp.Expr) -> sp.Expr:

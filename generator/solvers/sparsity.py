@@ -83,6 +83,8 @@ def find_elimination_below(
         eager = in_order(True, limit) if partner else None
         plain = in_order(False, min(limit, eager.cost) if eager else limit)
         return min((order for order in (plain, eager) if order), key=lambda order: order.cost, default=None)
+    if _find_least_products(pattern) > limit:
+        return None
     end = len(pattern) if last is None else last
 
     def compute_degree_key(graph: Sequence[set[int]], node: int, depth: int) -> tuple[int, ...]:
@@ -95,7 +97,7 @@ def find_elimination_below(
         Nodes from `end` on come after all others. `graph`: the neighbours of each node; `depth` is not used.
         """
         neighbours = graph[node]
-        n_present = sum(len(neighbours & graph[neighbour]) for neighbour in neighbours)  # each edge twice
+        n_present = sum(map(len, map(neighbours.__and__, map(graph.__getitem__, neighbours))))  # each edge twice
         n_neighbours = len(neighbours)
         return (node >= end, (n_neighbours * (n_neighbours - 1) - n_present) // 2, n_neighbours, node)
 
@@ -133,6 +135,16 @@ def find_elimination_below(
     return best
 
 
+def _find_least_products(pattern: Pattern) -> int:
+    """Return a lower bound of the products of any elimination of a pattern, from the least degree d of its nodes.
+
+    The first pivot couples its d or more neighbours with each other, so that the elimination of these has at least
+    d − 1, d − 2, …, 0 entries in its columns.
+    """
+    degree = min(map(len, pattern), default=0)
+    return sum(k * (k + 3) // 2 for k in range(degree + 1))
+
+
 def _eliminate_in_order(
     first: Sequence[int],
     pattern: Pattern,
@@ -154,6 +166,8 @@ def _eliminate_in_order(
     remaining_rows, products = {*partner.values(), *(node for node in first if n_coordinates <= node < len(pattern))}, 0
     for node in first:
         products += _eliminate_node(node, partner.get(node), graph, columns)
+        if products > limit:
+            return None
         remaining_rows -= {node, partner.get(node)}
         ready_coordinates = sorted(columns[node]) if eager and (node in partner or node >= n_coordinates) else ()
         for candidate in ready_coordinates:

@@ -1,4 +1,4 @@
-"""Free symbols and derivatives of expressions, computed faster than by SymPy's general functions."""
+"""Free symbols, classes of operations and derivatives of expressions, faster than by SymPy's general functions."""
 
 from __future__ import annotations
 
@@ -10,15 +10,29 @@ _ZERO, _ONE = sp.S.Zero, sp.S.One
 _CHAIN_RULE = sp.Function._eval_derivative
 
 
-@lru_cache(100_000)
+@lru_cache(1_000_000)
 def find_symbols(expression: sp.Basic) -> frozenset[sp.Symbol]:
     """Return the free symbols of an expression; results of sums and products are combined from cached ones."""
+    if expression.is_Symbol:
+        return frozenset((expression,))
     if expression.is_Add or expression.is_Mul:
         return frozenset[sp.Symbol]().union(*map(find_symbols, expression.args))
     return frozenset(expression.free_symbols)
 
 
-@lru_cache(50_000)
+@lru_cache(1_000_000)
+def find_operation_classes(expression: sp.Basic) -> frozenset[type[sp.Basic]]:
+    """Return the classes of the operations in an expression other than sums and products, from a cache.
+
+    They are the classes of its functions, and Pow if it contains a power.
+    """
+    if expression.is_Atom:
+        return frozenset()
+    classes = frozenset[type[sp.Basic]]().union(*map(find_operation_classes, expression.args))
+    return classes if expression.is_Add or expression.is_Mul else classes | {type(expression)}
+
+
+@lru_cache(500_000)
 def differentiate(expression: sp.Expr, symbol: sp.Symbol) -> sp.Expr:
     """Return the derivative of an expression by `symbol`, as `sympy.diff` does but faster; results are cached.
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import copy
 from dataclasses import dataclass
+from functools import lru_cache
 from types import MappingProxyType
 from typing import Any, ClassVar, Self, TypeAlias
 
@@ -59,10 +60,16 @@ class Result(Place):
     """The value that a function returns through the argument of this name."""
 
 
+@lru_cache(1_000_000)
+def make_real_symbol(name: str) -> sp.Symbol:
+    """Return the real symbol of a name: the same object at each call, which SymPy compares fastest."""
+    return sp.Symbol(name, real=True)
+
+
 class PlaceSymbol(sp.Symbol):
     """A symbol that is read at a place; among others it is ordered as a plain symbol of its path."""
 
-    find_name_position: Place
+    place: Place
     __slots__ = ("place",)
 
     def __new__(cls, place: Place) -> PlaceSymbol:
@@ -73,7 +80,7 @@ class PlaceSymbol(sp.Symbol):
 
     def __getnewargs_ex__(self) -> tuple[Any, ...]:
         """Return the arguments with which the symbol is unpickled."""
-        return (self.find_name_position,), {}
+        return (self.place,), {}
 
     @classmethod
     def class_key(cls) -> Any:

@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 import sympy as sp
 
 from gudgeon.generator.symbols.curves import CurveOf, CurveOn, KnotsOf
-from gudgeon.generator.symbols.derivatives import differentiate
+from gudgeon.generator.symbols.derivatives import differentiate, find_operation_classes
 from gudgeon.generator.symbols.storage import Freezable
 from gudgeon.language.functions import mod
 
@@ -200,6 +200,10 @@ class Switch:
     g: sp.Expr
 
 
+# classes whose branches are frozen over a step
+_SWITCHING_CLASSES = frozenset((sp.Max, sp.Min, sp.Abs, sp.sign, sp.Heaviside, CurveOf, ModOf))
+
+
 @dataclass
 class Switches(Freezable):
     """The switching functions of a scene, each once."""
@@ -259,7 +263,7 @@ class Switches(Freezable):
         `owner`: joint with play, or "". `registered_only`: switching functions without a switch stay as they are, for a
         function next to the one that writes all of them.
         """
-        if not expression.has(sp.Max, sp.Min, sp.Abs, sp.sign, sp.Heaviside, CurveOf, ModOf):
+        if _SWITCHING_CLASSES.isdisjoint(find_operation_classes(expression)):
             return expression
         arguments = [self.freeze_branches(a, owner, branches, registered_only) for a in expression.args]
 

@@ -17,7 +17,7 @@ from dataclasses import dataclass
 import sympy as sp
 
 from gudgeon.generator.symbols.derivatives import differentiate, find_symbols
-from gudgeon.generator.symbols.storage import PARAMETERS, Freezable, Key, Place, PlaceSymbol
+from gudgeon.generator.symbols.storage import PARAMETERS, Freezable, Key, Place, PlaceSymbol, make_real_symbol
 from gudgeon.generator.symbols.switches import Switches
 
 OWN_FIELD = Place(PARAMETERS)[""]  # the home of a parameter whose field is called as the symbol
@@ -147,7 +147,7 @@ class Symbols(Freezable):
 
     def _find_place(self, name: str) -> Place | None:
         """Return the storage place of the symbol with a name; None for a local or an unknown name."""
-        info = self.info.get(sp.Symbol(name, real=True))
+        info = self.info.get(make_real_symbol(name))
         return info.place if info else None
 
     def add_symbol(
@@ -162,7 +162,7 @@ class Symbols(Freezable):
         name, field_name = (
             self._make_name_for_both_tables(text, shared_table) if text else "" for text in (base_name, field_base_name)
         )
-        symbol = sp.Symbol(name, real=True)
+        symbol = make_real_symbol(name)
         place = Place(PARAMETERS)[field_name or name] if place == OWN_FIELD else place
         self.info[symbol] = SymbolInfo(place, meaning, unit)
         if shared_table is not None:

@@ -60,6 +60,8 @@ class CachedPrinter:
         Factors with a negative rational exponent are divisors. A negative coefficient gives a leading minus; without
         other factors the numerator is 1.
         """
+        if text := self.print_symbol_product(expr):
+            return text
         coefficient, others = expr.as_coeff_Mul()
         factors = order_factors(others)
         negative = coefficient.is_extended_negative
@@ -87,6 +89,15 @@ class CachedPrinter:
         ]
         return f"{text}/{divisors[0]}" if len(denominator) == 1 else f"{text}/({'*'.join(divisors)})"
 
+    def print_symbol_product(self, expr: sp.Mul) -> str:
+        """Print a product of symbols, or its negative; return "" for other products."""
+        is_negative = expr.args[0] is sp.S.NegativeOne
+        factors = expr.args[1:] if is_negative else expr.args
+        if not _are_plain_symbols(factors):
+            return ""
+        text = "*".join([self._print(factor) for factor in sorted(factors, key=_get_name)])
+        return f"-{text}" if is_negative else text
+
     def parenthesize(self, item: sp.Expr, level: float, strict: bool = False) -> str:
         """Print an expression, in brackets if its operator binds less than `level`.
 
@@ -100,7 +111,8 @@ class CachedPrinter:
 
 _ORDERED_BY_NAME = (sp.Symbol, PlaceSymbol)
 _get_name = attrgetter("name")
-_precedence = lru_cache(100_000)(precedence)
+_LAST_NAME = "\U0010ffff"  # after all names of symbols
+_precedence = lru_cache(1_000_000)(precedence)
 _SUM = PRECEDENCE["Add"]
 _UNARY_MINUS = (PRECEDENCE["Pow"] + PRECEDENCE["Mul"]) / 2
 _METHODS: dict[tuple[type, type], Method] = {}  # of printers, by the class that is printed
@@ -127,13 +139,16 @@ def _find_method(printer: type, expression_class: type) -> Method:
     raise ValueError(f"{printer.__name__} does not know {expression_class.__name__}")
 
 
-@lru_cache(20_000)
+@lru_cache(200_000)
 def order_terms(expr: sp.Expr) -> tuple[sp.Expr, ...]:
     """Return the terms of a sum in SymPy's printing order: by the powers of their factors, higher ones first.
 
     Sums with numbers are ordered by SymPy itself. Results are cached.
     """
     terms = expr.args
+    if expr.is_Add and (names := list(map(_find_factor_names, terms))) and all(names):
+        order = sorted(range(len(terms)), key=names.__getitem__)
+        return tuple(terms[k] for k in order)
     if not expr.is_Add or any(
         isinstance(term, (sp.Number, sp.NumberSymbol)) or not term.is_commutative for term in terms
     ):
@@ -149,11 +164,36 @@ def order_terms(expr: sp.Expr) -> tuple[sp.Expr, ...]:
     return tuple(sorted(terms, key=key))
 
 
+def _find_factor_names(term: sp.Expr) -> tuple[str, ...]:
+    """Return the sorted names of the factors of a product of symbols or of its negative; () for other terms.
+
+    A name after all others follows, so that of two products x and x*y the latter comes first.
+    """
+    if type(term) in _ORDERED_BY_NAME:
+        return (term.name, _LAST_NAME)
+    if not term.is_Mul:
+        return ()
+    factors = term.args[1:] if term.args[0] is sp.S.NegativeOne else term.args
+    return (*sorted(map(_get_name, factors)), _LAST_NAME) if _are_plain_symbols(factors) else ()
+
+
 def order_factors(expr: sp.Expr) -> list[sp.Expr]:
     """Return the factors of a product in SymPy's printing order, in a new list."""
-    if expr.is_Mul and _are_plain_symbols(expr.args):
-        return _sort_expressions(expr.args)
+    if not expr.is_Mul:
+        return list(expr.as_ordered_factors())
+    powers, others = list[sp.Expr](), list[sp.Expr]()
+    for factor in expr.args:
+        base = factor.base if factor.is_Pow and factor.exp.is_Number else factor
+        (powers if type(base) in _ORDERED_BY_NAME else others).append(factor)
+    if not others or (len(others) == 1 and others[0].is_Add):
+        return [*sorted(powers, key=_get_base_name), *others]
     return list(expr.as_ordered_factors())
+
+
+def _get_base_name(factor: sp.Expr) -> str:
+    """Return the name of a symbol, or of the symbol that is the base of a power."""
+    name: str = (factor.base if factor.is_Pow else factor).name
+    return name
 
 
 def _sort_expressions(expressions: Collection[sp.Expr]) -> list[sp.Expr]:

@@ -8,6 +8,7 @@ _INDENT = "    "
 _BEFORE = (" + ", " - ", " ? ", " : ", " && ", " || ", " * ", " / ")  # the operator begins the next line
 _AFTER = (", ", " = ", "{")
 _TIGHT = "*"  # in a product that is written without spaces: where there is nothing better
+_MARKS = frozenset("()[]{} *")  # brackets, and characters at which a line may be broken
 
 
 def break_code(line: str, width: int, min_depth: int | None = None) -> list[str]:
@@ -49,6 +50,8 @@ def _find_possible_breaks(line: str) -> Iterator[tuple[float, int]]:
     """
     depth = 0
     for k, c in enumerate(line):
+        if c not in _MARKS and line[k - 1] not in " {":
+            continue
         if c in ")]}":
             depth -= 1
         if c == " " and line.startswith(_BEFORE, k):

@@ -12,7 +12,7 @@ MIN_ANNOUNCED_S = 10.0  # shorter derivations are not announced
 def forecast_derivation(n_bodies: int) -> tuple[float, float]:
     """Return the processor time (s) and the memory (MB) that the derivation of a scene with n_bodies bodies needs.
 
-    Chains of 64 to 256 links and 64 separate four-bars, on a busy machine, were within a factor of 2. Joints with play
+    Chains of 64 to 512 links and 64 separate four-bars, on a busy machine, were within a factor of 2. Joints with play
     were not measured.
     """
     seconds = SECONDS_PER_BODY * n_bodies * (1.0 + n_bodies / BODIES_OF_DOUBLE_COST)

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from gudgeon.generator.equations.model import Model
-from gudgeon.generator.pipeline import derive_scene
+from gudgeon.generator.kernels import program
+from gudgeon.generator.pipeline import derive_scene, generate_c
 from gudgeon.generator.reduction.tree import OperationEstimate, choose_tree
 from gudgeon.generator.solvers.sparsity import Pattern, choose_elimination, find_elimination_below
 
@@ -45,6 +46,16 @@ def test_a_limit_does_not_change_the_cheapest_elimination(seed: int) -> None:
     assert costlier is None or costlier.cost >= best.cost
 
 
+@pytest.mark.parametrize("n", [1, 2, 5, 9])
+def test_a_dense_pattern_is_abandoned_below_its_products_only(n: int) -> None:
+    """The lower bound of the products is exact where all nodes are coupled with each other."""
+    pattern = tuple(frozenset(range(n)) - {k} for k in range(n))
+    products = choose_elimination(pattern, n).products
+    assert products == sum(k * (k + 3) // 2 for k in range(n))
+    assert find_elimination_below(products, pattern, n) is not None
+    assert find_elimination_below(products - 1, pattern, n) is None
+
+
 @pytest.mark.parametrize("seed", range(8))
 def test_products_and_structure_are_those_of_elimination(seed: int) -> None:
     """The structure is that of an elimination of the pattern in the order found, node by node."""
@@ -75,3 +86,15 @@ def test_find_variables_lists_every_variable_with_a_derivative() -> None:
         for q in model.q:
             assert q in variables or model.symbols.differentiate(row.phi, q) == 0
         assert set(row.phi_q) <= variables
+
+
+def test_a_large_linkage_has_no_vector_code(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Above the limit lanes.c is left out; all other files but model.h, which says so, stay as they are."""
+    model = make_chain(2)
+    with_lanes = generate_c(model)
+    monkeypatch.setattr(program, "MAX_COORDINATES_FOR_LANES", len(model.q) - 1)
+    without_lanes = generate_c(model)
+    assert (with_lanes.lanes, without_lanes.lanes) == ("lanes.c", "")
+    assert set(with_lanes.files) - set(without_lanes.files) == {"lanes.c"}
+    changed = {name for name, text in without_lanes.files.items() if text != with_lanes.files[name]}
+    assert changed == {"model.h", "README.md"}

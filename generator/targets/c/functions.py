@@ -346,12 +346,15 @@ def print_kernel(kernel: Kernel) -> str:
 
 def _find_names_used(kernel: Kernel) -> frozenset[str]:
     """Return the C names of all arguments and locals that a function's lines read or write."""
-    lines = [line for section in kernel.sections for line in section.statements]
-    names = NO_NAMES.union(*(line.reads | line.writes for line in lines))
-    keys = names | {find_key(s) for line in lines for x in line.expressions for s in find_symbols(x)}
+    names, symbols = set[str](), set[sp.Symbol]()
+    for section in kernel.sections:
+        for line in section.statements:
+            names.update(line.reads, line.writes)
+            symbols.update(*map(find_symbols, line.expressions))
+    keys = names.union(map(find_key, symbols))
     called = (kernel.names.get(key, key) for key in keys)
     corner_argument = NO_NAMES if kernel.first_switch is None else {FIRST_SWITCH.name}
-    return names | corner_argument | {key.base if isinstance(key, Place) else key for key in called}
+    return frozenset(names) | corner_argument | {key.base if isinstance(key, Place) else key for key in called}
 
 
 def print_comment(doc: Sequence[str]) -> str:

@@ -100,6 +100,8 @@ class CPrinter(CachedPrinter, C99CodePrinter):
 
         A fraction of π is printed as such.
         """
+        if text := self.print_symbol_product(expr):
+            return text
         if fraction := convert_to_fraction_of_pi(expr):
             return fraction.format("PI", ".0")
         number, other_factors = expr.as_coeff_Mul()

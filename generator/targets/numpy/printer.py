@@ -88,6 +88,8 @@ class NumPyPrinter(CachedPrinter, PythonCodePrinter):
 
     def _print_Mul(self, expr: sp.Mul) -> str:
         """Print a product, a fraction of π as such."""
+        if text := self.print_symbol_product(expr):
+            return text
         fraction = convert_to_fraction_of_pi(expr)
         return fraction.format("np.pi") if fraction else str(super()._print_Mul(expr))
 
