@@ -90,8 +90,11 @@ bench: setup  ## run time against error; one right-hand side compared with hand-
 	@$(GUDGEON) bench nine_bar_press --mark-step 0.1ms $(ARGS)
 	@.venv/bin/python -m benchmarks.rhs
 
-race:  ## time to reach an error, gudgeon and reference solvers; writes docs/race.md. A few minutes, on an idle machine
+race:  ## time to reach an error, gudgeon and other programs; writes docs/race.md. 20 minutes, on an idle machine. ARGS="--work dry"
 	@sh tools/setup all,bench
+	@for package in mujoco pin drake casadi diffrax; do \
+		.venv/bin/python -m pip --disable-pip-version-check install --quiet --constraint constraints.txt $$package || \
+		echo "$$package: not installed"; done
 	@.venv/bin/python -m benchmarks.race --write $(ARGS)
 
 map: setup  ## step of rk4 × clearance: stable, inaccurate, diverged; without --method: tolerance × clearance

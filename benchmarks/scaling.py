@@ -1,7 +1,8 @@
 """Measure how derivation, size of the C, compilation and run time grow with the number of joints of an N-four-bar.
 
-    python -m benchmarks.scaling [--largest 64] [--long 40] [--formulation reduced full]
+    python -m benchmarks.scaling [--largest 128] [--long 40] [--formulation reduced full]
     python -m benchmarks.scaling --largest 0 --long 0 --tight 5 10 20 40
+    python -m benchmarks.scaling --page                     # chains too, docs/scaling.md (growth.py)
 
 Prints for both formulations a row for each N and the exponent of each column, fitted over all N ≥ 4 on logarithmic
 axes (a straight line through the smallest systems would fit what is constant, the start of SymPy and gcc). Derive,
@@ -23,6 +24,7 @@ import numpy as np
 from sympy.core.cache import clear_cache
 
 import gudgeon
+from benchmarks import growth
 from gudgeon.generator.pipeline import derive_scene, generate_c
 from gudgeon.loading.build import compile_kernels
 from gudgeon.loading.kernel_sources import FORMULATIONS
@@ -143,11 +145,15 @@ def long_run(n: int) -> None:
 def main() -> None:
     """Run the benchmark from the command line."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
-    parser.add_argument("--largest", type=int, default=64)
+    parser.add_argument("--largest", type=int, default=128)
     parser.add_argument("--long", type=int, default=40, help="0: leave it out")
     parser.add_argument("--tight", nargs="+", type=int, default=[], metavar="N", help="20 s by tolerance")
+    parser.add_argument("--page", action="store_true", help="measure chains and four-bars, write docs/scaling.md")
     parser.add_argument("--formulation", nargs="+", choices=FORMULATIONS, default=["reduced", "full"])
     options = parser.parse_args()
+    if options.page:
+        growth.measure_page(options.largest)
+        return
     for formulation in options.formulation:
         if options.largest:
             table(formulation, [n for n in (2, 4, 8, 16, 32, 64) if n <= options.largest])

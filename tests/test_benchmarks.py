@@ -5,20 +5,25 @@ from __future__ import annotations
 import json
 import math
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.interpolate import CubicSpline
 
 import tests.benches  # noqa: F401
-from benchmarks import callgrind, laws, rhs
-from benchmarks.peers import cvode, ideal, press  # noqa: E402
+from benchmarks import callgrind, growth, laws, rhs
+from benchmarks.peers import chain_equations, cvode, dry_chain, ideal, long_runs, press  # noqa: E402
+from benchmarks.peers import four_bar_closed_form as four_bars
 from benchmarks.peers.reference import ONSETS  # noqa: E402
+from benchmarks.race import entries
 from benchmarks.race import page as race_page
 from benchmarks.race import record as race_record
 from benchmarks.race.record import time_to  # noqa: E402
 from gudgeon.generator.kinds.laws.law import find_bundled_laws
 from tests.oracles import press_dense
+from tests.oracles.journal import Journal
 from tests.programs import needs_compiler
 
 
@@ -118,11 +123,21 @@ def record() -> race_record.Record:
     """Of one work: ours twice as fast and as exact at each control, a peer that never comes to 1e-8."""
     errors = ((1e-3, 1e-5, 1e-9), (1e-3, 1e-5, math.nan))
     rows = [
-        race_record.Row("andrews", name, own, 10.0**-k, (1.0 + own) ** -1 * 4.0**k * 1e-3, -1, {"angle": error[k]})
+        race_record.Row(
+            "andrews",
+            name,
+            own,
+            10.0**-k,
+            (1.0 + own) ** -1 * 4.0**k * 1e-3,
+            -1,
+            {"angle": error[k]},
+            4.0**k * 2e-3,
+            0.5,
+        )
         for name, own, error in zip(("gudgeon auto", "jitcode dop853"), (True, False), errors, strict=True)
         for k in range(3)
     ]
-    return race_record.Record({"machine": "one: of two", "andrews, note": "5 µs"}, tuple(rows))
+    return race_record.Record({"run 1, machine": "one: of two", "andrews, note": "5 µs"}, tuple(rows))
 
 
 def test_a_record_is_read_as_it_was_written(tmp_path: Path) -> None:
@@ -135,10 +150,84 @@ def test_a_record_is_read_as_it_was_written(tmp_path: Path) -> None:
 def test_tables_tell_times_ratios_and_what_is_not_reached() -> None:
     lines = race_page.table(record(), "andrews", "angle")
     (cells,) = ([cell.strip() for cell in line.split("|")] for line in lines if "jitcode" in line)
-    # 1e-4 is half-way, log-log, from 1e-3 (1 ms) to 1e-5 (4 ms); ours takes half the time
-    assert cells[1:-1] == ["jitcode dop853", "2.00", "–", "–", "2.00", "–", "–"]
+    # 1e-4 is half-way, log-log, from 1e-3 (1 ms) to 1e-5 (4 ms); a whole call takes twice as long
+    assert cells[1:-1] == ["jitcode dop853", "2.00", "4.00", *["–"] * 6, "0.500"]
+    (cells,) = ([cell.strip() for cell in line.split("|")] for line in lines if "auto" in line)
+    assert cells[1:-1] == ["gudgeon auto", "1.00", "4.00", "2.83", "11.3", "5.66", "22.6", "1.00", "1.00", "0.500"]
     (bar,) = ([cell.strip() for cell in line.split("|")] for line in race_page.bars(record()) if "jitcode" in line)
     assert bar[1:-1] == ["andrews", "3.00 × jitcode dop853", "", "– (–)", "– (–)"]
+
+
+def test_a_newer_run_replaces_its_problems_and_keeps_the_rest() -> None:
+    old, (row, *_) = record(), record().rows
+    links = replace(row, work="links", run=1)
+    old = race_record.Record({**old.facts, "links, note": "old"}, (*old.rows, links))
+    newer = race_record.Record(
+        {"run 2, machine": "another", "links, not installed": "heyoka"}, (replace(links, run=2),)
+    )
+    both = old.merged(newer)
+    assert both.runs() == [1, 2] and both.runs("links") == [2] and len(both.rows) == len(old.rows)
+    assert both.facts == {k: v for k, v in {**old.facts, **newer.facts}.items() if k != "links, note"}
+    assert race_page.facts(both, "links") == ["- not installed: heyoka", "- measured in run 2"]
+    again = both.merged(race_record.Record({"run 3, machine": "third"}, (replace(row, run=3),)))
+    assert [name for name in again.facts if name.startswith("run")] == ["run 2, machine", "run 3, machine"]
+
+
+def test_every_problem_has_entries_of_gudgeon_and_of_others() -> None:
+    everybody = entries.entries()
+    assert len({(entry.work, entry.name) for entry in everybody}) == len(everybody)
+    for work in race_record.MEASURES:
+        assert {bool(entry.method) for entry in everybody if entry.work == work} == {True, False}
+
+
+def test_two_forms_of_a_chain_agree_and_conserve_energy() -> None:
+    rng = np.random.default_rng(2)
+    theta, omega = rng.standard_normal((2, 20))
+    dense = np.array(chain_equations.accelerations(theta, omega, np.sin, np.cos))
+    found = np.array(chain_equations.recursive_accelerations(theta, omega, np.sin, np.cos))
+    assert abs(found - dense).max() < 1e-12 * abs(dense).max()
+    h = 1e-6
+    ends = [chain_equations.energy(np.concatenate([theta + s * h * omega, omega + s * h * found])) for s in (-1, 1)]
+    assert abs(ends[1] - ends[0]) / (2.0 * h) < 1e-5 * abs(ends[0])  # the power; its terms are as large as the energy
+
+
+def test_closed_form_of_four_bars_closes_and_has_the_rates_of_its_angles() -> None:
+    lengths = four_bars.draw_lengths(3)
+    found = four_bars.solve(lengths)
+    t = four_bars.times()
+    crank = np.pi / 2 + four_bars.SPEED * t
+    for k, (a, b, c) in enumerate(zip(*lengths, strict=True)):
+        ends = [a * np.exp(1j * crank) + b * np.exp(1j * found[0, k]), four_bars.PIVOT + c * np.exp(1j * found[3, k])]
+        assert abs(ends[0] - ends[1]).max() < 1e-15
+        for angle in (0, 3):
+            for order in (0, 1):
+                slope = CubicSpline(t, found[angle + order, k])(t, 1)
+                assert slope[5:-5] == pytest.approx(found[angle + order + 1, k, 5:-5], rel=1e-4, abs=1e-3)
+
+
+def test_energy_of_the_free_squeezer_is_conserved_by_its_equations() -> None:
+    y, h = long_runs.start("turns"), 1e-9
+    rate = np.array(long_runs.equations("turns", np, chain_equations.keep_expression, list(y)), dtype=float)
+    before, after = long_runs.squeezer_energy(y - h * rate), long_runs.squeezer_energy(y + h * rate)
+    assert abs(after - before) < 1e-12 * before  # the power times 2 h
+
+
+def test_a_contact_of_the_chain_of_dry_joints_is_that_of_the_oracle() -> None:
+    """One link in contact: the vector code against the oracle of a journal, and the law of action and reaction."""
+    chain, y = dry_chain.Chain(), dry_chain.start()
+    y[1] -= dry_chain.CLEARANCE + 2e-6  # the first journal lies in its bearing, the second in the other direction
+    y[3 * dry_chain.LINKS + 1] -= 0.02
+    chain.stored[:2] = 0.05
+    rate = chain(0.0, y)[3 * dry_chain.LINKS :].reshape(dry_chain.LINKS, 3)
+    e, speed, first, second, half = chain.joints(y)
+    law = Journal(clearance=dry_chain.CLEARANCE, stored=0.05)
+    wrenches = [law(e[:, k], speed[:, k], first[k], second[k]) for k in (0, 1)]
+    force = wrenches[0].force - wrenches[1].force
+    assert rate[0, :2] == pytest.approx(force / dry_chain.MASS - [0.0, dry_chain.GRAVITY], rel=1e-9)
+    arm = half[:, 0]
+    moment = -arm[0] * wrenches[0].force[1] + arm[1] * wrenches[0].force[0] + wrenches[0].moment_second
+    moment += -arm[0] * wrenches[1].force[1] + arm[1] * wrenches[1].force[0] + wrenches[1].moment_first
+    assert rate[0, 2] == pytest.approx(moment / dry_chain.INERTIA, rel=1e-9)
 
 
 def test_the_page_is_what_the_committed_record_makes_of_it() -> None:
@@ -147,6 +236,21 @@ def test_the_page_is_what_the_committed_record_makes_of_it() -> None:
     assert set(re.findall(r"<!-- race: (\w+) -->", page)) == {"machine", "bars", *race_record.MEASURES}
     with pytest.raises(ValueError, match="nobody"):
         race_page.filled("<!-- race: nobody -->\n<!-- end -->", record())
+
+
+def test_the_page_of_growth_is_what_its_record_makes_of_it() -> None:
+    page = growth.PAGE.read_text(encoding="utf-8")
+    assert growth.filled(page) == page
+    assert set(re.findall(r"<!-- scaling: (\w+) -->", page)) == {"machine", *growth.SIZES}
+
+
+def test_exponents_of_growth_are_fitted_over_the_bodies() -> None:
+    rows = [
+        growth.Size("chain", n, n, 0.1 * n, 0.2 * n, 0.3 * n, 2.0 * n**2, 10 * n, 0.5, n**1.5, 7) for n in (2, 8, 32)
+    ]
+    assert [row.load for row in rows] == pytest.approx([1.2, 4.8, 19.2])
+    cells = [cell.strip() for cell in growth.table(rows)[-1].split("|")]
+    assert cells[1:-1] == ["exponent", "", "1.00", "1.00", "1.00", "1.00", "2.00", "1.00", "0.00", "1.50", "0.00"]
 
 
 @needs_compiler

@@ -20,6 +20,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from benchmarks.peers.timing import CallTimer, Measured
+
 T_END = 0.03
 ANSWERS = Path(__file__).resolve().parents[2] / "tests" / "data" / "reference_problems.json"
 START = (
@@ -39,8 +41,6 @@ SS, SA, SB, SC, SD = 0.035, 0.01874, 0.01043, 0.018, 0.02
 ZT, TA, TB, U, UA, UB, ZF, FA = 0.04, 0.02308, 0.00916, 0.04, 0.01228, 0.00449, 0.02, 0.01421
 C0, L0, TORQUE = 4530.0, 0.07785, 0.033
 
-Error = float
-Measured = tuple[Error, float, int]  # error, seconds of integration only, right-hand sides (−1: unknown)
 ATOL = 1e-2  # of rtol
 
 
@@ -84,9 +84,9 @@ class Parts:
     curve: list[Any]
 
 
-def parts(algebra: Any, step: Callable[[Any], Any], q: list[Any], v: list[Any]) -> Parts:
-    """Return the terms of the equations, with functions of `algebra` (SymEngine or SymPy); `step` may name intermediate
-    results.
+def parts(algebra: Any, step: Callable[[Any], Any], q: list[Any], v: list[Any], torque: float = TORQUE) -> Parts:
+    """Return the terms of the equations, with functions of `algebra` (SymEngine, SymPy, NumPy ...); `step` may name
+    intermediate results.
     """
     cos, sin, sqrt = algebra.cos, algebra.sin, algebra.sqrt
     be, th, ga, ph, de, om, ep = q
@@ -110,7 +110,7 @@ def parts(algebra: Any, step: Callable[[Any], Any], q: list[Any], v: list[Any]) 
     length = step(sqrt((xd - XC) ** 2 + (yd - YC) ** 2))
     pull = step(-C0 * (length - L0) / length)
     f = [
-        TORQUE - M2 * DA * RR * vt * (vt + 2 * vb) * sth,
+        torque - M2 * DA * RR * vt * (vt + 2 * vb) * sth,
         M2 * DA * RR * vb**2 * sth,
         pull * ((xd - XC) * (SC * c["g"] - SD * s["g"]) + (yd - YC) * (SD * c["g"] + SC * s["g"])),
         M4 * ZT * e1 * vd**2 * cph,
@@ -206,11 +206,12 @@ def seconds_per_rhs(batch: int = 5000, repeats: int = 7) -> float:
 def by_jitcode(rtol: float) -> Measured:
     """Integrate by jitcode's "dop853", SciPy's compiled code, which does not report its right-hand sides."""
     ode = compiled()
+    timer = CallTimer()
     ode.set_integrator("dop853", rtol=rtol, atol=ATOL * rtol, nsteps=10**6)
     ode.set_initial_value(start(), 0.0)
-    begin = perf_counter()
-    y = ode.integrate(T_END)
-    return error(y), perf_counter() - begin, -1
+    with timer.engine:
+        y = ode.integrate(T_END)
+    return timer.measured(lambda: error(y))
 
 
 def by_scipy(rtol: float, method: str = "DOP853") -> Measured:
@@ -218,9 +219,10 @@ def by_scipy(rtol: float, method: str = "DOP853") -> Measured:
     from scipy.integrate import solve_ivp
 
     f = compiled().f
-    begin = perf_counter()
-    s = solve_ivp(f, (0.0, T_END), start(), method=method, rtol=rtol, atol=ATOL * rtol, t_eval=[T_END])
-    return error(s.y[:, -1]), perf_counter() - begin, int(s.nfev)
+    timer = CallTimer()
+    with timer.engine:
+        s = solve_ivp(f, (0.0, T_END), start(), method=method, rtol=rtol, atol=ATOL * rtol, t_eval=[T_END])
+    return timer.measured(lambda: error(s.y[:, -1]), int(s.nfev))
 
 
 def by_lsoda(rtol: float) -> Measured:

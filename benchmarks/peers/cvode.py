@@ -6,7 +6,7 @@
   strongest form of the peer: no Python between two outputs. With contact, CVODE's own root finding locates
   onsets and separations and the run restarts there (CVodeReInit), as `press.with_events` does.
 
-Each takes (work, rtol) and returns (samples, seconds of integration only, right-hand sides).
+Each takes (work, rtol) and returns (samples, cost, right-hand sides).
 """
 
 from __future__ import annotations
@@ -15,18 +15,17 @@ import ctypes
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
-from time import perf_counter
 from typing import Any
 
 import numpy as np
 from cffi import FFI
 
-from benchmarks.peers.press import OUTPUTS, Kernel, Samples, Work, switch
+from benchmarks.peers.press import OUTPUTS, Kernel, Run, Samples, Work, switch
 from benchmarks.peers.press import work as press_work
+from benchmarks.peers.timing import CallTimer
 
 ATOL = 1e-3  # of rtol: lengths of a clearance are a thousandth of a metre
 MAX_STEPS = 10**6
-Measured = tuple[Samples, float, int]
 NONE = (np.empty(0), np.empty(0))
 BDF, NORMAL, ROOT = 2, 1, 2
 DECLARATIONS = """
@@ -47,7 +46,7 @@ int CVode(void *, double, void *, double *, int);
 """
 
 
-def sundae(work: Work, rtol: float, jacobian: bool = False) -> Measured:
+def sundae(work: Work, rtol: float, jacobian: bool = False) -> Run:
     """Run CVODE by scikit-sundae; without contact only. Raises FloatingPointError."""
     from sksundae.cvode import CVODE
 
@@ -58,17 +57,18 @@ def sundae(work: Work, rtol: float, jacobian: bool = False) -> Measured:
         matrix[:] = kernel.jacobian(t, y)
 
     options: dict[str, Any] = {"jacfn": columns} if jacobian else {}
+    timer = CallTimer()
     solver = CVODE(kernel.into, method="BDF", rtol=rtol, atol=ATOL * rtol, max_num_steps=MAX_STEPS, **options)
     kernel.peer.calls = 0
-    begin = perf_counter()
-    solution = solver.solve(work.times, kernel.y0)
-    seconds = perf_counter() - begin
+    with timer.engine:
+        solution = solver.solve(work.times, kernel.y0)
+    timer.stop()
     if not solution.success:
         raise FloatingPointError(solution.message)
-    return Samples(np.ascontiguousarray(solution.y[:, :24]), NONE), seconds, int(kernel.peer.calls)
+    return Samples(np.ascontiguousarray(solution.y[:, :24]), NONE), timer, int(kernel.peer.calls)
 
 
-def sundae_jacobian(work: Work, rtol: float) -> Measured:
+def sundae_jacobian(work: Work, rtol: float) -> Run:
     """Run CVODE by scikit-sundae with the Jacobian from C."""
     return sundae(work, rtol, jacobian=True)
 
@@ -156,15 +156,16 @@ class InC:
         self.f["SUNContext_Free"](self.context)
 
 
-def in_c(work: Work, rtol: float) -> Measured:
+def in_c(work: Work, rtol: float) -> Run:
     """Run CVODE completely in C, with its root finding."""
     kernel = Kernel(work)
+    timer = CallTimer()
     solver = InC(kernel, rtol)
     try:
         kernel.peer.calls = 0
-        begin = perf_counter()
-        samples = _run(solver, work)
-        return samples, perf_counter() - begin, int(kernel.peer.calls)
+        with timer.engine:
+            samples = _run(solver, work)
+        return samples, timer.stop(), int(kernel.peer.calls)
     finally:
         solver.close()
 
@@ -202,13 +203,13 @@ def sweep_works(c: np.ndarray, omega: np.ndarray) -> list[Work]:
     ]
 
 
-def sweep(all_works: list[Work], rtol: float) -> tuple[np.ndarray, float]:
+def sweep(all_works: list[Work], rtol: float) -> tuple[np.ndarray, float, float]:
     """Run `in_c` on one work after the other, in one thread.
 
-    Return the slider's y (runs, OUTPUTS), m, and the seconds of integration of all runs.
+    Return the slider's y (runs, OUTPUTS), m, and the seconds of all runs: integration, whole calls.
     """
-    y, seconds = np.empty((len(all_works), OUTPUTS)), 0.0
+    y, seconds, call = np.empty((len(all_works), OUTPUTS)), 0.0, 0.0
     for k, work in enumerate(all_works):
-        samples, spent, _ = in_c(work, rtol)
-        y[k], seconds = samples.q[:, 22], seconds + spent
-    return y, seconds
+        samples, timer, _ = in_c(work, rtol)
+        y[k], seconds, call = samples.q[:, 22], seconds + timer.engine.seconds, call + timer.call
+    return y, seconds, call

@@ -8,13 +8,14 @@ is second order and undamped, accelerations oscillate, and that is the method's,
 
 from __future__ import annotations
 
+from functools import cache
 from importlib import import_module
-from time import perf_counter
 from typing import Any
 
 import numpy as np
 
 from benchmarks.peers import ideal, press
+from benchmarks.peers.timing import CallTimer, Measured
 from tests.oracles import ideal_press, press_dense
 
 # pairs of (body, end): −1 tail, +1 head; by number of the body, "" the ground's point
@@ -29,6 +30,7 @@ JOINTS = (
 )
 
 
+@cache
 def build() -> tuple[Any, int]:
     """Return the system and the node of the slider; sensor 0 stores its coordinates, 1 its velocities.
 
@@ -91,10 +93,11 @@ def _hold(system: Any, item: Any, nodes: list[int], geometry: ideal_press.PressD
         system.AddObject(item.ObjectConnectorCoordinate(markerNumbers=[zero, own], **rate))
 
 
-def run(step: float) -> tuple[float, float, int]:
-    """Integrate with a step in s; return (error, seconds per sample, −1). Raises FloatingPointError."""
+def run(step: float) -> Measured:
+    """Integrate with a step in s; times are those of a sample. Raises FloatingPointError."""
     exu = import_module("exudyn")
     system, _ = build()
+    timer = CallTimer()
     count = round(ideal.T_END / step)
     settings = exu.SimulationSettings()
     integration = settings.timeIntegration
@@ -104,12 +107,12 @@ def run(step: float) -> tuple[float, float, int]:
     integration.verboseMode = 0
     settings.solutionSettings.writeSolutionToFile = False
     settings.solutionSettings.sensorsWritePeriod = ideal.T_END / (ideal.SAMPLES - 1)
-    begin = perf_counter()
-    system.SolveDynamic(settings)
-    seconds = perf_counter() - begin
+    with timer.engine:
+        system.SolveDynamic(settings)
     start = press_dense.start(press.work("dry").press)
     y = np.asarray(system.GetSensorStoredData(0))[:, 2] + start[22]
     v = np.asarray(system.GetSensorStoredData(1))[:, 2]
+    timer.stop()
     if len(y) != ideal.SAMPLES:
         raise FloatingPointError(f"Exudyn stored {len(y)} samples")
-    return ideal.error(np.stack([y, v], axis=1)), seconds / ideal.SAMPLES, -1
+    return timer.measured(lambda: ideal.error(np.stack([y, v], axis=1))).per(ideal.SAMPLES)

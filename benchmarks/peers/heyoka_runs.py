@@ -8,12 +8,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import cache
 from importlib import import_module
-from time import perf_counter
 from typing import Any
 
 import numpy as np
 
 from benchmarks.peers import andrews
+from benchmarks.peers.timing import CallTimer, Measured
 
 NAME = "heyoka"
 
@@ -23,11 +23,13 @@ def variables(*names: str) -> list[Any]:
     return list(import_module(NAME).make_vars(*names))
 
 
-def integrator(state: Sequence[Any], rates: Sequence[Any], start: np.ndarray, tolerance: float) -> Any:
-    """Return a compiled integrator; `start` (N,), or (N, runs) for runs in SIMD lanes."""
+def integrator(
+    state: Sequence[Any], rates: Sequence[Any], start: np.ndarray, tolerance: float, compact: bool = False
+) -> Any:
+    """Return a compiled integrator; `start` (N,), or (N, runs) for runs in SIMD lanes; `compact`: loops, not text."""
     hy = import_module(NAME)
     make = hy.taylor_adaptive_batch if start.ndim == 2 else hy.taylor_adaptive
-    return make(list(zip(state, rates, strict=True)), start, tol=tolerance)
+    return make(list(zip(state, rates, strict=True)), start, tol=tolerance, compact_mode=compact)
 
 
 def beside() -> int:
@@ -35,16 +37,16 @@ def beside() -> int:
     return int(import_module(NAME).recommended_simd_size())
 
 
-def timed(run: Any, start: np.ndarray, t_end: float) -> float:
-    """Return the seconds of a run from the start; its state is then that at the end."""
+def propagate(run: Any, start: np.ndarray, t_end: float, timer: CallTimer) -> np.ndarray:
+    """Run from the start to `t_end`; return a copy of the state there. The timer measures the integration."""
     if start.ndim == 2:
         run.set_time(0.0)
     else:
         run.time = 0.0
     run.state[:] = start
-    before = perf_counter()
-    run.propagate_until(t_end)
-    return perf_counter() - before
+    with timer.engine:
+        run.propagate_until(t_end)
+    return np.array(run.state)
 
 
 @cache
@@ -62,8 +64,9 @@ def _keep_expression(value: Any) -> Any:
     return value
 
 
-def of_andrews(tolerance: float) -> andrews.Measured:
+def of_andrews(tolerance: float) -> Measured:
     """Integrate Andrews' squeezer with multipliers eliminated in heyoka's expressions (index 1)."""
     run = _andrews_integrator(tolerance)
-    seconds = timed(run, andrews.start(), andrews.T_END)
-    return andrews.error(run.state), seconds, -1
+    timer = CallTimer()
+    state = propagate(run, andrews.start(), andrews.T_END, timer)
+    return timer.measured(lambda: andrews.error(state))

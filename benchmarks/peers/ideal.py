@@ -7,13 +7,13 @@ A revolution at ω = 2π in 1001 samples. Error: the largest |Δy9| over the str
 from __future__ import annotations
 
 from functools import cache
-from time import perf_counter
 from typing import Any
 
 import numpy as np
 from cffi import FFI
 
 from benchmarks.peers import press
+from benchmarks.peers.timing import CallTimer, Measured
 from tests.oracles import ideal_press, press_dense
 
 SAMPLES, T_END = 1001, 1.0
@@ -41,19 +41,20 @@ def error(found: np.ndarray) -> float:
     return float((np.abs(found - true).max(axis=0) / scale).max())
 
 
-def dense(_: float) -> tuple[float, float, int]:
-    """Solve all samples; return (error, seconds per sample, −1). Raises FloatingPointError."""
+def dense(_: float) -> Measured:
+    """Solve all samples; times are those of a sample. Raises FloatingPointError."""
     ffi, c = library()
     data = press.work("dry").press
+    timer = CallTimer()
     struct = ffi.new("Press *")
     raw = bytes(press_dense._struct(data))
     ffi.memmove(struct, raw, len(raw))
     guess, rows = press_dense.start(data)[:24].copy(), np.empty((SAMPLES, 72))
     arguments = (struct, T_END / (SAMPLES - 1), SAMPLES, ffi.from_buffer("double[]", guess))
     out = ffi.from_buffer("double[]", rows)
-    begin = perf_counter()
-    bad = c.ideal_run(*arguments, out)
-    seconds = perf_counter() - begin
+    with timer.engine:
+        bad = c.ideal_run(*arguments, out)
+    timer.stop()
     if bad:
         raise FloatingPointError(f"ideal press: {bad}")
-    return error(rows[:, [22, 46, 70]]), seconds / SAMPLES, -1
+    return timer.measured(lambda: error(rows[:, [22, 46, 70]])).per(SAMPLES)

@@ -24,12 +24,12 @@ import tempfile
 from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
-from time import perf_counter
 from typing import Any
 
 import numpy as np
 from cffi import FFI
 
+from benchmarks.peers.timing import CallTimer
 from tests.oracles import ideal_press, press_dense
 
 FOLDER = Path(__file__).resolve().parent
@@ -108,6 +108,9 @@ class Samples:
 
     q: np.ndarray
     onsets: tuple[np.ndarray, np.ndarray]
+
+
+Run = tuple[Samples, CallTimer, int]  # outputs, cost, right-hand sides
 
 
 @dataclass(frozen=True)
@@ -287,31 +290,31 @@ def reference_gap(name: str) -> Errors:
     return errors(task, Samples(run.q, (np.empty(0), np.empty(0))), reference(name))
 
 
-def lsoda(work: Work, rtol: float, with_jacobian: bool = False) -> tuple[Samples, float, int]:
-    """Return (samples, seconds of integration only, right-hand sides) of SciPy's LSODA, from event to event.
+def lsoda(work: Work, rtol: float, with_jacobian: bool = False) -> Run:
+    """Return a run of SciPy's LSODA, from event to event.
 
     LSODA differences the right-hand side, or gets all 48 columns by one call of C.
     """
     kernel = Kernel(work)
     options: dict[str, Any] = {"jac": kernel.jacobian} if with_jacobian else {}
     kernel.peer.calls = 0
-    begin = perf_counter()
-    samples = with_events(kernel, work, method="LSODA", rtol=rtol, atol=LSODA_ATOL * rtol, **options)
-    return samples, perf_counter() - begin, int(kernel.peer.calls)
+    timer = CallTimer()
+    with timer.engine:
+        samples = with_events(kernel, work, method="LSODA", rtol=rtol, atol=LSODA_ATOL * rtol, **options)
+    return samples, timer.stop(), int(kernel.peer.calls)
 
 
-def lsoda_with_jacobian(work: Work, rtol: float) -> tuple[Samples, float, int]:
-    """Return samples, seconds and right-hand sides of LSODA with the Jacobian from C."""
+def lsoda_with_jacobian(work: Work, rtol: float) -> Run:
+    """Return a run of LSODA with the Jacobian from C."""
     return lsoda(work, rtol, with_jacobian=True)
 
 
-def rk4(work: Work, step: float) -> tuple[Samples, float, int]:
-    """Return samples, seconds and right-hand sides of classical RK4 with a fixed step (s) in C, which lists no
-    onsets."""
+def rk4(work: Work, step: float) -> Run:
+    """Return a run of classical RK4 with a fixed step (s) in C, which lists no onsets."""
     every = max(1, round(work.t_end / (OUTPUTS - 1) / step))
     h = work.t_end / ((OUTPUTS - 1) * every)
-    begin = perf_counter()
-    found = press_dense.rk4(work.press, work.t_end, h, every=every)
-    seconds = perf_counter() - begin
+    timer = CallTimer()
+    with timer.engine:
+        found = press_dense.rk4(work.press, work.t_end, h, every=every)
     nothing = np.full(0, np.nan)
-    return Samples(found.q, (nothing, nothing)), seconds, 4 * every * (OUTPUTS - 1)
+    return Samples(found.q, (nothing, nothing)), timer.stop(), 4 * every * (OUTPUTS - 1)

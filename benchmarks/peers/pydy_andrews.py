@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 
 from benchmarks.peers import andrews
+from benchmarks.peers.timing import CallTimer, Measured
 
 ATOL = 1e-2  # of rtol
 FREE = 1e30  # absolute tolerance of μ, which is not needed
@@ -59,8 +60,8 @@ def start() -> np.ndarray:
     return np.array([*y[:7], *[0.0] * 6, *y[7:], *[0.0] * 6])
 
 
-def run(rtol: float) -> andrews.Measured:
-    """Integrate; return (error, seconds of integration only, right-hand sides)."""
+def run(rtol: float) -> Measured:
+    """Integrate; return error and cost."""
     from scipy.integrate import solve_ivp
 
     f, y0 = compiled(), start()
@@ -68,17 +69,18 @@ def run(rtol: float) -> andrews.Measured:
     free[:7] = free[13:20] = False
     atol = np.where(free, FREE, ATOL * rtol)
     torque = np.array([andrews.TORQUE])
-    begin = perf_counter()
-    s = solve_ivp(  # PyDy returns the same array each time, and solve_ivp stores it: hence the copy
-        lambda t, y: f(y, t, torque).copy(),
-        (0.0, andrews.T_END),
-        y0,
-        t_eval=[andrews.T_END],
-        method="DOP853",
-        rtol=rtol,
-        atol=atol,
-    )
-    return andrews.error(s.y[:7, -1]), perf_counter() - begin, int(s.nfev)
+    timer = CallTimer()
+    with timer.engine:
+        s = solve_ivp(  # PyDy returns the same array each time, and solve_ivp stores it: hence the copy
+            lambda t, y: f(y, t, torque).copy(),
+            (0.0, andrews.T_END),
+            y0,
+            t_eval=[andrews.T_END],
+            method="DOP853",
+            rtol=rtol,
+            atol=atol,
+        )
+    return timer.measured(lambda: andrews.error(s.y[:7, -1]), int(s.nfev))
 
 
 def seconds_per_rhs(batch: int = 500, repeats: int = 7) -> float:

@@ -7,32 +7,48 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache, partial
 from importlib.util import find_spec
 from typing import Any
 
 import numpy as np
 
-import gudgeon
 from benchmarks import many
 from benchmarks.peers import (
     andrews,
+    casadi_runs,
     chains,
     cvode,
+    diffrax_runs,
+    drake_runs,
+    dry_chain,
     exudyn_andrews,
     exudyn_press,
     heyoka_runs,
     ideal,
+    long_runs,
+    mujoco_runs,
+    own_scenes,
+    pinocchio_runs,
     press,
     pydy_andrews,
+    sizes,
 )
+from benchmarks.peers import four_bar_closed_form as four_bars
+from benchmarks.peers.chain_equations import RECURSIVE
+from benchmarks.peers.chain_equations import WORKS as WORKS_OF_CHAINS
+from benchmarks.peers.timing import CallTimer, Measured
+from benchmarks.race.record import MEASURES
 from gudgeon.contract.methods import STAGED
 
+ANGLES = ("beta", "Theta", "gamma", "Phi", "delta", "Omega", "epsilon")
 BODIES = ("L1", "L2", "L3", "L4", "L6", "L7", "L8", "S9")
 TOLERANCES = tuple(10.0**-k for k in range(3, 13))
-WORKS = ("andrews", "double", "links", "ideal", "dry", "lubricated", "sweep")
-CHAINS = {"double": 2, "links": 6}  # pendulums, of so many links
+WORKS = tuple(MEASURES)
+LONG_TOLERANCES = (1e-12, 1e-13, 1e-14)
+ENGINE_TOLERANCES = tuple(10.0**-k for k in range(4, 13))
+CHAIN_TOLERANCES = (1e-4, 1e-6, 1e-8, 1e-10)  # of heyoka, which compiles 64 links anew for each of them
 RK4_STEPS = {
     "lubricated": (2e-5, 1e-5, 5e-6),
     "dry": (1e-5, 5e-6, 2e-6, 1e-6, 5e-7),
@@ -49,8 +65,13 @@ class Found:
     """Errors by measure (see `press.errors`; andrews and ideal have "angle" and "motion") and cost of one run."""
 
     errors: dict[str, float]
-    seconds: float
+    seconds: float  # of the integration
+    call: float  # of the whole call
     right_hand_sides: int  # −1: unknown
+
+    def least(self, other: Found) -> Found:
+        """Return the result with the smaller of each time."""
+        return replace(self, seconds=min(self.seconds, other.seconds), call=min(self.call, other.call))
 
 
 @dataclass(frozen=True)
@@ -64,6 +85,13 @@ class Entry:
     needs: tuple[str, ...] = ()  # modules
     method: str = ""  # gudgeon's own; "" for a peer
     runs: int = 1  # number of runs over which `seconds` is averaged
+    same: str = ""  # name of what is set up; entries with the same name share one measurement of set-up
+
+    @property
+    def model(self) -> str:
+        """Return what is set up: gudgeon's scene, with or without Taylor series, or the entry itself."""
+        own = "gudgeon taylor" if "taylor" in self.name else "gudgeon"
+        return own if self.method else self.same or self.name
 
     @property
     def missing(self) -> str:
@@ -71,8 +99,8 @@ class Entry:
         return ", ".join(module for module in self.needs if find_spec(module) is None)
 
 
-Press = Callable[[press.Work, float], tuple[press.Samples, float, int]]
-Plain = Callable[[float], tuple[float, float, int]]
+Press = Callable[[press.Work, float], press.Run]
+Plain = Callable[[float], Measured]
 
 
 def on_press(run: Press, name: str) -> Callable[[float], Found]:
@@ -80,8 +108,8 @@ def on_press(run: Press, name: str) -> Callable[[float], Found]:
 
     def found(control: float) -> Found:
         """Return errors and cost."""
-        samples, seconds, calls = run(press.work(name), control)
-        return Found(press_errors(name, samples), seconds, calls)
+        samples, timer, calls = run(press.work(name), control)
+        return Found(press_errors(name, samples), timer.engine.seconds, timer.call, calls)
 
     return found
 
@@ -97,8 +125,8 @@ def plain(run: Plain, measure: str) -> Callable[[float], Found]:
 
     def found(control: float) -> Found:
         """Return error and cost."""
-        error, seconds, calls = run(control)
-        return Found({measure: error}, seconds, calls)
+        cost = run(control)
+        return Found({measure: cost.error}, cost.seconds, cost.call, cost.right_hand_sides)
 
     return found
 
@@ -106,7 +134,7 @@ def plain(run: Plain, measure: str) -> Callable[[float], Found]:
 @cache
 def loaded(mechanism: str, scene: str) -> Any:
     """Load a scene once."""
-    return gudgeon.load(mechanism, scene=scene, quick=False)
+    return own_scenes.load(mechanism, scene)
 
 
 def own_press(name: str, method: str, control: str) -> Callable[[float], Found]:
@@ -115,13 +143,15 @@ def own_press(name: str, method: str, control: str) -> Callable[[float], Found]:
     def found(value: float) -> Found:
         """Return errors and cost."""
         work = press.work(name)
-        run = loaded("nine_bar_press", name).simulate(
+        simulation, timer = loaded("nine_bar_press", name), CallTimer()
+        run = simulation.simulate(
             work.t_end, output=work.times, method=method, parameters=work.parameters, **{control: value}
         )
         q = np.stack([run[f"{body}.{c}"] for body in BODIES for c in ("x", "y", "theta")], axis=1)
         onsets = [run.impacts["t_on"][run.impacts["joint"] == joint] for joint in (0, 1)]
+        call = timer.stop().call
         errors = press_errors(name, press.Samples(q, (onsets[0], onsets[1])))
-        return Found(errors, run.diagnostics.seconds, run.diagnostics.right_hand_sides)
+        return Found(errors, run.diagnostics.seconds, call, run.diagnostics.right_hand_sides)
 
     return found
 
@@ -131,10 +161,11 @@ def own_andrews(method: str, control: str) -> Callable[[float], Found]:
 
     def found(value: float) -> Found:
         """Return error and cost."""
-        run = loaded("andrews_squeezer", "ideal").simulate(andrews.T_END, output=1, method=method, **{control: value})
-        names = ("beta", "Theta", "gamma", "Phi", "delta", "Omega", "epsilon")
-        error = andrews.error(np.array([run[name][-1] for name in names]))
-        return Found({"angle": error}, run.diagnostics.seconds, run.diagnostics.right_hand_sides)
+        simulation, timer = loaded("andrews_squeezer", "ideal"), CallTimer()
+        run = simulation.simulate(andrews.T_END, output=1, method=method, **{control: value})
+        angles = np.array([run[name][-1] for name in ANGLES])
+        call = timer.stop().call
+        return Found({"angle": andrews.error(angles)}, run.diagnostics.seconds, call, run.diagnostics.right_hand_sides)
 
     return found
 
@@ -142,9 +173,11 @@ def own_andrews(method: str, control: str) -> Callable[[float], Found]:
 def own_ideal(_: float) -> Found:
     """Run gudgeon on the ideal press; the time is that of a sample."""
     parameters = {k: v for k, v in press.work("dry").parameters.items() if k != "c"}
-    run = loaded("nine_bar_press", "ideal").simulate(ideal.T_END, output=ideal.SAMPLES - 1, parameters=parameters)
-    error = ideal.error(np.stack([run["S9.y"], run["S9.vy"], run["S9.ay"]], axis=1))
-    return Found({"motion": error}, run.diagnostics.seconds / ideal.SAMPLES, -1)
+    simulation, timer = loaded("nine_bar_press", "ideal"), CallTimer()
+    run = simulation.simulate(ideal.T_END, output=ideal.SAMPLES - 1, parameters=parameters)
+    motion = np.stack([run["S9.y"], run["S9.vy"], run["S9.ay"]], axis=1)
+    cost = timer.measured(lambda: ideal.error(motion), seconds=run.diagnostics.seconds).per(ideal.SAMPLES)
+    return Found({"motion": cost.error}, cost.seconds, cost.call, -1)
 
 
 @cache
@@ -154,10 +187,10 @@ def sweep_reference() -> np.ndarray:
     return batch.q[:, :, batch.source.coordinates.index(many.SLIDER)]
 
 
-def sweep_found(y: np.ndarray, seconds: float) -> Found:
+def sweep_found(y: np.ndarray, seconds: float, call: float) -> Found:
     """Return the worst slider error over all runs, and seconds per run."""
     error = float(np.abs(y - sweep_reference()).max() / press.work("lubricated").stroke)
-    return Found({"worst": error}, seconds / len(y), -1)
+    return Found({"worst": error}, seconds / len(y), call / len(y), -1)
 
 
 def own_sweep(threads: int) -> Callable[[float], Found]:
@@ -165,8 +198,10 @@ def own_sweep(threads: int) -> Callable[[float], Found]:
 
     def found(rtol: float) -> Found:
         """Return error and cost."""
-        batch = many.run(loaded("nine_bar_press", "lubricated"), many.grid(*SWEEP), rtol=rtol, threads=threads)
-        return sweep_found(batch.q[:, :, batch.source.coordinates.index(many.SLIDER)], batch.seconds)
+        simulation, timer = loaded("nine_bar_press", "lubricated"), CallTimer()
+        batch = many.run(simulation, many.grid(*SWEEP), rtol=rtol, threads=threads)
+        y = batch.q[:, :, batch.source.coordinates.index(many.SLIDER)]
+        return sweep_found(y, batch.seconds, timer.stop().call)
 
     return found
 
@@ -180,7 +215,16 @@ def peer_sweep(rtol: float) -> Found:
 
 def entries() -> list[Entry]:
     """Return all entries, those of gudgeon first in each problem."""
-    return [*press_entries(), *andrews_entries(), *chain_entries(), *ideal_entries(), *sweep_entries()]
+    return [
+        *press_entries(),
+        *andrews_entries(),
+        *chain_entries(),
+        *long_entries(),
+        *ideal_entries(),
+        *ensemble_entries(),
+        *sixteen_entries(),
+        *sweep_entries(),
+    ]
 
 
 def own_methods(work: str) -> list[tuple[str, str, tuple[float, ...]]]:
@@ -197,13 +241,13 @@ def press_entries() -> list[Entry]:
         for method, control, values in own_methods(work):
             found.append(Entry(work, f"gudgeon {method}", own_press(work, method, control), values, (), method))
         found += [
-            Entry(work, "CVODE BDF from C", on_press(cvode.in_c, work), TOLERANCES, sundae),
-            Entry(work, "LSODA (SciPy)", on_press(press.lsoda, work), TOLERANCES),
-            Entry(work, "LSODA, J in C", on_press(press.lsoda_with_jacobian, work), TOLERANCES),
-            Entry(work, "RK4 in dense C", on_press(press.rk4, work), RK4_STEPS[work]),
+            Entry(work, "CVODE BDF from C", on_press(cvode.in_c, work), TOLERANCES, sundae, same="press in C"),
+            Entry(work, "LSODA (SciPy)", on_press(press.lsoda, work), TOLERANCES, same="press in C"),
+            Entry(work, "LSODA, J in C", on_press(press.lsoda_with_jacobian, work), TOLERANCES, same="press in C"),
+            Entry(work, "RK4 in dense C", on_press(press.rk4, work), RK4_STEPS[work], same="press in C"),
         ]
     for name, run in (("scikit-sundae", cvode.sundae), ("scikit-sundae, J in C", cvode.sundae_jacobian)):
-        found.append(Entry("lubricated", name, on_press(run, "lubricated"), TOLERANCES[:9], sundae))
+        found.append(Entry("lubricated", name, on_press(run, "lubricated"), TOLERANCES[:9], sundae, same="press in C"))
     return found
 
 
@@ -217,26 +261,86 @@ def andrews_entries() -> list[Entry]:
         Entry("andrews", "gudgeon taylor", own_andrews("taylor", "rtol"), TOLERANCES, (), "taylor"),
         Entry("andrews", "heyoka", plain(heyoka_runs.of_andrews, "angle"), HEYOKA[1:9], HEYOKAS),
         Entry("andrews", "jitcode dop853", plain(andrews.by_jitcode, "angle"), TOLERANCES, jit),
-        Entry("andrews", "SciPy DOP853", plain(andrews.by_scipy, "angle"), TOLERANCES, jit),
-        Entry("andrews", "SciPy LSODA", plain(andrews.by_lsoda, "angle"), TOLERANCES, jit),
+        Entry("andrews", "SciPy DOP853", plain(andrews.by_scipy, "angle"), TOLERANCES, jit, same="jitcode dop853"),
+        Entry("andrews", "SciPy LSODA", plain(andrews.by_lsoda, "angle"), TOLERANCES, jit, same="jitcode dop853"),
         Entry("andrews", "PyDy, DOP853", plain(pydy_andrews.run, "angle"), TOLERANCES[1:8], ("pydy", "Cython")),
         Entry("andrews", "Exudyn gen.-alpha", plain(exudyn_andrews.run, "angle"), EXUDYN_STEPS, ("exudyn",)),
+        *engine_entries("andrews", mujoco_runs.ANDREWS_STEPS),
     ]
+
+
+def engine_entries(work: str, steps: tuple[float, ...]) -> list[Entry]:
+    """Return the entries of rigid-body engines and of solvers of expressions; `steps` of MuJoCo, s."""
+    n = WORKS_OF_CHAINS.get(work)
+
+    def entry(name: str, module: Any, needs: tuple[str, ...], controls: tuple[float, ...]) -> Entry:
+        """Return the entry of a program."""
+        run = module.run_andrews if n is None else partial(module.run_chain, n)
+        return Entry(work, name, plain(run, "angle"), controls, needs)
+
+    found = [
+        entry("MuJoCo RK4", mujoco_runs, ("mujoco",), steps),
+        entry("Pinocchio, DOP853", pinocchio_runs, ("pinocchio",), ENGINE_TOLERANCES),
+        entry("CasADi CVODES", casadi_runs, ("casadi",), ENGINE_TOLERANCES[::2] if n else ENGINE_TOLERANCES),
+        entry("diffrax Dopri8", diffrax_runs, ("diffrax", "jax"), ENGINE_TOLERANCES),
+    ]
+    if n is not None:  # Drake closes no loops in a continuous plant
+        found.append(entry("Drake RK5", drake_runs, ("pydrake",), ENGINE_TOLERANCES))
+    return found
 
 
 def chain_entries() -> list[Entry]:
     """Return the entries of pendulums with several links: single runs and batches, Taylor methods included."""
     found = []
-    for work, n in CHAINS.items():
+    for work, n in WORKS_OF_CHAINS.items():
+        batches, tolerances = n < RECURSIVE, HEYOKA if n < RECURSIVE else CHAIN_TOLERANCES
         for method in ("auto", "dop853", "taylor"):
             run = plain(partial(chains.own, n, method), "angle")
             found.append(Entry(work, f"gudgeon {method}", run, TOLERANCES, (), method))
-        for method in ("auto", "taylor"):
+        for method in ("auto", "taylor") if batches else ():
             run = plain(partial(chains.own_batch, n, method), "angle")
             found.append(Entry(work, f"gudgeon {method}, a batch", run, TOLERANCES, (), method, chains.RUNS))
         for name, peer, runs in (("", chains.heyoka, 1), (", a batch", chains.heyoka_batch, chains.RUNS)):
-            found.append(Entry(work, f"heyoka{name}", plain(partial(peer, n), "angle"), HEYOKA, HEYOKAS, "", runs))
+            if batches or not name:
+                run = plain(partial(peer, n), "angle")
+                found.append(Entry(work, f"heyoka{name}", run, tolerances, HEYOKAS, "", runs))
+        run = plain(partial(chains.by_jitcode, n), "angle")
+        found.append(Entry(work, "jitcode dop853", run, TOLERANCES[1:], ("jitcode",)))
+        found += engine_entries(work, mujoco_runs.STEPS[n])
     return found
+
+
+def long_entries() -> list[Entry]:
+    """Return the entries of long conservative motion."""
+    found = []
+    for work in ("long", "turns", "swings"):
+        for method in ("auto", "dop853", "taylor"):
+            run = plain(partial(long_runs.own, work, method), "energy")
+            found.append(Entry(work, f"gudgeon {method}", run, LONG_TOLERANCES, (), method))
+        run = plain(partial(long_runs.heyoka, work), "energy")
+        found.append(Entry(work, "heyoka", run, (*LONG_TOLERANCES, 1e-15), HEYOKAS))
+        run = plain(partial(long_runs.by_jitcode, work), "energy")
+        found.append(Entry(work, "jitcode dop853", run, LONG_TOLERANCES[: 1 if work == "long" else 2], ("jitcode",)))
+    return found
+
+
+def ensemble_entries() -> list[Entry]:
+    """Return the entries of a kinematic ensemble of four-bars."""
+    n = sizes.four_bars
+    return [
+        Entry("ensemble", "gudgeon kinematic", plain(four_bars.own, "motion"), (math.nan,), (), "kinematic", n),
+        Entry("ensemble", "closed form in NumPy", plain(four_bars.by_numpy, "motion"), (math.nan,), (), "", n),
+    ]
+
+
+def sixteen_entries() -> list[Entry]:
+    """Return the entries of sixteen joints with dry contact."""
+    found = []
+    for method in ("auto", "dop853", "rodas5p"):
+        run = plain(partial(dry_chain.own, method), "path")
+        found.append(Entry("sixteen", f"gudgeon {method}", run, TOLERANCES[:9], (), method))
+    run = plain(dry_chain.by_numpy, "path")
+    return [*found, Entry("sixteen", "NumPy, DOP853", run, dry_chain.TOLERANCES)]
 
 
 def ideal_entries() -> list[Entry]:

@@ -12,11 +12,20 @@ import re
 from dataclasses import dataclass
 from pathlib import Path
 
-from benchmarks.race.record import LEVELS, MEASURES, ONSET_LEVELS, SMOOTH, SMOOTH_LEVELS, Record, read
+from benchmarks.race.record import LEVELS, LEVELS_OF, MEASURES, ONSET_LEVELS, Record, read
 
 FOLDER = Path(__file__).resolve().parents[1]
 CSV, FIGURES, PAGE = FOLDER / "race.csv", FOLDER / "figures", FOLDER.parent / "docs" / "race.md"
-UNITS = {"ideal": ("µs a sample", 1e6), "double": ("µs", 1e6), "links": ("µs", 1e6), "sweep": ("ms a run", 1e3)}
+UNITS = {
+    "ideal": ("µs a sample", 1e6),
+    "double": ("µs", 1e6),
+    "links": ("µs", 1e6),
+    "long": ("s", 1.0),
+    "turns": ("s", 1.0),
+    "swings": ("s", 1.0),
+    "ensemble": ("µs a run", 1e6),
+    "sweep": ("ms a run", 1e3),
+}
 DEFAULT = "gudgeon auto"  # the default method, to which the requirements apply
 
 
@@ -88,31 +97,46 @@ def bars(record: Record) -> list[str]:
 
 
 def table(record: Record, work: str, measure: str) -> list[str]:
-    """Return the times of all entries to each error, and their ratios to the default method of gudgeon."""
-    levels = ONSET_LEVELS if measure == "onset" else SMOOTH_LEVELS if work in SMOOTH else LEVELS
+    """Return for all entries the times to each error: the engine alone and the whole call side by side; the ratio of
+    both to the default method of gudgeon at the error in the middle; the time of set-up in s.
+    """
+    levels = ONSET_LEVELS if measure == "onset" else LEVELS_OF.get(work, LEVELS)
     unit, scale = UNITS.get(work, ("ms", 1e3))
     names = record.entries(work)
     base = next((n for n in names if n.startswith(DEFAULT)), next((n for n in names if record.is_own(work, n)), ""))
-    ours = [record.time_to(work, base, measure, level) for level in levels]
+
+    def times(name: str) -> list[float]:
+        """Return engine and call to each error, then both ratios."""
+        found = [record.time_to(work, name, measure, level, call) for level in levels for call in (False, True)]
+        at = levels[len(levels) // 2]
+        for call in (False, True):
+            own = record.time_to(work, base, measure, at, call)
+            found.append(record.time_to(work, name, measure, at, call) / own)
+        return found
+
     rows = []
     for name in names:
-        times = [record.time_to(work, name, measure, level) for level in levels]
-        rows.append(
-            [name, *(number(t * scale) for t in times), *(number(t / b) for t, b in zip(times, ours, strict=True))]
-        )
+        *cells, engine, call = times(name)
+        last = (engine, call, record.setup(work, name))
+        rows.append([name, *(number(t * scale) for t in cells), *map(number, last)])
     at = [f"{level:.0e}{' s' if measure == 'onset' else ''}" for level in levels]
-    return grid([f"{measure}, {unit}", *at, *(f"× at {level}" for level in at)], rows)
+    head = [f"{kind} {level}" for level in at for kind in ("engine", "call")]
+    middle = at[len(at) // 2]
+    return grid([f"{measure}, {unit}", *head, f"× engine {middle}", f"× call {middle}", "set-up, s"], rows)
 
 
 def facts(record: Record, work: str = "") -> list[str]:
-    """Return the facts of a problem, or of the machine."""
-    prefix = f"{work}, " if work else ""
-    selected = {
-        name.removeprefix(prefix): value
-        for name, value in record.facts.items()
-        if (name.startswith(prefix) if work else name.partition(", ")[0] not in MEASURES)
-    }
-    return [f"- {name}: {value}" for name, value in selected.items()]
+    """Return the facts of a problem, or of the machines of all runs."""
+    if not work:
+        return [
+            f"- {name if len(record.runs()) > 1 else name.partition(', ')[2]}: {value}"
+            for name, value in record.facts.items()
+            if name.startswith("run ")
+        ]
+    prefix = f"{work}, "
+    found = [f"- {name.removeprefix(prefix)}: {x}" for name, x in record.facts.items() if name.startswith(prefix)]
+    runs = record.runs(work)
+    return [*found, f"- measured in run {', '.join(map(str, runs))}"] if len(record.runs()) > 1 and runs else found
 
 
 def blocks(record: Record) -> dict[str, str]:
@@ -124,6 +148,8 @@ def blocks(record: Record) -> dict[str, str]:
             lines += ["This problem was not measured: `make race` measures all problems."]
         for measure in measures if record.entries(work) else ():
             lines += ["", *table(record, work, measure)]
+        if record.entries(work):
+            lines += ["", f"![{work}: time against error](../benchmarks/figures/race_{work}.png)"]
         found[work] = lines
     return {name: "\n".join(lines).strip() for name, lines in found.items()}
 

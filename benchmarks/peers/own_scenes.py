@@ -1,0 +1,16 @@
+"""Load the scenes of gudgeon that the race runs, optimized; a measurement of set-up derives and compiles them anew."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import Any
+
+import gudgeon
+
+regenerate = False  # set by benchmarks/race/setup.py
+
+
+def load(mechanism: str | os.PathLike[str] | Path, scene: str | None = None) -> Any:
+    """Return the loaded scene with its optimized library."""
+    return gudgeon.load(mechanism, scene, quick=False, regenerate=regenerate)
