@@ -18,7 +18,6 @@ import sys
 import tempfile
 import time
 from dataclasses import astuple, dataclass, fields
-from datetime import UTC, datetime
 from pathlib import Path
 
 import numpy as np
@@ -136,7 +135,7 @@ def measure_page(largest: int) -> None:
             for n in (n for n in sizes if n <= largest):
                 rows.append(measure(family, n, Path(folder)))
                 print(rows[-1], flush=True)
-    facts = {"day": datetime.now(UTC).date().isoformat(), "machine": machine(), "python": sys.version.split()[0]}
+    facts = {"machine": machine(), "python": sys.version.split()[0]}
     write(facts, rows)
     main()
 
