@@ -39,6 +39,7 @@
 #else
 #include "kinematic/kinematic.c"
 #include "kinematic/works.c"
+#include "kinematic/ensemble.c"
 #if N_USER_EVENTS
 #include "kinematic/events.c"
 #endif

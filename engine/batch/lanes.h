@@ -5,7 +5,12 @@
  */
 #ifndef GUDGEON_LANES_H
 #define GUDGEON_LANES_H
+#if INTEGRATES
 #include "../run/run.h"
+#endif
+#include <float.h>
+#include <math.h>
+#include <string.h>
 #include <time.h>
 
 #if defined(__AVX512F__)
@@ -47,8 +52,12 @@ static inline int any_of(LaneBits mask)
 
 #include "lane_functions.h"
 
-/* Frozen branches, and values of the switching functions, of all lanes. */
+/* Frozen branches, and values of the switching functions, of all lanes. A kinematic analysis freezes no branches. */
+#if INTEGRATES
 #define frozen_branches(discrete) (discrete)->branch
+#else
+#define frozen_branches(discrete) NULL
+#endif
 #define reported_branches(rhs) (rhs)->g
 
 /*
@@ -166,6 +175,7 @@ static inline LaneBits is_touching(const LaneContactState *contact, Lanes delta)
     return is_closed(contact);
 }
 
+#if INTEGRATES
 /* Return the wall time since the epoch, s. */
 static double read_wall_time(void)
 {
@@ -248,5 +258,6 @@ typedef struct {
     Lanes min_state[2 * N_X + 1], max_state[2 * N_X + 1];
     LaneBits is_accepted, is_failed, has_no_stages, has_no_dense;
 } LaneStep;
+#endif
 
 #endif

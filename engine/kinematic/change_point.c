@@ -8,7 +8,6 @@ enum { PASS_NODES = 4 /* on either side */, PASS_TRIES = 3, PASS_HALVINGS = 8 };
 #define PASS_NODE_ANGLE 1e-2   /* rad, or fraction of the size: motion of the fastest coordinate between two nodes */
 #define PASS_POSITION_TOL 1e-9 /* the same: largest difference of polynomials of two degrees */
 #define PASS_RATE_TOL 1e-5  /* of the fastest rate: largest difference of a start from a branch */
-#define MIN_PASS_CORRECTION 1e3   /* ulp of a coordinate: smallest last correction near such a position */
 
 /*
  * Return whether the last correction of Newton's method is larger than rounding of the coordinates, as near a change
@@ -39,7 +38,7 @@ static int follow_branch(KinematicRun *run, double t, const Position *start, Pos
         if (status == STOPPED)
             return status;
         if (!status && correction <= run->max_correction
-            && compute_trapezoidal_error(position, &next, run->extent) <= 0.002 * run->max_correction) {
+            && compute_trapezoidal_error(position, &next, run->extent) <= MAX_STEP_ERROR * run->max_correction) {
             *position = next;
             continue;
         }
@@ -157,7 +156,8 @@ static int set_initial_position(KinematicRun *run, double t, const double *q, co
     Position branch_position;
     double difference[N_Q];
     const int status = set_position(run, t, q, v, position);
-    if (status < 0 || !is_ill_conditioned(position) || pass_change_point(run, t, position, &branch_position))
+    run->is_start_ill_conditioned = is_ill_conditioned(position);
+    if (status < 0 || !run->is_start_ill_conditioned || pass_change_point(run, t, position, &branch_position))
         return status;
     for (int k = 0; k < N_Q; k++)
         difference[k] = branch_position.v[k] - v[k];

@@ -2,43 +2,7 @@
  * Kinematic analysis of a linkage without degrees of freedom: drives determine its position at every time. Nothing is
  * integrated. The motion is followed in steps from sample to sample, so that it remains on its branch.
  */
-#include "../run/cancellation.h"
-
-enum { MAX_NEWTON = 12, MAX_HALVINGS = 40, MAX_SPLITS = 400, PULSE_HALVINGS = 30 };
-
-/* The motion of all bodies at a time t, s; phi and phi_dot: the largest |Phi| and |Phi_dot| there. */
-typedef struct {
-    double t, q[N_Q], v[N_Q], a[N_Q], phi, phi_dot;
-    double last_correction;      /* last correction of Newton's method, rad or fraction of the mechanism's size */
-    int interpolated; /* at or near a change point (change_point.c) */
-#if POSITIONS_IN_TREE
-    double s[N_X + 1], s_rate[N_X + 1], s_second[N_X + 1]; /* the same in tree coordinates */
-#endif
-} Position;
-
-/* The current length of steps, s, and how often it was halved. */
-typedef struct {
-    double h;
-    int halvings;
-} StepLength;
-
-/*
- * A kinematic analysis over several calls: parameters; the largest correction of a first guess (`max_correction`, rad
- * or fraction of the size); the mechanism's size (`extent`, m); its end, cancellation, progress; the positions of
- * motion and works.
- */
-typedef struct {
-    const Parameters *p;
-    double max_correction, extent, t_end;
-    Cancellation cancellation;
-    ProgressMonitor monitor;
-    Position motion, work;
-    int motion_begun, work_begun;
-    long n_interpolated;     /* samples that were interpolated at or near a change point */
-    double t_interpolated; /* the first of them, s */
-    double *step_record; /* rows of t, q, v at the ends of steps, fetched by Python; NULL: not recorded */
-    long n_recorded, capacity;
-} KinematicRun;
+#include "kinematic.h"
 
 /* Return the size of the memory of a kinematic analysis, bytes. */
 size_t gudgeon_kinematic_size(void) { return sizeof(KinematicRun); }
@@ -198,7 +162,7 @@ static int are_constraints_finite(double t, const Position *position, const Para
  */
 static int make_step(KinematicRun *run, StepLength *stride, double t1, Position *position)
 {
-    const double max_error = 0.002 * run->max_correction;
+    const double max_error = MAX_STEP_ERROR * run->max_correction;
     for (;;) {
         Position next_position, position_past_change;
         double correction = 0.0, error = 0.0;
@@ -221,7 +185,7 @@ static int make_step(KinematicRun *run, StepLength *stride, double t1, Position 
         if (is_near && error <= max_error
             && (stride->halvings > PULSE_HALVINGS || !has_hidden_transient(position->t, next, run->p))) {
             *position = next_position;
-            if (stride->halvings > 0 && error < 0.1 * max_error) { /* the error is proportional to h cubed */
+            if (stride->halvings > 0 && error < HARMLESS_STEP_ERROR * max_error) { /* it is proportional to h cubed */
                 stride->h *= 2.0;
                 stride->halvings--;
             }
@@ -254,6 +218,15 @@ static int follow_motion_to(KinematicRun *run, double t1, Position *position, lo
     return complete_position(run, position);
 }
 
+/* Add the present position, the sample at time t (s), to the interpolated ones and to the largest residuals. */
+static void add_sample(KinematicRun *run, double t, const Position *position, double *phi_max, double *phi_dot_max)
+{
+    if (position->interpolated && !run->n_interpolated++)
+        run->t_interpolated = t;
+    *phi_max = max_of(position->phi, *phi_max);
+    *phi_dot_max = max_of(position->phi_dot, *phi_dot_max);
+}
+
 /*
  * Compute the motion at n samples. t: n + 1 times, s; q, v, a: n + 1 rows of N_Q. Row 0 of q and v holds the start, or
  * the last sample of the previous call. phi_max, phi_dot_max: updated maxima. steps: incremented. done: the last
@@ -273,15 +246,12 @@ int gudgeon_kinematic(void *integrator, long n, const double *t, const double *p
         if (status)
             return status;
         run->motion_begun = 1;
-        if (position->interpolated && !run->n_interpolated++)
-            run->t_interpolated = t[i];
+        add_sample(run, t[i], position, phi_max, phi_dot_max);
         if (i > 0) {
             memcpy(q + i * N_Q, position->q, sizeof position->q);
             memcpy(v + i * N_Q, position->v, sizeof position->v);
         }
         memcpy(a + i * N_Q, position->a, sizeof position->a);
-        *phi_max = max_of(position->phi, *phi_max);
-        *phi_dot_max = max_of(position->phi_dot, *phi_dot_max);
         *done = i;
     }
     return 0;

@@ -1,5 +1,4 @@
 /* Positions, velocities and accelerations in tree coordinates of a linkage that drives determine. */
-#define MAX_SECOND_RATE_MOVE 0.05 /* rad, or fraction of the size: largest effect of second rates on a first guess */
 
 /*
  * Compute tree accelerations a and powers at a position by the reduced equations of motion. Return 0 or a status. A
@@ -32,14 +31,14 @@ static int solve_position_equations(const KinematicRun *run, double t, Position 
         if (isnan(size))
             return NEWTON_FAILED;
         position->last_correction = size;
-        if (size < 4e-15 || (size < 1e-9 && size >= 0.5 * before))
+        if (size < NEWTON_ROUNDING || (size < NEWTON_CLOSED && size >= 0.5 * before))
             return 0;
         for (int k = 0; k < N_X; k++)
             position->s[k] -= step[k];
         *correction += size;
         before = size;
     }
-    return before < 1e-9 ? 0 : NEWTON_FAILED;
+    return before < NEWTON_CLOSED ? 0 : NEWTON_FAILED;
 }
 
 /*

@@ -26,16 +26,14 @@ static int compute_powers(KinematicRun *run, Position *position, double *power)
 static int integrate_work(
     KinematicRun *run, const Position *a, const Position *b, double min_jump, double *work, int *has_jump)
 {
-    static const double node[] = {-0.7745966692414834, 0.0, 0.7745966692414834};
-    static const double weight[] = {5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0};
     const double half = 0.5 * (b->t - a->t);
     double velocity_defect[N_Q], scale = 0.0;
     for (int k = 0; k < N_Q; k++)
         velocity_defect[k] = b->v[k] - a->v[k];
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < N_WORK_NODES; i++) {
         Position node_position;
         double power[N_WORK], correction;
-        int status = solve_position_at(run, a->t + half * (1.0 + node[i]), a, &node_position, &correction);
+        int status = solve_position_at(run, a->t + half * (1.0 + work_node[i]), a, &node_position, &correction);
         if (!status)
             status = compute_powers(run, &node_position, power);
         if (status)
@@ -45,15 +43,15 @@ static int integrate_work(
                 work[0] = node_position.t;
                 return NOT_FINITE;
             }
-            work[k] += half * weight[i] * power[k];
+            work[k] += half * work_weight[i] * power[k];
         }
         for (int k = 0; k < N_Q; k++)
-            velocity_defect[k] -= half * weight[i] * node_position.a[k];
+            velocity_defect[k] -= half * work_weight[i] * node_position.a[k];
         scale = get_larger_or_nan(scale, half * compute_angle_norm(node_position.a, run->extent));
     }
     const double jump = compute_angle_norm(velocity_defect, run->extent);
     /* or an acceleration is undefined: the slope of a rate is unbounded */
-    *has_jump = !(scale <= DBL_MAX) || (jump > min_jump && jump > 1e-6 * scale);
+    *has_jump = !(scale <= DBL_MAX) || (jump > min_jump && jump > MIN_JUMP_RATIO * scale);
     return 0;
 }
 
@@ -114,7 +112,7 @@ static int integrate_work_of_step(KinematicRun *run, const Position *a, const Po
     int halvings = MAX_SPLITS;
     const double speed = get_larger_or_nan(compute_angle_norm(a->v, run->extent),
         compute_angle_norm(b->v, run->extent));
-    return integrate_work_over_jumps(run, a, b, 1e-12 + 1e-9 * speed, &halvings, work);
+    return integrate_work_over_jumps(run, a, b, MIN_VELOCITY_JUMP + VELOCITY_ROUNDING * speed, &halvings, work);
 }
 
 /*

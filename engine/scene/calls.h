@@ -122,6 +122,35 @@ int gudgeon_kinematic(void *integrator, long n, const double *t, const double *p
     double *phi_max, double *phi_dot_max, long *steps, long *done);
 int gudgeon_kinematic_works(void *integrator, long n, const double *t, const double *p, const double *q,
     const double *v, double *work, long *done);
+
+/*
+ * A batch of kinematic runs: arrays have a row for each run, as in Batch. Of the audit: fractions of the run at which
+ * samples are drawn, and the limits of its checks. is_suspect: whether Python must check the run.
+ */
+typedef struct {
+    long samples, numbers;                /* rows for the samples of a run; doubles of Parameters */
+    double max_correction;                /* as in gudgeon_kinematic_begin */
+    const double *t;
+    long time_stride;                     /* run i: n_requested[i] times from t + i * time_stride; 0: common */
+    const long *n_requested, *sample_block; /* samples of run i begin at row sample_block[i] * samples */
+    const double *p, *size;               /* parameters; size of the mechanism, m */
+    double *start;                        /* (q, v) where `started`, else filled here */
+    unsigned char *started, *phase, *is_suspect;
+    double *y, *a;                        /* samples: q, v, works; accelerations */
+    long *done;                           /* samples stored */
+    int *status;
+    double *t_last, *seconds;             /* time at the end; wall time, s */
+    long *counts;                         /* as in gudgeon_run_report */
+    double *residuals;
+    long *n_interpolated;                 /* samples at or near a change point; the time of the first, s */
+    double *t_interpolated;
+    int has_works;                        /* whether works are integrated; 0: they are NaN */
+    long n_drawn;
+    double drawn[8], limit[4];
+    const volatile int *ending;           /* nonzero: all runs end at once */
+} KinematicBatch;
+
+void gudgeon_kinematic_ensemble(const void *batch, void *integrator, long n, const long *indices);
 #endif
 #if !INTEGRATES && N_USER_EVENTS
 int gudgeon_kinematic_events(void *integrator, long n, const double *t, const double *parameters, const double *q,

@@ -7,7 +7,6 @@ import sympy as sp
 from gudgeon.generator.equations.system import System
 from gudgeon.generator.ir.kernels import Kernel, KernelBuilder, remove_unused_locals
 from gudgeon.generator.ir.signatures import PARAMETERS, STATE, make_output_argument
-from gudgeon.generator.ir.sine_pairs import vectorize_sines
 from gudgeon.generator.ir.statements import Largest, Return
 from gudgeon.generator.solvers.square_rows import SquareSystem
 from gudgeon.generator.symbols.storage import Place
@@ -16,12 +15,11 @@ from gudgeon.generator.symbols.storage import Place
 def make_kinematic_kernels(system: System, closures: SquareSystem) -> list[Kernel]:
     """Return the C functions of Newton's step with rates, and of accelerations with the motion of all bodies.
 
-    `closures`: the loop closures of the tree as a square system, one equation for each tree coordinate.
+    `closures`: the loop closures of the tree as a square system, one equation for each tree coordinate. Sines and
+    cosines are not yet paired in vectors.
     """
-    return [
-        vectorize_sines(remove_unused_locals(kernel))
-        for kernel in (_make_newton_step_kernel(system, closures), _make_body_motion_kernel(system, closures))
-    ]
+    kernels = (_make_newton_step_kernel(system, closures), _make_body_motion_kernel(system, closures))
+    return [remove_unused_locals(kernel) for kernel in kernels]
 
 
 def _make_newton_step_kernel(system: System, closures: SquareSystem) -> Kernel:

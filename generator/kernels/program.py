@@ -110,13 +110,15 @@ class KinematicFunctions:
     """The functions of a kinematically driven scene (dof = 0), whose positions Newton's method determines.
 
     `rows`: blocks of equations in tree coordinates; None: absolute coordinates, with the pivots of `projection_kkt`.
-    `pivots`: names of the equations to which a status number refers.
+    `pivots`: names of the equations to which a status number refers. `unpaired_kernels`: those in tree coordinates
+    before sines are paired.
     """
 
     kernels: tuple[Kernel, ...]
     pivots: tuple[str, ...]
     rows: SquareSystem | None
     projection_kkt: KKT | None
+    unpaired_kernels: tuple[Kernel, ...] = ()
 
     @property
     def groups(self) -> tuple[Block, ...]:
@@ -176,9 +178,12 @@ class Program:
     def has_lanes(self) -> bool:
         """Return whether several runs of the scene can be integrated together, each in one lane of a vector.
 
-        That needs the reduced formulation and something to integrate. Dry friction, rigid contacts, contours of
-        bearings, driven loops and more than MAX_COORDINATES_FOR_LANES coordinates exclude it.
+        That needs the reduced formulation. Dry friction, rigid contacts, contours of bearings, driven loops and more
+        than MAX_COORDINATES_FOR_LANES coordinates exclude it. A kinematically driven scene has lanes unless it has user
+        events.
         """
+        if self.kinematics:
+            return bool(self.kinematics.unpaired_kernels) and not self.model.events
         has_contours = any(clearance.contour for clearance in self.model.clearances)
         is_large = len(self.model.q) > MAX_COORDINATES_FOR_LANES
         is_excluded = self.model.has_changing_constraints or has_contours or is_large
@@ -294,8 +299,8 @@ def _derive_kinematic_functions(model: Model, kkt: KKT, integrated: Integrated) 
     rows = SquareSystem(integrated.system, [not angle for angle in integrated.angles])
     if integrated.reduced and rows.is_solvable:
         names = tuple(row.name for row in integrated.system.rows)
-        return KinematicFunctions(
-            tuple(make_kinematic_kernels(integrated.system, rows)), (*names, *kkt.pivots), rows, None
-        )
+        unpaired = tuple(make_kinematic_kernels(integrated.system, rows))
+        kernels = tuple(vectorize_sines(kernel) for kernel in unpaired)
+        return KinematicFunctions(kernels, (*names, *kkt.pivots), rows, None, unpaired)
     projection, solved = make_projection_kernel(kkt.system, model.rows, "project")
     return KinematicFunctions((remove_unused_locals(projection),), (*solved.pivots, *kkt.pivots), None, solved)

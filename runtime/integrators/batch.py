@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gudgeon.assembly.guess_warnings import find_unfollowed_guesses
+from gudgeon.assembly.large import LARGE
 from gudgeon.assembly.rank import check_redundant_equations, list_redundant_equations
 from gudgeon.assembly.start import assemble_start
 from gudgeon.contract.boundary import (
@@ -28,11 +29,17 @@ from gudgeon.contract.boundary import (
     NOT_CLOSED,
     OVER,
     RUN_OVER,
+    STOPPED,
 )
 from gudgeon.errors import GudgeonError, SolverError
 from gudgeon.integrators import adaptive, lanes
 from gudgeon.integrators.failure import INTERRUPTED, build_audit_error, build_run_error
-from gudgeon.integrators.lanes import LaneProvider
+from gudgeon.integrators.kinematic_ensemble import (
+    KinematicEnsemble,
+    count_kinematic_rows,
+    has_kinematic_ensemble,
+)
+from gudgeon.integrators.lanes import LaneProvider, Lanes
 from gudgeon.integrators.steps import StepCallback, StepLog
 from gudgeon.integrators.stored import StoredRuns
 from gudgeon.integrators.threads import integrate_runs_in_threads
@@ -77,7 +84,9 @@ class Runs(StoredRuns):
         self.stop, self.audit = stop, audit
         self.store_results: Callable[[Sequence[int]], None] | None = None  # stores the results of finished runs
         n, N = len(p), times.max_count
-        has_lanes = side_by_side and not python_loop and lanes.may_use_lanes(compiled, method, n)
+        is_kinematic = has_kinematic_ensemble(compiled.source, method)
+        is_in_c = is_kinematic or not python_loop
+        has_lanes = side_by_side and is_in_c and lanes.may_use_lanes(compiled, method, n)
         if has_lanes:
             compiled.lib.wait_for_optimized_library()  # whose functions are called from within lanes, for all runs
         self.lane_provider = LaneProvider(compiled) if has_lanes else None
@@ -88,6 +97,8 @@ class Runs(StoredRuns):
             min(self.n_lanes, MAX_UNSTORED_SAMPLES // N) if self.lane_provider else 0
         )  # of runs that are over, and not taken yet
         self.n_rows_per_thread = self.n_lanes + n_spare  # rows of samples per thread
+        if is_kinematic:
+            self.n_rows_per_thread = count_kinematic_rows(N)
         super().__init__(
             compiled,
             method,
@@ -99,6 +110,7 @@ class Runs(StoredRuns):
             bool(python_loop),
         )
         self.struct: Any = None if python_loop else self._make_batch_struct()
+        self.kinematic = KinematicEnsemble(compiled, self.arrays, times) if is_kinematic else None
         # guesses of the start that the assembly could not follow, by run
         self.unfollowed: dict[int, dict[str, float]] = {}
         self.observers: Sequence[StepCallback | None] = ()  # observers of all steps, one per run; empty without any
@@ -135,14 +147,16 @@ class Runs(StoredRuns):
 
     def __getstate__(self) -> dict[str, Any]:
         """Return the state for pickling: arrays and lists of finished runs, without C's structures."""
-        none = dict.fromkeys(("struct", "_run_arrays", "lane_provider", "store_results", "python_loop", "fetched"))
+        none = dict.fromkeys(
+            ("struct", "kinematic", "_run_arrays", "lane_provider", "store_results", "python_loop", "fetched")
+        )
         return self.__dict__ | none | {"observers": ()}
 
     def release_samples(self) -> None:
         """Release the samples of all runs and C's struct, after `store_results` has stored what is needed of them."""
         self.arrays |= {name: np.zeros_like(self.arrays[name][:0]) for name in ("y", "latched", "state")}
         self.arrays.pop("a", None)
-        self.struct, self.store_results = None, None
+        self.struct, self.kinematic, self.store_results = None, None, None
 
     @property
     def is_stopping(self) -> bool:
@@ -176,7 +190,7 @@ class Runs(StoredRuns):
         """
         with DelayedCtrlC() as ctrl_c:
             try:
-                if self.python_loop or list_redundant_equations(self.compiled):
+                if self._has_starts_in_python:
                     self._assemble_starts(np.flatnonzero(self.arrays["phase"] == NEW).tolist(), ctrl_c)
                 integrate_runs_in_threads(self, progress, range(self.n), ctrl_c)
                 if unassembled := self._find_unassembled_runs():
@@ -186,6 +200,12 @@ class Runs(StoredRuns):
                 self.interrupted = True
             self._join_contacts()
             self._record_failures()
+
+    @property
+    def _has_starts_in_python(self) -> bool:
+        """Return whether Python assembles all starts, because C does not or because they must be checked."""
+        is_in_c = self.struct or (self.kinematic and self.compiled.n < LARGE and not self.observers)
+        return not is_in_c or bool(list_redundant_equations(self.compiled))
 
     def _record_failures(self) -> None:
         """Record the errors of runs that did not reach their ends, and fill their remaining samples with NaN.
@@ -281,6 +301,24 @@ class Runs(StoredRuns):
             return
         self.store_finished_runs([i])
 
+    def integrate_kinematic_runs(
+        self, indices: Sequence[int], storages: NDArray[np.uint8], lanes: Lanes | None
+    ) -> None:
+        """Compute these kinematic runs in C, and those that fail again in Python, which finds the cause; store them.
+
+        Without works, runs in which C found something are computed again with them, for Python's checks. Runs whose
+        start C could not assemble are left as they are. `storages`: memory of C, a row for each of the `lanes`.
+        """
+        assert self.kinematic
+        self.kinematic.compute_runs(indices, storages, lanes)
+        x, status = self.arrays, self.arrays["status"][indices]
+        is_failed = status != 0 if self.kinematic.has_works else x["is_suspect"][indices] > 0
+        failed = [i for i in np.array(indices)[is_failed & ~np.isin(status, (NOT_CLOSED, STOPPED))].tolist()]
+        for i in failed:
+            x["phase"][i], x["status"][i], x["done"][i], x["a"][x["sample_block"][i]] = NEW, 0, 0, np.nan
+            self.integrate_run_in_python(i)
+        self.store_finished_runs([i for i in indices if i not in failed])
+
     def integrate_run_to_end(self, i: int, storage: NDArray[np.uint8], step_log: StepLog | None = None) -> None:
         """Integrate run i in C, alone in this thread, from its present state to its end, and store its results.
 
@@ -331,7 +369,9 @@ class Runs(StoredRuns):
 
         `problem` polls for cancellation. Raises KeyboardInterrupt if no sample was reached.
         """
-        if self.python_loop:
+        if self.kinematic and self.kinematic.compute_short_run(problem):
+            pass
+        elif self.python_loop:
             self.store_trajectory(0, self.python_loop(problem))
         else:
             self._integrate_in_c(problem)

@@ -9,7 +9,6 @@ kinematic_events.py searches the user events.
 
 from __future__ import annotations
 
-from dataclasses import replace
 from time import perf_counter
 from typing import Any
 from weakref import WeakMethod
@@ -46,7 +45,6 @@ from gudgeon.waiting.cancellation import CancellationPoll
 NAME, ORDER, SOURCE = "kinematic", 0, "Newton's method on the constraints"
 
 REACH = 0.05  # rad, or relative to the mechanism's size: after a larger Newton correction, the step is halved
-SHORT = 2_000  # samples: up to that a run is computed at once, without polls
 CHUNK, TURN = 10_000, 0.02  # largest number of samples that are computed together, and their time limit in s
 
 
@@ -273,51 +271,26 @@ class KinematicRun:
         passed = self.compiled.lib.gudgeon_kinematic_count_interpolated(
             self.pointer(self.motion_struct, "void *"), self.pointer(first)
         )
-        samples = tuple(x[rows] for x in (self.q, self.v, self.a, self.work))
-        trajectory = _build_trajectory(
-            self.t[rows].copy(), samples, int(self.call_counts[0]), self.maxima, (passed, float(first[0])), self.seconds
-        )
+        t, n_steps, (phi_max, phi_dot_max) = self.t[rows].copy(), int(self.call_counts[0]), self.maxima.tolist()
         events, lost = (make_empty_events(), make_empty_events()) if self.events is None else self.events.sort_events()
-        t_last = trajectory.t[-1]
-        return replace(
-            trajectory,
+        return Trajectory(
+            t,
+            self.q[rows],
+            self.v[rows],
+            self.a[rows],
+            np.zeros((len(t), 0)),
+            np.zeros((len(t), 0), np.int8),
+            self.work[rows],
+            np.zeros(0, IMPACT_DTYPE),
+            np.zeros((0, N_PEAK)),
+            Counts(n_steps, 0, phi_max=phi_max, phi_dot_max=phi_dot_max),
             interrupted=interrupted,
             stopped=stopped,
-            events=events[events["t"] <= t_last],
-            undefined_events=lost[lost["t"] <= t_last],
+            seconds=self.seconds,
+            events=events[events["t"] <= t[-1]],
+            undefined_events=lost[lost["t"] <= t[-1]],
+            change_points=(passed, float(first[0])),
         )
-
-
-def _build_trajectory(
-    t: Array,
-    samples: tuple[Array, ...],
-    n_steps: int,
-    maxima: Array,
-    change_points: tuple[int, float],
-    seconds: float,
-) -> Trajectory:
-    """Return the Trajectory of a kinematic run without events from its complete samples at times t (N,).
-
-    `samples`: q, v, a (N, n) and works (N, 3). `maxima`: largest |Φ| and |Φ̇|.
-    """
-    q, v, a, work = samples
-    counts = Counts(n_steps, 0, phi_max=float(maxima[0]), phi_dot_max=float(maxima[1]))
-    no_memory, no_codes = np.zeros((len(t), 0)), np.zeros((len(t), 0), np.int8)
-    no_contacts, no_peaks = np.zeros(0, IMPACT_DTYPE), np.zeros((0, N_PEAK))
-    return Trajectory(
-        t,
-        q,
-        v,
-        a,
-        no_memory,
-        no_codes,
-        work,
-        no_contacts,
-        no_peaks,
-        counts,
-        seconds=seconds,
-        change_points=change_points,
-    )
 
 
 def integrate_kinematic(problem: Problem) -> Trajectory:
@@ -326,8 +299,6 @@ def integrate_kinematic(problem: Problem) -> Trajectory:
     An error ends the trajectory and is its `stopped`. A chunk that Ctrl-C interrupts is discarded, because motion,
     works and events belong together. Raises KeyboardInterrupt before the first sample.
     """
-    if (trajectory := _integrate_short_run(problem)) is not None:
-        return trajectory
     run_state = KinematicRun(problem)
     interrupted, stopped = False, None
     try:
@@ -339,40 +310,6 @@ def integrate_kinematic(problem: Problem) -> Trajectory:
     except SolverError as error:
         stopped = error
     return run_state.build_trajectory(interrupted, stopped)
-
-
-def _integrate_short_run(problem: Problem) -> Trajectory | None:
-    """Return the Trajectory of a run of few samples by three calls of C, the numbers of `KinematicRun` to the bit.
-
-    None for longer runs, with events, an observer or a progress report, and if anything fails: `KinematicRun` then
-    repeats the run and finds the cause.
-    """
-    compiled, t = problem.compiled, problem.t
-    N, n, lib = len(t), compiled.n, compiled.lib
-    if N > SHORT or compiled.source.events or problem.observer or problem.progress:
-        return None
-    lib.switch_library_if_ready()
-    numbers, counts = np.zeros((3 * n + N_WORK, N)), np.zeros(3, dtype=np.int_)
-    q, v, a = (numbers[k * n : (k + 1) * n].reshape(N, n) for k in range(3))
-    work, maxima = numbers[3 * n :].reshape(N, N_WORK), np.zeros(4)
-    q[0], v[0], a[0] = problem.q, problem.v, np.nan
-    struct, null = compiled.pointer(np.zeros(lib.gudgeon_kinematic_size(), np.uint8), "void *"), compiled.ffi.NULL
-    times, p, count = compiled.pointer(t), compiled.pointer(problem.p), compiled.pointer(counts, "long *")
-    to_q, largest = compiled.pointer(numbers), compiled.pointer(maxima)
-    to_v, to_work = to_q + N * n, to_q + 3 * N * n
-    before = perf_counter()
-    lib.gudgeon_kinematic_begin(
-        struct, REACH, compute_mechanism_size(compiled, problem.p), float(t[-1]), null, null, 1.0
-    )
-    motion = times, p, to_q, to_v, to_q + 2 * N * n
-    if lib.gudgeon_kinematic(struct, N - 1, *motion, largest, largest + 1, count, count + 1):
-        return None
-    seconds = perf_counter() - before
-    if np.isnan(a[0]).all() or lib.gudgeon_kinematic_works(struct, N - 1, times, p, to_q, to_v, to_work, count + 2):
-        return None
-    passed = lib.gudgeon_kinematic_count_interpolated(struct, largest + 2)
-    change_points = int(passed), float(maxima[2])
-    return _build_trajectory(t.copy(), (q, v, a, work), int(counts[0]), maxima, change_points, seconds)
 
 
 def compute_motion_at(compiled: CompiledModel, p: Array, t: Array, q: Array, v: Array) -> tuple[Array, Array]:

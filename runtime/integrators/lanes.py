@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gudgeon.contract.boundary import ALL_OVER, LISTS, NEW, NOT_CLOSED, OVER
-from gudgeon.contract.methods import IN_LANES, SMOOTH
+from gudgeon.contract.methods import IN_LANES, KINEMATIC, SMOOTH
 from gudgeon.loading.compiler import has_compiler
 from gudgeon.model.arrays import find_memory_address
 from gudgeon.model.compiled import CompiledModel
@@ -93,6 +93,16 @@ class Lanes:
         for k, i in enumerate(run_of_lane):
             if i != NONE:
                 runs.integrate_run_to_end(i, storages[k], step_logs[k] if step_logs else None)
+
+    def compute_kinematic_runs(self, batch: int, storages: Sequence[int], indices: NDArray[np.int_]) -> None:
+        """Compute kinematic runs in the lanes, in the calling thread.
+
+        `batch`: address of C's struct KinematicBatch; `storages`: addresses of the memory of each lane (`count` of
+        them); `indices`: those of the runs.
+        """
+        pointers = self.ffi.new("void *[]", [self.ffi.cast("void *", address) for address in storages])
+        numbers = self.ffi.from_buffer("long[]", indices)
+        self.lib.gudgeon_kinematic_lanes(self.ffi.cast("void *", batch), self.single, pointers, len(indices), numbers)
 
     def _build_arguments(self, runs: Runs, storages: NDArray[np.uint8]) -> tuple[tuple[Any, ...], list[Any], Any]:
         """Return three things for calls of C: its arguments, pointers to the rows of `storages`, and an array of run
@@ -207,4 +217,4 @@ def may_use_lanes(compiled: CompiledModel, method: str, n_runs: int) -> bool:
     Scenes derived for Taylor's method have lanes for it only.
     """
     has_lanes = bool(compiled.source.lanes) and (method in SMOOTH) == bool(compiled.source.taylor)
-    return n_runs >= MIN_RUNS and method in IN_LANES and has_lanes and has_compiler()
+    return n_runs >= MIN_RUNS and method in (*IN_LANES, KINEMATIC) and has_lanes and has_compiler()

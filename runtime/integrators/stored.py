@@ -140,7 +140,6 @@ class _PythonLists(NamedTuple):
     impacts: NDArray[Any]
     events: NDArray[Any]
     no_number: NDArray[Any]
-    change_points: tuple[int, float]
 
 
 class StoredRuns:
@@ -222,9 +221,9 @@ class StoredRuns:
         x["counts"][i] = [getattr(trajectory.counts, name, 0) for name in COUNT_NAMES]
         x["residuals"][i] = [getattr(trajectory.counts, name, math.nan) for name in RESIDUAL_NAMES]
         x["peaks"][i, : len(trajectory.peaks)] = trajectory.peaks
-        self.python_lists[i] = _PythonLists(
-            trajectory.impacts, trajectory.events, trajectory.undefined_events, trajectory.change_points
-        )
+        if "n_interpolated" in x:
+            x["n_interpolated"][i], x["t_interpolated"][i] = trajectory.change_points
+        self.python_lists[i] = _PythonLists(trajectory.impacts, trajectory.events, trajectory.undefined_events)
         if trajectory.stopped is not None:
             self.failures[i] = trajectory.stopped
 
@@ -313,7 +312,7 @@ class StoredRuns:
         An error of an interrupted run is left out.
         """
         copy_if_shared, x, n = np.copy if self.n > 1 else np.asarray, self.arrays, self.compiled.n
-        (t, y, memory, state), a, driven = self.get_samples(i), self.get_accelerations(i), self.python_lists.get(i)
+        (t, y, memory, state), a = self.get_samples(i), self.get_accelerations(i)
         error, (events, no_number) = self.failures.get(i), self._get_events(i)
         joints = len(self.compiled.source.clearances)
         is_stopped = x["status"][i] == STOPPED or (self.n == 1 and self.interrupted)
@@ -332,12 +331,18 @@ class StoredRuns:
             error if isinstance(error, SolverError) and not is_stopped else None,
             seconds=float(x["seconds"][i]),
             events=remove_event_states(events),
-            event_states=None if driven else events,
+            event_states=events if a is None else None,
             undefined_events=remove_event_states(no_number),
             trace=self._build_envelope(i),
             audit=self.build_findings(i),
-            change_points=driven.change_points if driven else NO_CHANGE_POINTS,
+            change_points=self._get_change_points(i),
         )
+
+    def _get_change_points(self, i: int) -> tuple[int, float]:
+        """Return the number of samples of run i at or near a change point, and the time (s) of the first."""
+        if "n_interpolated" not in self.arrays:
+            return NO_CHANGE_POINTS
+        return int(self.arrays["n_interpolated"][i]), float(self.arrays["t_interpolated"][i])
 
     def _build_envelope(self, i: int) -> Envelope | None:
         """Return the envelope of forces and paths of run i; None if none was recorded."""

@@ -6,6 +6,7 @@ import os
 from collections import deque
 from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor, wait
+from itertools import islice
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -60,6 +61,8 @@ def integrate_runs_in_threads(
     with ThreadPoolExecutor(runs.threads, thread_name_prefix="gudgeon") as pool:
         try:
             work = _integrate_portions_in_python if runs.python_loop else _integrate_portions_in_c
+            if runs.kinematic and not runs.observers:
+                work = _compute_kinematic_portions
             waiting: set[Future[None]] = {pool.submit(work, runs, portions, k) for k in range(runs.threads)}
             wait_for_futures(waiting, ctrl_c, progress, lambda _: float(np.mean(runs.arrays["phase"] == OVER)))
         except BaseException:
@@ -73,6 +76,18 @@ def _integrate_portions_in_python(runs: Runs, portions: deque[range | list[int]]
         if runs.has_shared_rows:
             runs.arrays["sample_block"][i] = thread_index * runs.n_rows_per_thread
         runs.integrate_run_in_python(i)
+
+
+def _compute_kinematic_portions(runs: Runs, portions: deque[range | list[int]], thread_index: int) -> None:
+    """Compute kinematic runs in C, several in each call, in the thread with this index, until the queue is empty."""
+    assert runs.kinematic
+    waiting_runs, n_rows = yield_waiting_runs(runs, portions), runs.n_rows_per_thread
+    storages = runs.kinematic.allocate_storages(runs.n_lanes)
+    while indices := list(islice(waiting_runs, n_rows)):
+        if runs.has_shared_rows:
+            runs.arrays["sample_block"][indices] = thread_index * n_rows + np.arange(len(indices))
+        lanes = runs.lane_provider.get_lanes(runs) if runs.lane_provider else None
+        runs.integrate_kinematic_runs(indices, storages[: lanes.count if lanes else 1], lanes)
 
 
 def _integrate_portions_in_c(runs: Runs, portions: deque[range | list[int]], thread_index: int) -> None:

@@ -26,7 +26,7 @@ def iterate_seam_notes(source: KernelSource, p: Array, t0: float = 0.0, t1: floa
 
     p: parameter values of the run; t0, t1: begin and end of the run (s). The period must not depend on time.
     """
-    for info in _list_periodic_drives(source):
+    for info in list_periodic_drives(source):
         for call in iterate_curve_calls(from_json(json.loads(info.tree))):
             mod_call = call.arguments[0]
             if isinstance(mod_call, Call) and mod_call.function == "mod" and _has_restart(source, p, mod_call, t0, t1):
@@ -35,7 +35,7 @@ def iterate_seam_notes(source: KernelSource, p: Array, t0: float = 0.0, t1: floa
 
 
 @cache_by_values
-def _list_periodic_drives(source: KernelSource) -> tuple[WrittenInfo, ...]:
+def list_periodic_drives(source: KernelSource) -> tuple[WrittenInfo, ...]:
     """Return the expressions of drives with a curve and `mod`."""
     drives = (info for info in source.written if info.address.startswith("drives."))
     return tuple(info for info in drives if '"curve"' in info.tree and '"mod"' in info.tree)

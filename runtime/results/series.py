@@ -78,9 +78,7 @@ MAX_FILTER_ORDER = 16
 
 @dataclass(frozen=True)
 class Series:
-    """A named quantity of a result: its unit, meaning, and the function `compute` that returns its (N,) values in
-    SI.
-    """
+    """A named quantity of a result: its unit, meaning, and a function that returns its values (N,) in SI."""
 
     unit: str
     meaning: str
@@ -88,6 +86,7 @@ class Series:
     parts: frozenset[str] = frozenset()  # of an Evaluation, all that it needs
     stored: tuple[str, int] | None = None  # the array of a run, and its column, that it is
     evaluated: tuple[str, tuple[int, ...]] | None = None  # the part of an Evaluation, and its column
+    is_by_sample: bool = False  # computed sample by sample, so that parameters may be columns of values (N,)
 
 
 _catalogues: dict[int, tuple[Any, Mapping[str, Series]]] = {}  # by the id of a source; a callback would lose a Ctrl-C
@@ -182,15 +181,16 @@ def _iterate_point_series(source: KernelSource) -> Iterator[tuple[str, Series]]:
                 meaning = f"point {point.name}, {MOTION_WORDS[order]}{_AXES[axis]} in ground axes"
                 compute = partial(compute_point_motion, point=point, axis=axis, order=order)
                 parts = frozenset({"a"} if order == 2 else ())
-                yield f"{point.name}.{MOTION[axis][order]}", Series(MOTION_UNITS[axis][order], meaning, compute, parts)
+                name, unit = f"{point.name}.{MOTION[axis][order]}", MOTION_UNITS[axis][order]
+                yield name, Series(unit, meaning, compute, parts, is_by_sample=True)
 
 
 def compute_point_motion(run: Result, point: PointInfo, axis: int, order: int) -> Array:
     """Return a coordinate of a point, or its first or second time derivative (order 0, 1, 2), (N,), SI. r_P = r + A(θ)
     s with s = (x, y) in the body's frame; axis 0 is x, 1 is y in ground axes. A point of the ground is constant.
     """
-    x = point.sign_x * float(run.p[point.x]) if point.x >= 0 else 0.0
-    y = point.sign_y * float(run.p[point.y]) if point.y >= 0 else 0.0
+    x = point.sign_x * run.p[point.x] if point.x >= 0 else 0.0
+    y = point.sign_y * run.p[point.y] if point.y >= 0 else 0.0
     if point.body < 0:
         return np.full(run.t.shape, (x, y)[axis])
     index = run.source.bodies[point.body].index
@@ -230,7 +230,8 @@ def _iterate_reaction_series(name: str, row_index: int, force_kind: str, locatio
         series = _make_evaluated_series(unit, f"{force_kind} {quantity}: {location}", "reactions", row_index, column)
         yield f"{name}.{component}", series
     compute_magnitude, parts = partial(_compute_magnitude, name=name), frozenset({"reactions"})
-    yield f"{name}.F", Series("N", f"{force_kind} force, magnitude: {location}", compute_magnitude, parts)
+    meaning = f"{force_kind} force, magnitude: {location}"
+    yield f"{name}.F", Series("N", meaning, compute_magnitude, parts, is_by_sample=True)
 
 
 def _get_body_name(source: KernelSource, body: int) -> str:
@@ -260,7 +261,7 @@ def _iterate_clearance_series(source: KernelSource) -> Iterator[tuple[str, Serie
             series = _make_evaluated_series(unit, meanings.get(name, meaning) + suffix, "clearance", k, column)
             yield f"{joint.name}.{name}", series
         compute_magnitude = partial(_compute_magnitude, name=joint.name)
-        yield f"{joint.name}.F", Series("N", meanings["F"] + suffix, compute_magnitude, parts)
+        yield f"{joint.name}.F", Series("N", meanings["F"] + suffix, compute_magnitude, parts, is_by_sample=True)
         compute_ratio = partial(_compute_eccentricity_ratio, joint=joint)
         yield f"{joint.name}.eps", Series("", meanings["eps"] + suffix, compute_ratio, parts)
         states = "0 free, 1 impact (until the penetration first stops growing), 2 contact"
@@ -488,8 +489,7 @@ def apply_low_pass(t: Array, values: Array, cutoff: float, order: int = 2, causa
     design_frequency = float(np.arctan(warped_frequency)) / np.pi * sampling_rate
     sections = butter(order, design_frequency, fs=sampling_rate, output="sos")
     if causal:
-        filtered: Array = sosfilt(sections, values, zi=sosfilt_zi(sections) * values[0])[0]
-        return filtered
+        return np.asarray(sosfilt(sections, values, zi=sosfilt_zi(sections) * values[0])[0])
     filtered_both_ways: Array = sosfiltfilt(sections, values)
     return filtered_both_ways
 

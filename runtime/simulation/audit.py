@@ -20,7 +20,7 @@ from gudgeon.errors import BadValueError
 from gudgeon.integrators.trajectory import Problem, Trajectory
 from gudgeon.language.argument_checks import shorten_value
 from gudgeon.model.cached_values import cache_by_values
-from gudgeon.model.compiled import CompiledModel
+from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.evaluation import Evaluation, select_evaluated_rows
 from gudgeon.model.sizes import compute_size
 from gudgeon.simulation.newton_euler import compute_newton_euler_residuals
@@ -28,6 +28,7 @@ from gudgeon.simulation.newton_euler import compute_newton_euler_residuals
 SAMPLE_POSITIONS = np.sort(
     np.random.default_rng(1).random(8)
 )  # random positions in the run, 0 to 1, of the samples that C checks
+SHORT_RUN_POSITIONS = SAMPLE_POSITIONS[::2]  # the same in a run with few right-hand sides
 # allowed error of each check, relative to the largest terms
 LIMITS = {"power": 1e-6, "torque": 1e-6, "rows": 1e-12, "rates": 1e-7}
 BODY = {"body": 1e-9}  # the same for the equations of single bodies, relative to the largest force or moment
@@ -194,6 +195,17 @@ class SampleAudit:
         return Evaluation(*map(np.concatenate, zip(*(vars(one).values() for one in self.drawn), strict=True)))
 
 
+def find_runs_off_start(source: KernelSource, p: Array, start: Array, size: Array) -> NDArray[np.bool_]:
+    """Return a mask (n,) of runs of which `start.set` and the computed start (n, 2 n_q) may differ by a finding.
+
+    Whole turns count as differences here. Shapes: parameter values p (n, …), mechanism sizes (n,) in m.
+    """
+    off = np.zeros(len(p))
+    for k, given in _list_given_coordinates(source):
+        off = np.maximum(off, np.abs(start[:, k] - p[:, given]) * (size if k % 3 == 2 else 1.0))
+    return np.asarray(off > START * size)
+
+
 def has_failed_finding(findings: tuple[Finding, ...]) -> bool:
     """Return whether any finding exceeds the value at which the run ends with an error; NaN counts as such."""
     return any(not finding.worst <= FAILS for finding in findings)
@@ -309,7 +321,7 @@ def choose_samples(n_samples: int, audit: int, right_hand_sides: int) -> NDArray
     `audit`: level of the audit. All samples of a run with few are checked.
     """
     is_short = audit <= 1 and right_hand_sides <= MAX_CALLS_OF_SHORT_RUN
-    drawn = SAMPLE_POSITIONS[::2] if is_short else SAMPLE_POSITIONS
+    drawn = SHORT_RUN_POSITIONS if is_short else SAMPLE_POSITIONS
     return (n_samples * drawn).astype(np.intp) if len(drawn) < n_samples else np.arange(n_samples)
 
 

@@ -101,8 +101,7 @@ def _build_notes(
             f"the start is a dead centre: rows {', '.join(dependent)} tie each other there; velocities that drives and"
             " start.rates leave open were taken least: give a rate of each body that may move"
         )
-    if why := explain_missing_masses(compiled.source):
-        notes.append(f"{why}: reactions, torques, energies and works are not known")
+    notes += yield_missing_mass_note(compiled.source)
     if problem.stop and len(trajectory.events):
         last = compiled.source.events[trajectory.events["event"][-1]]
         if last.action == "stop":
@@ -129,6 +128,12 @@ def _build_notes(
     notes += build_audit_notes(findings)
     notes += yield_redundancy_note(compiled.source)
     return tuple(notes)
+
+
+def yield_missing_mass_note(source: KernelSource) -> Iterator[str]:
+    """Yield a note that forces and energies are not known, if masses are missing."""
+    if why := explain_missing_masses(source):
+        yield f"{why}: reactions, torques, energies and works are not known"
 
 
 def yield_redundancy_note(source: KernelSource) -> Iterator[str]:

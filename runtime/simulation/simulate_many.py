@@ -53,6 +53,7 @@ from gudgeon.simulation.result_builder import (
     build_result,
     check_result,
     may_leave_range,
+    yield_missing_mass_note,
     yield_range_notes,
     yield_redundancy_note,
 )
@@ -64,6 +65,7 @@ from gudgeon.simulation.step_observers import (
     make_observer,
 )
 from gudgeon.simulation.stored_series import StoredSeries, build_samples, select_stored_series
+from gudgeon.simulation.suspect_runs import SuspectRuns
 
 if TYPE_CHECKING:
     from gudgeon.results.wear import SlidingRequest
@@ -286,6 +288,10 @@ class _Results:
     observations: Sequence[Observation] = ()  # findings of the step observers by run; empty without observers
     python_notes: dict[int, tuple[str, ...]] = field(default_factory=dict)  # notes of runs that Python has checked
 
+    def __post_init__(self) -> None:
+        """Choose the samples that C audits in kinematic runs, and the runs that Python checks."""
+        self._suspects = SuspectRuns(self.runs, bool(self.starts.states), self.options.keep)
+
     def integrate_runs(self, progress: Progress | None) -> None:
         """Integrate all runs. Finished runs are processed at once where series are stored or Python must check them.
 
@@ -301,23 +307,30 @@ class _Results:
     def _process_finished_runs(self, finished_runs: Sequence[int]) -> None:
         """Store the requested series of finished runs, given by index, and record errors that C does not find.
 
-        Results of Python time loops are checked in full. Other runs are checked for contradictory constraints where the
-        scene may have them.
+        Results of Python time loops are checked in full, kinematic runs that C has audited only if it found
+        something. Other runs are checked for contradictory constraints where the scene may have them.
         """
         runs = self.runs
         if runs.python_loop:
-            for i in finished_runs:
+            suspects = self._suspects.select_runs(finished_runs)
+            for i in suspects:
                 result = self._build_checked_result(i)
                 if self.stored_series:
                     self.stored_series.store_run(runs, i, result)
-            return
+            finished_runs = [i for i in finished_runs if i not in suspects]
+        else:
+            self._check_redundant_constraints(finished_runs)
+        if self.stored_series:
+            self.stored_series.store_finished_runs(runs, finished_runs)
+
+    def _check_redundant_constraints(self, finished_runs: Sequence[int]) -> None:
+        """Record an error for each finished run that violates a redundant constraint equation of the scene, if any."""
+        runs = self.runs
         for i in finished_runs if list_redundant_equations(runs.compiled) else ():
             if runs.arrays["done"][i] and (
                 error := find_constraint_violation(self._build_problem(i), runs.build_trajectory(i))
             ):
                 runs.failures.setdefault(i, error)
-        if self.stored_series:
-            self.stored_series.store_finished_runs(runs, finished_runs)
 
     def _build_checked_result(self, i: int) -> Result:
         """Build the Result of run i of a Python time loop; record its notes, and an error or interrupt as failure."""
@@ -375,6 +388,8 @@ class _Results:
             q0, counts, t0 = x["start"][i, :n], self.runs.get_counts(i), float(self.runs.times.get_times(i)[0])
             message = yield_range_notes(self.simulation.compiled, x["p"][i], t0, q0, counts, peaks[i])
             notes_by_run[i] = (*notes_by_run.get(i, ()), *message)
+        for i in np.flatnonzero(x["done"] > 0).tolist() if source.massless else ():
+            notes_by_run[i] = (*notes_by_run.get(i, ()), *yield_missing_mass_note(source))
         for i in np.flatnonzero(x["done"] > 0).tolist() if source.indeterminate else ():
             notes_by_run[i] = (*notes_by_run.get(i, ()), *yield_redundancy_note(source))
         notes_by_run |= self.python_notes

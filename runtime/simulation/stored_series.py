@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
@@ -18,6 +18,7 @@ from gudgeon.results.series import get_catalogue
 if TYPE_CHECKING:
     from gudgeon.contract.kernel_source import KernelSource
     from gudgeon.integrators.batch import Runs
+    from gudgeon.model.compiled import Array
 
 
 def select_stored_series(source: KernelSource, keep: str | Iterable[str]) -> tuple[str, ...] | None:
@@ -36,8 +37,8 @@ class StoredSeries:
     def __init__(self, source: KernelSource, names: tuple[str, ...], n: int, times: Times) -> None:
         self.names, self.parts = ("t", *names), find_evaluation_parts(source, names)
         self.arrays = {name: np.full((n, times.max_count), np.nan) for name in self.names}
-        known = [get_catalogue(source)[name] for name in names if name != "t"]
-        self.columns = all(one.stored or one.evaluated for one in known)  # none of them reads a run's own numbers
+        series = [get_catalogue(source)[name] for name in names]
+        self.may_join_runs = all(one.stored or one.evaluated or one.is_by_sample for one in series)
 
     def store_finished_runs(self, runs: Runs, finished_runs: Sequence[int]) -> None:
         """Store the series of finished runs, given by index, all at once where their equations allow it.
@@ -45,7 +46,7 @@ class StoredSeries:
         Runs without samples are skipped. A run whose series cannot be computed is recorded as failed.
         """
         with_samples = [i for i in finished_runs if runs.arrays["done"][i]]
-        if len(with_samples) > 1 and self.columns:
+        if len(with_samples) > 1 and self.may_join_runs:
             try:
                 self._copy_samples(with_samples, *_concatenate_samples(runs, with_samples, self.parts))
                 return
@@ -92,23 +93,38 @@ def build_samples(runs: Runs, i: int, parts: frozenset[str]) -> EvaluatedSamples
     return result
 
 
+class _ParameterColumns:
+    """Hold the parameter values (n, n_p) of several runs; each parameter is a column (N,) with a value per sample."""
+
+    def __init__(self, values: Array, counts: Sequence[int]) -> None:
+        self._values, self._counts = values, counts
+
+    def __getitem__(self, k: int) -> Array:
+        """Return the values of parameter k, repeated for the samples of each run."""
+        return np.repeat(self._values[:, k], self._counts)
+
+
 def _concatenate_samples(
     runs: Runs, indices: Sequence[int], parts: frozenset[str]
 ) -> tuple[list[int], EvaluatedSamples]:
     """Return the sample counts of the runs `indices`, and all their samples concatenated in one result.
 
-    If `parts` is not empty, these quantities are evaluated with each run's parameter values.
+    If `parts` is not empty, these quantities are evaluated with each run's parameter values. Accelerations are those of
+    the method, if it stores them.
     """
     compiled, n, samples_of_runs = runs.compiled, runs.compiled.n, [runs.get_samples(i) for i in indices]
     counts = [len(samples[0]) for samples in samples_of_runs]
     t, y, discrete_states, state = (np.concatenate(arrays) for arrays in zip(*samples_of_runs, strict=True))
     q, v = y[:, :n], y[:, n : 2 * n]
-    no_parameters = np.full(compiled.n_p, np.nan)
+    numbers = runs.arrays["p"][indices]
+    parameters = cast("Array", _ParameterColumns(numbers, counts))
     result = make_evaluated_samples(
-        compiled.source, compiled, no_parameters, t, q, v, y[:, 2 * n :], discrete_states, state, parts
+        compiled.source, compiled, parameters, t, q, v, y[:, 2 * n :], discrete_states, state, parts
     )
+    accelerations = [a for i in indices if (a := runs.get_accelerations(i)) is not None]
+    if accelerations:
+        result.accelerations, parts = np.concatenate(accelerations), parts - {"a"}
     if parts:
-        numbers = runs.arrays["p"][indices]
         if compiled.may_drive_acceleration_jump:
             last = zip(samples_of_runs, numbers, strict=True)
             t = np.concatenate(

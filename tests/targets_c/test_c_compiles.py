@@ -152,10 +152,11 @@ def test_declarations_are_what_the_scene_defines(name: str, scene: str, formulat
     ffi = FFI()
     calls = select_declarations(source)
     ffi.cdef(calls)
-    fields = [field for field, _ in ffi.typeof("Batch").fields] if "} Batch;" in calls else []
-    same = [f'_Static_assert(offsetof(Batch, {f}) == offsetof(Told, {f}), "{f}");' for f in fields]
-    same += ['_Static_assert(sizeof(Batch) == sizeof(Told), "Batch");'] * bool(fields)
-    message = f"#define Batch Told\n{calls}#undef Batch\n"
+    struct = "Batch" if "} Batch;" in calls else "KinematicBatch"
+    fields = [field for field, _ in ffi.typeof(struct).fields]
+    same = [f'_Static_assert(offsetof({struct}, {f}) == offsetof(Told, {f}), "{f}");' for f in fields]
+    same += [f'_Static_assert(sizeof({struct}) == sizeof(Told), "{struct}");']
+    message = f"#define {struct} Told\n{calls}#undef {struct}\n"
     (tmp_path / "both.c").write_text(WHOLE + message + "\n".join(same) + "\n", encoding="utf-8")
     compile_c(COMPILERS[0], tmp_path / "both.c", [*FLAGS, "-fsyntax-only"])
 

@@ -33,7 +33,7 @@
 #define N_VALUES 0            /* of the linearized equations */
 #define N_FACTORS 0           /* of their factors L and U */
 #define IMPLICIT_STAGES 0     /* 1: there are methods that find their stages together */
-#define HAS_LANES 0           /* runs go side by side */
+#define HAS_LANES 1           /* runs go side by side */
 #define DRIVE_IMPULSES 0      /* drives' rates may jump, and something is free to move */
 #define RATE_JUMPS 0          /* the rate of some drive may jump */
 #define N_WATCHED 0           /* corners of expressions, and events */

@@ -38,14 +38,17 @@ def print_lanes_files(program: Program, render: Render) -> dict[str, str]:
     With a Taylor series the file has Taylor's method, else the linearized equations and Newton's matrix. It includes
     the file's curves if the text calls one.
     """
-    assert program.tree and program.methods
+    assert program.tree
     model = program.model
+    parameters = [model.parameter_table.find_field_name(symbol) for symbol in model.parameter_table.list_symbols()]
+    if program.kinematics:
+        return {MAIN: _print_kinematic_file(program, render, parameters)}
+    assert program.methods
     joint_functions = [
         *map(lanes_printer.print_kernel, program.laws),
         *(_print_joint_function(joint, render, model.law_states) for joint in program.joints),
     ]
     kernels = (*program.tree.unpaired_kernels, program.methods.unpaired_closing)
-    parameters = [model.parameter_table.find_field_name(symbol) for symbol in model.parameter_table.list_symbols()]
     kernels_in_lanes = [kernel for kernel in kernels if kernel.name in _KERNELS]
     text = "\n".join([*joint_functions, *map(lanes_printer.print_motion_kernel, kernels_in_lanes)])
     if program.series:
@@ -60,8 +63,35 @@ def print_lanes_files(program: Program, render: Render) -> dict[str, str]:
             kernels=text,
             methods=methods,
             curves=curves,
+            integrates=True,
+            engine_includes=_print_includes("batch/lane_tries.c", "batch/lane_flow.c"),
         )
     }
+
+
+def _print_includes(*files: str) -> str:
+    """Return the lines that include files of the engine."""
+    return "\n".join(f'#include "engine/{file}"' for file in files)
+
+
+def _print_kinematic_file(program: Program, render: Render, parameters: Sequence[str]) -> str:
+    """Return the text of lanes.c of a kinematically driven scene: Newton's step, motion of bodies, right-hand side.
+
+    `parameters`: names of the fields of Parameters.
+    """
+    assert program.tree and program.kinematics
+    motion = [kernel for kernel in program.tree.unpaired_kernels if kernel.name == "reduced_dynamics"]
+    kernels = [*motion, *program.kinematics.unpaired_kernels]
+    text = "\n".join(map(lanes_printer.print_motion_kernel, kernels))
+    return render(
+        "lanes.c.jinja",
+        parameters=parameters,
+        kernels=text,
+        methods="",
+        curves=bool(print_curve_tables(program.model.scene.mechanism.curves, (text,))),
+        integrates=False,
+        engine_includes=_print_includes("kinematic/lane_runs.c"),
+    )
 
 
 def _print_joint_function(joint: JointFunctions, render: Render, n_states: int) -> str:

@@ -1,0 +1,186 @@
+/*
+ * Kinematic runs of a batch, one after the other: start, motion, works, and checks of each, without Python. Several
+ * threads may work on one KinematicBatch (scene/calls.h), each on its own runs with its own KinematicRun. Results do
+ * not depend on the other runs.
+ */
+#define ENDING_POLL_INTERVAL_S 0.02 /* s between two polls whether the batch is ending */
+#define STEEP_RATIO 100.0 /* accelerations: largest over median (_yield_unbounded_sample_note in result_builder.py) */
+
+/* Return whether the batch is ending; called as the poll of a cancellation token. */
+static int is_batch_ending(void *caller) { return *((const KinematicBatch *)caller)->ending; }
+
+/* Return the row of present works in the samples of a run, J: that of the next sample. */
+static double *get_present_works(const RunSamples *samples) { return samples->y + samples->done * N_S + 2 * N_Q; }
+
+/* Return the largest |a| of sample k. */
+static double find_largest_acceleration(const RunSamples *samples, long k)
+{
+    double largest = 0.0;
+    for (int j = 0; j < N_Q; j++)
+        largest = max_of(fabs(samples->a[k * N_Q + j]), largest);
+    return largest;
+}
+
+/*
+ * Store the position as the next sample, whose works are stored already. The next step begins with the length that
+ * leads to the sample after it. q, v: those of the position, or the given ones of the start.
+ */
+static void store_sample(const KinematicBatch *batch, KinematicRun *run, const double *q, const double *v)
+{
+    RunSamples *samples = &run->samples;
+    const long k = samples->done++;
+    double *y = samples->y + k * N_S, *a = samples->a + k * N_Q;
+    add_sample(run, samples->t[k], &run->motion, &samples->phi_max, &samples->phi_dot_max);
+    memcpy(y, q, N_Q * sizeof *q);
+    memcpy(y + N_Q, v, N_Q * sizeof *v);
+    memcpy(a, run->motion.a, N_Q * sizeof *a);
+    samples->are_finite = samples->are_finite && all_finite(y, batch->has_works ? N_S : 2 * N_Q) && all_finite(a, N_Q);
+    const double largest = find_largest_acceleration(samples, k);
+    samples->largest_a = max_of(samples->largest_a, largest);
+    samples->smallest_a = min_of(samples->smallest_a, largest);
+    if (samples->done == samples->n)
+        return;
+    memcpy(y + N_S + 2 * N_Q, y + 2 * N_Q, N_WORK * sizeof *y);
+    samples->stride = (StepLength){samples->t[k + 1] - run->motion.t, 0};
+}
+
+/* Compute the start (q, v) of run i, unless it is given. Return 0, STOPPED, or NOT_CLOSED if Python must decide. */
+static int compute_run_start(const KinematicBatch *batch, long i, double t, Cancellation *cancellation)
+{
+    double *start = batch->start + i * 2 * N_Q, residual;
+    if (batch->started[i])
+        return 0;
+    if (!compute_start(t, batch->p + i * batch->numbers, batch->size[i], start, start + N_Q, &residual, cancellation)
+        && all_finite(start + N_Q, N_Q))
+        return 0;
+    return cancellation->stop ? STOPPED : NOT_CLOSED;
+}
+
+/* Begin run i in the memory `run`: start and first sample. Return 0 or a status. */
+static int begin_run(const KinematicBatch *batch, long i, KinematicRun *run)
+{
+    const long row = batch->sample_block[i] * batch->samples;
+    const double *t = batch->t + i * batch->time_stride, *start = batch->start + i * 2 * N_Q;
+    gudgeon_kinematic_begin(run, batch->max_correction, batch->size[i], t[batch->n_requested[i] - 1], is_batch_ending,
+        (void *)batch, ENDING_POLL_INTERVAL_S);
+    run->p = (const Parameters *)(batch->p + i * batch->numbers);
+    run->samples = (RunSamples){
+        .n = batch->n_requested[i], .t = t, .y = batch->y + row * N_S, .a = batch->a + row * N_Q,
+        .smallest_a = INFINITY, .are_finite = 1, .began = read_clock()
+    };
+    int status = compute_run_start(batch, i, t[0], &run->cancellation);
+    batch->started[i] = !status;
+    if (!status)
+        status = set_initial_position(run, t[0], start, start + N_Q, &run->motion);
+    if (status)
+        return status;
+    for (int j = 0; j < N_WORK; j++)
+        get_present_works(&run->samples)[j] = batch->has_works ? 0.0 : NAN;
+    store_sample(batch, run, start, start + N_Q);
+    return 0;
+}
+
+/* Count a step of a run, and store its end as a sample if it is one. Return 0 or a status. */
+static int accept_step(const KinematicBatch *batch, KinematicRun *run)
+{
+    RunSamples *samples = &run->samples;
+    samples->steps++;
+    if (has_stalled(&run->monitor, run->motion.t, run->t_end))
+        return STALLED;
+    if (run->motion.t < samples->t[samples->done])
+        return 0;
+    const int status = complete_position(run, &run->motion);
+    if (!status)
+        store_sample(batch, run, run->motion.q, run->motion.v);
+    return status;
+}
+
+/* Make one step of a run towards its next sample, and add its works. Return 0 or a status. */
+static int advance_run(const KinematicBatch *batch, KinematicRun *run)
+{
+    const Position before = run->motion;
+    const double t1 = run->samples.t[run->samples.done];
+    int status = make_step(run, &run->samples.stride, t1, &run->motion);
+    if (!status && batch->has_works)
+        status = integrate_work_of_step(run, &before, &run->motion, get_present_works(&run->samples));
+    return status ? status : accept_step(batch, run);
+}
+
+/* Return whether the largest |a| of a sample may be more than STEEP_RATIO times the median of all samples. */
+static int has_steep_sample(const RunSamples *samples)
+{
+    long n_small = 0;
+    if (samples->largest_a <= STEEP_RATIO * samples->smallest_a)
+        return 0;
+    for (long k = 0; k < samples->n; k++)
+        n_small += STEEP_RATIO * find_largest_acceleration(samples, k) <= samples->largest_a;
+    return 2 * n_small >= samples->n;
+}
+
+/* Return whether a check of the audit finds an error beyond its limit in one of the drawn samples of run i. */
+static int has_audit_finding(const KinematicBatch *batch, long i, const RunSamples *samples)
+{
+    const double no_memory[AT_LEAST_ONE(N_DISCRETE)] = {NAN};
+    const long n_drawn = batch->n_drawn < samples->n ? batch->n_drawn : samples->n;
+    for (long j = 0; j < n_drawn; j++) {
+        const long k = batch->n_drawn < samples->n ? (long)((double)samples->n * batch->drawn[j]) : j;
+        const double *y = samples->y + k * N_S;
+        double error[4];
+        gudgeon_audit_samples(1, samples->t + k, y, y + N_Q, no_memory, batch->p + i * batch->numbers, batch->size[i],
+            error);
+        for (int check = 0; check < 4; check++)
+            if (error[check] > batch->limit[check] && error[check] < INFINITY) /* others are of another check */
+                return 1;
+    }
+    return 0;
+}
+
+/*
+ * End run i: write its counts and its status into the batch, and whether Python must check it. A run that was stopped
+ * before its first sample has not begun.
+ */
+static void end_run(const KinematicBatch *batch, long i, KinematicRun *run, int status)
+{
+    const RunSamples *samples = &run->samples;
+    batch->n_interpolated[i] = gudgeon_kinematic_count_interpolated(run, batch->t_interpolated + i);
+    batch->is_suspect[i] = status || !samples->are_finite || run->is_start_ill_conditioned || run->n_interpolated
+        || has_steep_sample(samples) || has_audit_finding(batch, i, samples);
+    batch->done[i] = samples->done;
+    if (samples->done) {
+        batch->t_last[i] = samples->t[samples->done - 1];
+        batch->residuals[i * N_RESIDUALS + RESIDUAL_phi_max] = samples->phi_max;
+        batch->residuals[i * N_RESIDUALS + RESIDUAL_phi_dot_max] = samples->phi_dot_max;
+    }
+    batch->counts[i * N_COUNTS + COUNT_steps] = samples->steps;
+    batch->seconds[i] = read_clock() - samples->began;
+    const int has_begun = status != STOPPED || samples->done;
+    batch->status[i] = has_begun ? status : 0;
+    batch->phase[i] = has_begun ? OVER : NEW;
+}
+
+/*
+ * Compute n runs of a batch, whose indices are given, one after the other, in the memory `integrator`. Runs that are
+ * over are skipped. If the batch is ending, the present run ends at once, and no run begins.
+ */
+void gudgeon_kinematic_ensemble(const void *batch_data, void *integrator, long n, const long *indices)
+{
+    const KinematicBatch *batch = batch_data;
+    KinematicRun *run = integrator;
+    for (long k = 0; k < n && !*batch->ending; k++) {
+        if (batch->phase[indices[k]] != NEW)
+            continue;
+        int status = begin_run(batch, indices[k], run);
+        while (!status && run->samples.done < run->samples.n)
+            status = advance_run(batch, run);
+        end_run(batch, indices[k], run, status);
+    }
+}
+#if HAS_LANES
+
+/* Return the functions of a single run that a library of lanes calls. */
+const void *gudgeon_single_run_functions(void)
+{
+    static const KinematicRunFunctions single = {begin_run, advance_run, accept_step, end_run, has_hidden_transient};
+    return &single;
+}
+#endif

@@ -1,0 +1,123 @@
+"""Compute the kinematic runs of a batch in C, one after the other without Python (engine/kinematic/ensemble.c).
+
+Start, motion, works and checks of a run are one call of C, which fills the arrays of the batch. A run that C cannot
+complete is computed again by `KinematicRun`, which finds the cause. Scenes with user events always use `KinematicRun`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gudgeon.integrators.kinematic import REACH
+from gudgeon.integrators.lanes import ALWAYS
+from gudgeon.integrators.times import Times
+from gudgeon.integrators.trajectory import Problem
+from gudgeon.model.arrays import find_memory_address
+from gudgeon.model.compiled import Array, CompiledModel
+from gudgeon.model.sizes import compute_mechanism_sizes
+
+if TYPE_CHECKING:
+    from gudgeon.contract.kernel_source import KernelSource
+    from gudgeon.integrators.lanes import Lanes
+
+C_TYPES = {"B": "unsigned char *", "i": "int *", "l": "long *", "d": "double *"}
+# arrays of the batch that C fills, by their names in the struct KinematicBatch
+FILLED = ("start", "started", "phase", "y", "a", "done", "status", "t_last", "seconds", "counts", "residuals")
+OWN = ("n_interpolated", "t_interpolated", "is_suspect")
+MAX_RUNS, MAX_SAMPLES = 64, 8192  # of one call of C, as long as the samples of the lanes are no more
+SHORT = 2_000  # samples: a single run of no more is computed without polls for cancellation
+
+
+def has_kinematic_ensemble(source: KernelSource, method: str) -> bool:
+    """Return whether C computes whole runs of a scene by a method: kinematic runs without user events."""
+    return method == "kinematic" and not source.events
+
+
+def count_kinematic_rows(n_samples: int) -> int:
+    """Return how many runs of `n_samples` samples one call of C computes: as many as fit into the cache.
+
+    It is a multiple of the number of lanes, so that all of them are used.
+    """
+    return max(ALWAYS, min(MAX_RUNS, MAX_SAMPLES // n_samples) // ALWAYS * ALWAYS)
+
+
+class KinematicEnsemble:
+    """Hold C's struct of a batch of kinematic runs, with pointers to `arrays`, the arrays of the batch by name.
+
+    It adds arrays (n,): `is_suspect`, whether Python must check a run, and the number of samples at or near a change
+    point with the time (s) of the first.
+    """
+
+    def __init__(self, compiled: CompiledModel, arrays: dict[str, NDArray[Any]], times: Times) -> None:
+        self.compiled, self._arrays, n = compiled, arrays, len(arrays["p"])
+        arrays["is_suspect"] = np.ones(n, np.uint8)
+        arrays["n_interpolated"], arrays["t_interpolated"] = np.zeros(n, np.int_), np.full(n, np.nan)
+        self._inputs = {
+            "t": np.ascontiguousarray(times.t),
+            "n_requested": np.ascontiguousarray(times.count, np.int_),
+            "sample_block": arrays["sample_block"],
+            "p": np.ascontiguousarray(arrays["p"]),
+            "size": compute_mechanism_sizes(compiled.source, arrays["p"]),
+        }
+        self._struct = struct = compiled.ffi.new("KinematicBatch *")
+        struct.samples, struct.time_stride, struct.numbers = times.max_count, times.stride, arrays["p"].shape[1]
+        struct.max_correction, struct.has_works = REACH, 1
+        for name, array in self._inputs.items():
+            setattr(struct, name, compiled.pointer(array, C_TYPES[array.dtype.char]))
+        for name in (*FILLED, *OWN):
+            array = arrays[name]
+            setattr(struct, name, compiled.pointer(array, C_TYPES[array.dtype.char], is_written=True))
+        struct.ending = compiled.pointer(arrays["ending"], "int *")
+
+    def set_sample_audit(self, positions: Array, limits: Array) -> None:
+        """Set the audit of samples: positions in a run, 0 to 1, of the checked ones, and the limits of C's checks.
+
+        `positions`: at most 8, all samples of a run with no more; `limits`: (4,).
+        """
+        self._struct.n_drawn = len(positions)
+        self._struct.drawn[0 : len(positions)] = positions.tolist()
+        self._struct.limit = limits.tolist()
+
+    @property
+    def has_works(self) -> bool:
+        """Return whether works are integrated."""
+        return bool(self._struct.has_works)
+
+    def leave_out_works(self) -> None:
+        """Leave out the works of all runs, which take most of the time: they are NaN."""
+        self._struct.has_works = 0
+
+    def allocate_storages(self, count: int = 1) -> NDArray[np.uint8]:
+        """Return the memory of C, a row for each of `count` runs under way."""
+        return np.zeros((count, self.compiled.lib.gudgeon_kinematic_size()), dtype=np.uint8)
+
+    def compute_runs(self, indices: Sequence[int], storages: NDArray[np.uint8], lanes: Lanes | None = None) -> None:
+        """Compute the runs with these indices in the calling thread, without Python's global lock.
+
+        In `lanes`, several runs are computed at once, each in a row of `storages`; otherwise the first row is used.
+        Runs that are over are skipped. No run begins once the batch is ending.
+        """
+        self.compiled.lib.switch_library_if_ready()
+        numbers, ffi = np.array(indices, np.int_), self.compiled.ffi
+        if lanes and len(numbers) > 1:
+            rows = [find_memory_address(ffi, row) for row in storages]
+            lanes.compute_kinematic_runs(int(ffi.cast("uintptr_t", self._struct)), rows, numbers)
+            return
+        storage = self.compiled.pointer(storages[0], "void *", True)
+        numbers_pointer = self.compiled.pointer(numbers, "long *")
+        self.compiled.lib.gudgeon_kinematic_ensemble(self._struct, storage, len(numbers), numbers_pointer)
+
+    def compute_short_run(self, problem: Problem) -> bool:
+        """Compute the only run of the batch and return whether it is complete.
+
+        Return False for a long run and for one with an observer or a report of progress, which KinematicRun computes,
+        and if C cannot complete it: KinematicRun then computes it again.
+        """
+        if len(problem.t) > SHORT or problem.observer or problem.progress:
+            return False
+        self.compute_runs([0], self.allocate_storages())
+        return not self._arrays["status"][0]

@@ -1,0 +1,66 @@
+"""Select the runs of a batch without degrees of freedom that Python must check, because C found something or cannot.
+
+C audits the samples of kinematic runs as `audit.SampleAudit` does (engine/kinematic/ensemble.c), and finds samples that
+are not finite, at change points, or with steep accelerations. Only those runs are evaluated in full.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from gudgeon.assembly.rank import list_redundant_equations
+from gudgeon.integrators.batch import Runs
+from gudgeon.model.left_limit import find_evaluation_times
+from gudgeon.model.seams import list_periodic_drives
+from gudgeon.model.sizes import compute_mechanism_sizes
+from gudgeon.results.batch import depends_on_works
+from gudgeon.simulation.audit import LIMITS, SHORT_RUN_POSITIONS, find_runs_off_start, list_checks_left_out
+
+
+class SuspectRuns:
+    """Select the runs to be checked in Python; without a kinematic ensemble these are all runs.
+
+    `is_resumed`: the runs begin at given states, whose violations Python notes. `stored_series`: names, None for the
+    states. Works are left out if nothing that is stored depends on them.
+    """
+
+    def __init__(self, runs: Runs, is_resumed: bool, stored_series: tuple[str, ...] | None) -> None:
+        self._runs = runs
+        compiled, source = runs.compiled, runs.compiled.source
+        self._checks_all = (
+            runs.kinematic is None
+            or runs.audit > 1
+            or is_resumed
+            or bool(list_redundant_equations(compiled) or list_periodic_drives(source))
+        )
+        is_checked_in_c = not (self._checks_all or source.start_set or compiled.may_drive_acceleration_jump)
+        needs_works = stored_series is None or any(depends_on_works(source, name) for name in stored_series)
+        if runs.kinematic and is_checked_in_c and not needs_works:
+            runs.kinematic.leave_out_works()
+        if runs.kinematic and runs.audit == 1:
+            left_out = list_checks_left_out(source, runs.method)
+            limits = [np.inf if check in left_out else limit for check, limit in LIMITS.items()]
+            runs.kinematic.set_sample_audit(SHORT_RUN_POSITIONS, np.array(limits))
+
+    def select_runs(self, finished_runs: Sequence[int]) -> list[int]:
+        """Return the indices of those of the finished runs that Python must check."""
+        if self._checks_all:
+            return list(finished_runs)
+        x, indices, compiled = self._runs.arrays, np.array(finished_runs, np.intp), self._runs.compiled
+        p = x["p"][indices]
+        is_suspect = x["is_suspect"][indices] > 0
+        if self._runs.audit:
+            size = compute_mechanism_sizes(compiled.source, p)
+            is_suspect |= find_runs_off_start(compiled.source, p, x["start"][indices], size)
+        if compiled.may_drive_acceleration_jump:
+            is_suspect |= [self._ends_at_jump(i) for i in finished_runs]
+        return [int(i) for i in indices[is_suspect]]
+
+    def _ends_at_jump(self, i: int) -> bool:
+        """Return whether an acceleration jumps at the last sample of run i, whose limit from the left Python stores."""
+        n, compiled = self._runs.compiled.n, self._runs.compiled
+        t, y, *_ = self._runs.get_samples(i)
+        times = find_evaluation_times(compiled, t, y[:, :n], y[:, n : 2 * n], self._runs.arrays["p"][i])
+        return bool(times[-1] < t[-1])
