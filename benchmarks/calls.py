@@ -1,17 +1,20 @@
-"""Measure what one call costs beyond the integration in C: `simulate`, a prepared run, a step of a stepper.
+"""Measure what one call costs beyond the integration in C: `simulate`, `simulate_many`, a prepared run, a step.
 
     python -m benchmarks.calls      # from the repository's root, with gudgeon installed
 
-All runs are so short that they integrate next to nothing (`t_end` → 0). Each call has other parameter values than the
-one before. Times are processor times of the thread in µs, the least of several rounds in turns; "in C" is the time of
-the function of C that integrates, within these calls. The rest of a step and of a prepared run is "beyond"; it includes
-the audit of samples, which is C too.
+All runs are so short that they integrate next to nothing (`t_end` → 0). Times are processor times in µs, the least of
+several rounds in turns. The parameter values of calls take turns; those of column "new" have not been used before.
+Column "many" is a run of a batch of 1,000 runs with different values in one thread.
+
+"in C" is the time of the function of C that integrates, within these calls; the rest is "beyond". It includes the audit
+of samples, which is C too. Runs of a batch share no vectors where it is measured.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from time import thread_time
+from itertools import count
+from time import process_time, thread_time
 
 import numpy as np
 
@@ -25,23 +28,24 @@ SCENES = (
     ("andrews_squeezer", "ideal", "bodies.OF.mass", "OF.theta", 1e-4),
     ("pendulum", "ideal", "g", "bob.x", 1e-3),
 )
-ROUNDS, CALLS, CALLS_OF_SIMULATE = 15, 400, 20
+ROUNDS, CALLS, CALLS_OF_SIMULATE = 50, 100, 20
+BATCHES, RUNS = 8, 1000  # batches that are measured, and runs of each
 T_END = 1e-9  # s
 VALUES = 5  # parameter values that take turns
 
 
-def measure(function: Callable[[], object], n: int) -> float:
-    """Return the least time of one call of a function in µs, over rounds of n calls."""
+def measure(function: Callable[[], object], n: int, rounds: int = ROUNDS) -> float:
+    """Return the least time of one call of a function in µs, over rounds of n calls, of all threads together."""
     best = np.inf
-    for _ in range(ROUNDS):
-        begin = thread_time()
+    for _ in range(rounds):
+        begin = process_time()
         for _ in range(n):
             function()
-        best = min(best, (thread_time() - begin) / n)
+        best = min(best, (process_time() - begin) / n)
     return 1e6 * best
 
 
-def measure_in_c(simulation: Simulation, function: Callable[[], object], n: int) -> float:
+def measure_in_c(simulation: Simulation, function: Callable[[], object], n: int, rounds: int = ROUNDS) -> float:
     """Return the least time that one call of `function` spends in gudgeon_ensemble, in µs, over rounds of n calls."""
     functions, spent = vars(simulation.compiled.lib), 0.0
     in_c = simulation.compiled.lib.gudgeon_ensemble
@@ -56,7 +60,7 @@ def measure_in_c(simulation: Simulation, function: Callable[[], object], n: int)
     best, of_clock = np.inf, measure(thread_time, n)
     functions["gudgeon_ensemble"] = integrate
     try:
-        for _ in range(ROUNDS):
+        for _ in range(rounds):
             spent = 0.0
             for _ in range(n):
                 function()
@@ -78,8 +82,25 @@ def take_turns(function: Callable[[np.ndarray], object], values: Sequence[np.nda
     return call
 
 
+def measure_batch(simulation: Simulation, name: str, default: float) -> list[float]:
+    """Return the time of one run of a batch, and its time beyond C where runs share no vectors, in µs."""
+    values = {name: default * (1.0 + 1e-6 * np.arange(RUNS))}
+
+    def simulate_many(side_by_side: bool = True) -> object:
+        return simulation.simulate_many(values, T_END, output=1, threads=1, side_by_side=side_by_side)
+
+    def simulate_alone() -> object:
+        return simulate_many(False)
+
+    simulate_many()  # compiles what lanes need
+    whole, alone = measure(simulate_many, 1, BATCHES), measure(simulate_alone, 1, BATCHES)
+    return [whole / RUNS, (alone - measure_in_c(simulation, simulate_alone, 1, BATCHES)) / RUNS]
+
+
 def measure_scene(simulation: Simulation, name: str, series: str, dt: float) -> list[float]:
-    """Return the times of simulate, of a prepared run, of C in it, of a step, and of C in it, in µs."""
+    """Return the times of simulate with known and with new values, of a run of a batch and beyond C in it, of a
+    prepared run and of C in it, and of a step and of C in it, in µs.
+    """
     address = name if name in simulation.source.slot_index else f"parameters.{name}"
     default = simulation.source.slots[simulation.source.slot_index[address]].default
     values = [np.array([default * (1.0 + 1e-6 * k)]) for k in range(VALUES)]
@@ -88,7 +109,13 @@ def measure_scene(simulation: Simulation, name: str, series: str, dt: float) -> 
     def simulate(x: np.ndarray) -> object:
         return simulation.simulate(T_END, output=1, parameters={name: float(x[0])})
 
-    times = [measure(take_turns(simulate, values), CALLS_OF_SIMULATE)]
+    numbers = count(1)
+
+    def simulate_new() -> object:
+        return simulate(np.array([default * (1.0 + 1e-9 * next(numbers))]))
+
+    times = [measure(take_turns(simulate, values), CALLS_OF_SIMULATE), measure(simulate_new, CALLS_OF_SIMULATE)]
+    times += measure_batch(simulation, name, default)
     for call in (take_turns(prepared, values), take_turns(lambda x: stepper.step(dt, x), values)):
         stepper.reset(values[0])
         times.append(measure(call, CALLS))
@@ -99,13 +126,14 @@ def measure_scene(simulation: Simulation, name: str, series: str, dt: float) -> 
 
 def main() -> None:
     """Print a row for each scene."""
-    print(f"{'µs':34}{'simulate':>9}{'prepared':>9}{'in C':>7}{'beyond':>7}{'step':>8}{'in C':>7}{'beyond':>7}")
+    print(f"{'µs':34}{'simulate':>9}{'new':>7}{'many':>8}{'beyond':>7}", end="")
+    print(f"{'prepared':>9}{'in C':>7}{'beyond':>7}{'step':>8}{'in C':>7}{'beyond':>7}")
     for mechanism, scene, name, series, dt in SCENES:
         simulation = gudgeon.load(mechanism, scene, quick=False)
-        whole, call, in_c, step, step_in_c = measure_scene(simulation, name, series, dt)
+        whole, new, run, run_beyond, call, in_c, step, step_in_c = measure_scene(simulation, name, series, dt)
         title = f"{mechanism}/{scene}, {name.removeprefix('bodies.')}"
-        print(f"{title:34}{whole:9.1f}{call:9.1f}{in_c:7.1f}{call - in_c:7.1f}", end="")
-        print(f"{step:8.1f}{step_in_c:7.1f}{step - step_in_c:7.1f}")
+        print(f"{title:34}{whole:9.1f}{new:7.1f}{run:8.1f}{run_beyond:7.1f}", end="")
+        print(f"{call:9.1f}{in_c:7.1f}{call - in_c:7.1f}{step:8.1f}{step_in_c:7.1f}{step - step_in_c:7.1f}")
 
 
 if __name__ == "__main__":

@@ -25,6 +25,7 @@ whose accelerations do not amplify errors of velocities.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -37,7 +38,13 @@ from gudgeon.errors import BadValueError, InputError
 from gudgeon.model.cached_values import cache_by_values
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.parameters import read_parameter_value
-from gudgeon.model.sizes import compute_mechanism_sizes
+from gudgeon.model.sizes import (
+    compute_mechanism_sizes,
+    compute_size_of_values,
+    find_size_indices,
+    select_lengths,
+    spread_lengths,
+)
 
 RTOL = 1e-8  # default tolerance of a run
 FELT_BY_FILMS = 0.015  # largest error of velocities relative to the speeds within a film
@@ -88,6 +95,7 @@ def select_first_method(source: KernelSource, rtol: float = RTOL) -> str:
     return select_stiff_method(source, rtol) if _has_film(source) and not source.is_explicit else EXPLICIT
 
 
+@cache_by_values
 def _has_film(source: KernelSource) -> bool:
     """Return whether a joint with play has a lubricant film."""
     return any(joint.film for joint in source.clearances)
@@ -117,6 +125,7 @@ def compute_error_lengths(compiled: CompiledModel, p: Array) -> tuple[Array, Arr
     return np.where(np.isfinite(min_clearance), min_clearance, size), size
 
 
+@cache_by_values
 def find_integrated_angles(source: KernelSource) -> NDArray[np.bool_]:
     """Return a mask (n_x,) of the integrated coordinates that are angles, for either formulation."""
     if source.formulation == "reduced":  # a tree's angles have the names of bodies, its slides "guide.slide", "L3.x"
@@ -152,7 +161,9 @@ def compute_scales_of_runs(compiled: CompiledModel, p: Array, rtol: float) -> tu
 
     Those of a single run are computed once for equal values: do not change them. `p` (n, n_slots + n_derived).
     """
-    return _compute_scales_of_run(compiled, p, rtol) if len(p) == 1 else _compute_scales(compiled, p, rtol)
+    if len(p) > 1:
+        return _compute_scales(compiled, p, rtol)
+    return _compute_scales_of_run(compiled, select_lengths(compiled.source, p[0]), rtol)
 
 
 def _compute_scales(compiled: CompiledModel, p: Array, rtol: float) -> tuple[Array, Array, Array]:
@@ -160,4 +171,26 @@ def _compute_scales(compiled: CompiledModel, p: Array, rtol: float) -> tuple[Arr
     return *compute_tolerances(compiled, p, rtol), compute_mechanism_sizes(compiled.source, p)
 
 
-_compute_scales_of_run = cache_by_values(_compute_scales)
+@cache_by_values
+def _compute_scales_of_run(compiled: CompiledModel, lengths: Array, rtol: float) -> tuple[Array, Array, Array]:
+    """Compute the scales of one run from its lengths, as of `select_lengths`."""
+    values = spread_lengths(compiled.source, lengths).tolist()
+    scale, least, size = compute_scales_of_values(compiled.source, values, rtol)
+    return scale[None], np.array([least]), np.array([size])
+
+
+def compute_scales_of_values(
+    source: KernelSource, values: Sequence[float], rtol: float
+) -> tuple[Array, tuple[float, float], float]:
+    """Return what `compute_scales_of_runs` does for one run, bit for bit, without NumPy's time for short arrays.
+
+    These are the error tolerances (2 n_x,), L and L/S, and S (m). `values`: parameter values (n_p,).
+    """
+    size = compute_size_of_values(find_size_indices(source), values)
+    length = min((c for c in (values[joint.clearance] for joint in source.clearances) if c > 0.0), default=size)
+    is_angle = find_integrated_angles(source)
+    of_angles, of_lengths, of_speeds = compute_error_scales(source, length, size, rtol)
+    scale, n = np.empty(2 * len(is_angle)), len(is_angle)
+    scale[:n], scale[n:] = of_lengths, of_speeds
+    scale[:n][is_angle] = of_angles
+    return scale, (length, length / size), size

@@ -2,7 +2,7 @@
 
 A call of C integrates runs from start to end without Python's global lock. Python distributes the runs and fetches the
 lists of contacts and events. Many runs use threads (threads.py); a single one stays in the calling thread
-(`integrate_problem`). A method without a loop in C is a Python function from a Problem to a Trajectory
+(single_run.py). A method without a loop in C is a Python function from a Problem to a Trajectory
 (`Runs.python_loop`), whose runs fill the same arrays.
 """
 
@@ -22,7 +22,6 @@ from gudgeon.assembly.rank import check_redundant_equations, list_redundant_equa
 from gudgeon.assembly.start import assemble_start
 from gudgeon.contract.boundary import (
     AUDITED,
-    BEGUN,
     ENDED,
     LISTS,
     NEW,
@@ -40,13 +39,13 @@ from gudgeon.integrators.kinematic_ensemble import (
     has_kinematic_ensemble,
 )
 from gudgeon.integrators.lanes import LaneProvider, Lanes
+from gudgeon.integrators.run_arrays import SingleRunArrays, set_pointers
 from gudgeon.integrators.steps import StepCallback, StepLog
 from gudgeon.integrators.stored import StoredRuns
 from gudgeon.integrators.threads import integrate_runs_in_threads
 from gudgeon.integrators.times import Times
 from gudgeon.integrators.trajectory import Problem, Progress, Trajectory
 from gudgeon.model.compiled import Array, CompiledModel
-from gudgeon.waiting.cancellation import CancellationPoll
 from gudgeon.waiting.ctrl_c import DelayedCtrlC
 
 if TYPE_CHECKING:
@@ -120,36 +119,26 @@ class Runs(StoredRuns):
         """Return the struct Batch of C with pointers to all arrays, which are made contiguous; not for Python loops."""
         compiled, x, times = self.compiled, self.arrays, self.times
         scale, least, size = adaptive.compute_scales_of_runs(compiled, x["p"], self.rtol)
-        given = {
-            name: np.ascontiguousarray(array)
-            for name, array in (
-                ("t", times.t),
-                ("n_requested", times.count),
-                ("p", x["p"]),
-                ("p_motion", x["p_motion"]),
-                ("step", x["step"]),
-                ("scale", scale),
-                ("least", least),
-                ("size", size),
-            )
-        }
-        self.arrays |= given
-        struct = compiled.ffi.new("Batch *")
-        struct.samples, struct.time_stride, struct.numbers = times.max_count, times.stride, given["p"].shape[1]
+        if isinstance(x, SingleRunArrays):
+            x["t"][:], x["n_requested"][0] = times.t, times.count[0]
+            x["scale"][:], x["least"][:], x["size"][:] = scale, least, size
+            struct = x.make_struct(compiled.ffi)
+        else:
+            given = {"t": times.t, "n_requested": times.count, "scale": scale, "least": least, "size": size}
+            names = ("p", "p_motion", "step")
+            given |= {name: x[name] for name in names}
+            self.arrays |= {name: np.ascontiguousarray(array) for name, array in given.items()}
+            struct = compiled.ffi.new("Batch *")
+            set_pointers(compiled.ffi, struct, self.arrays)
+        struct.samples, struct.time_stride, struct.numbers = times.max_count, times.stride, compiled.n_p
         struct.limit = CHUNK
         struct.choice, struct.automatic = adaptive.find_method_numbers(compiled, self.method, self.rtol)
-        struct.fixed, struct.stop, struct.audit = math.isfinite(given["step"][0]), self.stop, self.audit
-        self._run_arrays.set_pointers(compiled.ffi, struct)
-        for name in (*given, "y", "latched"):
-            setattr(struct, name, compiled.pointer(x[name], "long *" if name == "n_requested" else "double *", True))
-        struct.state = compiled.pointer(x["state"], "signed char *", True)
+        struct.fixed, struct.stop, struct.audit = math.isfinite(x["step"].item(0)), self.stop, self.audit
         return struct
 
     def __getstate__(self) -> dict[str, Any]:
         """Return the state for pickling: arrays and lists of finished runs, without C's structures."""
-        none = dict.fromkeys(
-            ("struct", "kinematic", "_run_arrays", "lane_provider", "store_results", "python_loop", "fetched")
-        )
+        none = dict.fromkeys(("struct", "kinematic", "lane_provider", "store_results", "python_loop", "fetched"))
         return self.__dict__ | none | {"observers": ()}
 
     def release_samples(self) -> None:
@@ -343,13 +332,11 @@ class Runs(StoredRuns):
         end: int,
         storage: NDArray[np.uint8],
         step_log: StepLog | None,
-        poll: Callable[[], object] = lambda: None,
     ) -> None:
         """Integrate runs first to end − 1 in C, one after the other, in the calling thread.
 
         Contacts, events and recorded steps are fetched whenever a list is full or a run is over. `storage`: storage of
-        C's integrator. `step_log`: step record for observers. `poll` is called after each call of C. `step_log` None:
-        without an observer.
+        C's integrator. `step_log`: step record for observers; None: without an observer.
         """
         compiled, current = self.compiled, self.compiled.ffi.new("long *", first)
         compiled.lib.switch_library_if_ready()
@@ -362,69 +349,6 @@ class Runs(StoredRuns):
                     step_log.observer = self.observers[int(current[0])]
                     step_log.pass_steps(run)
             current[0] += status == RUN_OVER
-            poll()
-
-    def integrate_single_run(self, problem: Problem) -> Trajectory:
-        """Integrate the only run in the calling thread, in C or Python, and return its Trajectory.
-
-        `problem` polls for cancellation. Raises KeyboardInterrupt if no sample was reached.
-        """
-        if self.kinematic and self.kinematic.compute_short_run(problem):
-            pass
-        elif self.python_loop:
-            self.store_trajectory(0, self.python_loop(problem))
-        else:
-            self._integrate_in_c(problem)
-        self._join_contacts()
-        return self.build_trajectory(0)
-
-    def _integrate_in_c(self, problem: Problem) -> None:
-        """Integrate the only run by the time loop in C. After Ctrl-C, the samples up to there remain.
-
-        A failed run is recorded; without any sample, its start becomes the first. Raises KeyboardInterrupt if Ctrl-C
-        came before the first sample.
-        """
-        compiled, x = self.compiled, self.arrays
-        storage = np.zeros(compiled.lib.gudgeon_run_size(), dtype=np.uint8)
-        run, step_log = compiled.pointer(storage, "void *", True), StepLog(compiled) if self.observers else None
-        if step_log:
-            step_log.register_rows(run)
-        cancellation = CancellationPoll(compiled, lambda: self._poll_and_report_progress(problem, run))
-        self.struct.ask, self.struct.caller, self.struct.every = cancellation.c_arguments
-
-        def poll() -> None:
-            """Raise what a poll from C raised, and poll once more."""
-            cancellation.raise_stored(False)
-            self._poll_and_report_progress(problem, run)
-
-        try:
-            self.integrate_runs_sequentially(0, 1, storage, step_log, poll)
-        except KeyboardInterrupt:
-            if not x["done"][0]:
-                raise
-            self.interrupted, x["ending"][0] = True, 1
-            self.integrate_runs_sequentially(0, 1, storage, step_log)
-        if not self.interrupted and x["status"][0] not in (0, ENDED):
-            self.failures[0] = self._build_error(0)
-        if not x["done"][0]:  # at least the start
-            rows = x["y"][0], x["latched"][0], x["state"][0]
-            to = (compiled.pointer(rows[0]), compiled.pointer(rows[1]), compiled.pointer(rows[2], "signed char *"))
-            compiled.lib.gudgeon_run_sample(run, self.struct.p_motion, *to)
-            x["done"][0] = 1
-
-    def _poll_and_report_progress(self, problem: Problem, run: Any) -> None:
-        """Poll for Ctrl-C and for an optimized library, and report progress; called between calls of C and within them.
-
-        `run`: pointer to C's integrator. Raises KeyboardInterrupt.
-        """
-        x, b, t = self.arrays, self.struct, problem.t
-        self.compiled.lib.switch_library_if_ready()
-        problem.poll_cancellation()
-        if problem.progress:
-            if x["phase"][0] == BEGUN:
-                self.compiled.lib.gudgeon_run_report(run, b.t_last, b.counts, b.residuals, b.peaks)
-            fraction = (x["t_last"][0] - t[0]) / max(t[-1] - t[0], 1e-300)
-            problem.progress(float(min(max(fraction, 0.0), 1.0)), "integrating")
 
     def _build_error(self, i: int) -> GudgeonError:
         """Build the error that ended run i in C, from its status and the values that C stored."""
@@ -433,31 +357,3 @@ class Runs(StoredRuns):
         names = "status", "t_last", "last", "peaks", "p_motion", "step", "gained", "paced", "ended"
         stored = {name: self.arrays[name][i] for name in names}
         return build_run_error(self.compiled, self.method, stored, float(self.times.get_times(i)[-1]))
-
-
-def integrate_problem(problem: Problem, python_loop: PythonLoop | None = None) -> Trajectory:
-    """Integrate one run, in C or by the time loop `python_loop` in Python, and return its Trajectory.
-
-    Raises KeyboardInterrupt if no sample was reached. `python_loop` None: C integrates.
-    """
-    times = Times(problem.t, np.full(1, len(problem.t)), np.zeros(1, np.int_))
-    motion = problem.p if problem.method == "rk4" or problem.p_free is None else problem.p_free
-    runs = Runs(
-        problem.compiled,
-        problem.p[None],
-        motion[None],
-        times,
-        problem.method,
-        np.full(1, problem.step),
-        problem.rtol,
-        problem.stop,
-        problem.audit,
-        side_by_side=False,
-        threads=1,
-        python_loop=python_loop,
-    )
-    runs.set_starts([problem])
-    runs.observers = [problem.observer] if problem.observer else ()
-    if problem.compiled.source.clearances and not python_loop:
-        runs.allocate_envelope()
-    return runs.integrate_single_run(problem)

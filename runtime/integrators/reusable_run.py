@@ -16,9 +16,8 @@ from gudgeon.integrators.batch import Runs
 from gudgeon.integrators.stored import Contacts
 from gudgeon.integrators.times import Times
 from gudgeon.model.compiled import Array
-from gudgeon.model.contours import compute_min_clearances
 from gudgeon.model.parameter_columns import ParameterColumns
-from gudgeon.model.sizes import MIN_RELATIVE_CLEARANCE, compute_size_of_values, find_size_indices
+from gudgeon.model.sizes import is_clearance_unresolved
 from gudgeon.waiting.cancellation import CancellationPoll
 
 N_ROWS = 2  # the present run, and the last one, whose start is copied if the parameters of the start are equal
@@ -44,9 +43,7 @@ class ReusableRun(Runs):
         super().__init__(
             columns.compiled, columns.p, columns.p_motion, times, method, steps, rtol, stop, audit, False, 1
         )
-        self.columns, self._is_angle = columns, adaptive.find_integrated_angles(columns.source)
-        self._size_indices = find_size_indices(columns.source)
-        self._clearances = [joint.clearance for joint in columns.source.clearances]
+        self.columns = columns
         self._storage = np.zeros(self.compiled.lib.gudgeon_run_size(), dtype=np.uint8)
         self._integrator = self.compiled.pointer(self._storage, "void *", True)
         self._current = self.compiled.ffi.new("long *")
@@ -72,17 +69,11 @@ class ReusableRun(Runs):
         if key == self._tolerance_keys[k]:
             return True
         self._tolerance_keys[k] = b""
-        source, x, values = self.compiled.source, self.arrays, self.columns.p[k].tolist()
-        size = compute_size_of_values(self._size_indices, values)
-        clearances = [values[i] for i in self._clearances]
-        shallowest = compute_min_clearances(source, self.columns.p[k]).tolist() if source.contours else clearances
-        if min(shallowest, default=size) < MIN_RELATIVE_CLEARANCE * size:
+        source, x, p = self.compiled.source, self.arrays, self.columns.p[k]
+        x["scale"][k], x["least"][k], size = adaptive.compute_scales_of_values(source, p.tolist(), self.rtol)
+        if is_clearance_unresolved(source, p, size):
             return False
-        length = min((c for c in clearances if c > 0.0), default=size)
-        scale, n = x["scale"][k], len(self._is_angle)
-        of_angles, of_lengths, scale[n:] = adaptive.compute_error_scales(source, length, size, self.rtol)
-        scale[:n] = np.where(self._is_angle, of_angles, of_lengths)
-        x["least"][k], x["size"][k] = (length, length / size), size
+        x["size"][k] = size
         self._tolerance_keys[k] = key
         return True
 

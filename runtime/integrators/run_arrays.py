@@ -1,62 +1,120 @@
 """Allocate the arrays of a batch that have a row for each run, and set the pointers to them in C's struct Batch.
 
-The arrays of a single run are views of one block of memory, which is copied from a template: they are small, and most
-of the time of a short run would be that of their allocation.
+The arrays of a single run, its samples and the struct are one block of memory, of which views are made at their first
+use. They are small, and most of the time of a short run would be that of their allocation.
 """
 
 from __future__ import annotations
 
+import math
 from functools import lru_cache
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gudgeon.contract.boundary import N_CHECKS, N_COUNTS, N_PEAK, N_RESIDUALS, N_STEP_ENDS, N_WORK
-from gudgeon.model.arrays import find_memory_address
+from gudgeon.model.arrays import FLAG, find_memory_address, make_pointer
 
 C_TYPES = {"B": "unsigned char *", "b": "signed char *", "i": "int *", "l": "long *", "d": "double *"}
+STRUCT_BYTES = 512  # reserved for the struct
+Field = tuple[Any, tuple[int, ...], float]  # type, shape and initial value of an array
 
 
-class RunArrays:
-    """Own the arrays of n runs by name, with the values of runs that have not begun."""
+class RunSizes(NamedTuple):
+    """Hold the sizes on which the arrays of a run depend."""
 
-    def __init__(self, n: int, n_coordinates: int, n_memory: int, n_clearances: int) -> None:
-        self._block: NDArray[Any] | None = None
-        self.arrays: dict[str, NDArray[Any]]
-        if n == 1:
-            self._block = block = _build_template(n_coordinates, n_memory, n_clearances).copy()
-            self.arrays = {name: block[name] for name in block.dtype.names or ()}
-        else:
-            fields = _list_fields(n, n_coordinates, n_memory, n_clearances)
-            self.arrays = {
-                name: np.full(shape, value, kind) if value else np.zeros(shape, kind)
-                for name, (kind, shape, value) in fields.items()
-            }
-
-    def set_pointers(self, ffi: Any, struct: Any) -> None:
-        """Set the pointers of C's `struct` to the arrays, by their names; the caller keeps the arrays alive."""
-        words = np.frombuffer(ffi.buffer(struct), np.uintp)
-        positions = _list_pointer_positions(ffi, tuple((name, x.dtype.char) for name, x in self.arrays.items()))
-        if self._block is not None:
-            address = find_memory_address(ffi, self._block.reshape(1).view(np.uint8))
-            words[positions] = address + _list_offsets(self._block.dtype)
-        else:
-            words[positions] = [
-                find_memory_address(ffi, array, C_TYPES[array.dtype.char]) for array in self.arrays.values()
-            ]
+    n_coordinates: int
+    n_memory: int
+    n_clearances: int
+    n_p: int
+    n_integrated: int  # 0 for a time loop in Python
+    n_samples: int
 
 
-def _list_fields(
-    n: int, n_coordinates: int, n_memory: int, n_clearances: int
-) -> dict[str, tuple[Any, tuple[int, ...], float]]:
+def make_run_arrays(n: int, sizes: RunSizes) -> dict[str, NDArray[Any]]:
+    """Return the arrays by name that have a row for each of n > 1 runs, with the values of runs that have not begun."""
+    return {
+        name: np.full(shape, value, kind) if value else np.zeros(shape, kind)
+        for name, (kind, shape, value) in _list_run_fields(n, sizes).items()
+    }
+
+
+def set_pointers(ffi: Any, struct: Any, arrays: dict[str, NDArray[Any]]) -> None:
+    """Set the pointers of C's `struct` to arrays of their names; the caller keeps the arrays alive."""
+    words = np.frombuffer(ffi.buffer(struct), np.uintp)
+    positions = _list_pointer_positions(ffi, tuple((name, x.dtype.char) for name, x in arrays.items()))
+    words[positions] = [find_memory_address(ffi, array, C_TYPES[array.dtype.char]) for array in arrays.values()]
+
+
+class SingleRunArrays(dict[str, NDArray[Any]]):
+    """Own the arrays of one run by name, among them its samples, which have no values yet.
+
+    A view of the block is made when an array is read for the first time.
+    """
+
+    def __init__(self, layout: Layout, block: NDArray[np.uint8]) -> None:
+        self._layout, self._block = layout, block
+
+    @staticmethod
+    def allocate(sizes: RunSizes) -> SingleRunArrays:
+        """Return new arrays of a run that has not begun."""
+        layout = _find_layout(sizes)
+        arrays = SingleRunArrays(layout, np.empty(layout.n_bytes, FLAG))
+        arrays.reset_head(layout.head)
+        return arrays
+
+    def copy_block(self) -> SingleRunArrays:
+        """Return arrays of the same values in a block of their own."""
+        return SingleRunArrays(self._layout, self._block.copy())
+
+    def copy_head(self) -> NDArray[np.uint8]:
+        """Return a copy of the struct and of all arrays but samples, for `reset_head`."""
+        return self._block[: len(self._layout.head)].copy()
+
+    def reset_head(self, head: NDArray[np.uint8]) -> None:
+        """Set the struct and all arrays but samples to earlier values, and contact codes to 0."""
+        self._block[: self._layout.n_reset] = 0
+        self._block[: len(head)] = head
+
+    def __missing__(self, name: str) -> NDArray[Any]:
+        """Return the array of that name. Raises KeyError for another name."""
+        offset, kind, shape = self._layout.fields[name]
+        self[name] = view = np.ndarray(shape, kind, self._block, offset)
+        return view
+
+    def __reduce__(self) -> Any:
+        """Return the arrays as a dictionary, for pickling."""
+        return dict, ({name: self[name] for name in self._layout.fields} | self,)
+
+    def make_struct(self, ffi: Any) -> Any:
+        """Return C's struct Batch in the block, with pointers to all arrays; this object keeps it alive."""
+        names, offsets = self._layout.pointers
+        memory = make_pointer(ffi, self._block, "unsigned char *", True)
+        words = self._block[:STRUCT_BYTES].view(np.uintp)
+        words[_list_pointer_positions(ffi, names)] = int(ffi.cast("uintptr_t", memory)) + offsets
+        return ffi.cast("Batch *", memory)
+
+
+class Layout(NamedTuple):
+    """Hold where the arrays of a run lie in its block, and the values at the beginning of the block."""
+
+    fields: dict[str, tuple[int, np.dtype[Any], tuple[int, ...]]]  # offset (bytes), type and shape by name
+    pointers: tuple[tuple[tuple[str, str], ...], NDArray[np.uintp]]  # name and type, and offset, of each array
+    head: NDArray[np.uint8]  # the struct, empty, and all arrays but samples
+    n_reset: int  # bytes of the head and of the contact codes
+    n_bytes: int
+
+
+def _list_run_fields(n: int, sizes: RunSizes) -> dict[str, Field]:
     """Return type, shape and initial value of each array of n runs, by name."""
+    n_coordinates, n_memory, n_clearances = sizes.n_coordinates, max(sizes.n_memory, 1), max(sizes.n_clearances, 1)
     return {
         "start": (np.float64, (n, 2 * n_coordinates), np.nan),
         "started": (np.uint8, (n,), 0),
         "phase": (np.uint8, (n,), 0),
-        "remembered": (np.float64, (n, max(n_memory, 1)), np.nan),
-        "codes": (np.int8, (n, max(n_clearances, 1)), 0),
+        "remembered": (np.float64, (n, n_memory), np.nan),
+        "codes": (np.int8, (n, n_clearances), 0),
         "done": (np.int_, (n,), 0),
         "checked": (np.int_, (n,), 0),
         "status": (np.intc, (n,), 0),
@@ -65,7 +123,7 @@ def _list_fields(
         "seconds": (np.float64, (n,), 0),
         "counts": (np.int_, (n, N_COUNTS), 0),
         "residuals": (np.float64, (n, N_RESIDUALS), np.nan),
-        "peaks": (np.float64, (n, max(n_clearances, 1), N_PEAK), np.nan),
+        "peaks": (np.float64, (n, n_clearances, N_PEAK), np.nan),
         "audited": (np.float64, (n, N_CHECKS), -1),
         "audited_t": (np.float64, (n, N_CHECKS), 0),
         "audited_where": (np.intc, (n, N_CHECKS), -1),
@@ -78,19 +136,45 @@ def _list_fields(
     }
 
 
-@lru_cache(maxsize=64)
-def _build_template(n_coordinates: int, n_memory: int, n_clearances: int) -> NDArray[Any]:
-    """Return a block () of a structured type, whose fields are the arrays of one run before it begins; not to be
-    changed.
+def _list_single_run_fields(sizes: RunSizes) -> tuple[dict[str, Field], dict[str, Field]]:
+    """Return type, shape and initial value of the other arrays of a single run, by name: inputs, then samples.
+
+    Samples begin with the contact codes, which are zero.
     """
-    fields = _list_fields(1, n_coordinates, n_memory, n_clearances)
-    types = [np.dtype((kind, shape)) for kind, shape, _ in fields.values()]
-    ends = np.cumsum([-(-each.itemsize // 8) * 8 for each in types]).tolist()  # each begins at a multiple of 8 bytes
-    layout = {"names": list(fields), "formats": types, "offsets": [0, *ends[:-1]], "itemsize": ends[-1]}
-    template: NDArray[Any] = np.zeros((), np.dtype(layout))  # type: ignore[call-overload]
-    for name, (_, _, value) in fields.items():
-        template[name][...] = value
-    return template
+    N = sizes.n_samples
+    inputs: dict[str, Field] = {
+        "p": (np.float64, (1, sizes.n_p), 0),
+        "p_motion": (np.float64, (1, sizes.n_p), 0),
+        "step": (np.float64, (1,), 0),
+        "scale": (np.float64, (1, 2 * sizes.n_integrated), 0),
+        "least": (np.float64, (1, 2), 0),
+        "size": (np.float64, (1,), 0),
+        "n_requested": (np.int_, (1,), N),
+    }
+    return inputs, {
+        "state": (np.int8, (1, N, max(sizes.n_clearances, 1)), 0),
+        "t": (np.float64, (N,), 0),
+        "y": (np.float64, (1, N, 2 * sizes.n_coordinates + N_WORK), 0),
+        "latched": (np.float64, (1, N, max(sizes.n_memory, 1)), 0),
+    }
+
+
+@lru_cache(maxsize=64)
+def _find_layout(sizes: RunSizes) -> Layout:
+    """Return the layout of the block of one run; each array begins at a multiple of 8 bytes."""
+    inputs, samples = _list_single_run_fields(sizes)
+    values = _list_run_fields(1, sizes) | inputs
+    fields, offset = dict[str, tuple[int, np.dtype[Any], tuple[int, ...]]](), STRUCT_BYTES
+    for name, (kind, shape, _) in (values | samples).items():
+        fields[name] = offset, np.dtype(kind), shape
+        offset += -(-math.prod(shape) * np.dtype(kind).itemsize // 8) * 8
+    head = np.zeros(fields["state"][0], FLAG)
+    for name, (_, _, value) in values.items():
+        begin, kind, shape = fields[name]
+        np.ndarray(shape, kind, head, begin)[...] = value
+    types = tuple((name, kind.char) for name, (_, kind, _) in fields.items())
+    offsets = np.array([begin for begin, *_ in fields.values()], np.uintp)
+    return Layout(fields, (types, offsets), head, fields["t"][0], offset)
 
 
 @lru_cache(maxsize=64)
@@ -102,11 +186,7 @@ def _list_pointer_positions(ffi: Any, types: tuple[tuple[str, str], ...]) -> NDA
     members = dict(ffi.typeof("Batch").fields)
     for name, kind in types:
         declared = members[name].type.cname.replace("const ", "").replace("volatile ", "")
-        assert declared == C_TYPES[kind], f"{name}: {declared} in C, {C_TYPES[kind]} in Python"
+        assert declared == C_TYPES[kind] and ffi.sizeof("Batch") <= STRUCT_BYTES, (
+            f"{name}: {declared} in C, {C_TYPES[kind]} in Python"
+        )
     return np.array([members[name].offset // 8 for name, _ in types], np.intp)
-
-
-@lru_cache(maxsize=64)
-def _list_offsets(layout: np.dtype[Any]) -> NDArray[np.uintp]:
-    """Return the offsets (bytes) of all fields of a structured type."""
-    return np.array([offset for _, offset, *_ in (layout.fields or {}).values()], np.uintp)

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import math
 from itertools import pairwise
-from threading import local
-from typing import Any, NamedTuple
+from threading import get_ident
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gudgeon.contract.audit import Finding
 from gudgeon.contract.boundary import (
+    AUDIT_FAILS,
     COUNT_NAMES,
     ENDED,
     IMPACT_COLUMN_NAMES,
@@ -25,8 +26,9 @@ from gudgeon.contract.boundary import (
     IMPACT_t_on,
 )
 from gudgeon.errors import GudgeonError, SolverError
+from gudgeon.integrators.adaptive import find_integrated_angles
 from gudgeon.integrators.failure import build_findings
-from gudgeon.integrators.run_arrays import RunArrays
+from gudgeon.integrators.run_arrays import RunSizes, SingleRunArrays, make_run_arrays
 from gudgeon.integrators.times import Times
 from gudgeon.integrators.trajectory import (
     IMPACT_DTYPE,
@@ -46,6 +48,7 @@ from gudgeon.integrators.trajectory import (
     split_undefined_events,
 )
 from gudgeon.model.compiled import Array, CompiledModel
+from gudgeon.model.deferred_fields import make_with_deferred_fields
 
 FIRST_BLOCK, BLOCK = MAX_LISTED, 16 * MAX_LISTED  # contacts that are stored in the first block, and in later ones
 
@@ -63,7 +66,8 @@ class Contacts:
     """Collect the contacts of the runs of a batch; each thread has its own lists."""
 
     def __init__(self, compiled: CompiledModel) -> None:
-        self.compiled, self.of_thread, self.all = compiled, local(), list[_ThreadContacts]()
+        self.compiled, self.all = compiled, list[_ThreadContacts]()
+        self.of_thread: dict[int, _ThreadContacts] = {}  # by the thread's identity
 
     def fetch_contacts(self, i: int, run: Any, is_over: bool) -> None:
         """Fetch and clear the contacts that C's integrator `run` lists for run i; with `is_over` also those still
@@ -71,10 +75,9 @@ class Contacts:
 
         They are stored in lists of the calling thread.
         """
-        try:
-            fetched: _ThreadContacts = self.of_thread.fetched
-        except AttributeError:
-            fetched = self.of_thread.fetched = _ThreadContacts(self.compiled)
+        fetched = self.of_thread.get(get_ident())
+        if fetched is None:
+            fetched = self.of_thread[get_ident()] = _ThreadContacts(self.compiled)
             self.all.append(fetched)
         fetched.fetch_contacts(i, run, is_over)
 
@@ -134,6 +137,9 @@ class _ThreadContacts:
         return [*self.full, (self.numbers[: self.n], self.joints[: self.n])]
 
 
+Samples: TypeAlias = tuple[Array, Array, Array, NDArray[Any]]
+
+
 class _PythonLists(NamedTuple):
     """Hold the lists of a run that Python drove."""
 
@@ -146,6 +152,7 @@ class StoredRuns:
     """Store arrays by run, and samples by place; values that were not reached are NaN."""
 
     struct: Any  # pointers to the arrays, for C
+    is_reused = False  # the arrays of a single run are those of the next one, too
 
     def __init__(
         self,
@@ -160,26 +167,30 @@ class StoredRuns:
     ) -> None:
         self.compiled, self.method, self.times, self.n = compiled, method, times, len(p)
         n, N, nc = self.n, times.max_count, len(compiled.source.clearances)
-        self._run_arrays = RunArrays(n, compiled.n, compiled.n_memory, nc)
-        self.arrays: dict[str, NDArray[Any]] = {
-            **self._run_arrays.arrays,
-            "p": p,
-            "p_motion": p_motion,
-            "step": step,
-            "y": np.empty((n_rows, N, 2 * compiled.n + N_WORK)),
-            "latched": np.empty((n_rows, N, max(compiled.n_memory, 1))),
-            "state": np.zeros((n_rows, N, max(nc, 1)), np.int8),
-        }
-        self.arrays["t_last"][:] = times.start
-        if n > 1:
+        n_integrated = 0 if in_python else len(find_integrated_angles(compiled.source))
+        sizes = RunSizes(compiled.n, compiled.n_memory, nc, compiled.n_p, n_integrated, N)
+        self.arrays: dict[str, NDArray[Any]]
+        if n == 1:
+            self.arrays = x = SingleRunArrays.allocate(sizes)
+            x["p"][0], x["p_motion"][0], x["step"][0] = p[0], p_motion[0], step[0]
+        else:
+            self.arrays = make_run_arrays(n, sizes) | {
+                "p": p,
+                "p_motion": p_motion,
+                "step": step,
+                "y": np.empty((n_rows, N, 2 * compiled.n + N_WORK)),
+                "latched": np.empty((n_rows, N, max(compiled.n_memory, 1))),
+                "state": np.zeros((n_rows, N, max(nc, 1)), np.int8),
+            }
             self.arrays["sample_block"][:] = np.arange(n) % n_rows
+        self.arrays["t_last"].fill(times.start)
         if in_python:
             self.arrays["a"] = np.full((n_rows, N, compiled.n), np.nan)
         self.python_lists: dict[int, _PythonLists] = {}
         self.fetched = Contacts(compiled)
         self.events: dict[int, list[NDArray[Any]]] = {}  # lists of events with states, of runs that have any
         # contacts by run once all are over, and each run's first index
-        self.contacts, self.first_contact_indices = np.zeros(0, IMPACT_DTYPE), np.zeros(n + 1, np.int_)
+        self.contacts, self.first_contact_indices = np.zeros(0, IMPACT_DTYPE), np.zeros(self.n + 1, np.int_)
         self.failures: dict[int, GudgeonError] = {}
         self.interrupted = False
 
@@ -195,6 +206,8 @@ class StoredRuns:
         They are stored in `contacts`, the index of the first contact of each run in `first_contact_indices`.
         """
         if not self.python_lists:
+            if not self.fetched.all:
+                return  # as they were made
             self.contacts, self.first_contact_indices = self.fetched.join_contacts(self.n)
             return
         each = [self.python_lists[i].impacts if i in self.python_lists else self.contacts for i in range(self.n)]
@@ -244,6 +257,8 @@ class StoredRuns:
         """Return the contacts (IMPACT_DTYPE) of run i, sorted by onset; a copy for runs in C."""
         if i in self.python_lists:
             return self.python_lists[i].impacts
+        if not len(self.contacts):
+            return np.empty(0, IMPACT_DTYPE)
         return self.contacts[self.first_contact_indices[i] : self.first_contact_indices[i + 1]].copy()
 
     def list_contacts(self) -> tuple[NDArray[Any], ...]:
@@ -282,16 +297,20 @@ class StoredRuns:
         """Return the counts, sums and maxima over the steps of run i."""
         return convert_counts(self.arrays["counts"][i], self.arrays["residuals"][i])
 
-    def get_samples(self, i: int) -> tuple[Array, Array, Array, NDArray[Any]]:
+    def get_samples(self, i: int) -> Samples:
         """Return the times (s) of the reached samples of run i, and views of its states, discrete states and contact
         codes.
 
         States are (k, 2n + 3): q, q̇ and works.
         """
-        x, compiled, k = self.arrays, self.compiled, int(self.arrays["sample_block"][i])
-        t, joints = self._get_reached_times(i), len(compiled.source.clearances)
-        y, memory, state = (x[name][k, : len(t)] for name in ("y", "latched", "state"))
-        return t, y, memory[:, : compiled.n_memory], state[:, :joints]
+        return self._get_samples(i, self.arrays)
+
+    def _get_samples(self, i: int, arrays: dict[str, NDArray[Any]]) -> Samples:
+        """Return what `get_samples` does, as views of the samples in `arrays`."""
+        compiled, k, t = self.compiled, self.arrays["sample_block"].item(i), self._get_reached_times(i)
+        N, joints = len(t), len(compiled.source.clearances)
+        memory, state = arrays["latched"][k, :N, : compiled.n_memory], arrays["state"][k, :N, :joints]
+        return t, arrays["y"][k, :N], memory, state
 
     def get_accelerations(self, i: int) -> Array | None:
         """Return a view of q̈ (k, n) at the samples of run i if a time loop in Python computed it; else None."""
@@ -300,9 +319,9 @@ class StoredRuns:
 
     def _get_reached_times(self, i: int) -> Array:
         """Return the times (s) of the samples of run i that were reached; where it ended early, the last is its end."""
-        done = int(self.arrays["done"][i])
+        done = self.arrays["done"].item(i)
         t = self.times.get_times(i)[:done].copy()
-        if done and self.arrays["status"][i] in (ENDED, STOPPED, STALLED):
+        if done and self.arrays["status"].item(i) in (ENDED, STOPPED, STALLED):
             t[-1] = self.arrays["t_last"][i]
         return t
 
@@ -311,32 +330,43 @@ class StoredRuns:
 
         An error of an interrupted run is left out.
         """
-        copy_if_shared, x, n = np.copy if self.n > 1 else np.asarray, self.arrays, self.compiled.n
-        (t, y, memory, state), a = self.get_samples(i), self.get_accelerations(i)
-        error, (events, no_number) = self.failures.get(i), self._get_events(i)
-        joints = len(self.compiled.source.clearances)
-        is_stopped = x["status"][i] == STOPPED or (self.n == 1 and self.interrupted)
-        return Trajectory(
-            t,
-            copy_if_shared(y[:, :n]),
-            copy_if_shared(y[:, n : 2 * n]),
-            None if a is None else copy_if_shared(a),
-            copy_if_shared(memory),
-            copy_if_shared(state),
-            copy_if_shared(y[:, 2 * n :]),
-            self.get_contacts(i),
-            copy_if_shared(x["peaks"][i, :joints]),
-            self.get_counts(i),
-            is_stopped,
-            error if isinstance(error, SolverError) and not is_stopped else None,
-            seconds=float(x["seconds"][i]),
-            events=remove_event_states(events),
-            event_states=events if a is None else None,
-            undefined_events=remove_event_states(no_number),
-            trace=self._build_envelope(i),
-            audit=self.build_findings(i),
-            change_points=self._get_change_points(i),
+        x, n, joints, driven = (
+            self.arrays,
+            self.compiled.n,
+            len(self.compiled.source.clearances),
+            i in self.python_lists,
         )
+        kept = x.copy_block() if self.is_reused and isinstance(x, SingleRunArrays) else x
+        (t, y, memory, state), a = self._get_samples(i, kept), self.get_accelerations(i)
+        error, is_stopped = self.failures.get(i), x["status"].item(i) == STOPPED or (self.n == 1 and self.interrupted)
+        samples = {
+            "t": t,
+            "q": y[:, :n],
+            "v": y[:, n : 2 * n],
+            "a": a,
+            "memory": memory,
+            "state": state,
+            "work": y[:, 2 * n :],
+            "peaks": kept["peaks"][i, :joints],
+        }
+        if self.n > 1:
+            samples = {name: None if array is None else array.copy() for name, array in samples.items()}
+        values: dict[str, Any] = samples | {
+            "impacts": self.get_contacts(i),
+            "counts": self.get_counts(i),
+            "interrupted": is_stopped,
+            "stopped": error if isinstance(error, SolverError) and not is_stopped else None,
+            "seconds": x["seconds"].item(i),
+            "change_points": self._get_change_points(i),
+            "size": math.nan if driven else x["size"].item(i),
+            "may_fail_audit": driven or b"\0" in (x["audited"][i] <= AUDIT_FAILS).tobytes(),
+        }
+        envelope = x["trace"][i, : x["traced"].item(i)].copy() if "trace" in x else None
+        events = self._get_events(i) if driven or i in self.events else None
+        later = _TrajectoryParts(self.compiled, kept, i, driven, a is None, events, envelope)
+        if self.n > 1:
+            return Trajectory(**values, **{name: getattr(later, name)() for name in later.fields})
+        return make_with_deferred_fields(Trajectory, values, later)
 
     def _get_change_points(self, i: int) -> tuple[int, float]:
         """Return the number of samples of run i at or near a change point, and the time (s) of the first."""
@@ -344,9 +374,51 @@ class StoredRuns:
             return NO_CHANGE_POINTS
         return int(self.arrays["n_interpolated"][i]), float(self.arrays["t_interpolated"][i])
 
-    def _build_envelope(self, i: int) -> Envelope | None:
-        """Return the envelope of forces and paths of run i; None if none was recorded."""
-        if "trace" not in self.arrays:
-            return None
-        rows = self.arrays["trace"][i, : self.arrays["traced"][i]]
-        return Envelope.from_rows(rows, len(self.compiled.source.clearances))
+
+class _TrajectoryParts:
+    """Build the fields of run i's Trajectory that few callers read, from `arrays` that do not change later.
+
+    `events`: those found, and those that are not numbers; None: there are none. `envelope`: rows as C writes them.
+    """
+
+    fields: tuple[str, ...] = ("events", "event_states", "undefined_events", "trace", "audit")
+
+    def __init__(
+        self,
+        compiled: CompiledModel,
+        arrays: dict[str, NDArray[Any]],
+        i: int,
+        is_driven: bool,
+        has_event_states: bool,
+        events: tuple[NDArray[Any], NDArray[Any]] | None,
+        envelope: Array | None,
+    ) -> None:
+        self.compiled, self.arrays, self.i, self.is_driven = compiled, arrays, i, is_driven
+        self.has_event_states = has_event_states
+        self.found, self.envelope = events, envelope
+
+    def _get_events(self, k: int) -> NDArray[Any]:
+        """Return the events (k = 0), or those that are not numbers (k = 1)."""
+        return make_empty_event_states(self.compiled) if self.found is None else self.found[k]
+
+    def events(self) -> NDArray[Any]:
+        """Return the events without states."""
+        return remove_event_states(self._get_events(0))
+
+    def event_states(self) -> NDArray[Any] | None:
+        """Return the events with states; None for a kinematic run."""
+        return self._get_events(0) if self.has_event_states else None
+
+    def undefined_events(self) -> NDArray[Any]:
+        """Return the times from which on events are not numbers."""
+        return remove_event_states(self._get_events(1))
+
+    def trace(self) -> Envelope | None:
+        """Return the envelope of forces and paths; None if none was recorded."""
+        joints = len(self.compiled.source.clearances)
+        return None if self.envelope is None else Envelope.from_rows(self.envelope, joints)
+
+    def audit(self) -> tuple[Finding, ...]:
+        """Return the findings of the audit of steps; () for a run of a time loop in Python."""
+        rows = (self.arrays[f"audited{x}"][self.i] for x in ("", "_t", "_where"))
+        return () if self.is_driven else build_findings(self.compiled.source, *rows)

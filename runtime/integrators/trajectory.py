@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field
 from functools import cache
-from typing import TYPE_CHECKING, Any, TypeAlias
+from operator import itemgetter
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,6 +24,7 @@ from gudgeon.contract.boundary import (
 from gudgeon.errors import SolverError
 from gudgeon.integrators.steps import StepCallback
 from gudgeon.model.compiled import Array, CompiledModel
+from gudgeon.model.deferred_fields import defer_fields
 
 if TYPE_CHECKING:
     from gudgeon.results.state import State
@@ -99,11 +101,12 @@ class Problem:
     audit: int = 1  # level of the audit (contract/audit.py)
     resumed_state: State | None = None  # state that the run resumes from
     observer: StepCallback | None = None  # observer of all steps
+    # (2, n) by which q and v of the first sample may surely differ from the start; None: not known
+    allowed_start_error: Array | None = None
     poll_cancellation: Callable[[], object] = lambda: None  # raises KeyboardInterrupt after Ctrl-C (cancellation.py)
 
 
-@dataclass(frozen=True)
-class Counts:
+class Counts(NamedTuple):
     """Sums and maxima over all accepted steps; see Diagnostics for the meaning of each."""
 
     steps: int
@@ -124,17 +127,17 @@ class Counts:
 
 # position of each field of Counts in C's counts, followed by its residuals
 # names of the counts that batches keep and files store; the largest speeds serve the audit of a single run alone
-STORED_COUNTS = tuple(each.name for each in fields(Counts) if each.name not in ("speed_max", "omega_max"))
-_COUNT_POSITIONS = tuple((*COUNT_NAMES, *RESIDUAL_NAMES).index(each.name) for each in fields(Counts))
+STORED_COUNTS = tuple(name for name in Counts._fields if name not in ("speed_max", "omega_max"))
+_select_counts = itemgetter(*map((*COUNT_NAMES, *RESIDUAL_NAMES).index, Counts._fields))
 
 
 def convert_counts(counts: NDArray[Any], residual_values: Array) -> Counts:
     """Convert the arrays (N_COUNTS,) and (N_RESIDUALS,) that gudgeon_run_report writes to Counts; infinite residuals
     are NaN.
     """
-    residuals = [x if math.isfinite(x) else math.nan for x in residual_values.tolist()]
-    values = (*counts.tolist(), *residuals)
-    return Counts(*(values[k] for k in _COUNT_POSITIONS))
+    values = counts.tolist()
+    values += [x if -math.inf < x < math.inf else math.nan for x in residual_values.tolist()]
+    return Counts._make(_select_counts(values))
 
 
 def convert_counts_of_runs(counts: NDArray[Any], residual_values: Array) -> dict[str, NDArray[Any]]:
@@ -148,6 +151,7 @@ def convert_counts_of_runs(counts: NDArray[Any], residual_values: Array) -> dict
     return {name: counts_by_name[name] for name in STORED_COUNTS}
 
 
+@defer_fields("audit", "trace", "events", "event_states", "undefined_events")
 @dataclass(frozen=True)
 class Trajectory:
     """Hold the N samples of a run or, when it was stopped or interrupted, those that were reached.
@@ -176,6 +180,8 @@ class Trajectory:
     # EVENT_DTYPE: times from which on an event is not a number
     undefined_events: NDArray[Any] = field(default_factory=make_empty_events)
     change_points: tuple[int, float] = NO_CHANGE_POINTS  # samples at or near one, and the time of the first (s)
+    size: float = math.nan  # m, of the mechanism; NaN: not known
+    may_fail_audit: bool = True  # False: `audit` has no value with which a run fails
 
 
 @dataclass(frozen=True, eq=False)

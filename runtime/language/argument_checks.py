@@ -140,6 +140,8 @@ def check_mapping(value: Any, name: str, hint: str = "") -> Mapping[str, Any]:
     if value is None:
         return {}
     mapping = value
+    if type(value) is dict and all(type(key) is str for key in value):
+        return value
     if not isinstance(value, Mapping) and getattr(value, "ndim", 0) == 1 and callable(getattr(value, "items", None)):
         mapping = dict(value.items())
         if len(mapping) != len(value):

@@ -22,8 +22,9 @@ def cache_by_values(function: Callable[..., Value]) -> Callable[..., Value]:
     """Cache the results of a function by the values of its arguments; a decorator.
 
     The first argument owns the cache: a CompiledModel, a KernelSource or another object with attributes. The others,
-    positional only, are arrays, which are compared byte by byte, or hashable. Exceptions are not cached. Results are
-    shared between calls: callers must not change them.
+    positional only, are arrays, which are compared byte by byte, or values that are equal and of the same type. Calls
+    with values that cannot be compared by a hash are not cached; nor are exceptions. Results are shared between calls:
+    callers must not change them.
     """
     name = f"{function.__module__}.{function.__name__}"
 
@@ -42,10 +43,13 @@ def cache_by_values(function: Callable[..., Value]) -> Callable[..., Value]:
                         return function(owner, *arguments)
                     key += argument.shape, argument.dtype.char, argument.tobytes()
                 else:
-                    key.append(argument)
+                    key += type(argument), argument
             entry = tuple(key)
         cache: dict[Any, Value] = owner.__dict__.get(CACHED_VALUES, _EMPTY)
-        value: Any = cache.get(entry, _EMPTY)  # without the lock, which only guards changes
+        try:
+            value: Any = cache.get(entry, _EMPTY)  # without the lock, which only guards changes
+        except TypeError:  # no hash
+            return function(owner, *arguments)
         if value is not _EMPTY:
             return value
         value = function(owner, *arguments)

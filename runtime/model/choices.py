@@ -19,6 +19,7 @@ from gudgeon.errors import BadValueError
 from gudgeon.language.argument_checks import shorten_value
 from gudgeon.language.names import make_unknown_name_error
 from gudgeon.language.tree import from_json, iterate_names
+from gudgeon.model.cached_values import cache_by_values
 
 Array: TypeAlias = NDArray[Any]
 
@@ -99,6 +100,7 @@ def format_values_of_runs(parameter: RuntimeParameter, values: Array) -> Any:
     )
 
 
+@cache_by_values
 def find_choices(source: KernelSource) -> tuple[int, ...]:
     """Return the indices of the parameters that are choices: those with words."""
     return tuple(k for k, parameter in enumerate(source.slots) if parameter.words)
@@ -130,9 +132,9 @@ def make_choice_notes(source: KernelSource, given_values: Array, is_given: Array
     given_values, is_given: values and mask (n_parameters,).
     """
     notes = []
-    for k in np.flatnonzero(is_given).tolist():
+    for k in find_choices(source):
         parameter = source.slots[k]
-        if parameter.words and given_values[k] != parameter.default:
+        if is_given[k] and given_values[k] != parameter.default:
             word, scene_word = (
                 format_parameter(parameter, float(given_values[k])),
                 format_parameter(parameter, parameter.default),

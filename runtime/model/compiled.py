@@ -20,7 +20,7 @@ from gudgeon.errors import SingularError
 from gudgeon.language.argument_checks import check_number, check_time
 from gudgeon.model.arrays import FLAG, as_c_array, make_pointer
 from gudgeon.model.choices import fill_in_chosen_values, find_choices
-from gudgeon.model.evaluation import FIELD_NAMES, Evaluation, evaluate, find_field_shapes
+from gudgeon.model.evaluation import FIELD_NAMES, Evaluation, compute_sample_bytes, evaluate, find_field_shapes
 
 if TYPE_CHECKING:
     from gudgeon.loading.library import Library
@@ -46,6 +46,7 @@ class CompiledModel:
         self._free_contact_states = np.full(max(self.n_memory, 1), np.nan)
         self._free_contact_states.flags.writeable = False
         self._choices = find_choices(source)
+        self.free_runs: dict[Any, list[Any]] = {}  # memory for runs (integrators/single_run.py)
         closed = [row.name for row in source.start_rows]
         self._open_play_rows = np.array([closed.index(row.name) for row in source.rows], dtype=int)
 
@@ -75,6 +76,11 @@ class CompiledModel:
         return any("mod" in list_functions(tree) for _, tree in read_expression_trees(self.source, ("drives",)))
 
     @cached_property
+    def has_all_forces(self) -> bool:
+        """Return whether all forces are determined, at the times of the samples themselves."""
+        return not (self.source.massless or self.source.indeterminate or self.has_mod_in_drives)
+
+    @cached_property
     def may_drive_acceleration_jump(self) -> bool:
         """Return whether an acceleration that a drive prescribes may jump."""
         from gudgeon.model.left_limit import may_acceleration_jump
@@ -86,6 +92,16 @@ class CompiledModel:
         """Return all fields of an Evaluation: name, shape of a sample, and numbers per sample."""
         return find_field_shapes(self)
 
+    @cached_property
+    def sample_bytes(self) -> int:
+        """Return the bytes of a sample as methods store it."""
+        return compute_sample_bytes(self)
+
+    @property
+    def has_choices(self) -> bool:
+        """Return whether a parameter is a choice, such as one of a material."""
+        return bool(self._choices)
+
     @property
     def _library(self) -> Library:
         """Return the library, loaded from the cache, or compiled if it is not there."""
@@ -95,7 +111,8 @@ class CompiledModel:
 
     def __getstate__(self) -> dict[str, Any]:
         """Return the state for pickling, without the library."""
-        return {name: value for name, value in self.__dict__.items() if name not in ("lib", "ffi", CACHED_VALUES)}
+        left_out = "lib", "ffi", CACHED_VALUES
+        return {name: value for name, value in self.__dict__.items() if name not in left_out} | {"free_runs": {}}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         """Restore the pickled state."""
@@ -135,7 +152,7 @@ class CompiledModel:
         choice is given.
         """
         n_parameters, p = len(self.source.slots), np.empty((len(given), self.n_p))
-        has_choices = is_given[:, list(self._choices)].any()
+        has_choices = bool(self._choices) and is_given[:, list(self._choices)].any()
         for rows in (slice(k, k + RUNS_PER_CALL) for k in range(0, len(p), RUNS_PER_CALL)):
             values = np.array(as_c_array(given[rows], "given", (None, n_parameters)))
             mask = np.array(as_c_array(is_given[rows], "is_given", (None, n_parameters), dtype=FLAG))

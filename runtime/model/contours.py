@@ -33,6 +33,8 @@ def read_contours(source: KernelSource, contour: Any, allows_runs: bool = False)
     Raises UnknownNameError for a joint without a contour, ArrayError for another number of depths or values that are
     not finite, BadValueError for different numbers of runs.
     """
+    if contour is None:
+        return {}
     contours_by_joint, depths_by_joint = {info.joint: info for info in source.contours}, dict[str, Array]()
     for joint, depths in check_mapping(contour, "contour", _WANTED).items():
         if joint not in contours_by_joint:

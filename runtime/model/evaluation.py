@@ -20,7 +20,7 @@ from gudgeon.contract.boundary import (
     N_REACTION_COLUMNS,
     N_WORK,
 )
-from gudgeon.files.free_space import check_memory
+from gudgeon.files.free_space import MIN_CHECKED_BYTES, check_memory
 from gudgeon.model.arrays import as_c_array
 
 if TYPE_CHECKING:
@@ -139,6 +139,15 @@ def evaluate_runs(
     compiled.check_pivot(status, math.nan)
     _mark_indeterminate_forces(compiled, evaluation)
     return evaluation
+
+
+def view_evaluation(compiled: CompiledModel, block: Array, n_samples: int) -> Evaluation:
+    """Return an Evaluation of so many samples whose fields are views of a block, one after the other."""
+    arrays, offset = list[Array](), 0
+    for _, shape, width in compiled.field_shapes:
+        arrays.append(block[offset : offset + n_samples * width].reshape(n_samples, *shape))
+        offset += n_samples * width
+    return Evaluation(*arrays)
 
 
 def select_evaluated_rows(evaluation: Evaluation, rows: slice | NDArray[np.intp]) -> Evaluation:
@@ -269,12 +278,14 @@ def check_sample_memory(
     n_samples: of each run; stored_series: names of series that are stored in place of the states, None for the states.
     The states then exist for `max_concurrent_runs` runs at a time, with the `field_names` that the series need.
     """
+    if n_runs == 1 and stored_series is None and n_samples * compiled.sample_bytes < MIN_CHECKED_BYTES:
+        return
     if stored_series is None:
-        n_bytes = float(n_samples) * compute_sample_bytes(compiled) * n_runs
+        n_bytes = float(n_samples) * compiled.sample_bytes * n_runs
     else:
         n_bytes = (
             float(n_samples)
-            * (compute_sample_bytes(compiled) + compute_evaluation_bytes(compiled, field_names))
+            * (compiled.sample_bytes + compute_evaluation_bytes(compiled, field_names))
             * min(n_runs, max_concurrent_runs)
         )
         n_bytes += float(n_samples) * 8 * (len(stored_series) + 1) * n_runs

@@ -7,20 +7,18 @@ each call only decides whether its values are valid.
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import BadValueError
 from gudgeon.language.argument_checks import check_mapping, check_names
 from gudgeon.model.arrays import FLAG
 from gudgeon.model.compiled import Array, CompiledModel
-from gudgeon.model.contours import find_contour_parameters
-from gudgeon.model.parameters import GAINS, RELATIONS, list_conditions, read_given_parameters
-from gudgeon.model.sizes import find_size_indices
+from gudgeon.model.parameters import GAINS, collect_conditions, read_given_parameters
+from gudgeon.model.sizes import find_length_indices
 from gudgeon.model.written import describe_undefined_number, find_partial_expressions
 
 MAX_DOUBLE, MIN_NORMAL = sys.float_info.max, sys.float_info.min
@@ -53,11 +51,9 @@ class ParameterColumns:
         self.p = np.tile(compiled.prepare(values, is_fixed), (n_rows, 1))
         self.p_motion = self.p.copy() if gains else self.p
         self._given_pointer, self._pointers = compiled.pointer(self._given, is_written=True), self._make_pointers()
-        self._limits, self._relations = _collect_conditions(source, compiled.n_p)
+        *self._limits, self._relations = collect_conditions(source)
         self._has_partial_expressions = bool(find_partial_expressions(source))
-        clearances = {joint.clearance for joint in source.clearances}
-        lengths = {k for pair in find_size_indices(source) for k in pair if k >= 0}
-        self.size_slots = np.array(sorted(clearances | lengths | find_contour_parameters(source)), dtype=np.intp)
+        self.size_slots = find_length_indices(source)
 
     def _make_pointers(self) -> list[tuple[tuple[Any, Any, Any], ...]]:
         """Return the arguments of gudgeon_prepare for each row: those of the run and, if it differs, of the motion."""
@@ -131,25 +127,3 @@ def _find_slots(source: KernelSource, name: str) -> list[int]:
             hint = f"fixed={{{name!r}: {source.slots[k].words[0]!r}}}"
             raise BadValueError(f"parameters: {name!r} is a choice of a name: expected a number", hint=hint)
     return list[int](np.flatnonzero(read_given_parameters(source, {name: 1.0})[1]).tolist())
-
-
-def _collect_conditions(
-    source: KernelSource, n_p: int
-) -> tuple[NDArray[np.float64], list[tuple[int, list[int], Callable[[Any, Any], Any]]]]:
-    """Return the conditions of the file as limits (2, n_p), both included, and relations to sums of parameters.
-
-    Each relation is (index, indices of the terms of its bound, operator). Values without a condition are finite.
-    """
-    limits = np.stack([np.full(n_p, -MAX_DOUBLE), np.full(n_p, MAX_DOUBLE)])
-    relations = []
-    for condition in list_conditions(source):
-        k, relation = source.slot_index[condition.address], condition.relation
-        if condition.addresses:
-            relations.append((k, [source.slot_index[term] for term in condition.addresses], RELATIONS[relation]))
-            continue
-        bound = float(condition.bound)
-        if relation in (">", ">="):
-            limits[0, k] = max(limits[0, k], np.nextafter(bound, np.inf) if relation == ">" else bound)
-        else:
-            limits[1, k] = min(limits[1, k], np.nextafter(bound, -np.inf) if relation == "<" else bound)
-    return limits, relations

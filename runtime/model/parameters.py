@@ -7,7 +7,8 @@ import math
 import operator
 import re
 import sys
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,11 +18,12 @@ from gudgeon.errors import BadValueError, UnitError, UnknownNameError
 from gudgeon.language.argument_checks import check_mapping, check_not_subnormal, check_number
 from gudgeon.language.names import find_near_names
 from gudgeon.language.tree import from_json, iterate_names
+from gudgeon.model.arrays import FLAG
 from gudgeon.model.cached_values import cache_by_values
 from gudgeon.model.choices import explain_law_choice, explain_named_expression, find_word_index
 from gudgeon.model.compiled import Array, CompiledModel
-from gudgeon.model.sizes import describe_unresolved_clearance, describe_zero_inertia
-from gudgeon.model.written import describe_undefined_number
+from gudgeon.model.sizes import describe_unresolved_clearance, describe_zero_inertia, has_unresolved_clearance
+from gudgeon.model.written import describe_undefined_number, find_partial_expressions
 
 # a number as files have it, in ASCII digits without '_'; float() accepts more
 _NUMBER = r"[-+]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][-+]?[0-9]+)?"
@@ -48,15 +50,12 @@ def read_given_parameters(
     `mapping_name` is its name in messages. Raises UnknownNameError, and BadValueError for a parameter given twice.
     """
     parameters = check_mapping(parameters, mapping_name, "{address or parameter name: a float in SI, or '0.5 mm'}")
-    index_by_address = source.slot_index
-    values, mask, spellings = (
-        np.zeros(len(index_by_address)),
-        np.zeros(len(index_by_address), dtype=bool),
-        dict[int, str](),
-    )
+    index_by_address, slots = source.slot_index, source.slots
+    values, mask = np.zeros(len(slots)), np.zeros(len(slots), dtype=bool)
+    spellings = dict[int, str]()
     for name, value in parameters.items():
         address = name if name in index_by_address else f"parameters.{name}"
-        addresses = PARAMETER_GROUPS.get(name, ()) if address not in index_by_address else (address,)
+        addresses = (address,) if address in index_by_address else PARAMETER_GROUPS.get(name, ())
         if not addresses or addresses[0] not in index_by_address:
             raise _make_unknown_parameter_error(name, source)
         for address_of_parameter in addresses:
@@ -260,19 +259,31 @@ def prepare_values(compiled: CompiledModel, parameters: Mapping[str, float | str
     file.
     """
     given_values, is_given = read_given_parameters(compiled.source, parameters)
-    return prepare_given_values(compiled, given_values, is_given), given_values, is_given
+    return prepare_run_values(compiled, given_values, is_given)[0], given_values, is_given
 
 
-def prepare_given_values(compiled: CompiledModel, given_values: Array, is_given: Array) -> Array:
-    """Return the checked values p of given parameters and mask, (n_parameters,) each. Raises BadValueError."""
-    return _prepare_checked_values(compiled, given_values, is_given).copy()
+def prepare_run_values(compiled: CompiledModel, given_values: Array, is_given: Array) -> tuple[Array, Array]:
+    """Return the checked values p of given parameters and mask, and those without Baumgarte gains, (n_p,) each.
+
+    The second are for methods that project; see `prepare_without_baumgarte`. Raises BadValueError.
+    """
+    p, p_motion = _prepare_run(compiled, given_values, is_given).copy()
+    return p, p_motion
 
 
 @cache_by_values
-def _prepare_checked_values(compiled: CompiledModel, given_values: Array, is_given: Array) -> Array:
-    """Return the checked values p, prepared once for equal given values; not to be changed."""
-    check_parameter_values(compiled.source, p := compiled.prepare(given_values, is_given), is_given)
-    return p
+def _prepare_run(compiled: CompiledModel, given_values: Array, is_given: NDArray[np.generic]) -> Array:
+    """Return the checked values p of a run and those without Baumgarte gains, (2, n_p), once for equal given values.
+
+    They are not to be changed.
+    """
+    pairs, masks = np.array([given_values, given_values]), np.array([is_given, is_given], FLAG)
+    gain_indices = _find_gain_indices(compiled.source)
+    pairs[1, gain_indices], masks[1, gain_indices] = 0.0, True
+    values = compiled.prepare_parameters_of_runs(pairs, masks)
+    if not has_valid_values(compiled.source, values[0], is_given):
+        check_parameter_values(compiled.source, values[0], is_given)
+    return values
 
 
 def prepare_without_baumgarte(compiled: CompiledModel, given_values: Array, is_given: NDArray[np.generic]) -> Array:
@@ -282,22 +293,51 @@ def prepare_without_baumgarte(compiled: CompiledModel, given_values: Array, is_g
     """
     if given_values.ndim == 2:
         return compiled.prepare_parameters_of_runs(given_values, is_given, _find_gain_indices(compiled.source))
-    return _prepare_run_without_baumgarte(compiled, given_values, is_given).copy()
-
-
-@cache_by_values
-def _prepare_run_without_baumgarte(
-    compiled: CompiledModel, given_values: Array, is_given: NDArray[np.generic]
-) -> Array:
-    """Return the values p of one run without Baumgarte gains, prepared once for equal values; not to be changed."""
-    values, mask, gain_indices = given_values.copy(), is_given.copy(), _find_gain_indices(compiled.source)
-    values[gain_indices], mask[gain_indices] = 0.0, True
-    return compiled.prepare(values, mask)
+    return _prepare_run(compiled, given_values, is_given)[1].copy()
 
 
 def _find_gain_indices(source: KernelSource) -> list[int]:
     """Return the indices of the parameters that are Baumgarte gains."""
     return [source.slot_index[name] for name in GAINS if name in source.slot_index]
+
+
+def has_valid_values(source: KernelSource, p: Array, is_given: NDArray[np.generic]) -> bool:
+    """Return whether the values p of a run surely pass `check_parameter_values`, by a few comparisons."""
+    lower, upper, relations = collect_conditions(source)
+    if b"\0" in ((lower <= p) & (p <= upper)).tobytes():  # quicker than all()
+        return False
+    for k, terms, is_satisfied in relations:
+        if not is_satisfied(p.item(k), sum(map(p.item, terms))):
+            return False
+    return not (
+        has_unresolved_clearance(source, p)
+        or find_partial_expressions(source)
+        and describe_undefined_number(source, p, is_given)
+    )
+
+
+Relation: TypeAlias = tuple[int, list[int], Callable[[Any, Any], Any]]
+
+
+@cache_by_values
+def collect_conditions(source: KernelSource) -> tuple[Array, Array, list[Relation]]:
+    """Return the conditions of the file as limits (n_p,), both included, and relations to sums of parameters.
+
+    Each relation is (index, indices of the terms of its bound, operator). Values without a condition are finite.
+    """
+    n_p, relations = len(source.slots) + len(source.derived), list[Relation]()
+    lower, upper = np.full(n_p, -sys.float_info.max), np.full(n_p, sys.float_info.max)
+    for condition in list_conditions(source):
+        k, relation = source.slot_index[condition.address], condition.relation
+        if condition.addresses:
+            relations.append((k, [source.slot_index[term] for term in condition.addresses], RELATIONS[relation]))
+            continue
+        bound = float(condition.bound)
+        if relation in (">", ">="):
+            lower[k] = max(lower[k], np.nextafter(bound, np.inf) if relation == ">" else bound)
+        else:
+            upper[k] = min(upper[k], np.nextafter(bound, -np.inf) if relation == "<" else bound)
+    return lower, upper, relations
 
 
 def check_parameter_values(source: KernelSource, p: Array, is_given: NDArray[np.generic]) -> None:

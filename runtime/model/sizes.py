@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.model.cached_values import cache_by_values
 from gudgeon.model.compiled import Array
-from gudgeon.model.contours import compute_min_clearances, find_contour
+from gudgeon.model.contours import compute_min_clearances, find_contour, find_contour_parameters
 
 _LENGTH = (1, 0, 0)  # exponents of m, kg, s
 SMALL_INERTIA = 1e-9  # of m size²: smaller moments of inertia are replaced by it in norms
@@ -48,9 +48,51 @@ def compute_size_of_values(index_pairs: Sequence[tuple[int, int]], values: Seque
 
 
 @cache_by_values
+def find_length_indices(source: KernelSource) -> NDArray[np.intp]:
+    """Return the indices into p of all values on which the size and the clearances depend, contours among them."""
+    clearances = {joint.clearance for joint in source.clearances}
+    lengths = {k for pair in find_size_indices(source) for k in pair if k >= 0}
+    return np.array(sorted(clearances | lengths | find_contour_parameters(source)), dtype=np.intp)
+
+
+def select_lengths(source: KernelSource, p: Array) -> Array:
+    """Return the values of one run on which the size and the clearances depend, as a key for functions of them."""
+    return p.take(find_length_indices(source))
+
+
+def spread_lengths(source: KernelSource, lengths: Array) -> Array:
+    """Return parameter values (n_p,) with these `select_lengths`; all others are NaN."""
+    p = np.full(len(source.slots) + len(source.derived), np.nan)
+    p[find_length_indices(source)] = lengths
+    return p
+
+
 def compute_size(source: KernelSource, p: Array) -> float:
     """Return the size (m) of the mechanism with the parameter values p (n_slots + n_derived,) of one run."""
-    return float(compute_mechanism_sizes(source, p))
+    return _measure_lengths(source, select_lengths(source, p))[0]
+
+
+def has_unresolved_clearance(source: KernelSource, p: Array) -> bool:
+    """Return whether a clearance of one run is too small for doubles."""
+    return _measure_lengths(source, select_lengths(source, p))[1]
+
+
+def is_clearance_unresolved(source: KernelSource, p: Array, size: float) -> bool:
+    """Return whether the smallest clearance of one run is too small for doubles at the mechanism's size (m)."""
+    clearances = (
+        compute_min_clearances(source, p).tolist()
+        if source.contours
+        else [p.item(joint.clearance) for joint in source.clearances]
+    )
+    return any(c < MIN_RELATIVE_CLEARANCE * size for c in clearances)
+
+
+@cache_by_values
+def _measure_lengths(source: KernelSource, lengths: Array) -> tuple[float, bool]:
+    """Return the size (m), and whether a clearance is too small for doubles, once for equal lengths."""
+    p = spread_lengths(source, lengths)
+    size = compute_size_of_values(find_size_indices(source), p.tolist())
+    return size, is_clearance_unresolved(source, p, size)
 
 
 def compute_norm_weights(source: KernelSource, p: Array, mass: Array) -> Array:
@@ -65,6 +107,7 @@ def compute_norm_weights(source: KernelSource, p: Array, mass: Array) -> Array:
     return weights
 
 
+@cache_by_values
 def find_size_indices(source: KernelSource) -> list[tuple[int, int]]:
     """Return a pair (larger index, smaller index) into p for the coordinates of each point and for each joint length.
 

@@ -259,17 +259,23 @@ def _convert_to_floats(data: dict[str, Any], cls: type) -> dict[str, Any]:
     return {key: float(value) if key in float_fields else value for key, value in data.items()}
 
 
-def collect_provenance(compiled: CompiledModel) -> dict[str, str]:
+def collect_provenance(compiled: CompiledModel, seconds: float) -> dict[str, str]:
     """Return version, platform, compiler, date and mechanism text of a run, by the keys of PROVENANCE.
 
+    `seconds`: its date, as of `find_date`.
+
     Nothing is computed from it, and no comparison reads it. `SOURCE_DATE_EPOCH` (s since 1970) in the environment
-    replaces the date, so that runs repeat byte for byte.
+    replaces the date of a run, so that runs repeat byte for byte.
     """
     from gudgeon import __version__
 
     platform_text = _format_platform()
     return dict(
-        zip(PROVENANCE, (__version__, platform_text, compiled.compiler, _format_date(), compiled.text), strict=True)
+        zip(
+            PROVENANCE,
+            (__version__, platform_text, compiled.compiler, _format_seconds(int(seconds)), compiled.text),
+            strict=True,
+        )
     )
 
 
@@ -280,10 +286,10 @@ def _format_platform() -> str:
     return f"{system.system} {system.release} {system.machine}, Python {platform.python_version()}"
 
 
-def _format_date() -> str:
-    """Return the current date and time in UTC to the second in ISO format, or that of SOURCE_DATE_EPOCH."""
+def find_date() -> float:
+    """Return the present date, or that of SOURCE_DATE_EPOCH in the environment, in s since 1970."""
     epoch_text = os.environ.get("SOURCE_DATE_EPOCH", "")
-    return _format_seconds(int(epoch_text) if epoch_text.isdecimal() else int(time()))
+    return float(epoch_text) if epoch_text.isdecimal() else time()
 
 
 @lru_cache(maxsize=1)

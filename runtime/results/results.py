@@ -23,6 +23,7 @@ from gudgeon.integrators.trajectory import IMPACT_DTYPE, make_empty_events
 from gudgeon.language.argument_checks import check_text
 from gudgeon.language.text_output import format_count
 from gudgeon.model.choices import format_parameter
+from gudgeon.model.deferred_fields import defer_fields, find_deferred_function, read_deferred_fields
 from gudgeon.model.evaluation import FIELD_NAMES, Evaluation
 from gudgeon.model.left_limit import find_evaluation_times_of_result
 from gudgeon.results.diagnostics import Diagnostics, Extremes
@@ -43,6 +44,7 @@ if TYPE_CHECKING:
     from gudgeon.results.series import Series
 
 
+@defer_fields("accelerations", "diagnostics", "events", "event_states", "trace", "provenance")
 @dataclass(eq=False)
 class Result(NotebookDisplay):
     """Result of one run with N samples: `run["S9.y"]` is the (N,) series of that name (see `gudgeon.series`).
@@ -210,7 +212,9 @@ class Result(NotebookDisplay):
             "a",
             "states_at_events",
         }
-        return {name: value for name, value in self.__dict__.items() if name in stored_names}
+        return read_deferred_fields(self) | {
+            name: value for name, value in self.__dict__.items() if name in stored_names
+        }
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         """Restore the fields from pickle, with read-only series."""
@@ -235,6 +239,8 @@ class Result(NotebookDisplay):
 
         The compiled model computes them on first access. Raises GudgeonError for a result that was read from a file.
         """
+        if build := find_deferred_function(self, "evaluation"):
+            return cast(Evaluation, build())
         if self.compiled is None:
             raise GudgeonError("this result was read from a file that lacks the series; run the scene again")
         return self.compiled.evaluate(

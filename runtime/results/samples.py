@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import numpy as np
 
 from gudgeon.errors import GudgeonError
+from gudgeon.model.deferred_fields import find_deferred_function, replace_fields
 from gudgeon.model.evaluation import Evaluation
 from gudgeon.results.state import Array
 
@@ -38,7 +39,7 @@ def split_off_start(run: Run) -> Run:
     """
     if len(run.t) < 2:
         return run
-    start_row = replace(select_samples(run, lambda x: x[:1].copy()), trace=None, event_states=None)
+    start_row = replace_fields(select_samples(run, lambda x: x[:1].copy()), trace=None, event_states=None)
     run_without_start = select_samples(run, lambda x: x[1:])
     run_without_start.start_row = start_row
     return run_without_start
@@ -73,8 +74,9 @@ def select_samples(run: Run, select_rows: Callable[[Array], Array]) -> Run:
     """
     arrays = ((name, getattr(run, name)) for name in SAMPLE_ARRAYS)
     selected: dict[str, Any] = {name: None if values is None else select_rows(values) for name, values in arrays}
-    selected_run = replace(run, **selected, stored={})
-    if (evaluation := run.__dict__.get("evaluation")) is not None:
+    selected_run = replace_fields(run, **selected, stored={})
+    if "evaluation" in run.__dict__ or find_deferred_function(run, "evaluation"):
+        evaluation = run.evaluation
         selected_run.__dict__["evaluation"] = Evaluation(*(select_rows(part) for part in vars(evaluation).values()))
     return selected_run
 

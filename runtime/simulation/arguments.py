@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import sys
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -12,15 +13,17 @@ from gudgeon.contract.kernel_source import KernelSource, RuntimeParameter
 from gudgeon.contract.methods import ADAPTIVE, CHOOSING, EXPLICIT, KINEMATIC, SMOOTH, STAGED, STAGES
 from gudgeon.errors import AssemblyError, BadValueError
 from gudgeon.files.free_space import check_memory
-from gudgeon.integrators import batch, kinematic
+from gudgeon.integrators import adaptive, kinematic, single_run
 from gudgeon.integrators.batch import PythonLoop
 from gudgeon.integrators.peers import driver
 from gudgeon.integrators.trajectory import Problem, Trajectory
-from gudgeon.language.argument_checks import is_integer, shorten_value
+from gudgeon.language.argument_checks import check_flag, check_text, is_integer, shorten_value
 from gudgeon.model.arrays import as_c_array
+from gudgeon.model.cached_values import cache_by_values
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.default_step import evaluate_scene_end, evaluate_scene_number, evaluate_scene_step
 from gudgeon.model.parameters import insert_space_before_unit, read_parameter_value
+from gudgeon.simulation.audit import parse_audit_level
 
 # methods whose time loop runs in Python, with the function that runs them
 PYTHON_TIME_LOOPS: dict[str, PythonLoop] = {
@@ -31,9 +34,36 @@ METHODS = ("rk4", *CHOOSING, *SMOOTH, ADAPTIVE, *PYTHON_TIME_LOOPS)
 MAX_STEPS = 10**12  # largest number of fixed steps of a run
 DEFAULT_OUTPUT, MAX_OUTPUT = 1000, 10**8  # numbers of intervals: the default, and the largest that is allowed
 OUTPUT = f"a whole number of intervals, 1 to {MAX_OUTPUT:.0e}, or times (s)"
+MAX_CACHED_INTERVALS = 256  # largest number of equal intervals whose ends are cached
 MAX_CHECKED_ITEMS = 10**4  # largest number of list entries that are searched for True and False
 # shortest run in roundings of its times, the same in s, and latest end of a run in s
 MIN_ROUNDINGS, MIN_DURATION_S, MAX_END_TIME_S = 1024, 1e-290, 1e18
+
+
+class RunSettings(NamedTuple):
+    """Hold the checked arguments of a run that depend on nothing but the scene."""
+
+    needs_variant: bool  # the method needs another variant of the scene, which checks the arguments again
+    method: str  # as select_method returns it
+    rtol: float
+    horizon: bool
+    stop: bool
+    audit: int  # level of the audit
+
+
+@cache_by_values
+def check_run_settings(
+    source: KernelSource, method: Any, rtol: Any, has_step: bool, horizon: Any, stop: Any, audit: Any
+) -> RunSettings:
+    """Return the checked arguments of `Simulation.simulate`; `has_step`: whether a step is given. Raises InputError."""
+    flags = check_flag(horizon, "horizon"), check_flag(stop, "stop"), parse_audit_level(audit)
+    check_text(method, "method")
+    if (method in driver.NAMES and source.formulation != "full") or find_required_variant(source, method):
+        return RunSettings(True, method, math.nan, *flags)
+    if source.degrees_of_freedom < 0:  # `simulate` names the joints that contradict each other
+        return RunSettings(False, "", math.nan, *flags)
+    selected = select_method(source, method, has_step)
+    return RunSettings(False, selected, adaptive.parse_tolerance(rtol, selected, has_step), *flags)
 
 
 def integrate_run(problem: Problem) -> Trajectory:
@@ -41,7 +71,7 @@ def integrate_run(problem: Problem) -> Trajectory:
 
     Raise KeyboardInterrupt if it has no sample.
     """
-    return batch.integrate_problem(problem, PYTHON_TIME_LOOPS.get(problem.method))
+    return single_run.integrate_problem(problem, PYTHON_TIME_LOOPS.get(problem.method))
 
 
 def parse_seconds(name: str, value: float | str) -> float:
@@ -81,6 +111,10 @@ def compute_output_times(
     Without either, those of the file hold, with parameter values `p`. Raises BadValueError, MemoryError. Both are None
     if they are not given.
     """
+    if type(t_end) is float and type(output) is int and 1 <= output <= MAX_CACHED_INTERVALS:
+        times = _compute_few_times(source, t0, t_end, output)
+        if times is not None:
+            return times.copy(), True
     if isinstance(output, np.ndarray) and not output.ndim:
         output = output[()]
     if isinstance(output, (float, np.floating)):
@@ -104,6 +138,16 @@ def compute_output_times(
     _check_duration("t_end is", t0, end, 4 * int(intervals))
     check_memory(2 * 8 * float(intervals), f"the times of {intervals} samples")
     return _divide_evenly(t0, end, int(intervals)), True
+
+
+@cache_by_values
+def _compute_few_times(source: KernelSource, t0: float, end: float, intervals: int) -> Array | None:
+    """Return the ends (s) of a few equal intervals from t0 to `end`, not to be changed.
+
+    None if they may not pass the checks of `compute_output_times`. `source` owns the cache.
+    """
+    min_duration = max(4 * MIN_ROUNDINGS * math.ulp(max(abs(t0), abs(end))), MIN_DURATION_S)
+    return _divide_evenly(t0, end, intervals) if min_duration < end - t0 and end <= MAX_END_TIME_S else None
 
 
 def _divide_evenly(t0: float, end: float, intervals: int) -> Array:

@@ -75,7 +75,7 @@ class SampleAudit:
             if not joint.film and joint.name not in self.source.rigid
         ]
         self.contact_forces = [_ContactForces() for _ in self.joints]
-        self.samples = _draw_samples(problem, trajectory) if self.is_on else np.zeros(0, np.intp)
+        self.samples = draw_samples(problem, trajectory) if self.is_on else np.zeros(0, np.intp)
         self.drawn: list[Evaluation] = []  # the evaluation of `samples`
         self.largest_energy = 0.0  # J
         self.first_undefined: float | None = None  # s, first sample at which an evaluated result is not finite
@@ -134,7 +134,7 @@ class SampleAudit:
         size = max(compute_size(source, problem.p), 1e-300)
         findings = [*_check_first_sample(problem, trajectory, size), *self._check_contact_forces()]
         if not self.has_no_forces:
-            findings += _check_energy_balance(self.compiled, problem, trajectory, self.largest_energy, balance, size)
+            findings += check_energy_balance(self.compiled, problem, trajectory, self.largest_energy, balance, size)
             t = self.first_undefined
             findings.append(
                 Finding("finite", 0.0, float(trajectory.t[0]), "")
@@ -223,19 +223,30 @@ def _check_first_sample(problem: Problem, trajectory: Trajectory, size: float) -
     states[2:] -= states[:2]
     largest = np.abs(states).reshape(4, -1, 3).max(axis=1).tolist()
     far, fast, off, slower = (max(of_x, of_y, size * angle) for of_x, of_y, angle in largest)
-    off = max(off, _compute_distance_from_given_start(problem, size))
+    off = max(off, _compute_distance_from_given_start(problem.compiled.source, problem.p, problem.q, size))
     worst = max(off / (START * (size + far)), slower / max(START_RATES * fast, 1e-300))
     yield Finding("start", worst, float(trajectory.t[0]), "")
 
 
-def _compute_distance_from_given_start(problem: Problem, size: float) -> float:
-    """Return the largest difference (m) between the start and the file's `start.set`, whole turns left out.
+def compute_allowed_start_error(source: KernelSource, p: Array, q: Array, v: Array) -> Array:
+    """Return by how much q and v (2, n) of the first sample may differ from a start so that its check surely passes.
+
+    They are bounds for all coordinates; NaN if the start is too far from the file's.
+    """
+    size = max(compute_size(source, p), 1e-300)
+    off = START if _compute_distance_from_given_start(source, p, q, size) <= START * size else np.nan
+    slower = START_RATES * min(size, 1.0) * np.abs(v).max(initial=0.0)
+    return np.repeat([[off * size], [slower]], len(q), axis=1) / max(size, 1.0)
+
+
+def _compute_distance_from_given_start(source: KernelSource, p: Array, q: Array, size: float) -> float:
+    """Return the largest difference (m) between a start q (n,) and the file's `start.set`, whole turns left out.
 
     Angles are multiplied by `size` (m).
     """
     off = 0.0
-    for k, given in _list_given_coordinates(problem.compiled.source):
-        miss = abs(float(problem.q[k] - problem.p[given]))
+    for k, given in _list_given_coordinates(source):
+        miss = abs(float(q[k] - p[given]))
         turns = round(miss / math.tau) * math.tau if k % 3 == 2 else 0.0
         off = max(off, abs(miss - turns) * (size if k % 3 == 2 else 1.0))
     return off
@@ -248,7 +259,7 @@ def _list_given_coordinates(source: KernelSource) -> tuple[tuple[int, int], ...]
     return tuple((k, i) for k, i in indices if i is not None and source.coordinates[k] in source.start_set)
 
 
-def _check_energy_balance(
+def check_energy_balance(
     compiled: CompiledModel,
     problem: Problem,
     trajectory: Trajectory,
@@ -340,7 +351,7 @@ def _exceeds(value: float, largest: float) -> bool:
     return not value <= largest and largest == largest
 
 
-def _draw_samples(problem: Problem, trajectory: Trajectory) -> NDArray[np.intp]:
+def draw_samples(problem: Problem, trajectory: Trajectory) -> NDArray[np.intp]:
     """Return the indices of the pseudo-random samples that C checks: few in short runs."""
     N = len(trajectory.t)
     samples = choose_samples(N, problem.audit, trajectory.counts.right_hand_sides)

@@ -13,6 +13,7 @@ from gudgeon.assembly.rank import check_redundant_equations
 from gudgeon.assembly.start import assemble_start
 from gudgeon.model.cached_values import cache_by_values
 from gudgeon.model.compiled import Array, CompiledModel
+from gudgeon.simulation.audit import compute_allowed_start_error
 
 
 @dataclass(frozen=True)
@@ -21,8 +22,10 @@ class FileStart:
 
     q: Array  # (n,)
     v: Array
+    memory: Array  # (n_memory,) discrete states: no contact, unknown modes
     unfollowed_guesses: Mapping[str, float]  # as of find_unfollowed_guesses
     notes: tuple[str, ...]  # on contacts without an onset
+    allowed_error: Array  # (2, n) by which q and v of the first sample may surely differ from these
 
 
 @cache_by_values
@@ -31,11 +34,15 @@ def assemble_file_start(compiled: CompiledModel, p: Array) -> FileStart:
 
     Raises AssemblyError if the linkage does not close, or if an equation that was redundant is not with these values.
     """
-    start, no_contacts = assemble_start(compiled, p), np.full(compiled.n_memory, np.nan)
+    start, no_contacts, source = assemble_start(compiled, p), np.full(compiled.n_memory, np.nan), compiled.source
+    # without a position of its own, a journal begins in the middle of its bearing
+    may_touch = bool(source.start_apart) or any(joint.is_corner for joint in source.clearances)
     check_redundant_equations(compiled, p, 0.0, start.q)
     return FileStart(
         start.q,
         start.v,
+        no_contacts,
         find_unfollowed_guesses(compiled, p, start.q),
-        describe_contacts_without_onset(compiled, p, 0.0, start.q, start.v, no_contacts),
+        describe_contacts_without_onset(compiled, p, 0.0, start.q, start.v, no_contacts) if may_touch else (),
+        compute_allowed_start_error(compiled.source, p, start.q, start.v),
     )

@@ -100,6 +100,8 @@ def find_first_jumps(
     `p` (n_runs, …): parameter values. Drives with equal parameter values are searched once. Runs in
     `excluded_runs` are skipped.
     """
+    if not _list_jump_searches(source):
+        return {}
     first, known_jumps = dict[int, Jump](), dict[tuple[Any, ...], float | Jump]()
     for drive, tree, search in _list_jump_searches(source):
         used = {f"parameters.{name.path}" for name in iterate_names(tree)}

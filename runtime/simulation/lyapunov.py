@@ -27,7 +27,7 @@ from gudgeon.language.argument_checks import check_text, raise_bad_value
 from gudgeon.language.functions import JUMPING
 from gudgeon.language.tree import iterate_names, list_functions
 from gudgeon.model.compiled import Array
-from gudgeon.model.parameters import prepare_given_values
+from gudgeon.model.parameters import prepare_run_values
 from gudgeon.model.sizes import compute_mechanism_sizes
 from gudgeon.model.written import read_expression_trees
 from gudgeon.results.lyapunov import Lyapunov, Section
@@ -253,7 +253,7 @@ def _compute_settled_start(
     """
     state = None if start is None else copy_checked_state(simulation.source, start)
     given, is_given, _ = merge_parameters(simulation.compiled, state, parameters)
-    p = prepare_given_values(simulation.compiled, given, is_given)
+    p, _ = prepare_run_values(simulation.compiled, given, is_given)
     start_time = evaluate_end_time(simulation.source, skip, p)
     duration = parse_seconds("skip", 0.0 if start_time is None else start_time)
     if not (math.isfinite(duration) and duration >= 0.0):

@@ -168,7 +168,8 @@ def merge_parameters(
     given, is_given = read_given_parameters(compiled.source, parameters)
     set_contours(compiled.source, contour, given, is_given)
     if start is None:
-        return given, is_given, make_choice_notes(compiled.source, given, is_given)
+        notes = make_choice_notes(compiled.source, given, is_given) if compiled.has_choices else ()
+        return given, is_given, notes
     if not check_mapping(start.parameters, "start.parameters"):
         values_of_state, is_given_by_state = np.zeros_like(given), np.zeros_like(is_given)
     else:

@@ -9,6 +9,7 @@ from time import monotonic
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gudgeon.assembly.journals import find_eccentricity
 from gudgeon.assembly.linkage import compute_mechanism_size
@@ -22,18 +23,21 @@ from gudgeon.errors import SolverError
 from gudgeon.integrators.adaptive import select_stiff_method
 from gudgeon.integrators.failure import build_audit_error, build_audit_notes
 from gudgeon.integrators.times import compute_last_step
-from gudgeon.integrators.trajectory import Counts, Problem, Trajectory
+from gudgeon.integrators.trajectory import Counts, Envelope, Problem, Trajectory
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.contours import compute_corner_penetration, compute_max_clearance
+from gudgeon.model.deferred_fields import find_deferred_function, make_with_deferred_fields
+from gudgeon.model.evaluation import Evaluation
 from gudgeon.model.left_limit import find_evaluation_times
 from gudgeon.model.seams import iterate_seam_notes
 from gudgeon.model.written import find_unbounded_drive
-from gudgeon.results.diagnostics import Diagnostics, Peak, collect_provenance
+from gudgeon.results.diagnostics import Diagnostics, Peak, collect_provenance, find_date
 from gudgeon.results.peaks import describe_zeno_points, find_first_contact_force
 from gudgeon.results.results import Result
 from gudgeon.results.samples import split_off_start
 from gudgeon.results.series import explain_missing_masses
 from gudgeon.simulation.audit import has_failed_finding
+from gudgeon.simulation.passing_audit import ShortRunSamples, is_short_run
 from gudgeon.simulation.sample_checks import CheckedSamples, check_samples
 from gudgeon.waiting.cancellation import EVERY
 from gudgeon.waiting.ctrl_c import DelayedCtrlC
@@ -273,16 +277,21 @@ def build_result(
     is left out after AFTER_CTRL_C seconds. It is stored with the Result of a short run. A start that is not a requested
     sample is removed from the samples.
     """
-    compiled, x, checked, is_unsolvable = (
-        problem.compiled,
-        _clear_undefined_works(problem.compiled, trajectory),
-        None,
-        False,
-    )
-    poll = _make_poll_function(problem, x.interrupted, is_time_limited)
+    compiled, x, is_unsolvable = problem.compiled, _clear_undefined_works(problem.compiled, trajectory), False
+    checked: CheckedSamples | None = None
+    evaluation: Evaluation | None = None
+    passing: ShortRunSamples | None = None  # they pass the audit, and are checked further on request
+    times: Array | None = None
     try:
         times = find_evaluation_times(compiled, x.t, x.q, x.v, problem.p)
-        checked = check_samples(problem, x, times, poll)
+        if is_short_run(problem, x):
+            short_run = ShortRunSamples(problem, x, times)
+            problem.poll_cancellation()
+            passing = short_run if short_run.pass_audit() else None
+            evaluation = None if passing else short_run.build_evaluation()
+        if not passing:
+            poll = _make_poll_function(problem, x.interrupted, is_time_limited)
+            checked = check_samples(problem, x, times, poll, evaluation)
     except SolverError:
         is_unsolvable = True
     except (
@@ -292,33 +301,77 @@ def build_result(
         pass
     except KeyboardInterrupt:
         x = replace(x, interrupted=True)
-    a = checked.a if checked else x.a
-    if a is None and is_unsolvable:
-        a = np.full_like(x.q, np.nan)
-    result = Result(
-        compiled=compiled,
-        source=compiled.source,
-        p=problem.p,
-        given=given,
-        is_given=is_given,
-        t=x.t,
-        q=x.q,
-        v=x.v,
-        accelerations=a,
-        state=x.state,
-        memory=x.memory,
-        work=x.work,
-        impacts=x.impacts,
-        diagnostics=_build_diagnostics(problem, x, checked),
-        events=x.events,
-        event_states=x.event_states,
-        trace=x.trace,
-        provenance=collect_provenance(compiled),
-        begun=problem.resumed_state,
-    )
-    if checked and checked.evaluation:
-        result.__dict__["evaluation"] = checked.evaluation  # a cached property: not computed again
+    values: dict[str, Any] = {
+        "compiled": compiled,
+        "source": compiled.source,
+        "p": problem.p if not passing else problem.p.copy(),
+        "given": given,
+        "is_given": is_given,
+        "impacts": x.impacts,
+        "stored": {},
+        "start_row": None,
+        "begun": problem.resumed_state,
+    }
+    samples = {"t": x.t, "q": x.q, "v": x.v, "state": x.state, "memory": x.memory, "work": x.work}
+    if passing:  # the caller may change arrays of a result before its diagnostics are built
+        values |= {name: array.copy() for name, array in samples.items()}
+    else:
+        values |= samples
+        is_nan = x.a is None and is_unsolvable
+        values["accelerations"] = np.full_like(x.q, np.nan) if is_nan else checked.a if checked else x.a
+        values["diagnostics"] = _build_diagnostics(problem, x, checked)
+        if checked and checked.evaluation:
+            values["evaluation"] = checked.evaluation  # a cached property: not computed again
+    result = make_with_deferred_fields(Result, values, _ResultParts(problem, x, times, passing))
     return result if problem.start_is_sample else split_off_start(result)
+
+
+class _ResultParts:
+    """Build the fields of a Result that few callers read; what follows from its samples if they pass the audit."""
+
+    fields: tuple[str, ...] = ("events", "event_states", "trace", "provenance")
+
+    def __init__(
+        self, problem: Problem, trajectory: Trajectory, times: Array | None, passing: ShortRunSamples | None
+    ) -> None:
+        self.problem, self.trajectory, self.times, self.passing = problem, trajectory, times, passing
+        self.date = find_date()
+        if passing:
+            self.fields = _FIELDS_OF_PASSING
+
+    def events(self) -> NDArray[Any]:
+        """Return the user events of the run."""
+        return self.trajectory.events
+
+    def event_states(self) -> NDArray[Any] | None:
+        """Return the user events with states."""
+        return self.trajectory.event_states
+
+    def trace(self) -> Envelope | None:
+        """Return the envelope of forces and paths."""
+        return self.trajectory.trace
+
+    def provenance(self) -> dict[str, str]:
+        """Return the provenance of the run."""
+        return collect_provenance(self.problem.compiled, self.date)
+
+    def evaluation(self) -> Evaluation:
+        """Return the evaluation of samples that pass the audit, in memory of its own."""
+        assert self.passing
+        return self.passing.build_evaluation()
+
+    def accelerations(self) -> Array:
+        """Return q̈ (N, n) of samples that pass the audit."""
+        return self.evaluation().a
+
+    def diagnostics(self) -> Diagnostics:
+        """Check the samples that pass the audit, and build the diagnostics with the findings and notes."""
+        assert self.times is not None
+        checked = check_samples(self.problem, self.trajectory, self.times, lambda: None, self.evaluation())
+        return _build_diagnostics(self.problem, self.trajectory, checked)
+
+
+_FIELDS_OF_PASSING = (*_ResultParts.fields, "evaluation", "accelerations", "diagnostics")
 
 
 def _add_notes(run: Result, notes_to_add: Sequence[str]) -> Result:
@@ -362,7 +415,9 @@ def check_result(problem: Problem, trajectory: Trajectory, result: Result) -> tu
     Such errors are the failure of the time loop, contradictory constraints, or a failed audit of the samples. If Ctrl-C
     comes meanwhile, the run is marked as interrupted.
     """
-    findings = result.diagnostics.audit
+    findings = (
+        () if find_deferred_function(result, "diagnostics") else result.diagnostics.audit
+    )  # () if they have passed
     try:
         failure = find_constraint_violation(problem, trajectory) or (
             build_audit_error(findings) if has_failed_finding(findings) else None

@@ -37,9 +37,16 @@ class CheckedSamples:
     notes: tuple[str, ...]
 
 
-def check_samples(problem: Problem, trajectory: Trajectory, times: Array, poll: Callable[[], object]) -> CheckedSamples:
+def check_samples(
+    problem: Problem,
+    trajectory: Trajectory,
+    times: Array,
+    poll: Callable[[], object],
+    known_evaluation: Evaluation | None = None,
+) -> CheckedSamples:
     """Evaluate all samples of a run at `times` (N,), s, and check them.
 
+    `known_evaluation`: of all samples of a short run, which is then not computed again.
     `poll` polls for cancellation; its exceptions are passed on. Raises SingularError for a sample without
     accelerations.
     """
@@ -49,7 +56,10 @@ def check_samples(problem: Problem, trajectory: Trajectory, times: Array, poll: 
     energy, slip, a, start = list[Array](), list[Array](), x.a, None
     for first in range(0, max(N, 1), MAX_STORED):
         rows = slice(first, first + MAX_STORED)
-        evaluation = compiled.evaluate(times[rows], x.q[rows], x.v[rows], x.memory[rows], problem.p, poll)
+        if known_evaluation and N <= MAX_STORED:
+            evaluation = known_evaluation
+        else:
+            evaluation = compiled.evaluate(times[rows], x.q[rows], x.v[rows], x.memory[rows], problem.p, poll)
         energy.append(evaluation.energy)
         slip.append(evaluation.friction[:, :, 1])
         audit.add_samples(first, evaluation)
@@ -64,7 +74,7 @@ def check_samples(problem: Problem, trajectory: Trajectory, times: Array, poll: 
             samples.start_row = start if first or skipped else None
             outputs.add_samples(samples)
     all_energy, all_slip = (parts[0] if len(parts) == 1 else np.concatenate(parts) for parts in (energy, slip))
-    balance = _compute_energy_balance(all_energy, x.work, poll)
+    balance = compute_energy_balance(all_energy, x.work, poll)
     notes = () if compiled.source.massless else _build_unbalanced_note(x.t, all_energy, x.work, balance[0])
     notes += () if compiled.source.massless else _build_coarse_step_note(problem, *balance)
     notes += outputs.build_notes()
@@ -101,7 +111,7 @@ def _make_samples(
     return samples
 
 
-def _compute_energy_balance(energy: Array, work: Array, poll: Callable[[], object]) -> tuple[float, float]:
+def compute_energy_balance(energy: Array, work: Array, poll: Callable[[], object]) -> tuple[float, float]:
     """Return the largest residual of the energy balance and the energy throughput of a run, both in J.
 
     `energy` (N, 2): kinetic and potential; `work` (N, 3): works since the start. Both results are NaN without samples.

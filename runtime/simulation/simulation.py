@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
@@ -9,7 +10,6 @@ from hashlib import sha256
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
 from numpy.typing import ArrayLike
 
 from gudgeon.assembly.guess_warnings import warn_unfollowed_guesses
@@ -17,18 +17,18 @@ from gudgeon.assembly.journals import describe_contacts_without_onset
 from gudgeon.assembly.rank import check_redundant_equations
 from gudgeon.assembly.start import Start, assemble_start
 from gudgeon.errors import BadValueError, InputError
-from gudgeon.integrators import adaptive
 from gudgeon.integrators.peers import driver as python_driver
 from gudgeon.integrators.trajectory import Problem, Progress
-from gudgeon.language.argument_checks import check_callable, check_flag, check_text
+from gudgeon.language.argument_checks import check_callable
 from gudgeon.loading.kernel_sources import Loading
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.contours import read_contours
 from gudgeon.model.evaluation import check_sample_memory
-from gudgeon.model.parameters import prepare_given_values, prepare_values, prepare_without_baumgarte
+from gudgeon.model.parameters import prepare_run_values, prepare_values
 from gudgeon.results.notebook_display import NotebookDisplay
 from gudgeon.simulation.arguments import (
     MAX_STEPS,
+    check_run_settings,
     compute_output_times,
     evaluate_end_time,
     evaluate_step,
@@ -36,7 +36,6 @@ from gudgeon.simulation.arguments import (
     integrate_run,
     select_method,
 )
-from gudgeon.simulation.audit import parse_audit_level
 from gudgeon.simulation.file_start import assemble_file_start
 from gudgeon.simulation.hidden_jumps import build_jump_error, compute_end_before_jump, find_first_jumps
 from gudgeon.simulation.repeated_runs import RepeatedRuns
@@ -279,10 +278,10 @@ class Simulation(NotebookDisplay, RepeatedRuns):
         Raises InputError for arguments (ArrayError for arrays), AssemblyError for a start that does not close,
         SolverError when equations cannot be solved (`partial`: up to there), MemoryError before more than fits.
         """
-        method, progress = check_text(method, "method"), check_callable(progress, "progress")
-        horizon, stop, level = check_flag(horizon, "horizon"), check_flag(stop, "stop"), parse_audit_level(audit)
-        if (variant := self.of_method(method, progress)) is not self:
-            return variant.simulate(
+        progress = check_callable(progress, "progress")
+        settings = check_run_settings(self.source, method, rtol, step is not None, horizon, stop, audit)
+        if settings.needs_variant:
+            return self.of_method(method, progress).simulate(
                 t_end,
                 output=output,
                 method=method,
@@ -303,29 +302,29 @@ class Simulation(NotebookDisplay, RepeatedRuns):
         given, is_given, remarks = merge_parameters(
             self.compiled, initial_state, parameters, read_contours(self.source, contour)
         )
-        p, t0 = prepare_given_values(self.compiled, given, is_given), 0.0 if initial_state is None else initial_state.t
+        p, p_without_gains = prepare_run_values(self.compiled, given, is_given)
+        t0 = 0.0 if initial_state is None else initial_state.t
         times, from_start = compute_output_times(self.source, p, t0, evaluate_end_time(self.source, t_end, p), output)
         check_sample_memory(self.compiled, len(times))
         if self.source.degrees_of_freedom < 0:
             assemble_start(self.compiled, p)  # names the joints that contradict each other
-        selected = select_method(self.source, method, step is not None)
-        tolerance = adaptive.parse_tolerance(rtol, selected, step is not None)
-        h = evaluate_step(self.compiled, step, selected, p, float(times[-1] - t0))
-        if (times[-1] - t0) / h > MAX_STEPS:
+            select_method(self.source, method, step is not None)  # raises an error
+        h = evaluate_step(self.compiled, step, settings.method, p, float(times[-1] - t0))
+        if h < math.inf and (times[-1] - t0) / h > MAX_STEPS:
             raise BadValueError(f"step {h:.3g} s means more than {MAX_STEPS:.0e} steps")
         if initial_state is not None and remarks:
             check_resumed_state(self.compiled, initial_state, p)
         if initial_state is None:
             file_start = assemble_file_start(self.compiled, p)
             warn_unfollowed_guesses(self.source, file_start.unfollowed_guesses)
-            q, v, memory = file_start.q.copy(), file_start.v.copy(), np.full(self.compiled.n_memory, np.nan)
-            remarks += file_start.notes
+            q, v, memory = file_start.q.copy(), file_start.v.copy(), file_start.memory.copy()
+            remarks, allowed_error = remarks + file_start.notes, file_start.allowed_error
         else:
-            q, v, memory = initial_state.q, initial_state.v, initial_state.memory
+            q, v, memory, allowed_error = initial_state.q, initial_state.v, initial_state.memory, None
             check_redundant_equations(self.compiled, p, t0, q)
             remarks += build_violation_notes(self.compiled, p, t0, q, v)
             remarks += describe_contacts_without_onset(self.compiled, p, t0, q, v, memory)
-        observer = make_observer(self.compiled, (p, given, is_given), tolerance, names, compared_scene)
+        observer = make_observer(self.compiled, (p, given, is_given), settings.rtol, names, compared_scene)
         ctrl_c = DelayedCtrlC()
         problem = Problem(
             self.compiled,
@@ -337,19 +336,20 @@ class Simulation(NotebookDisplay, RepeatedRuns):
             h,
             progress,
             None if initial_state is None else initial_state.state,
-            selected,
-            tolerance,
-            prepare_without_baumgarte(self.compiled, given, is_given),
-            stop,
+            settings.method,
+            settings.rtol,
+            p_without_gains,
+            settings.stop,
             remarks,
             from_start,
-            level,
+            settings.audit,
             initial_state,
             observer,
+            allowed_error,
             ctrl_c.raise_delayed,
         )
         result = self._integrate_problem(problem, given, is_given, observer, ctrl_c)
-        if horizon and not result.diagnostics.interrupted:
+        if settings.horizon and not result.diagnostics.interrupted:
             from gudgeon.simulation.predictability_horizon import add_horizon
 
             result = add_horizon(self, result, progress)

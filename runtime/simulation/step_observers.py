@@ -53,7 +53,7 @@ def check_requested_peaks(
     None gives the series that the scene's file names. Raises UnknownNameError, BadValueError.
     """
     if peaks is None:
-        return check_series(source, source.peaks)
+        return check_series(source, source.peaks) if source.peaks else ()
     wear_requests = (
         tuple(item for item in peaks if isinstance(item, SlidingRequest)) if isinstance(peaks, tuple) else ()
     )
@@ -91,6 +91,8 @@ def make_observer(
     `parameter_arrays`: parameter values, given values and their mask. `requests`: series and requests for wear.
     `compared_simulation`: scene for errors of the series, or None.
     """
+    if not requests:
+        return None
     observers, series = list[StepObserver](), tuple(request for request in requests if isinstance(request, str))
     if series:
         from gudgeon.simulation.peaks import PeakSearch

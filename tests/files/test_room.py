@@ -43,7 +43,7 @@ def small(monkeypatch: pytest.MonkeyPatch) -> None:
     """A machine with a gigabyte of memory and ten megabytes of disk, where no run may begin."""
     monkeypatch.setattr(free_space, "read_free_memory", lambda: GB)
     monkeypatch.setattr(os, "statvfs", lambda path: Disk(2500))
-    for place in ("integrators.batch.Runs.integrate_single_run", "integrators.batch.Runs.integrate_all_runs"):
+    for place in ("integrators.single_run.SingleRun.integrate", "integrators.batch.Runs.integrate_all_runs"):
         monkeypatch.setattr(f"gudgeon.{place}", None)
 
 

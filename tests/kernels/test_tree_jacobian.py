@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import gudgeon
-from gudgeon.integrators.batch import integrate_problem
+from gudgeon.integrators.single_run import integrate_problem
 from gudgeon.integrators.trajectory import Problem
 from gudgeon.model.parameters import prepare_without_baumgarte
 from gudgeon.simulation.simulation import Simulation

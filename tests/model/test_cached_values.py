@@ -75,3 +75,25 @@ def test_cached_values_are_not_pickled() -> None:
     for k in range(20):
         simulation.simulate(t_end=1e-3 * (1 + k), output=1)
     assert abs(len(pickle.dumps(simulation.simulate(t_end=1e-3, output=1))) - size) < 200
+
+
+def test_equal_values_of_other_types_are_other_arguments_and_lists_are_not_cached() -> None:
+    """True is not 1: a check of types would otherwise depend on the calls before."""
+    calls: list[object] = []
+
+    @cache_by_values
+    def describe(owner: Owner, value: object) -> str:
+        calls.append(value)
+        return type(value).__name__
+
+    owner = Owner()
+    assert [describe(owner, value) for value in (1, True, 1.0, np.float64(1.0), 1, True)] == [
+        "int",
+        "bool",
+        "float",
+        "float64",
+        "int",
+        "bool",
+    ]
+    assert len(calls) == 4
+    assert describe(owner, [1]) == describe(owner, [1]) == "list" and len(calls) == 6

@@ -25,9 +25,9 @@ from gudgeon.contract.boundary import N_WORK
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import BadValueError, NonFiniteError, SolverError
 from gudgeon.integrators.adaptive import compute_tolerances
-from gudgeon.integrators.batch import integrate_problem
 from gudgeon.integrators.peers.contacts import AcceptedStep, Contacts
 from gudgeon.integrators.peers.stepper import SCIPY, Equations, Stepper
+from gudgeon.integrators.single_run import integrate_problem
 from gudgeon.integrators.steps import StepCollector
 from gudgeon.integrators.trajectory import Counts, Problem, Trajectory
 from gudgeon.model.compiled import Array

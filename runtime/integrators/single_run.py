@@ -1,0 +1,199 @@
+"""Integrate one run in the calling thread, by the time loop in C or in Python: `integrate_problem`.
+
+The memory of a short run in C is used again by later runs of the scene with the same sizes and settings. A Trajectory
+has copies of what C wrote, in one block. Each run in progress has its own memory, also in several threads.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from weakref import ref
+
+import numpy as np
+
+from gudgeon.contract.boundary import BEGUN, ENDED, LISTS, RUN_OVER
+from gudgeon.integrators import adaptive
+from gudgeon.integrators.batch import PythonLoop, Runs
+from gudgeon.integrators.run_arrays import SingleRunArrays
+from gudgeon.integrators.steps import StepLog
+from gudgeon.integrators.stored import Contacts
+from gudgeon.integrators.times import Times
+from gudgeon.integrators.trajectory import Problem, Trajectory
+from gudgeon.waiting.cancellation import CancellationPoll
+
+MAX_REUSED_SAMPLES = 256  # of a run whose memory is used again
+MAX_FREE = 8  # largest number of such memories of a scene that wait for a run
+
+
+class SingleRun(Runs):
+    """Integrate the run of a Problem, and with `begin_problem` those of further ones of equal sizes and settings."""
+
+    def __init__(self, problem: Problem, python_loop: PythonLoop | None = None) -> None:
+        compiled, N = problem.compiled, len(problem.t)
+        super().__init__(
+            compiled,
+            problem.p[None],
+            problem.p[None],
+            Times(problem.t, np.full(1, N), np.zeros(1, np.int_)),
+            problem.method,
+            np.full(1, problem.step),
+            problem.rtol,
+            problem.stop,
+            problem.audit,
+            side_by_side=False,
+            threads=1,
+            python_loop=python_loop,
+        )
+        if python_loop:
+            self.set_starts([problem])
+            return
+        assert isinstance(self.arrays, SingleRunArrays)
+        self.times = Times(self.arrays["t"], self.times.count, self.times.n_skipped)
+        self._storage = np.zeros(compiled.lib.gudgeon_run_size(), dtype=np.uint8)
+        self._integrator = compiled.pointer(self._storage, "void *", True)
+        self._current = compiled.ffi.new("long *")
+        this = ref(self)
+        self._cancellation = CancellationPoll(compiled, lambda: this()._poll_and_report_progress())  # type: ignore[union-attr]
+        self.struct.ask, self.struct.caller, self.struct.every = self._cancellation.c_arguments
+        if compiled.source.clearances:
+            self.allocate_envelope()
+        self._problem: Problem | None = None
+        self._head = self.arrays.copy_head()
+        self.begin_problem(problem)
+
+    def begin_problem(self, problem: Problem) -> None:
+        """Set the values of a run in C that has not begun yet; those of the last run are lost."""
+        compiled, x, n = self.compiled, self.arrays, self.compiled.n
+        assert isinstance(x, SingleRunArrays)
+        x.reset_head(self._head)
+        x["t"][:], x["step"][0], x["p"][0] = problem.t, problem.step, problem.p
+        is_given = problem.method == "rk4" or problem.p_free is None
+        x["p_motion"][0] = problem.p if is_given else problem.p_free
+        x["t_last"][0] = problem.t[0]
+        x["scale"][:], x["least"][:], x["size"][:] = adaptive.compute_scales_of_runs(
+            compiled, problem.p[None], self.rtol
+        )
+        start = x["start"][0]
+        start[:n], start[n:], x["started"][0] = problem.q, problem.v, 1
+        if compiled.n_memory:
+            x["remembered"][0] = problem.memory
+        if problem.state is not None and len(problem.state):
+            x["codes"][0] = problem.state
+        self._problem = problem
+        self.observers = [problem.observer] if problem.observer else ()
+
+    def release_problem(self) -> None:
+        """Forget the run, whose results have been copied."""
+        self._problem, self.observers, self.interrupted = None, (), False
+        if self.failures or self.events or self.fetched.of_thread:
+            self.failures, self.events, self.fetched = {}, {}, Contacts(self.compiled)
+            self.contacts, self.first_contact_indices = self.contacts[:0], np.zeros(2, np.int_)
+
+    def integrate(self, problem: Problem) -> Trajectory:
+        """Integrate the run in the calling thread, in C or Python, and return its Trajectory.
+
+        The problem polls for cancellation. Raises KeyboardInterrupt if no sample was reached.
+        """
+        if self.kinematic and self.kinematic.compute_short_run(problem):
+            pass
+        elif self.python_loop:
+            self.store_trajectory(0, self.python_loop(problem))
+        else:
+            self._integrate_in_c()
+        self._join_contacts()
+        return self.build_trajectory(0)
+
+    def _integrate_in_c(self) -> None:
+        """Integrate the run by the time loop in C. After Ctrl-C, the samples up to there remain.
+
+        A failed run is recorded; without any sample, its start becomes the first. Raises KeyboardInterrupt if Ctrl-C
+        came before the first sample.
+        """
+        compiled, x, run = self.compiled, self.arrays, self._integrator
+        step_log = StepLog(compiled) if self.observers else None
+        if step_log:
+            step_log.register_rows(run)
+        compiled.lib.switch_library_if_ready()
+        try:
+            self._make_steps(step_log, self._poll)
+        except KeyboardInterrupt:
+            if not x["done"][0]:
+                raise
+            self.interrupted, x["ending"][0] = True, 1
+            self._make_steps(step_log, lambda: None)
+        if not self.interrupted and x["status"].item(0) not in (0, ENDED):
+            self.failures[0] = self._build_error(0)
+        if not x["done"].item(0):  # at least the start
+            rows = x["y"][0], x["latched"][0], x["state"][0]
+            to = (compiled.pointer(rows[0]), compiled.pointer(rows[1]), compiled.pointer(rows[2], "signed char *"))
+            compiled.lib.gudgeon_run_sample(run, self.struct.p_motion, *to)
+            x["done"][0] = 1
+
+    def _make_steps(self, step_log: StepLog | None, poll: Callable[[], object]) -> None:
+        """Integrate the run to its end, and fetch contacts, events and recorded steps whenever a list is full.
+
+        `poll` is called after each call of C.
+        """
+        current, run, integrate = self._current, self._integrator, self.compiled.lib.gudgeon_ensemble
+        current[0] = 0
+        while not current[0]:
+            status = integrate(self.struct, run, current, 1)
+            if status in (LISTS, RUN_OVER):
+                self.fetch_contacts_and_events(0, run, status == RUN_OVER)
+                if step_log:
+                    step_log.observer = self.observers[0]
+                    step_log.pass_steps(run)
+                current[0] = status == RUN_OVER
+            poll()
+
+    def _poll(self) -> None:
+        """Raise what a poll from C raised, and poll once more."""
+        self._cancellation.raise_stored(False)
+        self._poll_and_report_progress()
+
+    def _poll_and_report_progress(self) -> None:
+        """Poll for Ctrl-C and for an optimized library, and report progress; called between calls of C and within them.
+
+        Raises KeyboardInterrupt.
+        """
+        problem, x, b = self._problem, self.arrays, self.struct
+        assert problem
+        self.compiled.lib.switch_library_if_ready()
+        problem.poll_cancellation()
+        if problem.progress:
+            t = problem.t
+            if x["phase"][0] == BEGUN:
+                self.compiled.lib.gudgeon_run_report(self._integrator, b.t_last, b.counts, b.residuals, b.peaks)
+            fraction = (x["t_last"][0] - t[0]) / max(t[-1] - t[0], 1e-300)
+            problem.progress(float(min(max(fraction, 0.0), 1.0)), "integrating")
+
+
+def integrate_problem(problem: Problem, python_loop: PythonLoop | None = None) -> Trajectory:
+    """Integrate one run, in C or by the time loop `python_loop` in Python, and return its Trajectory.
+
+    Raises KeyboardInterrupt if no sample was reached.
+    """
+    if python_loop or len(problem.t) > MAX_REUSED_SAMPLES or problem.observer:
+        return SingleRun(problem, python_loop).integrate(problem)
+    free = _list_free_runs(problem)
+    try:
+        run = free.pop()  # no other thread has it then
+        run.begin_problem(problem)
+    except IndexError:
+        run = SingleRun(problem)
+        run.is_reused = True
+    trajectory = run.integrate(problem)
+    run.release_problem()
+    if len(free) < MAX_FREE:
+        free.append(run)
+    return trajectory
+
+
+def _list_free_runs(problem: Problem) -> list[SingleRun]:
+    """Return the list of runs that have ended, whose memory may be used again for a problem."""
+    free_runs, is_fixed = problem.compiled.free_runs, math.isfinite(problem.step)
+    key = len(problem.t), problem.method, problem.rtol, is_fixed, problem.stop, problem.audit
+    if key not in free_runs and len(free_runs) >= MAX_FREE:
+        free_runs.clear()
+    return free_runs.setdefault(key, [])

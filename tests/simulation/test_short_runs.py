@@ -1,0 +1,163 @@
+"""Short runs: their audit is decided at the call, what their diagnostics say is computed when it is read."""
+
+from __future__ import annotations
+
+import copy
+import pickle
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+
+import gudgeon
+from gudgeon.errors import AuditError
+from gudgeon.integrators.single_run import MAX_FREE
+from gudgeon.model.deferred_fields import find_deferred_function
+from gudgeon.results.results import Result
+from gudgeon.simulation.simulation import Simulation
+
+SCENES = (
+    ("nine_bar_press", "dry", "c"),
+    ("nine_bar_press", "lubricated", "c"),
+    ("andrews_squeezer", "ideal", "bodies.OF.mass"),
+    ("bouncing_ball", "hertz", None),
+    ("belt_block", "driven", None),
+)
+ARRAYS = ("t", "q", "v", "a", "state", "memory", "work", "impacts", "events", "p")
+OF_TIME = ("seconds", "seconds_per_simulated_second")  # fields of diagnostics that no two runs share
+
+
+def load(mechanism: str, scene: str) -> Simulation:
+    """The scene, or the first of the file if it has none of that name."""
+    try:
+        return gudgeon.load(mechanism, scene)
+    except gudgeon.InputError:
+        return gudgeon.load(mechanism)
+
+
+def describe(run: Result) -> str:
+    """The diagnostics as text, without times of the computer."""
+    return replace(run.diagnostics, **dict.fromkeys(OF_TIME, 0.0)).to_json()
+
+
+def is_deferred(run: Result) -> bool:
+    """Whether nothing has computed the diagnostics yet."""
+    return find_deferred_function(run, "diagnostics") is not None
+
+
+def same(one: Result, other: Result) -> bool:
+    """Whether two runs have the same bits and diagnostics."""
+    arrays = all(getattr(one, name).tobytes() == getattr(other, name).tobytes() for name in ARRAYS)
+    parts = zip(vars(one.evaluation).values(), vars(other.evaluation).values(), strict=True)
+    return arrays and all(a.tobytes() == b.tobytes() for a, b in parts) and describe(one) == describe(other)
+
+
+@pytest.mark.parametrize(("mechanism", "scene", "name"), SCENES)
+@pytest.mark.parametrize(
+    "settings", [{"output": 1}, {"output": 7}, {"output": 60}, {"output": [2e-4, 5e-4]}, {"audit": "full"}]
+)
+def test_deferred_diagnostics_are_those_of_a_run_that_is_checked_at_once(
+    mechanism: str, scene: str, name: str | None, settings: dict[str, Any]
+) -> None:
+    """A callback for progress has all samples checked within the call; it changes no number."""
+    simulation = load(mechanism, scene)
+    arguments: dict[str, Any] = {"t_end": 5e-4, "output": 3} | settings
+    lazy = simulation.simulate(**arguments)
+    at_once = simulation.simulate(**arguments, progress=lambda *_: None)
+    assert not is_deferred(at_once)
+    assert same(lazy, at_once) and not is_deferred(lazy)
+    assert lazy.provenance.keys() == at_once.provenance.keys()
+
+
+def test_a_quiet_short_run_is_deferred_and_a_run_of_many_samples_is_not() -> None:
+    """Otherwise the test above would compare two equal paths."""
+    simulation = gudgeon.load("andrews_squeezer")
+    assert is_deferred(simulation.simulate(1e-4, output=2))
+    assert is_deferred(simulation.simulate(1e-4, output=60))
+    assert not is_deferred(simulation.simulate(1e-4, output=400))
+    assert not is_deferred(simulation.simulate(1e-4, output=2, audit="full"))
+
+
+def test_later_runs_and_changed_arrays_do_not_change_a_result() -> None:
+    """The memory of a run is used again; its result has copies, also for diagnostics that are read later."""
+    simulation, runs, masses = gudgeon.load("nine_bar_press", "dry"), [], (40.0, 41.0, 42.0)
+    for mass in masses:
+        runs.append(simulation.simulate(1e-4, output=2, parameters={"bodies.S9.mass": mass}))
+    fresh = [
+        gudgeon.load("nine_bar_press", "dry").simulate(1e-4, output=2, parameters={"bodies.S9.mass": mass})
+        for mass in masses
+    ]
+    assert len({run.q.tobytes() + run.v.tobytes() for run in runs}) == len(masses)
+    changed = simulation.simulate(1e-4, output=2, parameters={"bodies.S9.mass": masses[0]})
+    for array in (changed.t, changed.q, changed.v, changed.work, changed.p):
+        array[...] = np.nan
+    assert describe(changed) == describe(fresh[0])
+    assert all(same(one, other) for one, other in zip(runs, fresh, strict=True))
+
+
+def test_results_with_unread_diagnostics_are_pickled_copied_and_replaced() -> None:
+    """Each copy has the diagnostics, and the original still has them to compute."""
+    simulation = gudgeon.load("andrews_squeezer")
+    expected = simulation.simulate(1e-4, output=2, progress=lambda *_: None)
+    for make in (
+        lambda run: pickle.loads(pickle.dumps(run)),
+        copy.copy,
+        copy.deepcopy,
+        lambda run: replace(run, stored={}),
+    ):
+        run = simulation.simulate(1e-4, output=2)
+        assert is_deferred(run) and same(make(run), expected) and same(run, expected)
+
+
+def test_a_failed_check_of_samples_is_an_error_of_the_call(monkeypatch: pytest.MonkeyPatch) -> None:
+    """An error of power far above its limit, which C reports for the second sample."""
+    simulation = gudgeon.load("andrews_squeezer")
+    compiled, simulate = simulation.compiled, simulation.simulate
+    simulate(1e-4, output=2)
+    audit_samples = compiled.lib.gudgeon_audit_samples
+
+    def report_error(n: int, *arguments: Any) -> None:
+        audit_samples(n, *arguments)
+        arguments[-1][4] = 1.0
+
+    monkeypatch.setitem(vars(compiled.lib), "gudgeon_audit_samples", report_error)
+    with pytest.raises(AuditError, match="check power"):
+        simulate(1e-4, output=2)
+    assert simulate(1e-4, output=2, audit=False).diagnostics.audit == ()
+    monkeypatch.undo()
+    assert is_deferred(simulate(1e-4, output=2))
+
+
+def test_an_energy_that_is_not_balanced_is_an_error_of_the_call(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The kinetic energy of one sample is wrong by 1 kJ in what C evaluates."""
+    simulation = gudgeon.load("andrews_squeezer")
+    assert is_deferred(simulation.simulate(2e-3, output=60))
+    evaluate = simulation.compiled.lib.gudgeon_evaluate
+
+    def change_energy(n: int, *arguments: Any) -> int:
+        status: int = evaluate(n, *arguments)
+        arguments[12][2 * (n - 1)] += 1e3
+        return status
+
+    monkeypatch.setitem(vars(simulation.compiled.lib), "gudgeon_evaluate", change_energy)
+    with pytest.raises(AuditError, match="check energy"):
+        simulation.simulate(2e-3, output=60)
+
+
+def test_threads_have_memory_of_their_own_and_little_of_it_is_kept() -> None:
+    """Runs of several threads at once are those of one thread, whatever ran in the memory before."""
+    simulation = gudgeon.load("nine_bar_press", "dry")
+
+    def run(k: int) -> bytes:
+        result = simulation.simulate(2e-3, output=1 + k % 3, parameters={"bodies.S9.mass": 40.0 + k % 5})
+        return result.q.tobytes() + describe(result).encode()
+
+    expected = [run(k) for k in range(30)]
+    with ThreadPoolExecutor(4) as pool:
+        assert list(pool.map(run, range(30))) == expected
+    for k in range(2 * MAX_FREE):
+        simulation.simulate(1e-4, output=1 + k)
+    free = simulation.compiled.free_runs
+    assert len(free) <= MAX_FREE and all(len(runs) <= MAX_FREE for runs in free.values())
