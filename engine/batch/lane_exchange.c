@@ -98,7 +98,10 @@ static void gather_state(LaneGroup *group, int k)
         lanes->norm.weight[j][k] = run->norm.weight[j];
     }
 #if TAYLOR
+    for (int j = 0; j < N_Y; j++)
+        lanes->series.lost[j][k] = run->series.lost[j];
     lanes->series.order = run->series.order;
+    lanes->series.defect_weight = run->series.defect_weight;
     lanes->control.fixed = run->control.fixed;
 #else
     for (int j = 0; j < N_Y; j++)
@@ -203,6 +206,8 @@ static void scatter_trial(const LaneGroup *group, int k, int method, Integrator 
     run->series.ready = IN_LANE;
     run->series.lane = (const double *)group->integrator.series.terms + k;
     run->series.lanes = LANES;
+    for (int j = 0; j < N_Y; j++)
+        run->series.next_lost[j] = group->integrator.series.next_lost[j][k];
     run->series.max_step = group->integrator.series.max_step[k];
     run->control.attempt.h = group->step.h[k];
 }

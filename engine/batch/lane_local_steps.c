@@ -66,6 +66,7 @@ static LaneBits accept_lane_local_steps(
         & ~find_nonfinite_lanes(step->y, step->dy, N_Y);
     update_energy_scale(lanes, accepted, step->y);
     for (int j = 0; j < N_Y; j++) {
+        lanes->series.lost[j] = select_value(accepted, lanes->series.next_lost[j], lanes->series.lost[j]);
         lanes->y[j] = select_value(accepted, step->y[j], lanes->y[j]);
         lanes->dy[j] = select_value(accepted, step->dy[j], lanes->dy[j]);
     }
@@ -99,6 +100,7 @@ static void flush_lane_local_steps(
         run->y[j] = lanes->y[j][k];
         run->dy[j] = lanes->dy[j][k];
         run->norm.weight[j] = lanes->norm.weight[j][k];
+        run->series.lost[j] = lanes->series.lost[j][k];
     }
     for (int j = 0; j < N_WORK; j++)
         run->rhs.power[j] = lanes->rhs.power[j][k];

@@ -31,6 +31,6 @@ static int try_method(LaneIntegrator *run, int method, Lanes h, const LaneParame
     taylor_values(run->t, run->y, run->y + N_X, p, &at, c[1] + N_X, c[1] + 2 * N_X, &run->discrete.rare);
     compute_series_orders(p, &at, run->series.order, c, factors[0], factors[1]);
     run->discrete.rare |= find_nonfinite_lanes(c[run->series.order], NULL, N_Y);
-    run->series.max_step = taylor_compute_max_length(run);
+    run->series.max_step = round_step_length(run, taylor_compute_max_length(run));
     return taylor_try_series_step(run, h, p, step);
 }

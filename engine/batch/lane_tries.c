@@ -38,6 +38,13 @@ static int is_step_rejected(LaneIntegrator *run, LaneStep *step)
     return !any_of(step->is_accepted);
 }
 
+/* Rounding errors (N_Y) of the state at the end of a tried step; NULL: not known. */
+#if TAYLOR
+#define END_ROUNDING(run) ((run)->series.next_lost)
+#else
+#define END_ROUNDING(run) NULL
+#endif
+
 /*
  * Project the end of a step onto the constraints and compute the rates and the residuals of the closures there, in all
  * lanes. Return 0. Lanes with a large projection or numbers that are not finite are marked as rare.
@@ -47,7 +54,7 @@ static int finish_step(LaneIntegrator *run, LaneStep *step, const LaneParameters
     Lanes before[N_Y];
     run->discrete.rare |= find_nonfinite_lanes(step->y, NULL, N_Y);
     memcpy(before, step->y, sizeof before);
-    project_onto_constraints(run, step->t + step->h, step->y, p);
+    project_onto_constraints(run, step->t + step->h, step->y, END_ROUNDING(run), p);
     run->discrete.rare |= compute_constraint_distance(run, before, step->y) > MAX_CONSTRAINT_DRIFT;
     evaluate_run_rhs(run, step->t + step->h, step->y, p, step->dy, &step->rhs);
     run->discrete.rare |= find_nonfinite_lanes(step->dy, NULL, N_Y);

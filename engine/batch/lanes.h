@@ -222,8 +222,9 @@ typedef struct {
     LaneRhsOutputs rhs;
 #if TAYLOR
     struct {
-        int order; /* the same in all lanes: a batch has one tolerance */
-        Lanes max_step;
+        int order; /* the same in all lanes: a batch has one tolerance; so has defect_weight */
+        double defect_weight;
+        Lanes max_step, lost[N_Y], next_lost[N_Y];
         Lanes terms[TAYLOR_ORDERS + 1][TAYLOR_Y]; /* last member: it is large and filled by each trial */
     } series;
 #else

@@ -54,7 +54,7 @@ static int commit_step(Integrator *run, Step *step, double fraction, double t_ne
     run->t = t_new;
     count_step(run, !!step->method->stiff);
     discard_linearization(run);
-    discard_series(run);
+    discard_series(run, fraction >= 1.0);
     update_speeds(run);
     update_error_weights(run);
     for (int i = 0; i < N_CLEARANCES; i++)

@@ -164,12 +164,16 @@ static void set_last_step_length(Integrator *run, double h) { run->control.last_
 static void discard_stiff_step_length(Integrator *run) { run->control.h_stiff = 0.0; }
 
 static int uses_baumgarte_terms(const Integrator *run); /* methods/methods.c */
+static double *get_end_rounding(Integrator *run); /* methods/taylor.c */
 
-/* Project state y onto the constraint equations, unless Baumgarte's terms of the method stabilise them. */
-static void project_unless_stabilised(Integrator *run, double t, double *y, const Parameters *p)
+/*
+ * Project state y onto the constraint equations, unless Baumgarte's terms of the method stabilise them. lost (N_Y):
+ * rounding errors of y, NULL: they are not known.
+ */
+static void project_unless_stabilised(Integrator *run, double t, double *y, double *lost, const Parameters *p)
 {
     if (!uses_baumgarte_terms(run))
-        project_onto_constraints(run, t, y, p);
+        project_onto_constraints(run, t, y, lost, p);
 }
 
 /*
@@ -178,7 +182,7 @@ static void project_unless_stabilised(Integrator *run, double t, double *y, cons
  */
 static void project_state(Integrator *run, double t, double *y, const Parameters *p)
 {
-    project_unless_stabilised(run, t, y, p);
+    project_unless_stabilised(run, t, y, NULL, p);
     project_closed_contacts(run, t, y, p);
 }
 
@@ -189,7 +193,7 @@ static void project_state(Integrator *run, double t, double *y, const Parameters
 static inline void apply_drive_impulse(Integrator *run, const Parameters *p)
 {
     const double before = compute_kinetic_energy(run, p);
-    project_onto_constraints(run, run->t, run->y, p);
+    project_onto_constraints(run, run->t, run->y, NULL, p);
     run->y[2 * N_X] += compute_kinetic_energy(run, p) - before;
 }
 
@@ -211,7 +215,7 @@ static int finish_step(Integrator *run, Step *step, const Parameters *p)
     if (!all_finite(step->y, N_Y))
         return NOT_FINITE;
     memcpy(before, step->y, sizeof before);
-    project_unless_stabilised(run, step->t + step->h, step->y, p);
+    project_unless_stabilised(run, step->t + step->h, step->y, get_end_rounding(run), p);
     const double constraint_distance = compute_constraint_distance(run, before, step->y);
     if (constraint_distance > max_of(MAX_CONSTRAINT_DRIFT, CONSTRAINT_ROUNDING / get_rtol(run)) && run->counts.steps > 0
         && run->control.attempt.n_drift_rejections++ < MAX_DRIFT_REJECTIONS)

@@ -33,11 +33,15 @@
 enum { PATIENCE = 8, MAX_PATIENCE = 4096,
     LASTING_STEPS = 400 /* steps with a method after which the next return to it is as easy as the first */,
     RATE_ITERATIONS = 5, RECONSIDER_STEPS = 24 /* steps until the explicit method is considered again */,
-    MAX_CONTRARY_STEPS = 3 /* successive steps against the explicit method until the change */,
+    MAX_CONTRARY_STEPS = 3 /* successive steps against the explicit method until the first change */,
+    MAX_CONTRARY_LIMIT = 1024 /* the same after changes that did not pay, at most about */,
+    CHECK_STIFF_STEPS = 32 /* steps of the stiff method between comparisons of its length with the explicit one */,
     COMPARE_FROM = 8, COMPARE_TO = 200 /* steps after a change in which the lengths of both methods are compared */,
     MAX_SHORTENED = 12 /* reductions by four: what remains unresolved then is rounding */ };
 #define FILM_ERROR_RATIO 0.7   /* largest ratio of the film errors of a shorter and a longer step without rounding */
 #define MIN_TRANSIENT_FRACTION 1e-9     /* of the times: in shorter steps no transients are searched */
+#define STIFF_COST 1.3             /* times a step of the explicit method: processor time of a stiff step */
+#define LENGTH_MEMORY 0.8          /* weight of the mean length of the steps before the last one */
 #define STIFF_LENGTH_RATIO 0.8     /* of the stiff step length: an explicit step must be longer to be cheaper */
 #define WORK_TOL 10.0    /* times rtol: allowed error of the works of a step relative to the energy throughput */
 #define SEPARATION_MARGIN 1.05    /* of the estimated time to a separation: length of a step that ends after it */
@@ -71,6 +75,7 @@ static void set_method_choice(Integrator *run, int method, int stiff_method)
     run->choice.method = METHODS[method];
     run->choice.automatic = stiff_method > 0;
     run->choice.implicit = METHODS[stiff_method];
+    run->choice.max_contrary_steps = MAX_CONTRARY_STEPS;
     run->choice.patience = stiff_method && METHODS[method]->stiff ? 4 * PATIENCE : PATIENCE;
 }
 
@@ -99,6 +104,8 @@ static void change_method(Integrator *run)
             : run->choice.patience < MAX_PATIENCE ? 2 * run->choice.patience : run->choice.patience;
     run->control.h_stiff = stiff ? run->control.h : 0.0;
     run->choice.method = stiff ? EXPLICIT : run->choice.implicit;
+    if (!stiff)
+        run->choice.mean_length[1] = 0.0;
     run->choice.n_contrary_steps = 0;
     run->choice.since = 0;
 }
@@ -133,10 +140,24 @@ static double estimate_largest_rate(Integrator *run, const Parameters *p)
 }
 
 /*
+ * Update the mean length of recent steps of the method with one of length h (s). Return whether the stiff method does
+ * not pay: its steps are not STIFF_COST times as long as the explicit ones before. They are compared COMPARE_FROM steps
+ * after the change and each CHECK_STIFF_STEPS steps.
+ */
+static int is_stiff_method_slower(MethodChoice *choice, double h)
+{
+    double *mean = &choice->mean_length[!!choice->method->stiff];
+    *mean = *mean > 0.0 ? LENGTH_MEMORY * *mean + (1.0 - LENGTH_MEMORY) * h : h;
+    return choice->method->stiff && choice->since % CHECK_STIFF_STEPS == COMPARE_FROM
+        && choice->mean_length[1] < STIFF_COST * choice->mean_length[0];
+}
+
+/*
  * Count whether the accepted step speaks against its method, and change the method of an automatic run after enough
  * such steps. The explicit method is left when stability limits its steps, or its steps are shorter than those of the
- * stiff one. The stiff method is left when stability would not limit explicit steps; rho is then estimated first.
- * Called after each accepted step.
+ * stiff one. The stiff method is left when stability would not limit explicit steps; rho is then estimated first. It is
+ * also left when its steps do not pay, and the next change to it then needs twice as many steps. Called after each
+ * accepted step.
  */
 static void choose_method(Integrator *run, const Parameters *p)
 {
@@ -145,10 +166,17 @@ static void choose_method(Integrator *run, const Parameters *p)
         && run->control.h < STIFF_LENGTH_RATIO * run->control.h_stiff;
     const int stiff = run->choice.method->stiff;
     const double stability = run->choice.h_rho;
+    if (is_stiff_method_slower(&run->choice, run->step.h) && run->choice.automatic) {
+        run->choice.max_contrary_steps *= run->choice.max_contrary_steps < MAX_CONTRARY_LIMIT ? 2 : 1;
+        run->choice.rate = 0.0;
+        change_method(run);
+        return;
+    }
     const int against = stiff ? stability < MAX_EXPLICIT_STABILITY : stability > run->choice.method->bounded || slower;
     run->choice.n_contrary_steps = against ? run->choice.n_contrary_steps + 1 : 0;
     run->choice.since++;
-    if (!run->choice.automatic || run->choice.n_contrary_steps < (stiff ? run->choice.patience : MAX_CONTRARY_STEPS))
+    const int n_needed = stiff ? run->choice.patience : run->choice.max_contrary_steps;
+    if (!run->choice.automatic || run->choice.n_contrary_steps < n_needed)
         return;
     const double rate = stiff ? estimate_largest_rate(run, p) : 0.0;
     if (rate * run->control.h < MAX_EXPLICIT_STABILITY)

@@ -6,6 +6,8 @@
  */
 #if TAYLOR
 #define TAYLOR_EFFORT 0.7 /* orders per factor e of the tolerance */
+#define TAYLOR_ROUNDING 1e-14 /* of velocities: a smaller defect at the end of a step may be rounding */
+enum { TAYLOR_DEFECT = 5 /* log2 of the largest defect at the end of a step, in tolerances; less at low orders */ };
 enum { MIN_TAYLOR_ORDER = 4 };
 
 static const double taylor_error_nodes[] = {0.0};
@@ -45,7 +47,7 @@ static int expand_series(Integrator *run, const Parameters *p)
     if (status)
         return status;
     count_evaluations(run, run->series.ready != IN_LANE);
-    run->series.max_step = taylor_compute_max_length(run);
+    run->series.max_step = round_step_length(run, taylor_compute_max_length(run));
     run->series.ready = IN_RUN;
     return 0;
 }
@@ -60,7 +62,9 @@ static int taylor_try_step(Integrator *run, double h, const Parameters *p, Step 
     const int status = expand_series(run, p);
     if (status || !all_finite(run->series.terms[run->series.order], N_Y)) {
         step->method = &dop853; /* links in one line: its right-hand side passes singular positions */
-        return dop853_try_step(run, h, p, step);
+        const int status_of_other = dop853_try_step(run, h, p, step);
+        memset(run->series.next_lost, 0, sizeof run->series.next_lost);
+        return status_of_other;
     }
     const int status_of_step = taylor_try_series_step(run, h, p, step);
     set_attempt_step_length(run, step->h);
@@ -113,22 +117,44 @@ static const Method taylor = {.name = "taylor",
     .n_error_nodes = COUNT_OF(taylor_error_nodes),
     .controls_length = 1};
 
-/* Set the order of the series of a run from the relative tolerance of its steps. */
-static void set_series_order(Integrator *run, double tolerance) { run->series.order = choose_taylor_order(tolerance); }
+/*
+ * Set the order of the series of a run, and the allowed defect at the end of a step, from the relative tolerance of the
+ * steps: 2^5 tolerances or TAYLOR_ROUNDING, less at low orders.
+ */
+static void set_series_order(Integrator *run, double tolerance)
+{
+    run->series.order = choose_taylor_order(tolerance);
+    const int log2_defect = run->series.order - 4 < TAYLOR_DEFECT ? run->series.order - 4 : TAYLOR_DEFECT;
+    run->series.defect_weight = min_of(1.0, tolerance / TAYLOR_ROUNDING) / (1 << log2_defect);
+}
 
-/* Discard the stored series of a run, because its state changes. */
-static void discard_series(Integrator *run) { run->series.ready = 0; }
+/* Return the rounding errors (N_Y) of the state at the end of the tried step. */
+static double *get_end_rounding(Integrator *run) { return run->series.next_lost; }
+
+/*
+ * Discard the stored series of a run, because its state changes. is_whole: whether the new state is the end of a whole
+ * step, whose rounding error is kept.
+ */
+static void discard_series(Integrator *run, int is_whole)
+{
+    run->series.ready = 0;
+    for (int i = 0; i < N_Y; i++)
+        run->series.lost[i] = is_whole ? run->series.next_lost[i] : 0.0;
+}
 
 /*
  * Return the largest length in s of the next tried step: TAYLOR_AHEAD times the longest valid one of the last series.
  */
 static double get_max_attempt_length(const Integrator *run) { return TAYLOR_AHEAD * run->series.max_step; }
 #else
+/* Return NULL: only Taylor's method knows the rounding errors of the state. */
+static inline double *get_end_rounding(Integrator *run) { return (void)run, NULL; }
+
 /* Do nothing: the library has no Taylor method. */
 static inline void set_series_order(Integrator *run, double tolerance) { (void)run, (void)tolerance; }
 
 /* Do nothing: the library has no Taylor method. */
-static inline void discard_series(Integrator *run) { (void)run; }
+static inline void discard_series(Integrator *run, int is_whole) { (void)run, (void)is_whole; }
 
 /* Return infinity: the library has no Taylor method. */
 static inline double get_max_attempt_length(const Integrator *run) { return (void)run, INFINITY; }

@@ -5,7 +5,8 @@
 #include "../scalar_simd/scalar.h"
 
 #define SeriesWide Wide
-typedef double SeriesRow __attribute__((vector_size(REGISTER)));
+/* few products: a register of half the width has no idle parts */
+typedef double SeriesRow __attribute__((vector_size(TAYLOR <= 8 && REGISTER > 32 ? 32 : REGISTER)));
 #include "../scalar_simd/series.h"
 
 /*

@@ -223,7 +223,9 @@ typedef struct {
     const Method *method, *implicit; /* method of the next step; the stiff method of `auto` */
     double h_rho; /* h rho of the last tried step: its length times the largest rate of the motion */
     double rate; /* rho, 1/s, where `auto` returned to the explicit method */
+    double mean_length[2]; /* s: of recent steps of the explicit and of the stiff method; 0: none */
     int automatic, n_contrary_steps, patience, since;
+    int max_contrary_steps; /* steps against the explicit method until the change */
 } MethodChoice;
 
 /*
@@ -295,9 +297,12 @@ typedef struct {
  */
 typedef struct {
     int order, ready;   /* ready: where the series is stored, as in NewtonIteration */
+    double defect_weight; /* 1 / (the allowed defect at the end of a step, in tolerances) */
     const double *lane; /* IN_LANE: its terms, with a stride of `lanes` numbers */
     int lanes;
-    double max_step, terms[TAYLOR_ORDERS + 1][TAYLOR_Y]; /* longest step of the series, s */
+    /* longest step of the series, s; rounding errors of the sums y, at the beginning and at the end of a step */
+    double max_step, lost[N_Y], next_lost[N_Y];
+    double terms[TAYLOR_ORDERS + 1][TAYLOR_Y];
 } Series;
 #endif
 

@@ -1,11 +1,27 @@
 /* Projection of a state onto the constraint equations. */
 
+#include "compensated_sum.h"
+
+/*
+ * Subtract a correction from a component *y of the state where the mask is true. lost: rounding errors of *y so far, to
+ * which the new one is added; NULL: they are not known.
+ */
+static inline void subtract_correction(Mask is_active, Real correction, Real *y, Real *lost)
+{
+    Real after = *y;
+    const Real error = add_compensated(&after, -correction);
+    *y = select_value(is_active, after, *y);
+    if (lost)
+        *lost = select_value(is_active, *lost + error, *lost);
+}
+
 /*
  * Project state y in place onto Phi = 0 and Phi_dot = 0, by the smallest changes of q and v in the norm of M. Up to
  * three passes are made, until the residual is below 1e-15; velocities use the corrected positions. If the corrections
- * cannot be computed, as with links in line, the state is left as it is.
+ * cannot be computed, as with links in line, the state is left as it is. lost (N_Y): rounding errors of y, NULL: they
+ * are not known.
  */
-static void project_onto_constraints(IntegratorOf *run, Real t, Real *y, const ParametersOf *p)
+static void project_onto_constraints(IntegratorOf *run, Real t, Real *y, Real *lost, const ParametersOf *p)
 {
     Mask is_active = invert_mask((Mask){0});
     for (int pass = 0; pass < 3 && N_LOOPS > 0; pass++) {
@@ -14,8 +30,8 @@ static void project_onto_constraints(IntegratorOf *run, Real t, Real *y, const P
         if (!any_of(is_active))
             return;
         for (int k = 0; k < N_X; k++) {
-            y[k] = select_value(is_active, y[k] - dq[k], y[k]);
-            y[N_X + k] = select_value(is_active, y[N_X + k] - dv[k], y[N_X + k]);
+            subtract_correction(is_active, dq[k], &y[k], lost ? &lost[k] : NULL);
+            subtract_correction(is_active, dv[k], &y[N_X + k], lost ? &lost[N_X + k] : NULL);
         }
         is_active &= invert_mask(residual < 1e-15);
         if (!any_of(is_active))

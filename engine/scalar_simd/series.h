@@ -7,9 +7,9 @@
 #define SERIES_NOINLINE __attribute__((noinline)) /* the address of thread-local memory is found only once */
 
 enum {
-    SERIES_PAIR = 2 * sizeof(SeriesRow), /* products are processed in independent pairs */
-    SERIES_WHOLE = SERIES_PAIR > sizeof(SeriesWide) ? SERIES_PAIR : sizeof(SeriesWide),
-    SERIES_ROWS = (TAYLOR * sizeof(Real) + SERIES_WHOLE - 1) / SERIES_WHOLE * (SERIES_WHOLE / sizeof(SeriesRow))
+    SERIES_WHOLE = sizeof(SeriesRow) > sizeof(SeriesWide) ? sizeof(SeriesRow) : sizeof(SeriesWide),
+    SERIES_ROWS = (TAYLOR * sizeof(Real) + SERIES_WHOLE - 1) / SERIES_WHOLE * (SERIES_WHOLE / sizeof(SeriesRow)),
+    SERIES_USED = (TAYLOR * sizeof(Real) + sizeof(SeriesRow) - 1) / sizeof(SeriesRow) /* rows with products */
 };
 
 /* The sums of all products, as the derived functions and as the loops read them. */
@@ -19,39 +19,40 @@ typedef union {
 } SeriesSums;
 
 /*
- * Compute the inner terms of the Cauchy products of all pairs at orders k and k + 1, from orders below k of both
- * factors. sum: left_1 right_{k-1} + ... + left_{k-1} right_1. next_sum: of order k + 1 all terms but left_1 right_k
- * and left_k right_1, which add_outer_products() adds.
+ * Compute the inner terms of the Cauchy products of all pairs at orders k and k + 1, for even k, from orders below k.
+ * sum: left_2 right_{k-2} + ... + left_{k-2} right_2. next_sum: left_2 right_{k-1} + ... + left_{k-1} right_2.
+ * add_outer_products() adds the other two terms. Odd and even terms are summed apart, and those of order k - 1 come
+ * last: the processor computes most of the sums before these are known.
  */
 SERIES_NOINLINE static void sum_inner_products(int k, SeriesRow (*left)[SERIES_ROWS], SeriesRow (*right)[SERIES_ROWS],
     SeriesRow *sum, SeriesRow *next_sum)
 {
-    for (int i = 0; i < SERIES_ROWS; i += 2) {
-        SeriesRow before = right[k - 1][i], now = left[1][i] * before, then = {0.0};
-        SeriesRow before_b = right[k - 1][i + 1], now_b = left[1][i + 1] * before_b, then_b = {0.0};
-        for (int j = 2; j < k; j++) {
-            const SeriesRow factor = left[j][i], factor_b = left[j][i + 1];
-            then += factor * before;
-            then_b += factor_b * before_b;
-            before = right[k - j][i];
-            before_b = right[k - j][i + 1];
-            now += factor * before;
-            now_b += factor_b * before_b;
+    for (int i = 0; i < SERIES_USED; i++) {
+        SeriesRow now = {0.0}, now_even = {0.0}, then = {0.0}, then_even = {0.0}, after = right[k - 2][i];
+        for (int j = 3; j < k - 2; j += 2) {
+            const SeriesRow odd = left[j][i], even = left[j + 1][i], middle = right[k - j][i];
+            then += odd * after;
+            now += odd * middle;
+            then_even += even * middle;
+            after = right[k - j - 1][i];
+            now_even += even * after;
         }
-        sum[i] = now, sum[i + 1] = now_b;
-        next_sum[i] = then, next_sum[i + 1] = then_b;
+        if (k > 2) {
+            now_even += left[2][i] * right[k - 2][i];
+            then += left[k - 1][i] * right[2][i];
+            then_even += left[2][i] * right[k - 1][i];
+        }
+        sum[i] = now + now_even;
+        next_sum[i] = then + then_even;
     }
 }
 
-/*
- * Add to each sum of order k the two terms left_1 right_{k-1} and left_{k-1} right_1 that sum_inner_products() left
- * out.
- */
+/* Add left_1 right_{k-1} and left_{k-1} right_1 to each sum of order k, which sum_inner_products() left out. */
 SERIES_NOINLINE static void add_outer_products(int k, SeriesRow (*left)[SERIES_ROWS], SeriesRow (*right)[SERIES_ROWS],
     SeriesRow *sum)
 {
-    for (int i = 0; i < SERIES_ROWS; i++)
-        sum[i] += left[1][i] * right[k - 1][i] + left[k - 1][i] * right[1][i];
+    for (int i = 0; i < SERIES_USED; i++)
+        sum[i] = (k > 2 ? sum[i] + left[k - 1][i] * right[1][i] : sum[i]) + left[1][i] * right[k - 1][i];
 }
 
 /*
@@ -69,8 +70,8 @@ SERIES_NOINLINE static void compute_series_orders(const ParametersOf *p, const T
         Real *next = c[k + 1];
         if (k % 2 == 0)
             sum_inner_products(k, left, right, sum[0].row, sum[1].row);
-        else if (k > 1)
-            add_outer_products(k, left, right, sum[1].row);
+        if (k > 1)
+            add_outer_products(k, left, right, sum[k % 2].row);
         for (int i = 0; i < N_X; i++)
             next[i] = c[k][N_X + i] * make_real(1.0 / (k + 1));
         taylor_terms(make_real(k), make_real(1.0 / k), make_real(1.0 / (k + 1)), make_real(k == 1 ? 1.0 : 0.0), c[k],
@@ -83,5 +84,6 @@ SERIES_NOINLINE static void compute_series_orders(const ParametersOf *p, const T
 static SeriesRow (*get_series_factors(void))[TAYLOR_ORDERS][SERIES_ROWS]
 {
     static _Thread_local SeriesRow factors[2][TAYLOR_ORDERS][SERIES_ROWS];
-    return factors;
+    SeriesRow (*volatile address)[TAYLOR_ORDERS][SERIES_ROWS] = factors; /* else each function would find it anew */
+    return address;
 }

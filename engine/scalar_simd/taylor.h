@@ -6,7 +6,6 @@ enum { SERIES_PART = sizeof(SeriesPart) / sizeof(Real) };
 
 #define TAYLOR_DECAY 2.0 /* log2 of the factor by which a term may exceed the tolerance per lower order */
 #define TAYLOR_AHEAD 8.0 /* times the last step: first limit of the next one */
-enum { TAYLOR_DEFECT = 5 /* log2 of the largest defect at the end of a step, in tolerances; less at low orders */ };
 
 /*
  * Return the longest step in s for which the last two terms of the series do not exceed the tolerance. Symmetry may
@@ -41,9 +40,10 @@ static Real taylor_compute_max_length_by_all_terms(const IntegratorOf *run)
 }
 
 /*
- * Evaluate the series at time h (s) after the run's state: the state y and its rate, by even and odd powers separately.
+ * Evaluate the series at time h (s) after the run's state: the change of the state and its rate, by even and odd powers
+ * separately. The change has the relative precision of its own size, not of the state's.
  */
-static inline void taylor_evaluate_state_and_rate(const IntegratorOf *run, Real h, Real *y, Real *rate)
+static inline void taylor_evaluate_change_and_rate(const IntegratorOf *run, Real h, Real *change, Real *rate)
 {
     const int top = run->series.order - run->series.order % 2;
     const Real square = h * h;
@@ -53,17 +53,20 @@ static inline void taylor_evaluate_state_and_rate(const IntegratorOf *run, Real 
         SeriesPart even_slope = {0.0}, odd_slope = {0.0};
         if (top < run->series.order)
             odd = *(const SeriesPart *)(run->series.terms[top + 1] + i);
-        for (int k = top - 2; k >= 0; k -= 2) {
+        for (int k = top - 2; k > 0; k -= 2) {
             even_slope = even + square * even_slope;
             odd_slope = odd + square * odd_slope;
             even = *(const SeriesPart *)(run->series.terms[k] + i) + square * even;
             odd = *(const SeriesPart *)(run->series.terms[k + 1] + i) + square * odd;
         }
-        *(SeriesPart *)(all + i) = even + h * odd;
+        even_slope = even + square * even_slope;
+        odd_slope = odd + square * odd_slope;
+        odd = *(const SeriesPart *)(run->series.terms[1] + i) + square * odd;
+        *(SeriesPart *)(all + i) = h * odd + square * even;
         *(SeriesPart *)(slope + i) = odd + 2.0 * (h * even_slope + square * odd_slope);
     }
     for (int i = 0; i < N_Y; i++) {
-        y[i] = all[i];
+        change[i] = all[i];
         rate[i] = slope[i];
     }
 }
@@ -74,21 +77,32 @@ static inline void taylor_evaluate_state_and_rate(const IntegratorOf *run, Real 
  */
 static inline void taylor_evaluate_state(const IntegratorOf *run, Real h, Real *y)
 {
-    Real rate[N_Y];
-    taylor_evaluate_state_and_rate(run, h, y, rate);
+    Real change[N_Y], rate[N_Y];
+    taylor_evaluate_change_and_rate(run, h, change, rate);
+    for (int i = 0; i < N_Y; i++)
+        y[i] = run->series.terms[0][i] + (run->series.lost[i] + change[i]);
+}
+
+/*
+ * Return the step length next to h (s) for which the time at its end is exact, h itself if h is too short for that.
+ * Times then have no rounding errors that add up.
+ */
+static inline Real round_step_length(const IntegratorOf *run, Real h)
+{
+    const Real rounded = (run->t + h) - run->t;
+    return select_value(rounded > 0.0, rounded, h);
 }
 
 /*
  * Return the defect h |y' - f| at the end of a step in the error norm of velocities, relative to the allowed one. rate:
- * y' of the series; f: step->dy. The allowed defect is 2^5 tolerances, less at low orders.
+ * y' of the series; f: step->dy.
  */
 static Real taylor_compute_defect(const IntegratorOf *run, const StepOf *step, const Real *rate)
 {
-    const int max_log2 = run->series.order - 4;
     Real largest = make_real(0.0);
     for (int i = N_X; i < 2 * N_X; i++)
         largest = real_max(largest, real_abs(step->h * (rate[i] - step->dy[i])) * run->norm.weight[i]);
-    return largest * (1.0 / (1 << (max_log2 < TAYLOR_DEFECT ? max_log2 : TAYLOR_DEFECT)));
+    return largest * run->series.defect_weight;
 }
 
 /*
@@ -99,7 +113,7 @@ static Real taylor_compute_defect(const IntegratorOf *run, const StepOf *step, c
 static int taylor_try_series_step(IntegratorOf *run, Real h, const ParametersOf *p, StepOf *step)
 {
     const int is_adaptive = !(run->control.fixed > 0.0);
-    Real rate[N_Y], defect;
+    Real change[N_Y], rate[N_Y], defect;
     int status;
     if (is_adaptive)
         h = real_min(h, run->series.max_step);
@@ -108,7 +122,11 @@ static int taylor_try_series_step(IntegratorOf *run, Real h, const ParametersOf 
     store_stiffness_estimate(run, make_real(0.0));
     for (int is_repeated = 0;; is_repeated = 1) {
         step->h = h;
-        taylor_evaluate_state_and_rate(run, h, step->y, rate);
+        taylor_evaluate_change_and_rate(run, h, change, rate);
+        for (int i = 0; i < N_Y; i++) {
+            step->y[i] = run->series.terms[0][i];
+            run->series.next_lost[i] = add_compensated(&step->y[i], run->series.lost[i] + change[i]);
+        }
         step->error = is_adaptive ? h / run->series.max_step : make_real(0.0); /* root of the error: accepted up to 1 */
         if (!is_repeated && is_step_rejected(run, step))
             return 0;
@@ -119,7 +137,8 @@ static int taylor_try_series_step(IntegratorOf *run, Real h, const ParametersOf 
         const Mask is_large = defect > 1.0;
         if (is_repeated || !any_of(is_large))
             break;
-        const Real shorter = real_min(run->series.max_step, taylor_compute_max_length_by_all_terms(run));
+        const Real shorter =
+            round_step_length(run, real_min(run->series.max_step, taylor_compute_max_length_by_all_terms(run)));
         run->series.max_step = select_value(is_large, shorter, run->series.max_step);
         h = real_min(h, run->series.max_step);
         uncount_end_evaluation(run);

@@ -23,7 +23,7 @@ enum {
 };
 
 enum {
-    TAYLOR_ORDERS = 26,                /* of a series, at most: for the smallest tolerance */
+    TAYLOR_ORDERS = 27,                /* of a series, at most: for the smallest tolerance */
     TAYLOR_Y = (N_Y + 7) / 8 * 8       /* numbers of an order: those of N_Y, in whole vectors */
 };
 

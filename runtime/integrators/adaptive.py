@@ -33,7 +33,7 @@ from numpy.typing import NDArray
 
 from gudgeon.assembly.linkage import find_angles
 from gudgeon.contract.kernel_source import KernelSource, RuntimeParameter
-from gudgeon.contract.methods import ADAPTIVE, CHOOSING, EXPLICIT, FINE, KINEMATIC, STAGED, STIFF
+from gudgeon.contract.methods import ADAPTIVE, CHOOSING, EXPLICIT, FINE, KINEMATIC, SMOOTH, STAGED, STIFF
 from gudgeon.errors import BadValueError, InputError
 from gudgeon.model.cached_values import cache_by_values
 from gudgeon.model.compiled import Array, CompiledModel
@@ -49,6 +49,7 @@ from gudgeon.model.sizes import (
 RTOL = 1e-8  # default tolerance of a run
 FELT_BY_FILMS = 0.015  # largest error of velocities relative to the speeds within a film
 SMALLEST = 1e-14  # smallest rtol: below it, rounding errors would be controlled
+SMALLEST_COMPENSATED = 1e-16  # the same for SMOOTH methods, which keep the rounding errors of their sums
 
 
 def parse_tolerance(rtol: float | str | None, method: str, has_fixed_step: bool) -> float:
@@ -67,10 +68,11 @@ def parse_tolerance(rtol: float | str | None, method: str, has_fixed_step: bool)
         value = read_parameter_value(rtol, RuntimeParameter("rtol", "", 0.0, False, (0, 0, 0)))
     except InputError:
         value = math.nan
-    if not SMALLEST <= value < 1.0:
+    smallest = SMALLEST_COMPENSATED if method in SMOOTH else SMALLEST
+    if not smallest <= value < 1.0:
         message = f"{value:g}" if math.isfinite(value) else repr(rtol)
         raise BadValueError(
-            f"rtol is {message}: expected a share from {SMALLEST:g} to 1, such as 1e-8",
+            f"rtol is {message}: expected a share from {smallest:g} to 1, such as 1e-8",
             hint="below that rounding would be controlled" if 0.0 < value < 1.0 else "",
         )
     return value

@@ -332,3 +332,13 @@ def test_tolerances_that_are_none() -> None:
     for rtol in (0.0, -1e-6, 2.0, math.nan):
         with pytest.raises(gudgeon.GudgeonError, match="rtol"):
             scene_of("pendulum").simulate(1.0, rtol=rtol)
+
+
+def test_auto_leaves_stiff_steps_that_do_not_pay() -> None:
+    """Contacts of the dry slider-crank are stiff for a few steps: auto takes about as many steps as dop853."""
+    crank = scene_of("slider_crank", "dry")
+    auto, explicit = (
+        crank.simulate(0.1, output=1, method=method, rtol=1e-4).diagnostics for method in ("auto", "dop853")
+    )
+    assert auto.steps < 1.2 * explicit.steps
+    assert 0 < auto.stiff_steps < 0.3 * auto.steps
