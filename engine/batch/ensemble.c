@@ -119,7 +119,10 @@ static int make_steps(const Batch *batch, long i, long max_steps, Integrator *ru
     return status;
 }
 
-/* Remove sample k > 0 of run i, which is not finite, and all later ones; the last state becomes sample k - 1. */
+/*
+ * Remove sample k > 0 of run i, which is not finite, and all later ones. Set the number of samples to k, the last state
+ * to a copy of sample k - 1, and the time at which the run ended to that of sample k.
+ */
 static void truncate_samples(const Batch *batch, long i, long k)
 {
     batch->done[i] = k;

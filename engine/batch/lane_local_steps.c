@@ -52,9 +52,10 @@ static Lanes compute_time_scale(const LaneLocalSteps *local_steps, const LaneInt
 }
 
 /*
- * Accept the tried steps that need no action of their run, and set the next lengths h of these lanes. Return their
- * mask. These steps end before the next sample and the end of the run, are not too short and are finite. State, speeds,
- * energy scale and error weights of the lanes are updated as after a single step.
+ * Accept the tried steps of Taylor series that need no action of their run, and return the mask of their lanes. These
+ * steps end before the next sample and the end of the run, are not too short and are finite. State, speeds, energy
+ * scale and error weights of the lanes are updated as after a single step. The next length h is TAYLOR_AHEAD of the
+ * series' longest step, or the rest of the run. may_accept is cleared in lanes with max_local_steps accepted steps.
  */
 static LaneBits accept_lane_local_steps(
     LaneLocalSteps *local_steps, LaneIntegrator *lanes, const LaneStep *step, Lanes *h)

@@ -76,7 +76,11 @@ static inline void mark_switches_unused(Lanes *g, int first, int last)
     for (int k = first; k < last; k++)
         g[k] = broadcast(NAN);
 }
-/* Move the values of switching functions first to last - 1 to `film_switches`, and mark them in g as not in use. */
+
+/*
+ * Copy the values g[k] of switching functions first to last - 1 to film_switches[k], and mark them in g as not in use.
+ * Called by the function of a joint with play before its dry contact writes to g; merge_switches() then selects.
+ */
 static inline void move_film_switches(Lanes *g, Lanes *film_switches, int first, int last)
 {
     for (int k = first; k < last; k++)

@@ -50,8 +50,9 @@ typedef struct {
 
 /*
  * Add the contribution of a node, a regular state y with rates and multipliers, to `interpolated_motion`.
- * node_distance: distance of the node from the singular position in nodes, 1 ... N_SIDE_NODES. The last node does not
- * count for the lower degree.
+ * node_distance: distance of the node from the singular position in nodes, 1 ... N_SIDE_NODES, the same on both sides,
+ * which have equal weights. The accelerations `lower` of the polynomial of lower degree, which leaves out the last
+ * nodes, serve as error estimate (has_interpolation_converged()).
  */
 static void add_interpolation_node(
     int node_distance, const double *y, const double *dy, const RhsOutputs *rhs, ContinuedMotion *interpolated_motion)

@@ -64,10 +64,11 @@ static int diagnose_stall(const Integrator *run, int default_status, const Param
 }
 
 /*
- * Update the branches of switching functions after velocities have jumped, because friction in closed contacts depends
- * on them. At most six passes; nothing happens if branches are not frozen. A failed evaluation is left to the next one.
+ * Set the frozen branch of each switching function to the sign of its value, after velocities have jumped: friction in
+ * closed contacts depends on the branches. At most six passes; nothing happens if branches are not frozen. The caller's
+ * next evaluation reports a failed evaluation.
  */
-static void update_slip_branches(Integrator *run, const Parameters *p)
+static void update_frozen_branches(Integrator *run, const Parameters *p)
 {
     int changed = N_SWITCHES && run->discrete.is_frozen;
     for (int pass = 0; pass < 6 && changed; pass++) {
@@ -288,7 +289,7 @@ static inline int diagnose_stall(const Integrator *run, int default_status, cons
 }
 
 /* Leave the branches unchanged: no friction between rigid surfaces depends on the slip. */
-static inline void update_slip_branches(Integrator *run, const Parameters *p) { (void)run, (void)p; }
+static inline void update_frozen_branches(Integrator *run, const Parameters *p) { (void)run, (void)p; }
 
 /* Return 0: the scene has no friction between rigid surfaces. */
 static inline int compute_friction_impulses(

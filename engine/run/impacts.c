@@ -127,7 +127,7 @@ static int resolve_impact(Integrator *run, const Parameters *p, int n_impacts_be
     if (status || !has_impact)
         return status;
     apply_impulses(run, &impact, impulse, approach_speed, &friction, p);
-    update_slip_branches(run, p);
+    update_frozen_branches(run, p);
     for (int k = 0; k < impact.n && !status; k++) {
         const int i = impact.joint[k];
         const double u = approach_speed[k] > compute_resting_speed_limit(min_rate, p, i) ? approach_speed[k]
@@ -161,7 +161,7 @@ static int update_closed_contacts(Integrator *run, int opening_joint, const Para
         if (is_resting[i])
             contacts.joint[contacts.n++] = i;
     }
-    update_slip_branches(run, p);
+    update_frozen_branches(run, p);
     int status = contacts.n ? compute_present_delassus(run, p, &contacts) : 0;
     if (!status)
         status = is_frictionally_inconsistent(&contacts, 1, p) ? FRICTION_INCONSISTENT

@@ -1,4 +1,4 @@
-/* The report of a run to Python: samples, counts, residuals, and whether lists must be fetched. */
+/* The report of a run to Python: samples, counts, residuals, and whether contact and event lists must be fetched. */
 #include <string.h>
 
 /*

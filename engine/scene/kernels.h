@@ -103,6 +103,7 @@ int linearize_state(double t, const double *y, DiscreteState *discrete, const Pa
     const RhsOutputs *rhs, Linear *lin);
 void linearize(double t, const double *q, const double *v, const DiscreteState *discrete, const Parameters *p,
     const double *a, const RhsOutputs *rhs, Linear *lin);
+/* One Newton step dq, dv of the projection onto the constraints, to be subtracted; *worst: the largest |Phi|. */
 int closing_step(double t, const double *q, const double *v, const DiscreteState *discrete, const Parameters *p,
     double *dq, double *dv, double *worst);
 int newton_factor(double eta, Linear *lin);

@@ -1,4 +1,8 @@
-/* Steps of the computation of sine, logarithm, exponential and power (functions.h), for a number or a SIMD vector. */
+/*
+ * Parts of sine, cosine, logarithm, exponential and power (functions.h), for a number or a SIMD vector. The including
+ * file defines the number type PARTS_REAL (double or Lanes), its bits PARTS_BITS, and PARTS_FUNCTION(name), the name of
+ * a function for that type (name or lanes_name); also PARTS_POWER, the exponent, and PARTS_ENTRY, a table's entry.
+ */
 /*
  * Reduce the argument x (rad, |x| < TURN_LIMIT = 1e5) to r in [-pi/4, pi/4]: x = k pi/2 + r + *error, the rounding
  * error of r. Return the last two bits of k, the quadrant. Larger x lose accuracy: callers use the C library for them.
@@ -15,7 +19,7 @@ static inline PARTS_BITS PARTS_FUNCTION(reduce_angle)(PARTS_REAL x, PARTS_REAL *
     return PARTS_FUNCTION(to_bits)(shifted) & 3;
 }
 
-/* Return sin(r + error) for |r| <= pi/4 and its rounding error, by fdlibm's polynomial. */
+/* Return sin(r + error), |r| <= pi/4, by fdlibm's polynomial; error: the rounding error of r (reduce_angle()). */
 static inline PARTS_REAL PARTS_FUNCTION(sine_near_zero)(PARTS_REAL r, PARTS_REAL error)
 {
     const PARTS_REAL z = r * r, cube = z * r;
@@ -24,7 +28,7 @@ static inline PARTS_REAL PARTS_FUNCTION(sine_near_zero)(PARTS_REAL r, PARTS_REAL
     return r - (z * (0.5 * error - cube * high) - error - cube * -1.66666666666666324348e-01);
 }
 
-/* Return cos(r + error) for |r| <= pi/4 and its rounding error, by fdlibm's polynomial. */
+/* Return cos(r + error), |r| <= pi/4, by fdlibm's polynomial; error: the rounding error of r (reduce_angle()). */
 static inline PARTS_REAL PARTS_FUNCTION(cosine_near_zero)(PARTS_REAL r, PARTS_REAL error)
 {
     const PARTS_REAL z = r * r, half = 0.5 * z, less = 1.0 - half;

@@ -7,7 +7,7 @@
 #include "start.h"
 
 #define FAR 0.5      /* rad: a larger change of a guessed angle needs the search in Python (closure.py) */
-#define APART 0.2    /* the same of a guessed position, as a fraction of the size (followed.py) */
+#define APART 0.2    /* the same of a guessed position, as a fraction of the size (assembly/guess_warnings.py) */
 #define MIRRORED 0.1 /* of both: for larger changes the mirrored configuration is tried */
 #define SMALL_INERTIA 1e-9 /* of m size^2: least moment of inertia in the norm (sizes.py) */
 #define NEARER 1e-5  /* least relative difference of distances for a nearer configuration */

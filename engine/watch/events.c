@@ -116,11 +116,12 @@ static double find_first_negative_stage(const Step *step, int event, double end_
 }
 
 /*
- * Return a fraction of the step at which an event function is negative, as the upper end of its bracket, and set *value
- * to its value there; 0: none. event: number of the function, not of a gap. For watched functions it is the first
- * negative sample; for others it is a negative stage that the dense output confirms, or the end.
+ * Return the upper end of a bracket of an event function's zero: a fraction (0 to 1) of the step at which its value
+ * is negative, stored in *value; 0: none. event: number of the function, not of a gap. For watched functions (switching
+ * points and user events) it is the first negative sample, or the end that bounds have found. For others it is a
+ * negative stage that the dense output confirms, or the end of the step.
  */
-static double find_negative_fraction(Integrator *run, Step *step, int event, const Parameters *p, double *value)
+static double find_bracket_end(Integrator *run, Step *step, int event, const Parameters *p, double *value)
 {
     if (watched_as[event] >= 0)
         return find_first_negative_sample(run, step, watched_as[event], p, value);
@@ -219,7 +220,7 @@ static int has_event_candidate(Integrator *run, Step *step, int event, const Par
     const int is_gap = isfinite(low.slope), sampled = is_gap || is_contact_force_function(run, event);
     const int candidates = is_gap ? has_gap_zero(run, step, event, p, max_fraction, &low, &end)
         : sampled ? has_force_zero(run, step, event, p, &low, &end) : 0;
-    const double high = sampled ? candidates * end.s : find_negative_fraction(run, step, event, p, &value_high);
+    const double high = sampled ? candidates * end.s : find_bracket_end(run, step, event, p, &value_high);
     if (high == 0.0 || compute_dense_output(run, p, step))
         return 0;
     if (watched_as[event] >= 0 && step->from[watched_as[event]] > 0.0) {

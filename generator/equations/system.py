@@ -42,7 +42,10 @@ class PrescribedCoordinate:
 
 @dataclass(frozen=True)
 class DependentCoordinate:
-    """A dependent coordinate of a loop that drives determine, a function of t, with its first three rates."""
+    """A dependent coordinate of a loop that drives determine, a function of t, with its first three rates.
+
+    `rate`, `second` and `third` are its first, second and third time derivatives.
+    """
 
     q: sp.Symbol
     rate: sp.Symbol

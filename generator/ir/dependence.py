@@ -44,7 +44,7 @@ def propagate_marks(function: Readable, find_marks: Callable[[Statement | Branch
             name = line.declared_local or name_of_place.get(line.target, line.target)
             line_marks = marks_by_name[name] | find_marks(line)
             marks_of_stored[line.target] |= line_marks
-            for key in _find_read_keys(line, function):
+            for key in _find_used_variables(line, function):
                 marks_by_name[key] |= line_marks
     marks_of_parameters: defaultdict[Place, set[str]] = defaultdict(set)
     for name, line_marks in marks_by_name.items():
@@ -54,10 +54,10 @@ def propagate_marks(function: Readable, find_marks: Callable[[Statement | Branch
     return LineMarks(_freeze_sets(marks_of_stored), _freeze_sets(marks_of_parameters))
 
 
-def _find_read_keys(line: Statement | Branch, function: Readable) -> set[Key]:
-    """Return what a line reads: names of symbols, storage places, and names of separate conditional values.
+def _find_used_variables(line: Statement | Branch, function: Readable) -> set[Key]:
+    """Return the variables that a line uses: names of symbols, storage locations, names of conditional values.
 
-    The latter have a `Branch` line of their own. The target of the line itself is not included.
+    A conditional value is one that a `Branch` line computes. The target of the line itself is not included.
     """
     keys = {find_key(symbol) for expression in line.expressions for symbol in expression.free_symbols} | set(line.reads)
     if isinstance(line, Statement) and isinstance(line.value, Place):

@@ -24,7 +24,7 @@ from gudgeon.generator.solvers.contact_slopes import (
     make_dry_derivative_kernel,
     make_film_derivative_kernel,
     make_fraction_derivative_kernel,
-    read_parameters_at_places,
+    read_parameters_from_struct,
     replace_stored_speed,
 )
 from gudgeon.generator.symbols.storage import Place, Result
@@ -187,9 +187,9 @@ def make_joint_functions(model: Model, clearance: Clearance, shared_functions: S
     """
     name, film = clearance.name, clearance.film
 
-    def make_guarded_statements(steps: Sequence[Assignment]) -> Statements:
-        """Return the statements of some steps, with guards at the centre and with frozen branches."""
-        return _make_statements(model, steps, name, _guard_values(clearance, steps))
+    def make_guarded_statements(equations: Sequence[Assignment]) -> Statements:
+        """Return the statements of equations, with guards at the centre and with frozen branches."""
+        return _make_statements(model, equations, name, _guard_values(clearance, equations))
 
     laws, parts = make_law_calls(model, clearance, shared_functions), {}
     if clearance.normal is not None:
@@ -212,14 +212,14 @@ def make_joint_functions(model: Model, clearance: Clearance, shared_functions: S
     return JointFunctions(clearance, laws, gap, switch_indices=switch_range, **parts)
 
 
-def _guard_values(clearance: Clearance, steps: Sequence[Assignment]) -> Mapping[sp.Symbol, Conditional]:
-    """Return conditional values, by symbol, for the equations in `steps` that divide by zero at e = 0.
+def _guard_values(clearance: Clearance, equations: Sequence[Assignment]) -> Mapping[sp.Symbol, Conditional]:
+    """Return conditional values, by symbol, for the `equations` that divide by zero at e = 0.
 
     At e = 0 the normal is (1, 0). A wall needs none; a contour needs further ones.
     """
     if not clearance.contour:
         return {} if clearance.wall else _GUARDED_NORMAL
-    value = {step.symbol: step.value for step in steps}
+    value = {equation.symbol: equation.value for equation in equations}
     guarded = {
         symbol: Conditional(_HAS_SLANT, value[symbol], centre_value)
         for symbol, centre_value in _NORMAL_AT_CENTRE.items()
@@ -235,18 +235,21 @@ def _guard_values(clearance: Clearance, steps: Sequence[Assignment]) -> Mapping[
 
 
 def _make_statements(
-    model: Model, steps: Sequence[Assignment], owner: str, guards: Mapping[sp.Symbol, Conditional]
+    model: Model, equations: Sequence[Assignment], owner: str, guards: Mapping[sp.Symbol, Conditional]
 ) -> Statements:
     """Return equations as statements that read parameters from their struct and use the frozen branches of a joint.
 
-    `guards`: conditional values that replace those of the equations, by symbol. `owner`: the name of the joint.
+    `guards`: conditional values, by symbol, that replace those of the equations; with any guards, a statement
+    "inverse_e" = 1/e follows that of e. `owner`: the name of the joint.
     """
     statements = []
-    for step in steps:
+    for equation in equations:
         statements.append(
-            Statement(step.symbol.name, guards.get(step.symbol) or read_parameters_at_places(model, step.value))
+            Statement(
+                equation.symbol.name, guards.get(equation.symbol) or read_parameters_from_struct(model, equation.value)
+            )
         )
-        if step.symbol == contact.e and guards:  # of what has a centre
+        if equation.symbol == contact.e and guards:  # the contour has a centre
             statements.append(Statement("inverse_e", 1 / contact.e))
     (section,) = freeze_branches(model.symbols.switches, owner, [Section("", tuple(statements))])
     return tuple(item for item in section.statements if isinstance(item, Statement))

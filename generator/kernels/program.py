@@ -26,7 +26,7 @@ from gudgeon.generator.kernels.dynamics import make_dynamics_kernel
 from gudgeon.generator.kernels.event_functions import WATCHED, TimeTerms, find_time_terms, make_event_function_kernel
 from gudgeon.generator.kernels.kinematic import make_kinematic_kernels
 from gudgeon.generator.kernels.play import JointFunctions, make_derivative_calls, make_joint_functions
-from gudgeon.generator.kernels.projection import make_closing_kernel, make_projection_kernel
+from gudgeon.generator.kernels.projection import make_constraint_correction_kernel, make_projection_kernel
 from gudgeon.generator.kernels.reduced import has_singular_fallback, make_conversion_kernels, make_reduced_kernels
 from gudgeon.generator.kernels.shared import SharedFunctionCall, SharedFunctions
 from gudgeon.generator.kernels.taylor import NAME as TAYLOR
@@ -85,15 +85,16 @@ class Methods:
     """The functions that integrators need in addition to the right-hand side.
 
     `derivative_calls`: calls of the derivatives of contact forces by joint with play and part, of the functions
-    `derivative_kernels`. `closing` projects onto the constraints, `unpaired_closing` is the same before sines are
-    paired. `gains` by name: 2α and β² of Baumgarte's terms, 2α of a sticking friction, as far as they exist.
+    `derivative_kernels`. `correction_kernel` computes a step of the projection onto the constraints, for the reduced
+    formulation with paired sines; `unpaired_correction_kernel` is the same before sines are paired. `gains`: gains of
+    stabilization by name, 2α and β² of Baumgarte's terms and 2α of a sticking friction, as far as they exist.
     """
 
     newton: Newton
     derivative_calls: Mapping[str, Mapping[str, SharedFunctionCall]]
     derivative_kernels: tuple[Kernel, ...]
-    closing: Kernel
-    unpaired_closing: Kernel
+    correction_kernel: Kernel
+    unpaired_correction_kernel: Kernel
     gains: Mapping[str, sp.Expr]
     complex_kernels: tuple[Kernel, ...] = ()  # Newton's factor, substitute and solve once more
 
@@ -260,8 +261,10 @@ def _derive_tree_functions(model: Model, pivots: tuple[str, ...]) -> tuple[TreeF
 def _derive_methods(model: Model, integrated: Integrated, with_complex_kernels: bool) -> Methods:
     """Return the functions that integrators need in addition to the right-hand side.
 
-    `with_complex_kernels`: with those for methods that solve all stages together. A scene with a film has them anyway,
-    one with rigid surfaces never.
+    They are Newton's method of implicit integrators, derivatives of contact forces, the correction that projects a
+    state onto the constraints, and stabilization gains. The latter are those of Baumgarte's terms in the full
+    formulation, and that of sticking friction. `with_complex_kernels`: also the complex variant of Newton's method, for
+    methods that solve all stages together. A scene with a film has it anyway, one with rigid surfaces never.
     """
     derivatives = SharedFunctions()
     derivative_calls = {
@@ -273,9 +276,9 @@ def _derive_methods(model: Model, integrated: Integrated, with_complex_kernels: 
         alpha, beta = model.baumgarte
         gains["two_alpha"] = model.parameter_table.derive_parameter("two_alpha", 2 * alpha)
         gains["beta_squared"] = model.parameter_table.derive_parameter("beta_squared", beta**2)
-    closing = make_closing_kernel(integrated.system)
-    paired_closing = (
-        vectorize_sines(remove_unused_locals(closing)) if integrated.reduced else remove_unused_locals(closing)
+    correction = make_constraint_correction_kernel(integrated.system)
+    paired_correction = (
+        vectorize_sines(remove_unused_locals(correction)) if integrated.reduced else remove_unused_locals(correction)
     )
     has_film = any(clearance.film is not None for clearance in model.clearances)
     complex_kernels = make_complex_kernels(newton) if (with_complex_kernels or has_film) and not model.rigid else ()
@@ -283,8 +286,8 @@ def _derive_methods(model: Model, integrated: Integrated, with_complex_kernels: 
         newton,
         derivative_calls,
         tuple(derivatives.kernels),
-        paired_closing,
-        remove_unused_locals(closing),
+        paired_correction,
+        remove_unused_locals(correction),
         gains,
         complex_kernels,
     )

@@ -102,7 +102,7 @@ def raise_small_masses(system: System) -> System:
     return replace(system, mass=mass)
 
 
-def make_closing_kernel(system: System, name: str = "closing_step") -> Kernel:
+def make_constraint_correction_kernel(system: System, name: str = "closing_step") -> Kernel:
     """Return the C function of one Newton step dq onto Φ = 0 and one step dv onto Φ̇ = 0, both to be subtracted.
 
     Both use one factorization, and light bodies count with a least mass. Motions that squeeze a film have 1e6 times the

@@ -171,8 +171,8 @@ def prescribe_coordinates(
     third rates of the dependent ones.
     """
     free = [k for k in range(len(system.q)) if k not in columns]
-    dependent = _set_places(system, names, free, columns)
-    second = {k.q: k.second for k in dependent}
+    dependent = _set_storage_locations(system, names, free, columns)
+    second_rates = {k.q: k.second for k in dependent}
     rates = {k.q: k.rate for k in dependent}
     free_index = {k: i for i, k in enumerate(free)}
 
@@ -199,9 +199,9 @@ def prescribe_coordinates(
         for c, x in zip(columns, dependent, strict=True)
     )
     remaining_rows = tuple(
-        _reduce_row(row, rates, second, system) for r, row in enumerate(system.rows) if r not in rows
+        _reduce_row(row, rates, second_rates, system) for r, row in enumerate(system.rows) if r not in rows
     )
-    frictions = tuple(_reduce_friction(friction, second) for friction in system.frictions)
+    frictions = tuple(_reduce_friction(friction, second_rates) for friction in system.frictions)
     model = replace(system.model, rows=remaining_rows, all_rows=remaining_rows, frictions=frictions)
     motions = {body: _reduce_motion(motion, free_index, columns, dependent) for body, motion in system.motions.items()}
     reduced = replace(
@@ -224,31 +224,32 @@ def prescribe_coordinates(
     return reduced, DrivenLoops(tuple(names[c] for c in columns), dependent, tuple(system.rows[r] for r in rows))
 
 
-def _set_places(
+def _set_storage_locations(
     system: System, names: Sequence[str], free_indices: Sequence[int], dependent_indices: Sequence[int]
 ) -> tuple[DependentCoordinate, ...]:
-    """Set the storage places of coordinates and rates in C; return the dependent coordinates with their rates.
+    """Set the storage locations (array and index in C) of coordinates and rates; return the dependent coordinates.
 
-    In q free coordinates come before dependent ones; in v second and third rates follow, as new symbols.
+    In q free coordinates come before dependent ones, in v their rates likewise. New symbols for the second and third
+    time derivatives of the dependent coordinates follow in v.
     `free_indices`, `dependent_indices`: numbers of the free and of the dependent coordinates; `names`: those of all
     coordinates.
     """
     symbols = system.model.symbols
     info = symbols.info
 
-    def set_place(symbol: sp.Symbol, place: Place) -> None:
-        """Set the place at which C reads a symbol."""
+    def set_location(symbol: sp.Symbol, place: Place) -> None:
+        """Set the storage location from which C reads a symbol."""
         info[symbol] = replace(info[symbol], place=place)
 
     for i, k in enumerate((*free_indices, *dependent_indices)):
-        set_place(system.q[k], Place("q")[i])
-        set_place(system.v[k], Place("v")[i])
+        set_location(system.q[k], Place("q")[i])
+        set_location(system.v[k], Place("v")[i])
     dependent = []
     for i, c in enumerate(dependent_indices, len(system.q)):
         name = system.q[c].name
-        second = symbols.add_symbol(f"{name}_second", Place("v")[i], names[c])
-        third = symbols.add_symbol(f"{name}_third", Place("v")[i + len(dependent_indices)], names[c])
-        dependent.append(DependentCoordinate(system.q[c], system.v[c], second, third))
+        second_derivative = symbols.add_symbol(f"{name}_second", Place("v")[i], names[c])
+        third_derivative = symbols.add_symbol(f"{name}_third", Place("v")[i + len(dependent_indices)], names[c])
+        dependent.append(DependentCoordinate(system.q[c], system.v[c], second_derivative, third_derivative))
     return tuple(dependent)
 
 

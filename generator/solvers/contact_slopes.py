@@ -90,7 +90,7 @@ class _DerivativeBuilder:
 
     def append_assignment(self, step: Assignment) -> None:
         """Append an equation symbol = value of contact_steps.py, and its derivatives by the inputs."""
-        value = read_parameters_at_places(self.model, step.value)
+        value = read_parameters_from_struct(self.model, step.value)
         value_on_branch = self.tangents.store_powers(self.tangents.freeze_branches(value))
         self.builder.append_line(Statement(step.symbol.name, value_on_branch))
         self.tangents.store_tangent(step.symbol, self.tangents.compute_gradient(value, step.symbol))
@@ -214,8 +214,8 @@ def replace_stored_speed(step: Assignment) -> Assignment:
     return Assignment(step.symbol, step.value.subs(speed_ratio, UNCLIPPED)) if step.symbol == contact.ratio else step
 
 
-def read_parameters_at_places(model: Model, value: sp.Expr) -> sp.Expr:
-    """Return an expression with parameters, and the reciprocals of parameters, read from the struct Parameters."""
+def read_parameters_from_struct(model: Model, value: sp.Expr) -> sp.Expr:
+    """Return an expression with parameters, and reciprocals of parameters, as fields of the C struct Parameters."""
     return model.symbols.read_at_places(hoist_reciprocals(model.parameter_table, value))
 
 
@@ -241,10 +241,10 @@ def make_fraction_derivative_kernel(model: Model, clearance: Clearance) -> Kerne
         )
     *abbreviations, fraction = contact.make_blend_equations(clearance, is_closed=True)
     for step in abbreviations:
-        value = read_parameters_at_places(model, step.value)
+        value = read_parameters_from_struct(model, step.value)
         builder.append_line(Statement(step.symbol.name, tangents.freeze_branches(value)))
         tangents.store_tangent(step.symbol, tangents.compute_gradient(value, step.symbol))
-    value = read_parameters_at_places(model, fraction.value)
+    value = read_parameters_from_struct(model, fraction.value)
     builder.append_store(Place("out")[0], tangents.freeze_branches(value))
     builder.append_store(Place("out")[1], tangents.compute_gradient(value).get(contact.delta, ZERO))
     arguments = (Argument(contact.delta.name), PARAMETERS, *BRANCHES, make_output_argument("out"))

@@ -14,7 +14,7 @@ from itertools import combinations
 import numpy as np
 
 from gudgeon.assembly.closure import AssemblyProblem
-from gudgeon.assembly.guess_warnings import APART
+from gudgeon.assembly.guess_warnings import MIN_DIFFERENCE
 from gudgeon.assembly.linkage import Linkage
 from gudgeon.model.compiled import Array
 
@@ -124,8 +124,8 @@ def _select_distinguishing_coordinates(
     pairs = [_compute_differences(problem, x, y) for x, y in combinations(configurations, 2)]
     remaining = list(range(len(pairs)))
     while remaining:
-        best = max(preferred_order, key=lambda k: sum(bool(pairs[i][k] > APART) for i in remaining))
-        separated = [i for i in remaining if pairs[i][best] > APART]
+        best = max(preferred_order, key=lambda k: sum(bool(pairs[i][k] > MIN_DIFFERENCE) for i in remaining))
+        separated = [i for i in remaining if pairs[i][best] > MIN_DIFFERENCE]
         if not separated:  # near each other everywhere: the coordinate in which they differ most
             best = max(preferred_order, key=lambda k: min(float(pairs[i][k]) for i in remaining))
             separated = remaining

@@ -11,14 +11,14 @@ from collections.abc import Callable, Iterator, Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from gudgeon.assembly.guess_warnings import APART
+from gudgeon.assembly.guess_warnings import MIN_DIFFERENCE
 from gudgeon.assembly.large import LARGE, solve_damped_least_squares, solve_minimum_norm
 from gudgeon.assembly.linkage import Linkage, compute_mechanism_size, compute_point_position, find_angles
 from gudgeon.contract.kernel_source import PointInfo
 from gudgeon.model.compiled import Array
 
 MAX_STEPS = 60
-FAR = 0.5  # rad: if a guessed angle turns further, or a point moves by APART, many more starts are tried
+FAR = 0.5  # rad: if a guessed angle turns further, or a point moves by MIN_DIFFERENCE, more starts are tried
 MIRRORED = 0.1  # of that: if a guess is further off, starts on its other side are tried
 # starts from other angles; coordinates from which on fewer are tried; factor of a longer search
 TRIES, MANY, MORE = 24, 60, 5
@@ -76,7 +76,11 @@ class AssemblyProblem:
         return np.concatenate([phi, q[self.set_index] - self.set])
 
     def compute_jacobian(self, q: Array, p: Array | None = None) -> Array:
-        """Return the Jacobian of all residuals with respect to q, (m, n); p: other parameter values, or None."""
+        """Return the Jacobian of the residuals of `compute_residual` with respect to q, (m, n).
+
+        Its rows are those of the constraint equations, then one unit row for each coordinate of `start.set`. p: other
+        parameter values than those of the problem, or None.
+        """
         extra = np.zeros((len(self.set_index), len(q)))
         extra[np.arange(len(self.set_index)), self.set_index] = 1.0
         return np.concatenate([self.linkage.closed_phi_q(self.t, q, self.p if p is None else p), extra])
@@ -274,9 +278,11 @@ class AssemblyProblem:
             self.size, np.hypot(self.first_guess[0::3], self.first_guess[1::3])
         )
         point_errors = [
-            np.linalg.norm(self.compute_point_error(q, *point)) / (APART * self.size) for point in self.points
+            np.linalg.norm(self.compute_point_error(q, *point)) / (MIN_DIFFERENCE * self.size) for point in self.points
         ]
-        return float(max([*position_errors / APART, *np.abs(differences[2::3]) / FAR, *point_errors], default=0.0))
+        return float(
+            max([*position_errors / MIN_DIFFERENCE, *np.abs(differences[2::3]) / FAR, *point_errors], default=0.0)
+        )
 
     def _draw_random_starts(self, guess: Array, angle_range: float, seed: int = 0) -> Iterator[Array]:
         """Yield random starts around the guess, the same in every run; driven and set coordinates keep their values.

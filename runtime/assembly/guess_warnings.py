@@ -13,19 +13,21 @@ from gudgeon.assembly.linkage import Linkage, compute_mechanism_size, compute_po
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.model.compiled import Array
 
-APART = 0.2  # rad, or relative to the size: difference from which on assemblies are distinguished by a guess
+MIN_DIFFERENCE = 0.2  # rad, or relative to the size: smallest difference of assemblies that a guess distinguishes
 LISTED = "gudgeon check --branches lists those that there are"
-# guesses that runs of batches do not follow; None: warn at once
-UNFOLLOWED_GUESSES: ContextVar[list[Mapping[str, float]] | None] = ContextVar(
-    "guesses that runs do not follow", default=None
+# deviations from guesses in the runs of a study's batches; None: warn at once
+COLLECTED_GUESS_DEVIATIONS: ContextVar[list[Mapping[str, float]] | None] = ContextVar(
+    "deviations from guesses", default=None
 )
-FOLLOWED = np.pi / 6  # rad; smaller differences from a guess are not reported
+MAX_ANGLE_DEVIATION = np.pi / 6  # rad; smaller deviations from a guessed angle are not reported
 
 
-def find_unfollowed_guesses(linkage: Linkage, p: Array, q: Array) -> dict[str, float]:
-    """Return {name: difference from the guess} of guessed coordinates that differ at q by more than a limit.
+def find_guess_deviations(linkage: Linkage, p: Array, q: Array) -> dict[str, float]:
+    """Return {name: deviation} of the guessed coordinates and points from which the assembled position q deviates.
 
-    Differences are in rad or m. Guessed points are included with their distance (m).
+    Deviations of coordinates are q minus the guess (rad or m), those of points are distances (m). Only deviations above
+    30° for angles, and above 0.2 of the mechanism's size (of a coordinate's guess, if larger) for lengths, are
+    returned.
     """
     source, differences = linkage.source, dict[str, float]()
     guess = dict(zip(source.start_guess, linkage.start_values(p)[0].tolist(), strict=True))
@@ -35,24 +37,26 @@ def find_unfollowed_guesses(linkage: Linkage, p: Array, q: Array) -> dict[str, f
             difference = float(q[source.coordinates.index(name)]) - expected
             is_angle = name.endswith(".theta")
             difference = (difference + np.pi) % (2.0 * np.pi) - np.pi if is_angle else difference
-            if abs(difference) > (FOLLOWED if is_angle else APART * max(size, abs(expected))):
+            if abs(difference) > (MAX_ANGLE_DEVIATION if is_angle else MIN_DIFFERENCE * max(size, abs(expected))):
                 differences[name] = difference
     for point in source.points:
         if f"{point.name}.x" in guess:
             expected_position = (guess[f"{point.name}.x"], guess[f"{point.name}.y"])
             if (
                 difference := float(np.linalg.norm(compute_point_position(source, p, q, point) - expected_position))
-            ) > APART * size:
+            ) > MIN_DIFFERENCE * size:
                 differences[point.name] = difference
     return differences
 
 
-def warn_unfollowed_guesses(source: KernelSource, differences: Mapping[str, float]) -> None:
-    """Warn about each guess that a start does not follow; within a batch, append them to NOTED instead.
+def warn_guess_deviations(source: KernelSource, differences: Mapping[str, float]) -> None:
+    """Warn about each guess from which the start deviates.
 
-    `differences`: those of `find_unfollowed_guesses`.
+    In a study, append the deviations to the list of COLLECTED_GUESS_DEVIATIONS instead.
+
+    `differences`: those of `find_guess_deviations`.
     """
-    noted = UNFOLLOWED_GUESSES.get()
+    noted = COLLECTED_GUESS_DEVIATIONS.get()
     if noted is not None:
         noted.append(differences)
         return
@@ -63,19 +67,20 @@ def warn_unfollowed_guesses(source: KernelSource, differences: Mapping[str, floa
         warnings.warn(f"{message}; {LISTED}", stacklevel=find_user_stack_level())
 
 
-def warn_unfollowed_guesses_in_runs(source: KernelSource, unfollowed_guesses: Sequence[Mapping[str, float]]) -> None:
-    """Issue one warning for all runs of a batch: guesses that starts do not follow, number of runs, largest difference.
+def warn_guess_deviations_in_runs(source: KernelSource, guess_deviations: Sequence[Mapping[str, float]]) -> None:
+    """Issue one warning for all runs of a batch: guesses from which starts deviate, number of runs, largest deviation.
 
-    unfollowed_guesses: {name: difference} of each run. If a study collects them in NOTED, they are added there instead.
+    guess_deviations: {name: difference} of each run. In a study they are added to the list of
+    COLLECTED_GUESS_DEVIATIONS instead.
     """
-    if (kept := UNFOLLOWED_GUESSES.get()) is not None:  # by who makes many batches
-        kept.extend(unfollowed_guesses)
+    if (kept := COLLECTED_GUESS_DEVIATIONS.get()) is not None:  # by who makes many batches
+        kept.extend(guess_deviations)
         return
     message = []
-    for name in dict.fromkeys(name for off in unfollowed_guesses for name in off):
-        deviations = [off[name] for off in unfollowed_guesses if name in off]
+    for name in dict.fromkeys(name for off in guess_deviations for name in off):
+        deviations = [off[name] for off in guess_deviations if name in off]
         largest = format_guess_difference(name, max(map(abs, deviations)))
-        message.append(f"{name} in {len(deviations)} of {len(unfollowed_guesses)} runs by up to {largest}")
+        message.append(f"{name} in {len(deviations)} of {len(guess_deviations)} runs by up to {largest}")
     if message:
         text = f"runs begin away from their guess: {', '.join(message)}: {describe_missing_assembly(source)}; {LISTED}"
         warnings.warn(text, stacklevel=find_user_stack_level())

@@ -23,10 +23,10 @@ class Linkage(Protocol):
     n: int
 
     def closed_phi(self, t: float, q: Array, p: Array) -> Array:
-        """Return the residuals Φ(q, t) of the constraint equations, (m,), in m and rad."""
+        """Return the residuals Φ(q, t) of the constraint equations with every joint closed, (m,), in m and rad."""
 
     def closed_phi_q(self, t: float, q: Array, p: Array) -> Array:
-        """Return the constraint Jacobian ∂Φ/∂q, (m, n)."""
+        """Return the constraint Jacobian ∂Φ/∂q with every joint closed, (m, n)."""
 
     def closed_nu(self, t: float, q: Array, p: Array) -> Array:
         """Return the right-hand side ν = −Φ_t of the velocity equations Φ_q v = ν, (m,)."""

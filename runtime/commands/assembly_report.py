@@ -12,7 +12,7 @@ import numpy as np
 from gudgeon.assembly.branches import Assembly, compute_guess_distance, find_assemblies
 from gudgeon.assembly.closure import AssemblyProblem
 from gudgeon.assembly.failures import make_closure_error
-from gudgeon.assembly.guess_warnings import describe_missing_assembly, find_unfollowed_guesses, format_guess_difference
+from gudgeon.assembly.guess_warnings import describe_missing_assembly, find_guess_deviations, format_guess_difference
 from gudgeon.assembly.journals import check_journal_positions, describe_journals_in_walls
 from gudgeon.assembly.mobility import Mobility, check_degrees_of_freedom, find_mobility
 from gudgeon.assembly.start import compute_start_velocities
@@ -114,7 +114,7 @@ def _assemble_scene(linkage: NumPyLinkage, rows: Sequence[int]) -> AssembledScen
         compute_start_velocities(problem, q)
         every = find_mobility(linkage, p, q)
         mobility = every if len(rows) == every.rows else find_mobility(linkage, p, q, rows)
-    return AssembledScene(linkage, q, every, mobility, find_unfollowed_guesses(linkage, p, q))
+    return AssembledScene(linkage, q, every, mobility, find_guess_deviations(linkage, p, q))
 
 
 def format_degrees_of_freedom(findings: Findings) -> str:

@@ -34,7 +34,7 @@ from gudgeon.waiting.cancellation import report_work
 
 if TYPE_CHECKING:
     from gudgeon.assembly.closure import AssemblyProblem
-    from gudgeon.drawing.posture import Posture
+    from gudgeon.drawing.configuration import Configuration
     from gudgeon.drawing.shapes import Sketch
     from gudgeon.generator.mechanism import Mechanism
     from gudgeon.generator.targets.numpy.linkage import NumPyLinkage
@@ -184,7 +184,7 @@ def _draw_start(request: Request, file: Path, values: Mapping[str, float | str])
     if request.branches:
         sketches, titles = _draw_assemblies(mechanism, problem, q)
         return Picture(sketches, titles, caption), failure
-    return Picture(_make_sketches(mechanism, problem, [_make_posture(linkage, q, v)]), [""], caption), failure
+    return Picture(_make_sketches(mechanism, problem, [_make_configuration(linkage, q, v)]), [""], caption), failure
 
 
 def _find_velocities(problem: AssemblyProblem, q: Array) -> tuple[Array | None, AssemblyError | None]:
@@ -197,17 +197,19 @@ def _find_velocities(problem: AssemblyProblem, q: Array) -> tuple[Array | None, 
         return None, error
 
 
-def _make_posture(linkage: NumPyLinkage, q: Array, v: Array | None) -> Posture:
-    """Return position q, velocities v and loads of a linkage as a Posture for drawing; v may be None."""
-    from gudgeon.drawing.posture import Posture
-    from gudgeon.results.figures.postures import evaluate_loads
+def _make_configuration(linkage: NumPyLinkage, q: Array, v: Array | None) -> Configuration:
+    """Return position q, velocities v and loads of a linkage as a Configuration for drawing; v may be None."""
+    from gudgeon.drawing.configuration import Configuration
+    from gudgeon.results.figures.configurations import evaluate_loads
 
     loads = evaluate_loads(linkage.source, linkage.p, q, np.zeros_like(q) if v is None else v)
-    return Posture(linkage.source, linkage.p, q, 0.0, v, loads)
+    return Configuration(linkage.source, linkage.p, q, 0.0, v, loads)
 
 
-def _make_sketches(mechanism: Mechanism, problem: AssemblyProblem, postures: Sequence[Posture]) -> list[Sketch]:
-    """Return a sketch of each posture of a closed linkage, all with one scale.
+def _make_sketches(
+    mechanism: Mechanism, problem: AssemblyProblem, configurations: Sequence[Configuration]
+) -> list[Sketch]:
+    """Return a sketch of each configuration of a closed linkage, all with one scale.
 
     Unexpected degrees of freedom and loose bodies are marked.
     """
@@ -217,17 +219,17 @@ def _make_sketches(mechanism: Mechanism, problem: AssemblyProblem, postures: Seq
     from gudgeon.drawing.sketch import compute_common_box, make_sketch
 
     with np.errstate(all="ignore"):
-        mobility = find_mobility(problem.linkage, problem.p, postures[0].q)
-    plans, sketches = [make_layout([posture], postures[0]) for posture in postures], []
+        mobility = find_mobility(problem.linkage, problem.p, configurations[0].q)
+    plans, sketches = [make_layout([configuration], configurations[0]) for configuration in configurations], []
     unit = min(plan.unit for plan in plans)
     plans = [replace(plan, unit=unit) for plan in plans]
-    box = compute_common_box(postures, plans)
+    box = compute_common_box(configurations, plans)
     marked = mobility.loose or (mobility.freedoms and mechanism.freedoms is None)
-    for posture, plan in zip(postures, plans, strict=True):
-        shapes, labels = draw_free_motions(problem, posture, unit, mobility.loose) if marked else ([], [])
+    for configuration, plan in zip(configurations, plans, strict=True):
+        shapes, labels = draw_free_motions(problem, configuration, unit, mobility.loose) if marked else ([], [])
         loose = frozenset(mobility.loose)
         sketches.append(
-            make_sketch(posture, plan, shapes_on_top=shapes, labels=labels, unconnected_bodies=loose, box=box)
+            make_sketch(configuration, plan, shapes_on_top=shapes, labels=labels, unconnected_bodies=loose, box=box)
         )
     return sketches
 
@@ -246,9 +248,9 @@ def _draw_unclosed_linkage(
     failure = make_closure_error(problem, q)
     if not (np.isfinite(q).all() and np.isfinite(problem.compute_residual(q)).all()):
         raise failure
-    posture = _make_posture(problem.linkage, q, None)  # type: ignore[arg-type]
-    shapes, labels = draw_gaps(problem, posture)
-    sketch = make_sketch(posture, shapes_on_top=shapes, labels=labels)
+    configuration = _make_configuration(problem.linkage, q, None)  # type: ignore[arg-type]
+    shapes, labels = draw_gaps(problem, configuration)
+    sketch = make_sketch(configuration, shapes_on_top=shapes, labels=labels)
     return Picture([sketch], [""], f"{caption}: it does not close"), failure
 
 
@@ -262,7 +264,9 @@ def _draw_assemblies(mechanism: Mechanism, problem: AssemblyProblem, q: Array) -
     with np.errstate(all="ignore"):
         coordinate_names = find_mobility(linkage, linkage.p, q).along
     assemblies = find_assemblies(linkage, linkage.p, q, coordinate_names)
-    postures = [_make_posture(linkage, assembly.q, _find_velocities(problem, assembly.q)[0]) for assembly in assemblies]
+    configurations = [
+        _make_configuration(linkage, assembly.q, _find_velocities(problem, assembly.q)[0]) for assembly in assemblies
+    ]
     here = {True: " (as the file has it)", False: ""}
     titles = [f"{k}  {format_guess(assembly)}{here[assembly.is_start]}" for k, assembly in enumerate(assemblies, 1)]
-    return _make_sketches(mechanism, problem, postures), titles
+    return _make_sketches(mechanism, problem, configurations), titles

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from gudgeon.assembly.linkage import compute_point_position
+from gudgeon.drawing.configuration import Configuration, find_outline_points
 from gudgeon.drawing.drives_and_forces import HEAD, draw_arrow
-from gudgeon.drawing.posture import Posture, find_outline_points
 from gudgeon.drawing.shapes import Shape
 from gudgeon.language.plot_units import choose_prefix
 from gudgeon.model.compiled import Array
@@ -63,16 +63,21 @@ def find_round_number(limit: float) -> float:
     return float(max(x for x in (1.0, 2.0, 5.0) if x * power <= limit * (1.0 + 1e-12)) * power)
 
 
-def compute_velocities(posture: Posture) -> Iterator[tuple[str, tuple[Array, Array]]]:
+def compute_velocities(configuration: Configuration) -> Iterator[tuple[str, tuple[Array, Array]]]:
     """Yield (name, (position, velocity)) of each point on a body's outline and of each centre of mass, in m and m/s.
 
-    Nothing is yielded for a posture without velocities.
+    Nothing is yielded for a configuration without velocities.
     """
-    if posture.v is None:
+    if configuration.v is None:
         return
-    for body, info in posture.bodies.items():
-        centre, rates = posture.get_centre_of_mass(body), posture.v[info.index : info.index + 3]
-        for name in dict.fromkeys([*find_outline_points(posture, body), f"{body}.com"]):
-            if name in posture.points:
-                lever = compute_point_position(posture.source, posture.p, posture.q, posture.points[name]) - centre
+    for body, info in configuration.bodies.items():
+        centre, rates = configuration.get_centre_of_mass(body), configuration.v[info.index : info.index + 3]
+        for name in dict.fromkeys([*find_outline_points(configuration, body), f"{body}.com"]):
+            if name in configuration.points:
+                lever = (
+                    compute_point_position(
+                        configuration.source, configuration.p, configuration.q, configuration.points[name]
+                    )
+                    - centre
+                )
                 yield name, (centre + lever, rates[:2] + rates[2] * np.array([-lever[1], lever[0]]))

@@ -8,10 +8,10 @@ import numpy as np
 
 from gudgeon.contract.kernel_source import PartInfo
 from gudgeon.drawing.bodies import BLOCK
+from gudgeon.drawing.configuration import GROUND, Configuration, get_body_name
 from gudgeon.drawing.joint_geometry import find_pivot_joint, find_sliding_axis, has_rail, iterate_sliding_joints
 from gudgeon.drawing.layout import Layout
 from gudgeon.drawing.pen import PIN, draw_ground_wall
-from gudgeon.drawing.posture import GROUND, Posture, get_body_name
 from gudgeon.drawing.shapes import (
     Disc,
     Label,
@@ -32,43 +32,48 @@ RADII = {"angle": DRIVEN, "coordinate": DRIVEN, "torque": LOADED, "rotational_sp
 ALONG = 0.5  # cosine above which a guide counts as parallel to a coordinate
 
 
-def draw_drives_and_forces(posture: Posture, layout: Layout) -> Iterator[Shape]:
+def draw_drives_and_forces(configuration: Configuration, layout: Layout) -> Iterator[Shape]:
     """Yield the shapes of drives, then of force elements."""
-    for part in posture.iterate_parts("drives"):
-        yield from _DRIVES[part.kind](posture, layout, part)
-    for part in posture.iterate_parts("forces"):
-        yield from _FORCES.get(part.kind, _draw_generic_element)(posture, layout, part)
+    for part in configuration.iterate_parts("drives"):
+        yield from _DRIVES[part.kind](configuration, layout, part)
+    for part in configuration.iterate_parts("forces"):
+        yield from _FORCES.get(part.kind, _draw_generic_element)(configuration, layout, part)
 
 
-def label_drives_and_forces(posture: Posture, layout: Layout, shows_zero_loads: bool) -> Iterator[Label]:
+def label_drives_and_forces(configuration: Configuration, layout: Layout, shows_zero_loads: bool) -> Iterator[Label]:
     """Yield the label of each drive, then of each force element.
 
     With `shows_zero_loads`, a force or torque whose load is zero has the label "NAME = 0".
     """
-    for part in (*posture.iterate_parts("drives"), *posture.iterate_parts("forces")):
+    for part in (*configuration.iterate_parts("drives"), *configuration.iterate_parts("forces")):
         kind = part.section[:-1]
         direction = 45.0
         if part.kind in ("distance", "spring_damper"):
-            position, clearance = 0.5 * (posture.get_position(part.ends[0]) + posture.get_position(part.ends[1])), 1.2
+            position, clearance = (
+                0.5 * (configuration.get_position(part.ends[0]) + configuration.get_position(part.ends[1])),
+                1.2,
+            )
         elif part.kind == "coordinate" and part.options["coordinate"] != "theta":
-            (position, direction_vector), clearance = _find_arrow_position(posture, layout, part), 0.5
+            (position, direction_vector), clearance = _find_arrow_position(configuration, layout, part), 0.5
             direction = float(np.degrees(np.arctan2(direction_vector[1], direction_vector[0])))
         elif part.kind == "force":
-            arrow_vector = _compute_arrow_vector(posture, layout, part)
+            arrow_vector = _compute_arrow_vector(configuration, layout, part)
             position, clearance = (
-                posture.get_position(part.ends[0]) + 0.5 * arrow_vector,
+                configuration.get_position(part.ends[0]) + 0.5 * arrow_vector,
                 0.5 if arrow_vector.any() else 1.2,
             )
             direction = (
                 float(np.degrees(np.arctan2(arrow_vector[0], -arrow_vector[1]))) if arrow_vector.any() else direction
             )
         elif part.kind == "dry_friction":
-            position, clearance = posture.get_position(part.ends[1]), 2.0
+            position, clearance = configuration.get_position(part.ends[1]), 2.0
         else:
-            position = find_pivot(posture, part)
+            position = find_pivot(configuration, part)
             clearance = RADII[part.kind]
         is_zero = (
-            shows_zero_loads and part.kind in ("force", "torque") and not np.any(posture.loads.get(part.name, 1.0))
+            shows_zero_loads
+            and part.kind in ("force", "torque")
+            and not np.any(configuration.loads.get(part.name, 1.0))
         )
         text = f"{part.name} = 0" if is_zero else part.name
         yield Label(f"{kind} {part.name}", kind, text, position, clearance * layout.unit, direction)
@@ -101,32 +106,32 @@ def draw_round_arrow(
     )
 
 
-def find_pivot(posture: Posture, part: PartInfo) -> Array:
+def find_pivot(configuration: Configuration, part: PartInfo) -> Array:
     """Return the point about which the body of a drive or force element turns, (2,), in m.
 
     It is a joint between the body and the other one or the ground, or else the body's centre of mass.
     """
-    joint, body = _find_pivot_joint_and_body(posture, part)
+    joint, body = _find_pivot_joint_and_body(configuration, part)
     if joint is not None:
-        return posture.get_position(next(end for end in joint.ends if get_body_name(end) == body))
-    return posture.get_centre_of_mass(body) if body in posture.bodies else np.zeros(2)
+        return configuration.get_position(next(end for end in joint.ends if get_body_name(end) == body))
+    return configuration.get_centre_of_mass(body) if body in configuration.bodies else np.zeros(2)
 
 
-def compute_arrow_radii(posture: Posture) -> dict[str, float]:
+def compute_arrow_radii(configuration: Configuration) -> dict[str, float]:
     """Return the radius, in units, of the largest arrow or spiral spring around each joint that has one, by joint.
 
     Used to place the joints' names outside of them.
     """
     radii = dict[str, float]()
-    for part in (*posture.iterate_parts("drives"), *posture.iterate_parts("forces")):
+    for part in (*configuration.iterate_parts("drives"), *configuration.iterate_parts("forces")):
         if part.kind in RADII and part.options.get("coordinate", "theta") == "theta":
-            joint, _ = _find_pivot_joint_and_body(posture, part)
+            joint, _ = _find_pivot_joint_and_body(configuration, part)
             if joint is not None:
                 radii[joint.name] = max(radii.get(joint.name, 0.0), RADII[part.kind])
     return radii
 
 
-def _find_pivot_joint_and_body(posture: Posture, part: PartInfo) -> tuple[PartInfo | None, str]:
+def _find_pivot_joint_and_body(configuration: Configuration, part: PartInfo) -> tuple[PartInfo | None, str]:
     """Return the joint about which the body of a drive or force element turns, None without one, and the body's name.
 
     The body is the first one that is not the ground; the joint connects it with the element's other body or the ground.
@@ -134,45 +139,47 @@ def _find_pivot_joint_and_body(posture: Posture, part: PartInfo) -> tuple[PartIn
     bodies = [get_body_name(end) for end in part.ends]
     turning_body = next((body for body in bodies if body != GROUND), bodies[0])
     other_body = next((body for body in bodies if body != turning_body), GROUND)
-    return find_pivot_joint(posture, turning_body, other_body), turning_body
+    return find_pivot_joint(configuration, turning_body, other_body), turning_body
 
 
-def _draw_angle_drive(posture: Posture, layout: Layout, part: PartInfo) -> Iterator[Shape]:
+def _draw_angle_drive(configuration: Configuration, layout: Layout, part: PartInfo) -> Iterator[Shape]:
     """Yield the arrow of a driven angle around its pivot, counterclockwise if the angle grows.
 
     The rate is that of the first body relative to the second; an unknown rate counts as growing.
     """
-    rate = posture.get_angular_velocity(get_body_name(part.ends[0]))
-    rate -= posture.get_angular_velocity(get_body_name(part.ends[1])) if len(part.ends) > 1 else 0.0
-    centre, u = find_pivot(posture, part), layout.unit
+    rate = configuration.get_angular_velocity(get_body_name(part.ends[0]))
+    rate -= configuration.get_angular_velocity(get_body_name(part.ends[1])) if len(part.ends) > 1 else 0.0
+    centre, u = find_pivot(configuration, part), layout.unit
     yield from draw_round_arrow(f"drive {part.name}", "drive", centre, DRIVEN * u, rate >= 0.0, HEAD * u)
 
 
-def _draw_coordinate_drive(posture: Posture, layout: Layout, part: PartInfo) -> Iterator[Shape]:
+def _draw_coordinate_drive(configuration: Configuration, layout: Layout, part: PartInfo) -> Iterator[Shape]:
     """Yield the arrow of a driven coordinate in the direction of its rate.
 
     An angle is drawn like an angle drive. An unknown rate counts as positive.
     """
     if (axis := part.options["coordinate"]) == "theta":
-        yield from _draw_angle_drive(posture, layout, part)
+        yield from _draw_angle_drive(configuration, layout, part)
         return
-    index = posture.bodies[get_body_name(part.ends[0])].index + "xy".index(axis)
-    direction = np.eye(2)["xy".index(axis)] * (-1.0 if posture.v is not None and posture.v[index] < 0.0 else 1.0)
-    (middle, _), half_arrow = _find_arrow_position(posture, layout, part), 0.5 * ARROW * layout.unit * direction
+    index = configuration.bodies[get_body_name(part.ends[0])].index + "xy".index(axis)
+    direction = np.eye(2)["xy".index(axis)] * (
+        -1.0 if configuration.v is not None and configuration.v[index] < 0.0 else 1.0
+    )
+    (middle, _), half_arrow = _find_arrow_position(configuration, layout, part), 0.5 * ARROW * layout.unit * direction
     yield from draw_arrow(f"drive {part.name}", "drive", middle - half_arrow, middle + half_arrow, HEAD * layout.unit)
 
 
-def _find_arrow_position(posture: Posture, layout: Layout, part: PartInfo) -> tuple[Array, Array]:
+def _find_arrow_position(configuration: Configuration, layout: Layout, part: PartInfo) -> tuple[Array, Array]:
     """Return the middle of a driven coordinate's arrow (2,), in m, and its offset direction, a unit vector: above or to
     the left.
 
     For a body that slides on the ground along the coordinate, the arrow is next to the block, away from the ground.
     """
     axis = np.eye(2)["xy".index(part.options["coordinate"])]
-    position, normal = posture.get_position(part.ends[0]), rotate_quarter_turn(axis)
-    for joint in iterate_sliding_joints(posture):
+    position, normal = configuration.get_position(part.ends[0]), rotate_quarter_turn(axis)
+    for joint in iterate_sliding_joints(configuration):
         if joint.name in layout.ground_directions and get_body_name(part.ends[0]) in map(get_body_name, joint.ends):
-            _, line_direction, slider = find_sliding_axis(posture, joint)
+            _, line_direction, slider = find_sliding_axis(configuration, joint)
             if abs(float(line_direction @ axis)) > ALONG:
                 position, normal = (
                     slider,
@@ -181,12 +188,12 @@ def _find_arrow_position(posture: Posture, layout: Layout, part: PartInfo) -> tu
     return position + 2.0 * layout.unit * normal, normal
 
 
-def _draw_cylinder(posture: Posture, layout: Layout, part: PartInfo) -> Iterator[Shape]:
+def _draw_cylinder(configuration: Configuration, layout: Layout, part: PartInfo) -> Iterator[Shape]:
     """Yield the symbol of a driven distance: a hydraulic cylinder with barrel, piston, rod, and a pin at each end."""
     name, u = f"drive {part.name}", layout.unit
-    begin, end = (posture.get_position(point) for point in part.ends)
+    begin, end = (configuration.get_position(point) for point in part.ends)
     axis, length = unit_vector(end - begin), float(np.hypot(*(end - begin)))
-    yield from _draw_ground_ends(posture, part, name, layout)
+    yield from _draw_ground_ends(configuration, part, name, layout)
     yield Line(name, "piston", np.array([begin + 0.5 * length * axis, end]))
     yield Line(name, "barrel", compute_rectangle(begin + 0.34 * length * axis, axis, 0.27 * length, 0.85 * u), True)
     yield Line(name, "drive", np.array([begin, begin + 0.07 * length * axis]))
@@ -199,43 +206,43 @@ def _draw_cylinder(posture: Posture, layout: Layout, part: PartInfo) -> Iterator
     yield from (Disc(name, "pin", position, 0.8 * PIN * u) for position in (begin, end))
 
 
-def _draw_ground_ends(posture: Posture, part: PartInfo, owner: str, layout: Layout) -> Iterator[Shape]:
+def _draw_ground_ends(configuration: Configuration, part: PartInfo, owner: str, layout: Layout) -> Iterator[Shape]:
     """Yield a hatched wall at each end of a drive or force element on the ground where no joint draws the ground.
 
     `owner` is the part to which the shapes belong, such as "force S1".
     """
-    joint_ends = {end for joint in posture.iterate_parts("joints") if not has_rail(joint) for end in joint.ends}
+    joint_ends = {end for joint in configuration.iterate_parts("joints") if not has_rail(joint) for end in joint.ends}
     for end in part.ends:
         if get_body_name(end) == GROUND and end not in joint_ends:
             yield from draw_ground_wall(
-                owner, posture.get_position(end), layout.ground_directions[part.name], layout.unit
+                owner, configuration.get_position(end), layout.ground_directions[part.name], layout.unit
             )
 
 
-def _draw_spring_damper(posture: Posture, layout: Layout, part: PartInfo) -> Iterator[Shape]:
+def _draw_spring_damper(configuration: Configuration, layout: Layout, part: PartInfo) -> Iterator[Shape]:
     """Yield a spring, a damper, or both in parallel, between the two points of an element.
 
     An element without stiffness and damping is drawn as a spring. Between coincident points only dots are drawn. Next
     to a ground rail, both symbols are on the side away from the ground.
     """
     name, u = f"force {part.name}", layout.unit
-    begin, end = (posture.get_position(point) for point in part.ends)
-    yield from _draw_ground_ends(posture, part, name, layout)
+    begin, end = (configuration.get_position(point) for point in part.ends)
+    yield from _draw_ground_ends(configuration, part, name, layout)
     yield from (Disc(name, "mark", position, 0.26 * u) for position in (begin, end))
     if float(np.hypot(*(end - begin))) < 1e-6 * u:
         return
     has_spring, has_damper = (
-        posture.get_parameter(f"forces.{part.name}.{key}") != 0.0 for key in ("stiffness", "damping")
+        configuration.get_parameter(f"forces.{part.name}.{key}") != 0.0 for key in ("stiffness", "damping")
     )
     offset = 1.15 * u * rotate_quarter_turn(unit_vector(end - begin)) if has_spring and has_damper else np.zeros(2)
-    ground_side = _find_ground_side(posture, layout, part, begin, end)
+    ground_side = _find_ground_side(configuration, layout, part, begin, end)
     if has_spring and has_damper and ground_side is not None:  # both next to the rail
         offset = -1.15 * u * ground_side
         begin, end, attachments = begin + offset, end + offset, (begin, end)
     else:
         attachments = begin, end
     if has_spring or not has_damper:
-        free_length = posture.get_parameter(f"forces.{part.name}.free_length") or float(np.hypot(*(end - begin)))
+        free_length = configuration.get_parameter(f"forces.{part.name}.free_length") or float(np.hypot(*(end - begin)))
         teeth = int(np.clip(round(0.35 * free_length / u), 4, 14))
         points = compute_zigzag(
             begin + 0.12 * (end - begin), begin + 0.88 * (end - begin), 0.9 * u, teeth, 0.12 if has_damper else 0.05
@@ -251,20 +258,22 @@ def _draw_spring_damper(posture: Posture, layout: Layout, part: PartInfo) -> Ite
             yield Line(name, "spring", np.array([attachment, attachments[0] + fraction * (end - begin)]))
 
 
-def _find_ground_side(posture: Posture, layout: Layout, part: PartInfo, begin: Array, end: Array) -> Array | None:
+def _find_ground_side(
+    configuration: Configuration, layout: Layout, part: PartInfo, begin: Array, end: Array
+) -> Array | None:
     """Return the direction of the ground, a unit vector, if an element lies along the rail of the joint between its
     bodies.
 
     Returns None otherwise. `begin` and `end` are the element's points.
     """
     bodies = {get_body_name(end) for end in part.ends}
-    for joint in iterate_sliding_joints(posture):
+    for joint in iterate_sliding_joints(configuration):
         if (
             has_rail(joint)
             and joint.name in layout.ground_directions
             and bodies == {get_body_name(end) for end in joint.ends}
         ):
-            line_point, axis, _ = find_sliding_axis(posture, joint)
+            line_point, axis, _ = find_sliding_axis(configuration, joint)
             if (
                 max(abs(float((point - line_point) @ rotate_quarter_turn(axis))) for point in (begin, end))
                 < layout.unit
@@ -299,26 +308,26 @@ def _draw_damper(owner: str, begin: Array, end: Array, unit: float) -> Iterator[
     yield Line(owner, "piston", np.array([middle - 0.85 * half_width, middle + 0.85 * half_width]))
 
 
-def _draw_spiral_spring(posture: Posture, layout: Layout, part: PartInfo) -> Iterator[Shape]:
+def _draw_spiral_spring(configuration: Configuration, layout: Layout, part: PartInfo) -> Iterator[Shape]:
     """Yield a spiral spring of 2.25 turns around the pivot of a rotational spring or damper."""
-    angle, centre = np.linspace(0.0, 4.5 * np.pi, 90), find_pivot(posture, part)
+    angle, centre = np.linspace(0.0, 4.5 * np.pi, 90), find_pivot(configuration, part)
     radius = layout.unit * np.linspace(0.6, WOUND, len(angle))
     yield Line(
         f"force {part.name}", "spring", centre + np.column_stack([np.cos(angle), np.sin(angle)]) * radius[:, None]
     )
 
 
-def _draw_torque(posture: Posture, layout: Layout, part: PartInfo) -> Iterator[Shape]:
+def _draw_torque(configuration: Configuration, layout: Layout, part: PartInfo) -> Iterator[Shape]:
     """Yield the round arrow of a torque around its pivot; clockwise only if the torque is negative."""
-    is_counterclockwise = posture.loads.get(part.name, (1.0, 0.0))[0] >= 0.0
-    centre, unit = find_pivot(posture, part), layout.unit
+    is_counterclockwise = configuration.loads.get(part.name, (1.0, 0.0))[0] >= 0.0
+    centre, unit = find_pivot(configuration, part), layout.unit
     yield from draw_round_arrow(f"force {part.name}", "force", centre, LOADED * unit, is_counterclockwise, HEAD * unit)
 
 
-def _draw_force(posture: Posture, layout: Layout, part: PartInfo) -> Iterator[Shape]:
+def _draw_force(configuration: Configuration, layout: Layout, part: PartInfo) -> Iterator[Shape]:
     """Yield the arrow of a force that begins at its point; a ring if the force is zero or unknown."""
-    name, unit, point = f"force {part.name}", layout.unit, posture.get_position(part.ends[0])
-    arrow_vector = _compute_arrow_vector(posture, layout, part)
+    name, unit, point = f"force {part.name}", layout.unit, configuration.get_position(part.ends[0])
+    arrow_vector = _compute_arrow_vector(configuration, layout, part)
     if not arrow_vector.any():
         yield Disc(name, "no force", point, 0.9 * unit)
         return
@@ -327,31 +336,31 @@ def _draw_force(posture: Posture, layout: Layout, part: PartInfo) -> Iterator[Sh
     )
 
 
-def _compute_arrow_vector(posture: Posture, layout: Layout, part: PartInfo) -> Array:
+def _compute_arrow_vector(configuration: Configuration, layout: Layout, part: PartInfo) -> Array:
     """Return the drawn vector of a force from tail to tip, (2,), in m of the drawing; 0 if the force is zero or
     unknown.
 
     Its length is proportional to the force if the layout has a scale, otherwise the same for all forces.
     """
-    load = np.array(posture.loads.get(part.name, (0.0, 0.0)))
+    load = np.array(configuration.loads.get(part.name, (0.0, 0.0)))
     if not (np.isfinite(load).all() and load.any()):
         return np.zeros(2)
     return load * layout.newton if layout.newton > 0.0 else ARROW * layout.unit * unit_vector(load)
 
 
-def _draw_dry_friction(posture: Posture, layout: Layout, part: PartInfo) -> Iterator[Shape]:
+def _draw_dry_friction(configuration: Configuration, layout: Layout, part: PartInfo) -> Iterator[Shape]:
     """Yield a rough line under the second body's point, and for a moving surface the arrow of its speed."""
     name, u = f"force {part.name}", layout.unit
-    line_direction = posture.compute_direction(part, "direction", get_body_name(part.ends[0]))
+    line_direction = configuration.compute_direction(part, "direction", get_body_name(part.ends[0]))
     down = (
         -rotate_quarter_turn(line_direction)
         if rotate_quarter_turn(line_direction)[1] >= 0.0
         else rotate_quarter_turn(line_direction)
     )
-    centre = posture.get_position(part.ends[1]) + BLOCK[1] * u * down
+    centre = configuration.get_position(part.ends[1]) + BLOCK[1] * u * down
     points = compute_zigzag(centre - 2.0 * u * line_direction, centre + 2.0 * u * line_direction, 0.3 * u, 7, 0.0)
     yield Line(name, "rough", points - 0.1 * u * down)
-    if (speed := posture.get_parameter(f"forces.{part.name}.speed")) != 0.0:
+    if (speed := configuration.get_parameter(f"forces.{part.name}.speed")) != 0.0:
         direction, arrow_centre = line_direction * np.sign(speed), centre + 2.3 * u * down
         yield from draw_arrow(
             name,
@@ -362,9 +371,9 @@ def _draw_dry_friction(posture: Posture, layout: Layout, part: PartInfo) -> Iter
         )
 
 
-def _draw_generic_element(posture: Posture, layout: Layout, part: PartInfo) -> Iterator[Shape]:
+def _draw_generic_element(configuration: Configuration, layout: Layout, part: PartInfo) -> Iterator[Shape]:
     """Yield a line with a dot at each end, for a force element of a kind without a symbol."""
-    positions = [posture.get_position(end) for end in part.ends]
+    positions = [configuration.get_position(end) for end in part.ends]
     yield Line(f"force {part.name}", "spring", np.array(positions))
     yield from (Disc(f"force {part.name}", "mark", position, 0.3 * layout.unit) for position in positions)
 
@@ -379,7 +388,7 @@ _FORCES = {
 }
 
 
-def find_gravity_direction(posture: Posture) -> Array | None:
+def find_gravity_direction(configuration: Configuration) -> Array | None:
     """Return the direction of gravity, a unit vector in ground axes; None without gravity."""
-    g = np.array([posture.get_parameter("gravity.x"), posture.get_parameter("gravity.y")])
+    g = np.array([configuration.get_parameter("gravity.x"), configuration.get_parameter("gravity.y")])
     return unit_vector(g) if float(np.hypot(*g)) > 0.0 else None

@@ -10,9 +10,9 @@ from gudgeon.assembly.closure import AssemblyProblem
 from gudgeon.assembly.failures import format_length
 from gudgeon.assembly.mobility import compute_free_motions
 from gudgeon.contract.kernel_source import PartInfo
+from gudgeon.drawing.configuration import Configuration, get_joint_type
 from gudgeon.drawing.drives_and_forces import HEAD, draw_arrow, draw_round_arrow, find_pivot
 from gudgeon.drawing.joint_geometry import JointGeometry
-from gudgeon.drawing.posture import Posture, get_joint_type
 from gudgeon.drawing.shapes import Label, Line, Shape, unit_vector
 from gudgeon.model.compiled import Array
 
@@ -21,14 +21,14 @@ ARROW_LENGTH = 4.0  # units, of an arrow to where a body may go
 MIN_MOTION_FRACTION = 1e-6  # fraction of the largest motion below which there is none
 
 
-def draw_gaps(problem: AssemblyProblem, posture: Posture) -> tuple[list[Shape], list[Label]]:
+def draw_gaps(problem: AssemblyProblem, configuration: Configuration) -> tuple[list[Shape], list[Label]]:
     """Return red lines across the gaps of a linkage that does not close, and labels with the residuals of all open
     joints.
 
     Reported are residuals above MIN_REPORTED_FRACTION times the largest one. A length without a line and an angle have
     a label only.
     """
-    residual = problem.compute_residual(posture.q)
+    residual = problem.compute_residual(configuration.q)
     scaled = np.abs(residual / problem.row_scale)
     max_residual = float(scaled.max(initial=0.0))
     open_rows: dict[str, list[int]] = {}
@@ -37,17 +37,17 @@ def draw_gaps(problem: AssemblyProblem, posture: Posture) -> tuple[list[Shape], 
             open_rows.setdefault(owner, []).append(row)
     shapes, labels = list[Shape](), list[Label]()
     for owner, row_indices in open_rows.items():
-        for part in posture.find_parts(owner):
+        for part in configuration.find_parts(owner):
             part_lengths = [residual[row] for row in row_indices if problem.units[row] == "m"]
             angles = [residual[row] for row in row_indices if problem.units[row] == "rad"]
-            gap_line = _compute_gap_line(posture, part, part_lengths) if part_lengths else None
+            gap_line = _compute_gap_line(configuration, part, part_lengths) if part_lengths else None
             if gap_line is not None:
                 shapes.append(Line(f"gap {owner}", "gap", gap_line))
                 part_lengths, position = [float(np.hypot(*(gap_line[1] - gap_line[0])))], gap_line.mean(axis=0)
             elif part_lengths:
-                position = get_joint_type(part).symbol.find_name_position(JointGeometry(posture, part))
+                position = get_joint_type(part).symbol.find_name_position(JointGeometry(configuration, part))
             else:
-                position = find_pivot(posture, part)
+                position = find_pivot(configuration, part)
             texts = [format_length(length) for length in part_lengths] + [
                 f"{np.degrees(angle):.3g}°" for angle in angles
             ]
@@ -55,7 +55,7 @@ def draw_gaps(problem: AssemblyProblem, posture: Posture) -> tuple[list[Shape], 
     return shapes, labels
 
 
-def _compute_gap_line(posture: Posture, part: PartInfo, lengths: list[float]) -> Array | None:
+def _compute_gap_line(configuration: Configuration, part: PartInfo, lengths: list[float]) -> Array | None:
     """Return the line from the actual to the required end of a joint, driven coordinate or driven distance, (2, 2), in
     m.
 
@@ -63,31 +63,31 @@ def _compute_gap_line(posture: Posture, part: PartInfo, lengths: list[float]) ->
     """
     if part.section == "joints":
         gap = get_joint_type(part).symbol.gap
-        return np.array(gap(JointGeometry(posture, part), lengths)) if gap else None
+        return np.array(gap(JointGeometry(configuration, part), lengths)) if gap else None
     if part.kind == "coordinate":
         k = "xy".index(part.options["coordinate"])
-        point = posture.get_position(part.ends[0])
+        point = configuration.get_position(part.ends[0])
         return np.array([point, point - lengths[0] * np.eye(2)[k]])
-    begin, end = (posture.get_position(name) for name in part.ends)
+    begin, end = (configuration.get_position(name) for name in part.ends)
     return np.array([begin + (float(np.hypot(*(end - begin))) - lengths[0]) * unit_vector(end - begin), end])
 
 
 def draw_free_motions(
-    problem: AssemblyProblem, posture: Posture, unit: float, unconnected_bodies: tuple[str, ...]
+    problem: AssemblyProblem, configuration: Configuration, unit: float, unconnected_bodies: tuple[str, ...]
 ) -> tuple[list[Shape], list[Label]]:
     """Return arrows along the free motions of the bodies of a closed linkage, and labels.
 
     The names of bodies in `unconnected_bodies` get the label "nothing holds NAME". `unit` is half a bar's width in m.
     """
-    motions = compute_free_motions(problem.linkage, problem.p, posture.q, problem.t)
+    motions = compute_free_motions(problem.linkage, problem.p, configuration.q, problem.t)
     max_motion = float(np.abs(motions * np.where(problem.is_angle, problem.size, 1.0)[:, None]).max(initial=0.0))
     shapes, labels = list[Shape](), list[Label]()
-    for body, info in posture.bodies.items():
+    for body, info in configuration.bodies.items():
         body_motions = motions[info.index : info.index + 3]
         body_shapes = list(
             _draw_motion_arrows(
                 body_motions,
-                posture.get_centre_of_mass(body),
+                configuration.get_centre_of_mass(body),
                 body,
                 unit,
                 MIN_MOTION_FRACTION * max_motion,
@@ -97,7 +97,9 @@ def draw_free_motions(
         shapes += body_shapes
         if body in unconnected_bodies:
             labels.append(
-                Label(f"free {body}", "free", f"nothing holds {body}", posture.get_centre_of_mass(body), 1.5 * unit)
+                Label(
+                    f"free {body}", "free", f"nothing holds {body}", configuration.get_centre_of_mass(body), 1.5 * unit
+                )
             )
     return shapes, labels
 

@@ -6,9 +6,9 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from gudgeon.drawing.configuration import Configuration
 from gudgeon.drawing.joint_geometry import compute_corner_approaches, find_sliding_axis, find_touching_corners
 from gudgeon.drawing.layout import is_visible_to_scale
-from gudgeon.drawing.posture import Posture
 from gudgeon.drawing.shapes import Disc, Label, Line, Shape, compute_rectangle, rotate_quarter_turn
 from gudgeon.language.plot_units import choose_prefix
 from gudgeon.model.compiled import Array
@@ -18,39 +18,41 @@ RADIUS, JOURNAL = 5.0, 0.4  # radius of an inset's hole in units; of the journal
 LONG, HIGH, APART, WALL, DOT = 0.9, 0.34, 0.26, 0.06, 0.06  # halves of slider, gap, half a wall, a corner: the same
 
 
-def compute_eccentricity(posture: Posture, joint: str) -> Array:
+def compute_eccentricity(configuration: Configuration, joint: str) -> Array:
     """Return the vector from the bearing's centre to the journal's, (2,), m, ground axes."""
-    first, second = next(posture.find_parts(joint)).ends
-    return posture.get_position(second) - posture.get_position(first)
+    first, second = next(configuration.find_parts(joint)).ends
+    return configuration.get_position(second) - configuration.get_position(first)
 
 
-def find_contacts(posture: Posture) -> frozenset[str]:
+def find_contacts(configuration: Configuration) -> frozenset[str]:
     """Return the joints and the slider corners with play whose surfaces overlap, by name.
 
     A joint overlaps if its eccentricity is at least its clearance. Joints that only have a film never do.
     """
-    clearances = {name: float(posture.p[joint.clearance]) for name, joint in posture.clearances.items() if joint.dry}
+    clearances = {
+        name: float(configuration.p[joint.clearance]) for name, joint in configuration.clearances.items() if joint.dry
+    }
     joints = (
         name
         for name, clearance in clearances.items()
-        if float(np.hypot(*compute_eccentricity(posture, name))) >= clearance
+        if float(np.hypot(*compute_eccentricity(configuration, name))) >= clearance
     )
-    return frozenset(joints) | find_touching_corners(posture)
+    return frozenset(joints) | find_touching_corners(configuration)
 
 
-def compute_magnification(posture: Posture, joint: str, unit: float) -> float:
+def compute_magnification(configuration: Configuration, joint: str, unit: float) -> float:
     """Return the factor by which an inset magnifies the drawing, rounded down to two digits.
 
     With it, the clearance or gap of the joint fits the inset. `unit` is half a bar's width in m.
     """
-    fraction = APART if joint in posture.guides else 1.0 - JOURNAL
-    exact_factor = RADIUS * fraction * unit / posture.get_clearance(joint)
+    fraction = APART if joint in configuration.guides else 1.0 - JOURNAL
+    exact_factor = RADIUS * fraction * unit / configuration.get_clearance(joint)
     step = 10.0 ** (np.floor(np.log10(exact_factor)) - 1.0)
     return float(np.floor(exact_factor / step) * step)
 
 
 def draw_insets(
-    posture: Posture,
+    configuration: Configuration,
     unit: float,
     lower_corner: Array,
     upper_corner: Array,
@@ -64,21 +66,21 @@ def draw_insets(
     `earlier_contact_names`: those that were in contact since the previous picture, with a red bearing or wall.
     """
     radius = RADIUS * unit
-    joint_names = dict.fromkeys(joint.joint for joint in posture.source.clearances)
-    inset_joints = [name for name in joint_names if not is_visible_to_scale(posture, name, unit)]
+    joint_names = dict.fromkeys(joint.joint for joint in configuration.source.clearances)
+    inset_joints = [name for name in joint_names if not is_visible_to_scale(configuration, name, unit)]
     for joint, centre in zip(
         inset_joints, _place_insets(len(inset_joints), radius, lower_corner, upper_corner), strict=True
     ):
-        clearance, factor = posture.get_clearance(joint), compute_magnification(posture, joint, unit)
-        draw_inset = _draw_slider if joint in posture.guides else _draw_journal
+        clearance, factor = configuration.get_clearance(joint), compute_magnification(configuration, joint, unit)
+        draw_inset = _draw_slider if joint in configuration.guides else _draw_journal
         shapes, eccentricity_ratio, label_distance = draw_inset(
-            posture, joint, centre, radius, contact_names, earlier_contact_names - contact_names
+            configuration, joint, centre, radius, contact_names, earlier_contact_names - contact_names
         )
         label_text = f"{joint} ×{factor:g}, e/c = {eccentricity_ratio:.2f}"
         unit_factor, unit_text = choose_prefix(clearance, "m")
-        quantity, suffix = ("gap", " on each side") if joint in posture.guides else ("clearance", "")
+        quantity, suffix = ("gap", " on each side") if joint in configuration.guides else ("clearance", "")
         note = f"{joint}: {quantity} {clearance * unit_factor:.4g} {unit_text}{suffix}, drawn ×{factor:g}"
-        remark = DASHED * (joint == next((name for name in inset_joints if name in posture.clearances), ""))
+        remark = DASHED * (joint == next((name for name in inset_joints if name in configuration.clearances), ""))
         yield (
             shapes,
             Label(f"inset {joint}", "inset", label_text, centre - [0.0, label_distance], 0.0, 270.0),
@@ -87,7 +89,7 @@ def draw_insets(
 
 
 def _draw_journal(
-    posture: Posture,
+    configuration: Configuration,
     joint: str,
     centre: Array,
     radius: float,
@@ -100,8 +102,8 @@ def _draw_journal(
     `radius` is that of the inset in m. The bearing is red if `joint` is in `earlier_contact_names`, the journal if it
     is in `contact_names`.
     """
-    clearance, factor = posture.get_clearance(joint), compute_magnification(posture, joint, radius / RADIUS)
-    eccentricity_vector = compute_eccentricity(posture, joint)
+    clearance, factor = configuration.get_clearance(joint), compute_magnification(configuration, joint, radius / RADIUS)
+    eccentricity_vector = compute_eccentricity(configuration, joint)
     part, hole_radius = f"inset {joint}", clearance * factor + JOURNAL * radius
     journal_centre = centre + factor * eccentricity_vector
     shapes: list[Shape] = [
@@ -115,7 +117,7 @@ def _draw_journal(
 
 
 def _draw_slider(
-    posture: Posture,
+    configuration: Configuration,
     joint: str,
     centre: Array,
     radius: float,
@@ -127,12 +129,12 @@ def _draw_slider(
 
     The two walls are along the axis; a wall or corner in contact is red. Gaps between corners and walls are magnified.
     """
-    clearance, factor = posture.get_clearance(joint), compute_magnification(posture, joint, radius / RADIUS)
-    _, axis, _ = find_sliding_axis(posture, next(posture.find_parts(joint)))
+    clearance, factor = configuration.get_clearance(joint), compute_magnification(configuration, joint, radius / RADIUS)
+    _, axis, _ = find_sliding_axis(configuration, next(configuration.find_parts(joint)))
     part, normal, corner_approaches = (
         f"inset {joint}",
         rotate_quarter_turn(axis),
-        compute_corner_approaches(posture, joint),
+        compute_corner_approaches(configuration, joint),
     )
     wall_distance = HIGH * radius + clearance * factor + WALL * radius
     shapes: list[Shape] = []

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from gudgeon.contract.kernel_source import PartInfo
-from gudgeon.drawing.posture import GROUND, Posture, get_body_name, get_joint_type
+from gudgeon.drawing.configuration import GROUND, Configuration, get_body_name, get_joint_type
 from gudgeon.drawing.shapes import rotate_quarter_turn, unit_vector
 from gudgeon.model.compiled import Array
 from gudgeon.model.contours import compute_corner_approach
@@ -21,9 +21,9 @@ GAP = 0.5  # units: between a slider and each wall of its guide, if not more
 
 @dataclass(frozen=True, eq=False)
 class JointGeometry:
-    """A joint at a posture. Positions are arrays (2,) in ground axes, m."""
+    """A joint at a configuration. Positions are arrays (2,) in ground axes, m."""
 
-    posture: Posture
+    configuration: Configuration
     part: PartInfo
 
     unit_vector = staticmethod(unit_vector)
@@ -37,16 +37,16 @@ class JointGeometry:
     @property
     def first(self) -> Array:
         """Position of the first point."""
-        return self.posture.get_position(self.part.ends[0])
+        return self.configuration.get_position(self.part.ends[0])
 
     @property
     def second(self) -> Array:
         """Position of the second point."""
-        return self.posture.get_position(self.part.ends[1])
+        return self.configuration.get_position(self.part.ends[1])
 
     def get_parameter(self, key: str) -> float:
         """Return a parameter of the joint, SI; of a vector by "axis.x"."""
-        return self.posture.get_parameter(f"joints.{self.part.name}.{key}")
+        return self.configuration.get_parameter(f"joints.{self.part.name}.{key}")
 
     def get_option(self, key: str) -> str:
         """Return an option of the joint, or a body's name."""
@@ -54,7 +54,7 @@ class JointGeometry:
 
     def direction(self, key: str, body: str) -> Array:
         """Return a vector of the joint in the axes of a body as a unit vector."""
-        return self.posture.compute_direction(self.part, key, body)
+        return self.configuration.compute_direction(self.part, key, body)
 
     def find_pivot(self, k: int, carrier: str) -> Array:
         """Return the pivot of one body of the joint on the body `carrier`, (2,), in m.
@@ -62,14 +62,14 @@ class JointGeometry:
         `k` is 0 for the first body and 1 for the second. Without a pivot it is the joint's point on that body.
         """
         body = self.bodies[k]
-        pivot = find_pivot_joint(self.posture, body, carrier)
+        pivot = find_pivot_joint(self.configuration, body, carrier)
         end = self.part.ends[k] if pivot is None else next(end for end in pivot.ends if get_body_name(end) == body)
-        return self.posture.get_position(end)
+        return self.configuration.get_position(end)
 
     @cached_property
     def _axis(self) -> tuple[Array, Array, Array]:
         """Point on the guide's line, direction, and sliding point."""
-        return find_sliding_axis(self.posture, self.part)
+        return find_sliding_axis(self.configuration, self.part)
 
     @property
     def on_line(self) -> Array:
@@ -92,9 +92,9 @@ class JointGeometry:
         return has_rail(self.part)
 
 
-def iterate_sliding_joints(posture: Posture) -> Iterator[PartInfo]:
+def iterate_sliding_joints(configuration: Configuration) -> Iterator[PartInfo]:
     """Return the joints with a line on which a body slides."""
-    return (part for part in posture.iterate_parts("joints") if get_joint_type(part).slides)
+    return (part for part in configuration.iterate_parts("joints") if get_joint_type(part).slides)
 
 
 def find_guide_and_slider(part: PartInfo) -> tuple[str, str]:
@@ -109,7 +109,7 @@ def find_guide_and_slider(part: PartInfo) -> tuple[str, str]:
     return (slider, guide) if is_exchanged else (guide, slider)
 
 
-def find_sliding_axis(posture: Posture, part: PartInfo) -> tuple[Array, Array, Array]:
+def find_sliding_axis(configuration: Configuration, part: PartInfo) -> tuple[Array, Array, Array]:
     """Return a point on the line of a sliding joint, its direction (unit vector), and the sliding point, each (2,).
 
     Points are in m. The direction belongs to the body that the joint's kind declares as the guide, also if
@@ -119,9 +119,9 @@ def find_sliding_axis(posture: Posture, part: PartInfo) -> tuple[Array, Array, A
     assert slides is not None
     axis_body = get_body_name(part.ends[0 if slides.guide == "first" else 1])
     return (
-        posture.get_position(guide),
-        posture.compute_direction(part, slides.direction, axis_body),
-        posture.get_position(slider),
+        configuration.get_position(guide),
+        configuration.compute_direction(part, slides.direction, axis_body),
+        configuration.get_position(slider),
     )
 
 
@@ -135,35 +135,35 @@ def is_block(part: PartInfo) -> bool:
     return get_joint_type(part).keeps_angle
 
 
-def find_pivot_joint(posture: Posture, body: str, other_body: str) -> PartInfo | None:
+def find_pivot_joint(configuration: Configuration, body: str, other_body: str) -> PartInfo | None:
     """Return the first joint of the file that lets two bodies rotate relative to each other, or None."""
-    for joint in posture.iterate_parts("joints"):
+    for joint in configuration.iterate_parts("joints"):
         if get_joint_type(joint).is_pivot and {body, other_body} <= set(map(get_body_name, joint.ends)):
             return joint
     return None
 
 
-def compute_wall_gap(posture: Posture, part: PartInfo, unit: float) -> float:
+def compute_wall_gap(configuration: Configuration, part: PartInfo, unit: float) -> float:
     """Return the drawn gap between slider and each wall of a guide, m; 0 without play."""
-    return max(GAP * unit, posture.get_clearance(part.name)) if part.name in posture.guides else 0.0
+    return max(GAP * unit, configuration.get_clearance(part.name)) if part.name in configuration.guides else 0.0
 
 
-def compute_guide_directions(posture: Posture, part: PartInfo) -> tuple[Array, Array]:
+def compute_guide_directions(configuration: Configuration, part: PartInfo) -> tuple[Array, Array]:
     """Return the drawn directions of guide and slider of a sliding joint, two unit vectors.
 
     Both are equal without play. With play they differ by the tilt of the slider; the ground counts as the guide if it
     is one of the bodies.
     """
     _, second = map(get_body_name, part.ends)
-    _, axis, _ = find_sliding_axis(posture, part)
-    if part.name not in posture.guides:
+    _, axis, _ = find_sliding_axis(configuration, part)
+    if part.name not in configuration.guides:
         return axis, axis
-    tilt = _compute_tilt_in_guide(posture, part)
+    tilt = _compute_tilt_in_guide(configuration, part)
     tilted_axis = math.cos(tilt) * axis + math.sin(tilt) * rotate_quarter_turn(axis)
     return (tilted_axis, axis) if second == GROUND else (axis, tilted_axis)
 
 
-def _compute_tilt_in_guide(posture: Posture, part: PartInfo) -> float:
+def _compute_tilt_in_guide(configuration: Configuration, part: PartInfo) -> float:
     """Return the tilt of the slider of a joint with play, in rad, within ±π.
 
     It is the angle of the second body relative to the first, less the mounting angle `angle` of the file, or the
@@ -171,33 +171,33 @@ def _compute_tilt_in_guide(posture: Posture, part: PartInfo) -> float:
     """
     first, second = map(get_body_name, part.ends)
     address = f"joints.{part.name}.angle"
-    if posture.is_specified(address):
-        angle = posture.get_parameter(address)
+    if configuration.is_specified(address):
+        angle = configuration.get_parameter(address)
     else:
-        angle = math.atan2(*(posture.get_parameter(f"joints.{part.name}.axis.{axis}") for axis in "yx"))
-    return math.remainder(posture.get_angle(second) - posture.get_angle(first) - angle, 2.0 * math.pi)
+        angle = math.atan2(*(configuration.get_parameter(f"joints.{part.name}.axis.{axis}") for axis in "yx"))
+    return math.remainder(configuration.get_angle(second) - configuration.get_angle(first) - angle, 2.0 * math.pi)
 
 
-def compute_corner_approaches(posture: Posture, joint: str) -> Mapping[str, float]:
+def compute_corner_approaches(configuration: Configuration, joint: str) -> Mapping[str, float]:
     """Return how much nearer to its wall each corner of a slider is than in the middle of its guide, in m, by corner.
 
     `joint` is the name of a sliding joint with play. A corner touches its wall where the value reaches the play.
     """
-    part = next(posture.find_parts(joint))
+    part = next(configuration.find_parts(joint))
     first, second = part.ends
-    (_, axis, _), tilt = find_sliding_axis(posture, part), _compute_tilt_in_guide(posture, part)
-    offset = float((posture.get_position(second) - posture.get_position(first)) @ rotate_quarter_turn(axis))
+    (_, axis, _), tilt = find_sliding_axis(configuration, part), _compute_tilt_in_guide(configuration, part)
+    offset = float((configuration.get_position(second) - configuration.get_position(first)) @ rotate_quarter_turn(axis))
     return {
-        corner.name: compute_corner_approach(posture.source, posture.p, corner, offset, tilt)
-        for corner in posture.guides[joint]
+        corner.name: compute_corner_approach(configuration.source, configuration.p, corner, offset, tilt)
+        for corner in configuration.guides[joint]
     }
 
 
-def find_touching_corners(posture: Posture) -> frozenset[str]:
+def find_touching_corners(configuration: Configuration) -> frozenset[str]:
     """Return the names of the corners of all sliders with play that touch or penetrate their walls."""
     return frozenset(
         name
-        for joint in posture.guides
-        for name, approach in compute_corner_approaches(posture, joint).items()
-        if approach >= posture.get_clearance(joint)
+        for joint in configuration.guides
+        for name, approach in compute_corner_approaches(configuration, joint).items()
+        if approach >= configuration.get_clearance(joint)
     )

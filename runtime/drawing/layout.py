@@ -8,15 +8,15 @@ from dataclasses import dataclass
 import numpy as np
 
 from gudgeon.contract.kernel_source import PartInfo
-from gudgeon.drawing.joint_geometry import JointGeometry, find_sliding_axis, has_rail, iterate_sliding_joints
-from gudgeon.drawing.posture import (
+from gudgeon.drawing.configuration import (
     GROUND,
-    Posture,
+    Configuration,
     find_outline_points,
     get_body_name,
     get_joint_type,
     remove_repeated_positions,
 )
+from gudgeon.drawing.joint_geometry import JointGeometry, find_sliding_axis, has_rail, iterate_sliding_joints
 from gudgeon.drawing.shapes import rotate_quarter_turn, unit_vector
 from gudgeon.model.compiled import Array
 
@@ -35,7 +35,7 @@ class Layout:
 
     `unit`: half a bar's width (m). `ground_directions`: for a joint, cylinder or spring on the ground the direction of
     the ground from it, (2,). `travel`: for a sliding joint the smallest and largest position along its axis (m), over
-    all postures. `newton`: drawn length of an applied force of 1 N (m); 0: all have one length.
+    all configurations. `newton`: drawn length of an applied force of 1 N (m); 0: all have one length.
     """
 
     unit: float
@@ -44,53 +44,71 @@ class Layout:
     newton: float = 0.0
 
 
-def make_layout(postures: Sequence[Posture], start_posture: Posture | None = None) -> Layout:
-    """Return the layout for the drawings of one posture, or of several postures of a motion.
+def make_layout(configurations: Sequence[Configuration], start_configuration: Configuration | None = None) -> Layout:
+    """Return the layout for the drawings of one configuration, or of several configurations of a motion.
 
-    The side of the ground at a guide depends on the ground's points and on `start_posture`, by default the first
-    posture. All drawings of a mechanism therefore agree. `start_posture` None: the first posture.
+    The side of the ground at a guide depends on the ground's points and on `start_configuration`, by default the first
+    configuration. All drawings of a mechanism therefore agree. `start_configuration` None: the first configuration.
     """
-    first_posture, start_posture = postures[0], start_posture or postures[0]
-    positions = np.array([position for posture in postures for position in _collect_drawn_points(posture)])
+    first_configuration, start_configuration = configurations[0], start_configuration or configurations[0]
+    positions = np.array(
+        [position for configuration in configurations for position in _collect_drawn_points(configuration)]
+    )
     ground_directions, travel = dict[str, Array](), dict[str, tuple[float, float]]()
-    for part in iterate_sliding_joints(first_posture):
-        slider_positions = [_compute_slider_position(posture, part) for posture in postures]
+    for part in iterate_sliding_joints(first_configuration):
+        slider_positions = [_compute_slider_position(configuration, part) for configuration in configurations]
         travel[part.name] = min(slider_positions), max(slider_positions)
-    for part in first_posture.iterate_parts("joints"):
+    for part in first_configuration.iterate_parts("joints"):
         if any(get_body_name(end) == GROUND for end in part.ends):
             ground_directions[part.name] = (
-                _find_rail_side(start_posture, part) if has_rail(part) else _find_pin_ground_direction(postures, part)
+                _find_rail_side(start_configuration, part)
+                if has_rail(part)
+                else _find_pin_ground_direction(configurations, part)
             )
     for part in (
-        *first_posture.iterate_parts("drives", "distance"),
-        *first_posture.iterate_parts("forces", "spring_damper"),
+        *first_configuration.iterate_parts("drives", "distance"),
+        *first_configuration.iterate_parts("forces", "spring_damper"),
     ):
         if any(get_body_name(end) == GROUND for end in part.ends):
-            ground_directions[part.name] = _find_element_ground_direction(postures, part)
-    return Layout(_compute_symbol_unit(first_posture, positions), ground_directions, travel)
+            ground_directions[part.name] = _find_element_ground_direction(configurations, part)
+    return Layout(_compute_symbol_unit(first_configuration, positions), ground_directions, travel)
 
 
-def _collect_drawn_points(posture: Posture) -> list[Array]:
+def _collect_drawn_points(configuration: Configuration) -> list[Array]:
     """Return all points that a drawing must contain, each (2,), in m.
 
     They are the points of bodies and parts, and corners of boxes around wheels, journals' clearances and sliders with
     play.
     """
-    points = [position for body in posture.bodies for position in find_outline_points(posture, body).values()]
-    points += [posture.get_position(end) for part in posture.source.parts for end in part.ends if end in posture.points]
-    for part in posture.iterate_parts("joints"):
+    points = [
+        position for body in configuration.bodies for position in find_outline_points(configuration, body).values()
+    ]
+    points += [
+        configuration.get_position(end)
+        for part in configuration.source.parts
+        for end in part.ends
+        if end in configuration.points
+    ]
+    for part in configuration.iterate_parts("joints"):
         radii = get_joint_type(part).symbol.reach
-        for end, radius in zip(part.ends, radii(JointGeometry(posture, part)), strict=True) if radii else ():
+        for end, radius in zip(part.ends, radii(JointGeometry(configuration, part)), strict=True) if radii else ():
             if radius > 0.0:
-                points += [posture.get_position(end) + offset for offset in radius * np.array([[1, 1], [-1, -1]])]
-    for joint in posture.source.clearances:
-        half_size = posture.get_slider_dimensions(joint)[1] if joint.is_corner else posture.get_clearance(joint.name)
+                points += [configuration.get_position(end) + offset for offset in radius * np.array([[1, 1], [-1, -1]])]
+    for joint in configuration.source.clearances:
+        half_size = (
+            configuration.get_slider_dimensions(joint)[1]
+            if joint.is_corner
+            else configuration.get_clearance(joint.name)
+        )
         offsets = half_size * np.array([[1, 1], [-1, -1]])
-        points += [posture.get_position(next(posture.find_parts(joint.joint)).ends[0]) + offset for offset in offsets]
+        points += [
+            configuration.get_position(next(configuration.find_parts(joint.joint)).ends[0]) + offset
+            for offset in offsets
+        ]
     return points
 
 
-def _compute_symbol_unit(posture: Posture, positions: Array) -> float:
+def _compute_symbol_unit(configuration: Configuration, positions: Array) -> float:
     """Return half a bar's width in m, from the size of the drawing and its shortest link.
 
     `positions` (N, 2) are all drawn points. If they are one point, the file's largest length takes the place of the
@@ -99,40 +117,44 @@ def _compute_symbol_unit(posture: Posture, positions: Array) -> float:
     drawing_size = float(np.ptp(positions, axis=0).max())
     if not drawing_size > 0.0:  # one point: as large as the file's largest length
         lengths = (
-            abs(posture.get_parameter(parameter.address)) for parameter in posture.source.slots if parameter.unit == "m"
+            abs(configuration.get_parameter(parameter.address))
+            for parameter in configuration.source.slots
+            if parameter.unit == "m"
         )
         return UNIT_FRACTION * (max(lengths, default=0.0) or 1.0)
     spans = []
-    for body in posture.bodies:
-        outline_points = remove_repeated_positions(find_outline_points(posture, body).values())
+    for body in configuration.bodies:
+        outline_points = remove_repeated_positions(find_outline_points(configuration, body).values())
         spans += [float(np.hypot(*(a - b))) for k, a in enumerate(outline_points) for b in outline_points[:k]]
     shortest = min((span for span in spans if span > 1e-3 * drawing_size), default=drawing_size)
     return max(MIN_UNIT_FRACTION * drawing_size, min(UNIT_FRACTION * drawing_size, MAX_LINK_FRACTION * shortest))
 
 
-def is_visible_to_scale(posture: Posture, joint: str, unit: float) -> bool:
+def is_visible_to_scale(configuration: Configuration, joint: str, unit: float) -> bool:
     """Return whether a joint's play is visible without magnification."""
-    return posture.get_clearance(joint) > MAX_MAGNIFIED * unit
+    return configuration.get_clearance(joint) > MAX_MAGNIFIED * unit
 
 
-def _compute_slider_position(posture: Posture, part: PartInfo) -> float:
+def _compute_slider_position(configuration: Configuration, part: PartInfo) -> float:
     """Return the coordinate of a sliding joint's slider along its line, in m."""
-    line_point, axis, slider = find_sliding_axis(posture, part)
+    line_point, axis, slider = find_sliding_axis(configuration, part)
     return float((slider - line_point) @ axis)
 
 
-def _find_rail_side(start_posture: Posture, part: PartInfo) -> Array:
+def _find_rail_side(start_configuration: Configuration, part: PartInfo) -> Array:
     """Return the direction of the ground at a guide, a unit vector across its axis.
 
-    The ground is away from its other points, or else away from the mechanism at `start_posture`. If neither differs
-    enough, it is below or to the right.
+    The ground is away from its other points, or else away from the mechanism at `start_configuration`. If neither
+    differs enough, it is below or to the right.
     """
-    line_point, axis, slider = find_sliding_axis(start_posture, part)
+    line_point, axis, slider = find_sliding_axis(start_configuration, part)
     normal = rotate_quarter_turn(axis)
-    ground = [start_posture.get_position(name) for name in start_posture.points if get_body_name(name) == GROUND]
+    ground = [
+        start_configuration.get_position(name) for name in start_configuration.points if get_body_name(name) == GROUND
+    ]
     for positions, reference, min_offset in (
         (ground, line_point, ASIDE[0]),
-        (_collect_drawn_points(start_posture), slider, ASIDE[1]),
+        (_collect_drawn_points(start_configuration), slider, ASIDE[1]),
     ):
         offset = float((np.array(positions) - reference).mean(axis=0) @ normal)
         if abs(offset) > min_offset * float(np.ptp(positions, axis=0).max()):
@@ -141,14 +163,14 @@ def _find_rail_side(start_posture: Posture, part: PartInfo) -> Array:
     return normal if down > 0.0 else -normal
 
 
-def _find_pin_ground_direction(postures: Sequence[Posture], part: PartInfo) -> Array:
-    """Return the direction of the ground at a pin, a unit vector: down unless links lie there in some posture.
+def _find_pin_ground_direction(configurations: Sequence[Configuration], part: PartInfo) -> Array:
+    """Return the direction of the ground at a pin, a unit vector: down unless links lie there in some configuration.
 
     Otherwise it is the one of the four axis directions with the fewest points of the pin's bodies within 50°, over all
-    postures.
+    configurations.
     """
     end = next(end for end in part.ends if get_body_name(end) == GROUND)
-    first, angles = postures[0], []
+    first, angles = configurations[0], []
     pin = first.get_position(end)
     holding_joints = [joint for joint in first.iterate_parts("joints") if get_joint_type(joint).holds_points]
     bodies = {
@@ -158,8 +180,10 @@ def _find_pin_ground_direction(postures: Sequence[Posture], part: PartInfo) -> A
         if body != GROUND
         and any(np.abs(first.get_position(end_name) - pin).max() < 1e-9 for end_name in joint_at_pin.ends)
     }
-    for posture in postures:
-        spans = [position - pin for body in sorted(bodies) for position in find_outline_points(posture, body).values()]
+    for configuration in configurations:
+        spans = [
+            position - pin for body in sorted(bodies) for position in find_outline_points(configuration, body).values()
+        ]
         angles += [np.arctan2(y, x) for x, y in spans if np.hypot(x, y) > 1e-9]
     directions = np.array([[0.0, -1.0], [-1.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
     if not angles:
@@ -169,14 +193,17 @@ def _find_pin_ground_direction(postures: Sequence[Posture], part: PartInfo) -> A
     return directions[0] if fractions[0] == 0.0 else directions[int(np.argmin(fractions))]
 
 
-def _find_element_ground_direction(postures: Sequence[Posture], part: PartInfo) -> Array:
+def _find_element_ground_direction(configurations: Sequence[Configuration], part: PartInfo) -> Array:
     """Return the direction of the ground at the ground end of a drive or spring, a unit vector.
 
-    It points away from the other end, on average over the postures. If the average is almost zero, it is that of the
-    first posture.
+    It points away from the other end, on average over the configurations. If the average is almost zero, it is that of
+    the first configuration.
     """
     ground_end, other_end = sorted(part.ends, key=lambda end: get_body_name(end) != GROUND)
-    spans = [posture.get_position(ground_end) - posture.get_position(other_end) for posture in postures]
+    spans = [
+        configuration.get_position(ground_end) - configuration.get_position(other_end)
+        for configuration in configurations
+    ]
     mean = np.sum([unit_vector(span) for span in spans], axis=0)
     return unit_vector(mean if float(np.hypot(*mean)) > ASIDE[0] * len(spans) else spans[0])
 

@@ -9,9 +9,9 @@ from typing import ClassVar
 import numpy as np
 
 from gudgeon.drawing.bodies import BLOCK, SLOT, compute_guide_ends
+from gudgeon.drawing.configuration import GROUND, get_body_name
 from gudgeon.drawing.joint_geometry import JointGeometry, compute_guide_directions, compute_wall_gap
 from gudgeon.drawing.layout import Layout, is_visible_to_scale
-from gudgeon.drawing.posture import GROUND, get_body_name
 from gudgeon.drawing.shapes import (
     Disc,
     Line,
@@ -54,7 +54,7 @@ class Pen(JointGeometry):
 
     def compute_body_axis(self, k: int) -> Array:
         """Return the x axis of the first (0) or second (1) body, a unit vector."""
-        angle = self.posture.get_angle(self.bodies[k])
+        angle = self.configuration.get_angle(self.bodies[k])
         return np.array([np.cos(angle), np.sin(angle)])
 
     def add_line(self, role: str, points: Sequence[Array], closed: bool = False, tint: int = 0) -> None:
@@ -80,7 +80,10 @@ class Pen(JointGeometry):
         """
         for end in self.part.ends if self.on_ground else ():
             if get_body_name(end) == GROUND:
-                position, direction = self.posture.get_position(end), self.layout.ground_directions[self.part.name]
+                position, direction = (
+                    self.configuration.get_position(end),
+                    self.layout.ground_directions[self.part.name],
+                )
                 self.shapes.extend(_draw_stand(self.name, position, direction, self.unit))
 
     def add_wall(self, position: Array) -> None:
@@ -95,10 +98,10 @@ class Pen(JointGeometry):
 
         A clearance that is visible to scale is drawn as a circle of its radius instead, without a stand.
         """
-        posture, name = self.posture, self.part.name
-        has_play = name in posture.clearances
-        if has_play and is_visible_to_scale(posture, name, self.unit):
-            self.add_disc("clearance", self.first, float(posture.p[posture.clearances[name].clearance]))
+        configuration, name = self.configuration, self.part.name
+        has_play = name in configuration.clearances
+        if has_play and is_visible_to_scale(configuration, name, self.unit):
+            self.add_disc("clearance", self.first, float(configuration.p[configuration.clearances[name].clearance]))
             return
         self.add_stand()
         if has_play:
@@ -111,8 +114,8 @@ class Pen(JointGeometry):
         side of the line.
         """
         line_point, axis, name = self.on_line, self.along, self.part.name
-        if name in self.posture.guides:
-            axis = compute_guide_directions(self.posture, self.part)[0]
+        if name in self.configuration.guides:
+            axis = compute_guide_directions(self.configuration, self.part)[0]
         min_travel, max_travel = self.layout.travel[name]
         overhang, ground_direction = (
             (2.0 * BLOCK[0] + 0.4) * self.unit * axis,
@@ -132,9 +135,9 @@ class Pen(JointGeometry):
         Rails are on one side without play, on both sides with play. The axis line lies under the block.
         """
         if not self.on_ground:
-            self.add_line("axis", compute_guide_ends(self.posture, self.layout, self.part))
+            self.add_line("axis", compute_guide_ends(self.configuration, self.layout, self.part))
             return
-        wall_gap = compute_wall_gap(self.posture, self.part, self.unit)
+        wall_gap = compute_wall_gap(self.configuration, self.part, self.unit)
         for sign in (1.0, -1.0) if wall_gap else (1.0,):
             self.add_rail(BLOCK[1] * self.unit + wall_gap, sign)
 
@@ -142,7 +145,11 @@ class Pen(JointGeometry):
         """Add the slot in the guiding body, as long as the travel."""
         self.add_line(
             "slot",
-            list(compute_rounded_outline(compute_guide_ends(self.posture, self.layout, self.part), SLOT * self.unit)),
+            list(
+                compute_rounded_outline(
+                    compute_guide_ends(self.configuration, self.layout, self.part), SLOT * self.unit
+                )
+            ),
             True,
         )
 
@@ -152,7 +159,7 @@ class Pen(JointGeometry):
         `radius` is in m. With `is_ring` the wheel has teeth inside: a rim is added outside, and the spoke lies in the
         rim.
         """
-        body, names = self.bodies[k], list(self.posture.bodies)
+        body, names = self.bodies[k], list(self.configuration.bodies)
         tint = names.index(body) if body in names else 0
         if is_ring:
             self.add_disc("rim", centre, radius + 1.2 * self.unit, tint)

@@ -19,17 +19,17 @@ from typing import Any
 
 import numpy as np
 
+from gudgeon.drawing.configuration import GROUND, Configuration, get_body_name, list_direction_keys
 from gudgeon.drawing.layout import Layout, make_layout
-from gudgeon.drawing.posture import GROUND, Posture, get_body_name, list_direction_keys
 from gudgeon.drawing.roles import ROLES
 from gudgeon.drawing.shapes import Disc, Shape, Sketch
 from gudgeon.drawing.sketch import compute_common_box, make_sketch
 from gudgeon.model.compiled import Array
 
 EXACT = 1e-9  # tolerance of a moved point as a fraction of the drawing's size
-TRIED = ((0.25, 0.03, 14), (0.02, 0.003, 8))  # additional postures: changes of q and p, and their number
+TRIED = ((0.25, 0.03, 14), (0.02, 0.003, 8))  # additional configurations: changes of q and p, and their number
 SEED = 20261123
-MIN_POSTURES = 5  # postures that show the same shape, at least
+MIN_CONFIGURATIONS = 5  # configurations that show the same shape, at least
 
 
 @dataclass(frozen=True)
@@ -45,12 +45,16 @@ class MovingFrame:
     turn: tuple[Any, ...] = ()
     length_index: int = -1
 
-    def compute_frame(self, posture: Posture) -> tuple[Array, Array, float]:
-        """Return origin r_P (2,) in m, rotation matrix A (2, 2) and length s of the moving frame at a posture.
+    def compute_frame(self, configuration: Configuration) -> tuple[Array, Array, float]:
+        """Return origin r_P (2,) in m, rotation matrix A (2, 2) and length s of the moving frame at a configuration.
 
         The matrix is the identity if the direction that defines φ is a zero vector.
         """
-        origin, q, p = posture.get_position(self.point) if self.point else np.zeros(2), posture.q, posture.p
+        origin, q, p = (
+            configuration.get_position(self.point) if self.point else np.zeros(2),
+            configuration.q,
+            configuration.p,
+        )
         x, y = 1.0, 0.0
         kind, *arguments = self.turn or ("",)
         if kind == "body":
@@ -61,9 +65,9 @@ class MovingFrame:
                 c, s = np.cos(q[arguments[2]]), np.sin(q[arguments[2]])
                 x, y = c * x - s * y, s * x + c * y
         elif kind == "pair":
-            x, y = posture.get_position(arguments[0]) - origin
+            x, y = configuration.get_position(arguments[0]) - origin
         elif kind == "load":
-            x, y = posture.loads.get(arguments[0], (0.0, 0.0))
+            x, y = configuration.loads.get(arguments[0], (0.0, 0.0))
         length = float(np.hypot(x, y))
         c, s = (x / length, y / length) if length > 0.0 else (1.0, 0.0)
         return (
@@ -81,20 +85,22 @@ class MovingShape:
     moving_frames: tuple[MovingFrame, ...]
     offsets: Array
     radius: tuple[float, float, int] = (0.0, 0.0, -1)
-    max_error: float = 0.0  # m: how far it is off at the worst posture that was tried
+    max_error: float = 0.0  # m: how far it is off at the worst configuration that was tried
 
-    def move_to(self, posture: Posture) -> Shape:
-        """Return the shape moved to a posture: points of a line, or centre and radius of a disc."""
+    def move_to(self, configuration: Configuration) -> Shape:
+        """Return the shape moved to a configuration: points of a line, or centre and radius of a disc."""
         positions = np.empty((len(self.moving_frames), 2))
         for moving_frame in dict.fromkeys(self.moving_frames):
-            origin, rotation, s = moving_frame.compute_frame(posture)
+            origin, rotation, s = moving_frame.compute_frame(configuration)
             point_indices = [k for k, other in enumerate(self.moving_frames) if other == moving_frame]
             positions[point_indices] = (
                 origin + (self.offsets[point_indices, :2] + s * self.offsets[point_indices, 2:]) @ rotation.T
             )
         if isinstance(self.shape, Disc):
             r0, r1, k = self.radius
-            return replace(self.shape, centre=positions[0], radius=r0 + (r1 * float(posture.p[k]) if k >= 0 else 0.0))
+            return replace(
+                self.shape, centre=positions[0], radius=r0 + (r1 * float(configuration.p[k]) if k >= 0 else 0.0)
+            )
         return replace(self.shape, points=positions)
 
 
@@ -103,7 +109,7 @@ class Rig:
     """All shapes in the order of painting, names, and the box and unit of the drawing (m)."""
 
     shapes: tuple[MovingShape, ...]
-    sketch: Sketch  # of the first posture: its labels, its box
+    sketch: Sketch  # of the first configuration: its labels, its box
 
     labels: tuple[MovingFrame, ...]
     label_offsets: Array  # of labels, (L, 4)
@@ -167,21 +173,24 @@ def _round_to_integers(lengths: Array, step: float) -> list[int]:
     return [round(float(x) / step) for x in lengths]
 
 
-def make_rig(postures: Sequence[Posture], layout: Layout | None = None) -> Rig:
-    """Return the rig for the postures of a motion: the drawing of the first one, with a moving frame for each point.
+def make_rig(configurations: Sequence[Configuration], layout: Layout | None = None) -> Rig:
+    """Return the rig for the configurations of a motion: the drawing of the first, with a moving frame for each point.
 
-    Insets are left out, and drives' arrows keep their direction of the first posture. A point that no moving frame
-    reproduces to EXACT gets the nearest moving frame; the error is stored as `max_error`.
+    Insets are left out, and drives' arrows keep their direction of the first configuration. A point that no moving
+    frame reproduces to EXACT gets the nearest moving frame; the error is stored as `max_error`.
     """
-    layout = layout or make_layout(postures)
-    postures = [replace(posture, v=postures[0].v) for posture in postures]
-    box = compute_common_box(postures, [layout])
-    sketches = [make_sketch(postures[0], layout, box=box, shows_insets=False, shows_zero_loads=False)]
-    motion_postures = list(postures[:: max(1, len(postures) // 6)][:8])
-    trial_postures = [*motion_postures, *_vary_postures(motion_postures, float((box[1] - box[0]).max()))]
+    layout = layout or make_layout(configurations)
+    configurations = [replace(configuration, v=configurations[0].v) for configuration in configurations]
+    box = compute_common_box(configurations, [layout])
+    sketches = [make_sketch(configurations[0], layout, box=box, shows_insets=False, shows_zero_loads=False)]
+    motion_configurations = list(configurations[:: max(1, len(configurations) // 6)][:8])
+    trial_configurations = [
+        *motion_configurations,
+        *_vary_configurations(motion_configurations, float((box[1] - box[0]).max())),
+    ]
     sketches += [
-        make_sketch(posture, layout, box=box, shows_insets=False, shows_zero_loads=False)
-        for posture in trial_postures[1:]
+        make_sketch(configuration, layout, box=box, shows_insets=False, shows_zero_loads=False)
+        for configuration in trial_configurations[1:]
     ]
     shapes_by_key = [{key: shape for key, shape in _number_shapes(sketch)} for sketch in sketches]
     size, moving_shapes_by_key = float((box[1] - box[0]).max()), dict[tuple[str, int], MovingShape]()
@@ -189,18 +198,21 @@ def make_rig(postures: Sequence[Posture], layout: Layout | None = None) -> Rig:
     for part in parts:
         part_shapes = [(key, shape) for key, shape in _number_shapes(sketches[0]) if shape.part == part]
         search = _FrameSearch(
-            trial_postures, list(_iterate_candidate_frames(trial_postures[0], part)), EXACT * size, len(motion_postures)
+            trial_configurations,
+            list(_iterate_candidate_frames(trial_configurations[0], part)),
+            EXACT * size,
+            len(motion_configurations),
         )
         for key, shape in part_shapes:
             moving_shapes_by_key[key] = search.attach_shape(
-                shape, [shapes_of_posture.get(key) for shapes_of_posture in shapes_by_key]
+                shape, [shapes_of_configuration.get(key) for shapes_of_configuration in shapes_by_key]
             )
     shapes = sorted(
         (moving_shapes_by_key[key] for key, _ in _number_shapes(sketches[0])),
         key=lambda moving_shape: ROLES[moving_shape.shape.role].order,
     )
     label_frames = [
-        _find_label_frame(trial_postures, sketches, k, EXACT * size, len(motion_postures))
+        _find_label_frame(trial_configurations, sketches, k, EXACT * size, len(motion_configurations))
         for k in range(len(sketches[0].labels))
     ]
     labels, offsets = (
@@ -211,14 +223,17 @@ def make_rig(postures: Sequence[Posture], layout: Layout | None = None) -> Rig:
 
 
 def _find_label_frame(
-    postures: Sequence[Posture], sketches: Sequence[Sketch], k: int, tolerance: float, n_motion: int
+    configurations: Sequence[Configuration], sketches: Sequence[Sketch], k: int, tolerance: float, n_motion: int
 ) -> tuple[MovingFrame, Array]:
     """Return moving frame and offsets (4,) of the k-th name, which moves with its part.
 
-    `sketches` are the drawings of `postures`, of which the first `n_motion` belong to the motion. `tolerance` is in m.
+    `sketches` are the drawings of `configurations`, of which the first `n_motion` belong to the motion. `tolerance` is
+    in m.
     """
     label = sketches[0].labels[k]
-    search = _FrameSearch(postures, list(_iterate_candidate_frames(postures[0], label.part)), tolerance, n_motion)
+    search = _FrameSearch(
+        configurations, list(_iterate_candidate_frames(configurations[0], label.part)), tolerance, n_motion
+    )
     label_positions = [Disc(label.part, "mark", sketch.labels[k].position, 1.0) for sketch in sketches]
     moving_shape = search.attach_shape(label_positions[0], list(label_positions))
     return moving_shape.moving_frames[0], moving_shape.offsets[0]
@@ -232,14 +247,14 @@ def _number_shapes(sketch: Sketch) -> Iterator[tuple[tuple[str, int], Shape]]:
         yield (shape.part, counts[shape.part]), shape
 
 
-def _vary_postures(postures: Sequence[Posture], size: float) -> Iterator[Posture]:
-    """Yield additional postures with separated bodies, other lengths and other loads, by which moving frames are
+def _vary_configurations(configurations: Sequence[Configuration], size: float) -> Iterator[Configuration]:
+    """Yield additional configurations with separated bodies, other lengths and other loads, by which moving frames are
     distinguished.
 
-    Positions, parameters in m and loads change at random with a fixed seed, so that the postures are always the same.
-    `size` is that of the drawing in m.
+    Positions, parameters in m and loads change at random with a fixed seed, so that the configurations are always the
+    same. `size` is that of the drawing in m.
     """
-    source, random_generator = postures[0].source, np.random.default_rng(SEED)
+    source, random_generator = configurations[0].source, np.random.default_rng(SEED)
     length_parameters = {i for point in source.points for i in (point.x, point.y) if i >= 0}
     length_parameters |= {
         i
@@ -250,8 +265,11 @@ def _vary_postures(postures: Sequence[Posture], size: float) -> Iterator[Posture
     is_angle[[body.index + 2 for body in source.bodies]] = True
     for position_change, length_change, count in TRIED:
         for i in range(count):
-            posture, length_indices = postures[i % len(postures)], np.array(sorted(length_parameters), dtype=int)
-            q, p = posture.q.copy(), posture.p.copy()
+            configuration, length_indices = (
+                configurations[i % len(configurations)],
+                np.array(sorted(length_parameters), dtype=int),
+            )
+            q, p = configuration.q.copy(), configuration.p.copy()
             q += position_change * random_generator.uniform(-1.0, 1.0, len(q)) * np.where(is_angle, 2.0, size)
             p[length_indices] *= 1.0 + length_change * random_generator.uniform(-1.0, 1.0, len(length_indices))
             loads = {
@@ -259,18 +277,18 @@ def _vary_postures(postures: Sequence[Posture], size: float) -> Iterator[Posture
                     x + position_change * random_generator.normal() * abs(x + y),
                     y + position_change * random_generator.normal() * abs(x + y),
                 )
-                for name, (x, y) in posture.loads.items()
+                for name, (x, y) in configuration.loads.items()
             }
-            yield Posture(source, p, q, posture.t, posture.v, loads)
+            yield Configuration(source, p, q, configuration.t, configuration.v, loads)
 
 
-def _iterate_candidate_frames(posture: Posture, part: str) -> Iterator[MovingFrame]:
+def _iterate_candidate_frames(configuration: Configuration, part: str) -> Iterator[MovingFrame]:
     """Yield the possible moving frames of a part's shapes, the simplest first.
 
     `part` is a kind and a name, such as "body L1". The order is: fixed points, points with a rotation, pairs of points
     with their distance, then moving frames with a length of the file.
     """
-    source, kind = posture.source, part.partition(" ")[0]
+    source, kind = configuration.source, part.partition(" ")[0]
     name = part.partition(" ")[2]
     parts = [
         item
@@ -284,15 +302,17 @@ def _iterate_candidate_frames(posture: Posture, part: str) -> Iterator[MovingFra
     bodies = list(dict.fromkeys([get_body_name(end) for end in ends] + ([name] if kind == "body" else [])))
     if kind == "point":
         bodies, ends = [get_body_name(name)], [name]
-    outline_points = [end for body in bodies for end in posture.outline_points.get(body, ()) if body != GROUND]
+    outline_points = [end for body in bodies for end in configuration.outline_points.get(body, ()) if body != GROUND]
     points = [
         name
         for name in dict.fromkeys([*ends, *outline_points, *(f"{body}.com" for body in bodies)])
-        if name in posture.points
+        if name in configuration.points
     ]
     turns: list[tuple[Any, ...]] = [()]
-    turns += [("body", posture.bodies[body].index + 2) for body in bodies if body in posture.bodies]
-    turns += _list_axis_directions(posture, parts) + [("load", item.name) for item in parts if item.kind == "force"]
+    turns += [("body", configuration.bodies[body].index + 2) for body in bodies if body in configuration.bodies]
+    turns += _list_axis_directions(configuration, parts) + [
+        ("load", item.name) for item in parts if item.kind == "force"
+    ]
     parameter_indices = {parameter.address: k for k, parameter in enumerate(source.slots)}
     turns += (
         [("axis", parameter_indices.get("gravity.x", -1), parameter_indices.get("gravity.y", -1), -1)]
@@ -318,7 +338,7 @@ def _iterate_candidate_frames(posture: Posture, part: str) -> Iterator[MovingFra
         yield from (MovingFrame(item, ("pair", second), k) for item, second in permutations(points, 2))
 
 
-def _list_axis_directions(posture: Posture, parts: Sequence[Any]) -> list[tuple[Any, ...]]:
+def _list_axis_directions(configuration: Configuration, parts: Sequence[Any]) -> list[tuple[Any, ...]]:
     """Return the angles φ of moving frames along parts' axes: ("axis", index of x, index of y, index in q).
 
     A part is a joint or a force element (PartInfo). The first two indices are those of the
@@ -327,7 +347,7 @@ def _list_axis_directions(posture: Posture, parts: Sequence[Any]) -> list[tuple[
     parameter are left out.
     """
     parameter_indices, turns = (
-        {parameter.address: k for k, parameter in enumerate(posture.source.slots)},
+        {parameter.address: k for k, parameter in enumerate(configuration.source.slots)},
         list[tuple[Any, ...]](),
     )
     for part in parts:
@@ -335,7 +355,7 @@ def _list_axis_directions(posture: Posture, parts: Sequence[Any]) -> list[tuple[
             component_indices = [parameter_indices.get(f"{part.section}.{part.name}.{key}.{axis}", -1) for axis in "xy"]
             if max(component_indices) >= 0:
                 indices = [
-                    posture.bodies[body].index + 2 if body in posture.bodies else -1
+                    configuration.bodies[body].index + 2 if body in configuration.bodies else -1
                     for body in map(get_body_name, part.ends)
                 ]
                 turns += [("axis", *component_indices, index) for index in dict.fromkeys(indices)]
@@ -343,37 +363,48 @@ def _list_axis_directions(posture: Posture, parts: Sequence[Any]) -> list[tuple[
 
 
 class _FrameSearch:
-    """Possible moving frames of a part, evaluated at all postures; the first `n_motion` postures have the file's
-    parameters.
+    """Possible moving frames of a part, evaluated at all configurations.
+
+    The first `n_motion` configurations have the file's parameters.
     """
 
     def __init__(
-        self, postures: Sequence[Posture], moving_frames: Sequence[MovingFrame], tolerance: float, n_motion: int
+        self,
+        configurations: Sequence[Configuration],
+        moving_frames: Sequence[MovingFrame],
+        tolerance: float,
+        n_motion: int,
     ) -> None:
-        """Evaluate the frames at all postures; the first `n_motion` belong to the motion, `tolerance` is in m."""
-        self.postures, self.moving_frames, self.tolerance, self.n_motion = postures, moving_frames, tolerance, n_motion
+        """Evaluate the frames at all configurations; the first `n_motion` belong to the motion, `tolerance` is in m."""
+        self.configurations, self.moving_frames, self.tolerance, self.n_motion = (
+            configurations,
+            moving_frames,
+            tolerance,
+            n_motion,
+        )
         self.evaluated_frames = [
-            [moving_frame.compute_frame(posture) for posture in postures] for moving_frame in moving_frames
+            [moving_frame.compute_frame(configuration) for configuration in configurations]
+            for moving_frame in moving_frames
         ]
 
-    def attach_shape(self, shape: Shape, shapes_by_posture: Sequence[Shape | None]) -> MovingShape:
+    def attach_shape(self, shape: Shape, shapes_by_configuration: Sequence[Shape | None]) -> MovingShape:
         """Return the shape with the first moving frame of each point that reproduces it within the tolerance.
 
         A point that no moving frame reproduces gets the best one.
 
-        `shapes_by_posture` are its drawings at all postures, None where it is absent. If fewer than MIN_POSTURES have
-        the same number of points, only the first is used.
+        `shapes_by_configuration` are its drawings at all configurations, None where it is absent. If fewer than
+        MIN_CONFIGURATIONS have the same number of points, only the first is used.
         """
         points = _get_shape_points(shape)
         indices = [
             k
-            for k, candidate in enumerate(shapes_by_posture)
+            for k, candidate in enumerate(shapes_by_configuration)
             if candidate is not None
             and type(candidate) is type(shape)
             and len(_get_shape_points(candidate)) == len(points)
         ]
-        indices = indices if len(indices) >= MIN_POSTURES else list(range(1))
-        positions = np.array([_get_shape_points(shapes_by_posture[k]) for k in indices])  # type: ignore[arg-type]
+        indices = indices if len(indices) >= MIN_CONFIGURATIONS else list(range(1))
+        positions = np.array([_get_shape_points(shapes_by_configuration[k]) for k in indices])  # type: ignore[arg-type]
         best_frame_indices, best_errors = np.zeros(len(points), dtype=int), np.full(len(points), np.inf)
         offsets, best_ranks = np.zeros((len(points), 4)), np.full(len(points), np.inf)
         for index in range(len(self.moving_frames)):
@@ -392,23 +423,23 @@ class _FrameSearch:
             shape,
             moving_frames,
             offsets,
-            self._fit_radius(shape, shapes_by_posture),
+            self._fit_radius(shape, shapes_by_configuration),
             float(best_errors.max(initial=0.0)),
         )
 
     def _fit_frame(
-        self, frame_index: int, positions: Array, posture_indices: Sequence[int]
+        self, frame_index: int, positions: Array, configuration_indices: Sequence[int]
     ) -> tuple[Array, Array, Array]:
         """Return offsets c₀, c₁ (N, 4), ranks (N,) and largest errors (N,) in m of all points for one moving frame.
 
-        A rank is the error, plus 1000 times the error at postures of the motion if that exceeds the tolerance. The
-        search prefers smaller ranks. `positions` (K, N, 2) belong to `posture_indices`.
+        A rank is the error, plus 1000 times the error at configurations of the motion if that exceeds the tolerance.
+        The search prefers smaller ranks. `positions` (K, N, 2) belong to `configuration_indices`.
         """
-        frames = [self.evaluated_frames[frame_index][k] for k in posture_indices]
+        frames = [self.evaluated_frames[frame_index][k] for k in configuration_indices]
         local_points = np.array(
             [
-                (points_at_posture - origin) @ rotation
-                for points_at_posture, (origin, rotation, _) in zip(positions, frames, strict=True)
+                (points_at_configuration - origin) @ rotation
+                for points_at_configuration, (origin, rotation, _) in zip(positions, frames, strict=True)
             ]
         )
         s = np.array([s for *_, s in frames])
@@ -421,7 +452,13 @@ class _FrameSearch:
         errors = np.linalg.norm(local_points - offset - s[:, None, None] * slope, axis=2)
         max_errors, motion_errors = (
             errors.max(axis=0),
-            errors[[k for k, posture_index in enumerate(posture_indices) if posture_index < self.n_motion]].max(axis=0),
+            errors[
+                [
+                    k
+                    for k, configuration_index in enumerate(configuration_indices)
+                    if configuration_index < self.n_motion
+                ]
+            ].max(axis=0),
         )
         # where nothing explains it at other lengths, it is right at least at the file's
         return (
@@ -430,21 +467,24 @@ class _FrameSearch:
             max_errors,
         )
 
-    def _fit_radius(self, shape: Shape, shapes_by_posture: Sequence[Shape | None]) -> tuple[float, float, int]:
+    def _fit_radius(self, shape: Shape, shapes_by_configuration: Sequence[Shape | None]) -> tuple[float, float, int]:
         """Return r₀, r₁ and parameter index k of a disc's radius r₀ + r₁ p[k]; index −1 for a constant radius.
 
         The constant radius is also returned if no single parameter explains all drawings. For a line the result is (0,
-        0, −1). `shapes_by_posture`: the shape in each posture; None counts with the radius of `shape`.
+        0, −1). `shapes_by_configuration`: the shape in each configuration; None counts with the radius of `shape`.
         """
         if not isinstance(shape, Disc):
             return 0.0, 0.0, -1
         radii = np.array(
-            [drawn_shape.radius if isinstance(drawn_shape, Disc) else shape.radius for drawn_shape in shapes_by_posture]
+            [
+                drawn_shape.radius if isinstance(drawn_shape, Disc) else shape.radius
+                for drawn_shape in shapes_by_configuration
+            ]
         )
         if np.ptp(radii) <= self.tolerance:
             return shape.radius, 0.0, -1
-        p = np.array([posture.p for posture in self.postures])
-        for k in np.flatnonzero(np.ptp(p[:, : len(self.postures[0].source.slots)], axis=0) > 0.0):
+        p = np.array([configuration.p for configuration in self.configurations])
+        for k in np.flatnonzero(np.ptp(p[:, : len(self.configurations[0].source.slots)], axis=0) > 0.0):
             slope = (radii[-1] - radii[0]) / (p[-1, k] - p[0, k]) if p[-1, k] != p[0, k] else 0.0
             if np.abs(radii - radii[0] - slope * (p[:, k] - p[0, k])).max() <= self.tolerance:
                 return float(radii[0] - slope * p[0, k]), float(slope), int(k)

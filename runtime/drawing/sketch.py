@@ -11,6 +11,7 @@ import numpy as np
 
 from gudgeon.drawing.arrows import Arrows, find_round_number
 from gudgeon.drawing.bodies import BLOCK, draw_bodies, label_bodies
+from gudgeon.drawing.configuration import Configuration, get_joint_type
 from gudgeon.drawing.drives_and_forces import (
     HEAD,
     compute_arrow_radii,
@@ -23,7 +24,6 @@ from gudgeon.drawing.insets import draw_insets, find_contacts
 from gudgeon.drawing.joint_geometry import JointGeometry, compute_wall_gap, has_rail
 from gudgeon.drawing.layout import Layout, make_layout
 from gudgeon.drawing.pen import Pen
-from gudgeon.drawing.posture import Posture, get_joint_type
 from gudgeon.drawing.shapes import Label, Line, Shape, Sketch, compute_bounding_box
 from gudgeon.model.compiled import Array
 
@@ -31,7 +31,7 @@ MARGIN = 2.6  # units around all
 
 
 def make_sketch(
-    posture: Posture,
+    configuration: Configuration,
     layout: Layout | None = None,
     *,
     shapes_on_top: Sequence[Shape] = (),
@@ -44,34 +44,37 @@ def make_sketch(
     shows_insets: bool = True,
     shows_zero_loads: bool = True,
 ) -> Sketch:
-    """Return the drawing of a posture; `shapes_on_top` with their `labels`, and `arrows` with their scales, lie on top.
+    """Return the drawing of a configuration; `shapes_on_top` with `labels`, and `arrows` with scales, lie on top.
 
     With a `box` from `compute_common_box` the drawing has the same box as others of a motion. Without
     `shows_zero_loads` names contain no values that change. `contact_names`: joints with play in contact, None: those
     that overlap; `earlier_contact_names`: those in contact since the previous picture. `shows_insets` False leaves
     insets out. Bodies in `unconnected_bodies` have the colour of an error.
     """
-    layout = layout or make_layout([posture])
+    layout = layout or make_layout([configuration])
     shapes_on_top = [*shapes_on_top, *(shape for kind in arrows for shape in kind.shapes)]
     shapes = [
-        *draw_bodies(posture, layout, unconnected_bodies),
-        *draw_joints(posture, layout),
-        *draw_drives_and_forces(posture, layout),
+        *draw_bodies(configuration, layout, unconnected_bodies),
+        *draw_joints(configuration, layout),
+        *draw_drives_and_forces(configuration, layout),
         *shapes_on_top,
     ]
     low, high = box or compute_box(shapes, layout)
-    all_labels = [*label_bodies(posture, layout), *label_joints(posture, layout, compute_arrow_radii(posture))]
-    all_labels = [*labels, *all_labels, *label_drives_and_forces(posture, layout, shows_zero_loads)]
-    contact_names = find_contacts(posture) if contact_names is None else contact_names
+    all_labels = [
+        *label_bodies(configuration, layout),
+        *label_joints(configuration, layout, compute_arrow_radii(configuration)),
+    ]
+    all_labels = [*labels, *all_labels, *label_drives_and_forces(configuration, layout, shows_zero_loads)]
+    contact_names = find_contacts(configuration) if contact_names is None else contact_names
     notes, upper_corner, annotations = list[str](), high.copy(), list[Shape]()
     for inset_shapes, label, note in (
-        draw_insets(posture, layout.unit, low, high, contact_names, earlier_contact_names) if shows_insets else ()
+        draw_insets(configuration, layout.unit, low, high, contact_names, earlier_contact_names) if shows_insets else ()
     ):
         annotations += inset_shapes
         all_labels, notes = [*all_labels, label], [*notes, note]
         upper_corner = np.maximum(upper_corner, compute_bounding_box(inset_shapes)[1] + 1.5 * layout.unit)
         low = np.minimum(low, [low[0], float(compute_bounding_box(inset_shapes)[0][1]) - 3.0 * layout.unit])
-    for reference_shapes, label in _draw_references(posture, layout, low, high, arrows):
+    for reference_shapes, label in _draw_references(configuration, layout, low, high, arrows):
         annotations += reference_shapes
         all_labels.append(label)
     low = np.minimum(low, compute_bounding_box(annotations)[0] - 0.8 * layout.unit)
@@ -84,24 +87,30 @@ def compute_box(shapes: Sequence[Shape], layout: Layout) -> tuple[Array, Array]:
     return lower_corner - MARGIN * layout.unit, upper_corner + MARGIN * layout.unit
 
 
-def compute_common_box(postures: Sequence[Posture], layouts: Sequence[Layout]) -> tuple[Array, Array]:
-    """Return the lower and upper corner of the box that contains the drawings of several postures, in m.
+def compute_common_box(configurations: Sequence[Configuration], layouts: Sequence[Layout]) -> tuple[Array, Array]:
+    """Return the lower and upper corner of the box that contains the drawings of several configurations, in m.
 
-    `layouts` is one layout for all postures, or one for each.
+    `layouts` is one layout for all configurations, or one for each.
     """
-    postures_and_layouts = zip(postures, layouts if len(layouts) > 1 else [layouts[0]] * len(postures), strict=True)
+    configurations_and_layouts = zip(
+        configurations, layouts if len(layouts) > 1 else [layouts[0]] * len(configurations), strict=True
+    )
     boxes = [
         compute_box(
-            [*draw_bodies(posture, layout), *draw_joints(posture, layout), *draw_drives_and_forces(posture, layout)],
+            [
+                *draw_bodies(configuration, layout),
+                *draw_joints(configuration, layout),
+                *draw_drives_and_forces(configuration, layout),
+            ],
             layout,
         )
-        for posture, layout in postures_and_layouts
+        for configuration, layout in configurations_and_layouts
     ]
     return np.min([low for low, _ in boxes], axis=0), np.max([high for _, high in boxes], axis=0)
 
 
 def _draw_references(
-    posture: Posture, layout: Layout, lower_corner: Array, upper_corner: Array, arrows: Sequence[Arrows]
+    configuration: Configuration, layout: Layout, lower_corner: Array, upper_corner: Array, arrows: Sequence[Arrows]
 ) -> Iterator[tuple[list[Shape], Label]]:
     """Yield shapes and label of each reference: gravity, the scale of lengths, and a reference arrow for each kind of
     arrow.
@@ -110,7 +119,7 @@ def _draw_references(
     the scale.
     """
     unit = layout.unit
-    if (gravity := find_gravity_direction(posture)) is not None:
+    if (gravity := find_gravity_direction(configuration)) is not None:
         centre = np.array([lower_corner[0] + 1.5 * unit, upper_corner[1] - 2.5 * unit])
         shapes = list(
             draw_arrow("gravity", "gravity", centre - 2.0 * unit * gravity, centre + 2.0 * unit * gravity, HEAD * unit)
@@ -137,26 +146,26 @@ def format_length(length: float) -> str:
     return f"{1e3 * length:g} mm" if length < 1.0 else f"{length:g} m"
 
 
-def draw_joints(posture: Posture, layout: Layout) -> Iterator[Shape]:
+def draw_joints(configuration: Configuration, layout: Layout) -> Iterator[Shape]:
     """Yield the shapes of all joints, drawn by the symbols of their kinds."""
-    for part in posture.iterate_parts("joints"):
-        pen = Pen(posture, part, layout)
+    for part in configuration.iterate_parts("joints"):
+        pen = Pen(configuration, part, layout)
         get_joint_type(part).symbol.draw(pen)
         yield from pen.shapes
 
 
-def label_joints(posture: Posture, layout: Layout, arrow_radii: Mapping[str, float]) -> Iterator[Label]:
+def label_joints(configuration: Configuration, layout: Layout, arrow_radii: Mapping[str, float]) -> Iterator[Label]:
     """Yield the label of each joint, outside of the arrows around it.
 
     `arrow_radii` are the radii in units of these arrows, by joint. The label of a joint on a rail lies beyond the
     ground.
     """
-    for part in posture.iterate_parts("joints"):
+    for part in configuration.iterate_parts("joints"):
         symbol = get_joint_type(part).symbol
-        position = symbol.find_name_position(JointGeometry(posture, part))
+        position = symbol.find_name_position(JointGeometry(configuration, part))
         clearance, angle = max(symbol.clear, arrow_radii.get(part.name, 0.0)), 45.0
         if has_rail(part) and part.name in layout.ground_directions:  # beyond the ground, where nothing slides
             x, y = layout.ground_directions[part.name]
             clearance, angle = BLOCK[1] + 1.2, float(np.degrees(np.arctan2(y, x)))
-            clearance += compute_wall_gap(posture, part, layout.unit) / layout.unit
+            clearance += compute_wall_gap(configuration, part, layout.unit) / layout.unit
         yield Label(f"joint {part.name}", "joint", part.name, position, clearance * layout.unit, angle)

@@ -211,7 +211,10 @@ def _iterate_variable_elements(source: KernelSource) -> Iterator[str]:
 
 
 def _format_local_variable(name: str, reference: int, unit: str, attributes: str = "") -> str:
-    """Return the XML element of a local variable; `attributes` are further XML attributes."""
+    """Return the element <Float64> (FMI 3) of a local variable: continuous, with initial="calculated".
+
+    `reference`: its value reference; `unit`: "" for none; `attributes`: further XML attributes, with a leading space.
+    """
     return (
         f'    <Float64 name={quoteattr(name)} valueReference="{reference}" causality="local" variability="continuous"'
         f' initial="calculated"{attributes}{_format_unit_attribute(unit)}/>'

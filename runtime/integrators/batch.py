@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from gudgeon.assembly.guess_warnings import find_unfollowed_guesses
+from gudgeon.assembly.guess_warnings import find_guess_deviations
 from gudgeon.assembly.large import LARGE
 from gudgeon.assembly.rank import check_redundant_equations, list_redundant_equations
 from gudgeon.assembly.start import assemble_start
@@ -111,7 +111,7 @@ class Runs(StoredRuns):
         self.struct: Any = None if python_loop else self._make_batch_struct()
         self.kinematic = KinematicEnsemble(compiled, self.arrays, times) if is_kinematic else None
         # guesses of the start that the assembly could not follow, by run
-        self.unfollowed: dict[int, dict[str, float]] = {}
+        self.guess_deviations: dict[int, dict[str, float]] = {}
         self.observers: Sequence[StepCallback | None] = ()  # observers of all steps, one per run; empty without any
         self.resumed = set[int]()  # runs that resume from a state
 
@@ -233,8 +233,8 @@ class Runs(StoredRuns):
             try:
                 if not x["started"][i]:
                     start = assemble_start(self.compiled, x["p"][i])
-                    if guess_distances := find_unfollowed_guesses(self.compiled, x["p"][i], start.q):
-                        self.unfollowed[i] = guess_distances
+                    if guess_distances := find_guess_deviations(self.compiled, x["p"][i], start.q):
+                        self.guess_deviations[i] = guess_distances
                     x["start"][i] = np.concatenate([start.q, start.v])
                 check_redundant_equations(
                     self.compiled, x["p"][i], float(self.times.get_times(i)[0]), x["start"][i, : self.compiled.n]

@@ -171,11 +171,11 @@ class CompiledModel:
         return out
 
     def closed_phi(self, t: float, q: ArrayLike, p: ArrayLike) -> Array:
-        """Return Φ with all joints without play, in the order of source.start_rows."""
+        """Return the residuals Φ with every joint closed (no play, e = 0), in the order of source.start_rows."""
         return self._evaluate_constraint_function("gudgeon_phi", t, p, q)
 
     def closed_phi_q(self, t: float, q: ArrayLike, p: ArrayLike) -> Array:
-        """Return the Jacobian Φ_q with all joints without play, (number of start_rows, n)."""
+        """Return the Jacobian Φ_q with every joint closed (no play, e = 0), (number of start_rows, n)."""
         out = np.empty((len(self.source.start_rows), self.n))
         self.lib.gudgeon_phi_q(
             check_time(t),
@@ -186,7 +186,7 @@ class CompiledModel:
         return out
 
     def closed_nu(self, t: float, q: ArrayLike, p: ArrayLike) -> Array:
-        """Return ν = −Φ_t with all joints without play, in the order of source.start_rows."""
+        """Return ν = −Φ_t with every joint closed (no play), in the order of source.start_rows."""
         return self._evaluate_constraint_function("gudgeon_nu", t, p, q)
 
     def phi(self, t: float, q: ArrayLike, p: ArrayLike) -> Array:

@@ -110,18 +110,19 @@ class SampleAudit:
         clearance, t_first = evaluation.clearance, float(self.trajectory.t[first])
         if not clearance[:, :, :2].any():
             for forces in self.contact_forces:
-                forces.add(0.0, t_first, 0.0, 0.0)
+                forces.update_maxima(0.0, t_first, 0.0, 0.0)
             return
         if len(self.joints) < clearance.shape[1]:
             clearance, memory = clearance[:, self.joints], memory[:, self.joints]
         force = np.hypot(clearance[:, :, CLEARANCE_Fx], clearance[:, :, CLEARANCE_Fy])
-        free = np.isnan(memory[:, : len(self.joints)])
-        touches = free & (np.abs(clearance[:, :, CLEARANCE_delta]) <= SHALLOW)
-        outside = np.where(free & ~touches, force, 0.0)
+        is_free = np.isnan(memory[:, : len(self.joints)])
+        touches = is_free & (np.abs(clearance[:, :, CLEARANCE_delta]) <= SHALLOW)
+        free_force = np.where(is_free & ~touches, force, 0.0)
         touching = np.where(touches, force, 0.0).max(axis=0).tolist()
-        worst, largest = outside.argmax(axis=0).tolist(), force.max(axis=0).tolist()
+        worst, largest = free_force.argmax(axis=0).tolist(), force.max(axis=0).tolist()
         for k, forces in enumerate(self.contact_forces):
-            forces.add(float(outside[worst[k], k]), float(self.trajectory.t[first + worst[k]]), largest[k], touching[k])
+            t_free = float(self.trajectory.t[first + worst[k]])
+            forces.update_maxima(float(free_force[worst[k], k]), t_free, largest[k], touching[k])
 
     def build_findings(self, balance: tuple[float, float]) -> tuple[Finding, ...]:
         """Return the findings of all checks that apply to the run, after all samples; () without an audit.
@@ -154,7 +155,7 @@ class SampleAudit:
         for k, forces in zip(self.joints, self.contact_forces, strict=True):
             name, peak = self.source.clearances[k].name, float(trajectory.peaks[k, PEAK_F])
             largest = max(peak, forces.largest)
-            yield Finding("sample", forces.outside / max(FORCE * largest, 1e-300), forces.t_outside, name)
+            yield Finding("sample", forces.free / max(FORCE * largest, 1e-300), forces.t_free, name)
             begins_free = bool(np.isnan(trajectory.memory[0, k]))  # a contact that a run resumes has had a peak before
             if not (peak > forces.touching and begins_free):
                 continue
@@ -289,9 +290,10 @@ def check_energy_balance(
 
 
 def _estimate_kinetic_energy(compiled: CompiledModel, problem: Problem, trajectory: Trajectory, size: float) -> float:
-    """Return the kinetic energy (J) of all bodies at the largest speed at the ends of steps; 0 if none is recorded.
+    """Return an estimate of the largest kinetic energy (J): ½ m max(v, l ω)², without moments of inertia.
 
-    `size`: that of the mechanism (m), the arm of the largest angular velocity.
+    m: mass of all bodies; v and ω: largest speed and angular velocity at the ends of steps, NaN counts as 0; l: `size`
+    of the mechanism (m).
     """
     speeds = np.array([trajectory.counts.speed_max, size * trajectory.counts.omega_max])
     speed = float(np.nan_to_num(speeds).max())
@@ -312,16 +314,20 @@ def _find_undefined_row(evaluation: Evaluation, has_rigid_contacts: bool) -> int
 
 
 class _ContactForces:
-    """Hold the largest contact forces (N) of a joint at the samples so far; NaN once one of them is NaN."""
+    """Hold the largest contact forces (N) of a joint at the samples so far; NaN once one of them is NaN.
+
+    `free`: at samples outside contacts, where the force must be zero; `t_free`: time (s) of the first such largest
+    force. `touching`: at samples outside contacts whose penetration is zero within SHALLOW. `largest`: at all samples.
+    """
 
     def __init__(self) -> None:
-        self.outside = self.largest = self.touching = -math.inf  # outside contacts, of all samples, at an onset
-        self.t_outside = math.nan  # s
+        self.free = self.largest = self.touching = -math.inf
+        self.t_free = math.nan
 
-    def add(self, outside: float, t_outside: float, largest: float, touching: float) -> None:
-        """Add the largest forces of the next samples."""
-        if _exceeds(outside, self.outside):
-            self.outside, self.t_outside = outside, t_outside
+    def update_maxima(self, free: float, t_free: float, largest: float, touching: float) -> None:
+        """Update the maxima by those of the next samples, which have the same names as the attributes."""
+        if _exceeds(free, self.free):
+            self.free, self.t_free = free, t_free
         self.largest = largest if _exceeds(largest, self.largest) else self.largest
         self.touching = touching if _exceeds(touching, self.touching) else self.touching
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gudgeon.assembly.guess_warnings import find_unfollowed_guesses
+from gudgeon.assembly.guess_warnings import find_guess_deviations
 from gudgeon.assembly.journals import describe_contacts_without_onset
 from gudgeon.assembly.rank import check_redundant_equations
 from gudgeon.assembly.start import assemble_start
@@ -23,7 +23,7 @@ class FileStart:
     q: Array  # (n,)
     v: Array
     memory: Array  # (n_memory,) discrete states: no contact, unknown modes
-    unfollowed_guesses: Mapping[str, float]  # as of find_unfollowed_guesses
+    guess_deviations: Mapping[str, float]  # as of find_guess_deviations
     notes: tuple[str, ...]  # on contacts without an onset
     allowed_error: Array  # (2, n) by which q and v of the first sample may surely differ from these
 
@@ -42,7 +42,7 @@ def assemble_file_start(compiled: CompiledModel, p: Array) -> FileStart:
         start.q,
         start.v,
         no_contacts,
-        find_unfollowed_guesses(compiled, p, start.q),
+        find_guess_deviations(compiled, p, start.q),
         describe_contacts_without_onset(compiled, p, 0.0, start.q, start.v, no_contacts) if may_touch else (),
         compute_allowed_start_error(compiled.source, p, start.q, start.v),
     )

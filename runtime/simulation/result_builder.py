@@ -177,9 +177,11 @@ def _yield_unbounded_sample_note(compiled: CompiledModel, problem: Problem, traj
         )
 
 
-def may_leave_range(source: KernelSource, p: Array, size: Array, phi_max: Array, peaks: Array) -> Any:
-    """Return a mask (n_runs,) of the runs of a batch that may have left their model, for `yield_range_notes` to test.
+def may_exceed_validity_range(source: KernelSource, p: Array, size: Array, phi_max: Array, peaks: Array) -> Any:
+    """Return a mask (n_runs,) of the runs of a batch that may have left the range of validity of their model.
 
+    A run may have left it if its constraint error exceeds APART of the mechanism's size, or if the peak eccentricity of
+    a joint exceeds its clearance (THIN of it for a joint with a film only). `yield_range_notes` then tests the run.
     Shapes: parameter values p (n_runs, …), mechanism sizes and `phi_max` (n_runs,), peaks (n_runs, n_clearances, 3).
     """
     c, e_max = p[:, [joint.clearance for joint in source.clearances]], peaks[:, :, PEAK_e_max]

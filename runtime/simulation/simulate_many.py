@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gudgeon.assembly.guess_warnings import warn_unfollowed_guesses_in_runs
+from gudgeon.assembly.guess_warnings import warn_guess_deviations_in_runs
 from gudgeon.assembly.journals import check_journal_positions, describe_contacts_without_onset
 from gudgeon.assembly.rank import find_constraint_violation, list_redundant_equations
 from gudgeon.errors import AssemblyError, BadValueError, SolverError
@@ -52,7 +52,7 @@ from gudgeon.simulation.restart import build_violation_notes, check_resumed_stat
 from gudgeon.simulation.result_builder import (
     build_result,
     check_result,
-    may_leave_range,
+    may_exceed_validity_range,
     yield_missing_mass_note,
     yield_range_notes,
     yield_redundancy_note,
@@ -167,8 +167,8 @@ def _run_batch(
     results.integrate_runs(options.progress)
     for i in (i for i in jumps if i not in runs.failures and runs.is_complete(i)):
         runs.failures[i] = build_jump_error(simulation.source, jumps[i])
-    warn_unfollowed_guesses_in_runs(
-        simulation.source, [*runs.unfollowed.values(), *[{}] * (runs.n - len(runs.unfollowed))]
+    warn_guess_deviations_in_runs(
+        simulation.source, [*runs.guess_deviations.values(), *[{}] * (runs.n - len(runs.guess_deviations))]
     )
     results.observations = [search.build_observation() if search else Observation() for search in observers]
     batch = _build_batch(results, times)
@@ -382,7 +382,7 @@ class _Results:
         x, source, n = self.runs.arrays, self.simulation.source, self.simulation.compiled.n
         peaks, counted = x["peaks"][:, : len(source.clearances)], convert_counts_of_runs(x["counts"], x["residuals"])
         size = compute_mechanism_sizes(source, x["p"])
-        in_question = may_leave_range(source, x["p"], size, counted["phi_max"], peaks) & (x["done"] > 0)
+        in_question = may_exceed_validity_range(source, x["p"], size, counted["phi_max"], peaks) & (x["done"] > 0)
         notes_by_run = {i: remarks for i, remarks in enumerate(self.starts.remarks) if remarks}
         for i in np.flatnonzero(in_question).tolist():
             q0, counts, t0 = x["start"][i, :n], self.runs.get_counts(i), float(self.runs.times.get_times(i)[0])

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from numpy.typing import ArrayLike
 
-from gudgeon.assembly.guess_warnings import warn_unfollowed_guesses
+from gudgeon.assembly.guess_warnings import warn_guess_deviations
 from gudgeon.assembly.journals import describe_contacts_without_onset
 from gudgeon.assembly.rank import check_redundant_equations
 from gudgeon.assembly.start import Start, assemble_start
@@ -316,7 +316,7 @@ class Simulation(NotebookDisplay, RepeatedRuns):
             check_resumed_state(self.compiled, initial_state, p)
         if initial_state is None:
             file_start = assemble_file_start(self.compiled, p)
-            warn_unfollowed_guesses(self.source, file_start.unfollowed_guesses)
+            warn_guess_deviations(self.source, file_start.guess_deviations)
             q, v, memory = file_start.q.copy(), file_start.v.copy(), file_start.memory.copy()
             remarks, allowed_error = remarks + file_start.notes, file_start.allowed_error
         else:

@@ -17,7 +17,7 @@ from gudgeon.drawing.picture import compute_figure_size, draw_sketch
 from gudgeon.drawing.rig import Rig, make_rig
 from gudgeon.drawing.shapes import Sketch
 from gudgeon.results.figures.animation import QUICK, SHOWN, SLOW
-from gudgeon.results.figures.postures import select_postures
+from gudgeon.results.figures.configurations import select_configurations
 from gudgeon.results.reports.comparison import ROUNDING_TOL
 from gudgeon.results.results import Result
 from gudgeon.results.series import choose_watched_series, find_rate_names
@@ -26,14 +26,14 @@ from gudgeon.web.parameter_panel import build_parameter_sections, list_units
 from gudgeon.web.style_sheet import make_css_class
 
 WIDE, NARROW = 7.0, 3.6  # inches of a drawing on wide and narrow screens; names are placed for both
-SHOWN_AT = 24  # number of postures from which the drawing is made
+SHOWN_AT = 24  # number of configurations from which the drawing is made
 MORE = ("reaction", "reaction head", "path")  # roles that exist on pages only
 MAX_SAMPLES, MAX_SERIES = 400, 60  # samples and series of a recorded run
 
 
 def build_rig(run: Result) -> Rig:
     """Return the drawing of a run."""
-    motion = select_postures(run, SHOWN_AT)
+    motion = select_configurations(run, SHOWN_AT)
     return make_rig(motion, make_layout(motion))
 
 

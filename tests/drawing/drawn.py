@@ -14,9 +14,9 @@ import pytest
 pytest.importorskip("matplotlib")
 
 from gudgeon.assembly.closure import AssemblyProblem  # noqa: E402
+from gudgeon.drawing.configuration import Configuration  # noqa: E402
 from gudgeon.drawing.labels import NameLabels  # noqa: E402
 from gudgeon.drawing.picture import build_figure  # noqa: E402
-from gudgeon.drawing.posture import Posture  # noqa: E402
 from gudgeon.drawing.shapes import Sketch  # noqa: E402
 from gudgeon.generator.pipeline import build_closed_linkage  # noqa: E402
 from gudgeon.generator.reader.read import read_mechanism  # noqa: E402
@@ -30,7 +30,7 @@ class Drawn:
     mechanism: Any
     linkage: Any
     problem: AssemblyProblem
-    posture: Posture
+    configuration: Configuration
 
 
 @cache
@@ -42,7 +42,7 @@ def drawn(file: Path | str) -> Drawn:
     problem = AssemblyProblem(linkage, linkage.p, 0.0)
     with np.errstate(all="ignore"):
         q, _ = problem.find_nearest_configuration()
-    return Drawn(mechanism, linkage, problem, Posture(linkage.source, linkage.p, q))
+    return Drawn(mechanism, linkage, problem, Configuration(linkage.source, linkage.p, q))
 
 
 def boxes(picture: Any) -> Iterator[tuple[str, tuple[float, ...]]]:

@@ -29,8 +29,8 @@ from gudgeon.drawing.roles import INK, TINTS  # noqa: E402
 from gudgeon.drawing.shapes import Sketch  # noqa: E402
 from gudgeon.errors import BadValueError, GudgeonError, OutputError, UnknownNameError  # noqa: E402
 from gudgeon.results.figures.animation import RED, check_animation_options, draw_sketches, find_contacts_between  # noqa: E402
-from gudgeon.results.figures.mechanism_plots import find_contacts_at_posture  # noqa: E402
-from gudgeon.results.figures.postures import compute_posture  # noqa: E402
+from gudgeon.results.figures.configurations import compute_configuration  # noqa: E402
+from gudgeon.results.figures.mechanism_plots import find_contacts_at_configuration  # noqa: E402
 from gudgeon.results.results import Result  # noqa: E402
 
 
@@ -180,10 +180,12 @@ def roles(sketch: Sketch) -> set[str]:
 
 def test_between_samples_red_is_what_is_drawn(crank: Result) -> None:
     for t in (crank.t[1:] + crank.t[:-1]) / 2:
-        posture = compute_posture(crank, float(t))
+        configuration = compute_configuration(crank, float(t))
         ends = crank.source.clearances[0]
-        overlaps = float(np.hypot(*compute_eccentricity(posture, "wristpin"))) >= crank.p[ends.clearance]
-        assert find_contacts_at_posture(crank, posture) == (frozenset({"wristpin"}) if overlaps else frozenset())
+        overlaps = float(np.hypot(*compute_eccentricity(configuration, "wristpin"))) >= crank.p[ends.clearance]
+        assert find_contacts_at_configuration(crank, configuration) == (
+            frozenset({"wristpin"}) if overlaps else frozenset()
+        )
 
 
 def test_files(crank: Result, tmp_path: Path) -> None:

@@ -42,10 +42,16 @@ def test_the_ground_stays_on_its_side_of_a_guide() -> None:
     """Away from the ground's other points, wherever the motion is and whichever assembly it has."""
     starts = [drawn(BELL.replace("PLACE", f"{x} mm")) for x in (-110, -90, -70)]
     first = starts[0]
-    others = find_assemblies(first.linkage, first.linkage.p, first.posture.q, ())
+    others = find_assemblies(first.linkage, first.linkage.p, first.configuration.q, ())
     assert len(others) > 1
-    postures = [start.posture for start in starts] + [replace(first.posture, q=one.q) for one in others]
-    for plan in (make_layout(postures), make_layout(postures[::-1]), *(make_layout([posture]) for posture in postures)):
+    configurations = [start.configuration for start in starts] + [
+        replace(first.configuration, q=one.q) for one in others
+    ]
+    for plan in (
+        make_layout(configurations),
+        make_layout(configurations[::-1]),
+        *(make_layout([configuration]) for configuration in configurations),
+    ):
         assert plan.ground_directions["rail"] == pytest.approx([0.0, 1.0], abs=1e-15)
         assert plan.ground_directions["column"] == pytest.approx([1.0, 0.0], abs=1e-15)
 
@@ -66,7 +72,7 @@ start: {set: {cart.x: 0 m, arm.theta: ANGLE}}
 
 @pytest.mark.parametrize(("angle", "up"), [("-90 deg", 1.0), ("90 deg", -1.0), ("0 deg", -1.0)])
 def test_a_guide_alone_lies_away_from_what_it_carries_at_the_start(angle: str, up: float) -> None:
-    start = drawn(TROLLEY.replace("ANGLE", angle)).posture
+    start = drawn(TROLLEY.replace("ANGLE", angle)).configuration
     swung = replace(start, q=start.q + [0.0, 0.0, 0.0, 0.0, 0.0, 2.0])
     for plan in (make_layout([start]), make_layout([start, swung]), make_layout([swung], start)):
         assert plan.ground_directions["rail"] == pytest.approx([0.0, up], abs=1e-15)
@@ -75,8 +81,8 @@ def test_a_guide_alone_lies_away_from_what_it_carries_at_the_start(angle: str, u
 @pytest.mark.parametrize("rate", [-1.0, 0.0, 1.0])
 def test_a_drives_arrow_lies_away_from_the_ground_that_guides(rate: float) -> None:
     """Below the block, whose ground is above, and the name below the arrow; it points where the body goes."""
-    posture = drawn(BELL.replace("PLACE", "-110 mm")).posture
-    sketch = make_sketch(replace(posture, v=np.full(len(posture.q), rate)))
+    configuration = drawn(BELL.replace("PLACE", "-110 mm")).configuration
+    sketch = make_sketch(replace(configuration, v=np.full(len(configuration.q), rate)))
     block = np.vstack([s.points for s in sketch.of("body push") if isinstance(s, Line)])
     shaft, head = (s.points for s in sketch.of("drive cam") if isinstance(s, Line))
     assert max(shaft[:, 1].max(), head[:, 1].max()) < block[:, 1].min()
@@ -87,8 +93,8 @@ def test_a_drives_arrow_lies_away_from_the_ground_that_guides(rate: float) -> No
 
 def test_a_forces_name_is_beside_its_arrow() -> None:
     """On the arrow's side of the guide's wall, nearer to it than half the arrow is long."""
-    posture = drawn(BELL.replace("PLACE", "-110 mm")).posture
-    sketch = make_sketch(replace(posture, loads={"load": (0.0, -20.0)}))
+    configuration = drawn(BELL.replace("PLACE", "-110 mm")).configuration
+    sketch = make_sketch(replace(configuration, loads={"load": (0.0, -20.0)}))
     shaft, head = (s.points for s in sketch.of("force load") if isinstance(s, Line))
     (wall,) = (s.points for s in sketch.of("joint column") if s.role == "rail" and isinstance(s, Line))
     assert wall[0, 0] > shaft[0, 0]
@@ -111,8 +117,8 @@ start: {guess: {car.x: 150 mm}}
 
 def test_a_spring_at_a_rails_own_point_has_its_wall_and_keeps_off_the_rail() -> None:
     of = drawn(CAR)
-    plan = make_layout([of.posture])
-    sketch = make_sketch(of.posture, plan)
+    plan = make_layout([of.configuration])
+    sketch = make_sketch(of.configuration, plan)
     lines = [shape for shape in (*sketch.of("joint rail"), *sketch.of("force spring")) if isinstance(shape, Line)]
     wires = [line for line in lines if line.part == "force spring"]
     strokes = [line for line in wires if line.role == "hatch"]

@@ -16,8 +16,8 @@ from gudgeon.drawing.drives_and_forces import ARROW  # noqa: E402
 from gudgeon.drawing.labels import NameLabels, count_crossings  # noqa: E402
 from gudgeon.errors import BadValueError, UnknownNameError  # noqa: E402
 from gudgeon.results.figures import plots  # noqa: E402
+from gudgeon.results.figures.configurations import compute_configuration, evaluate_loads  # noqa: E402
 from gudgeon.results.figures.mechanism_plots import draw_sketch_at_time  # noqa: E402
-from gudgeon.results.figures.postures import compute_posture, evaluate_loads  # noqa: E402
 from gudgeon.results.results import Result  # noqa: E402
 
 
@@ -57,7 +57,7 @@ def test_between_samples_the_error_falls_with_the_fourth_power_of_their_distance
         run = simulation.simulate(1.0, output=count, rtol=1e-12)
         middles = (run.t[1:] + run.t[:-1]) / 2
         exact = simulation.simulate(output=[0.0, *middles], rtol=1e-12).q[1:]
-        drawn = [compute_posture(run, float(t)).q for t in middles]
+        drawn = [compute_configuration(run, float(t)).q for t in middles]
         errors.append(np.abs(np.array(drawn) - exact).max())
     orders = np.log2(np.array(errors[:-1]) / errors[1:])
     np.testing.assert_allclose(orders, 4.0, atol=0.3)
@@ -69,12 +69,12 @@ def test_joints_stay_together_between_coarse_samples(four_bar: Result) -> None:
     run = simulation.simulate(1.0, output=9)
     for t in (0.03, 0.17, 0.555):
         exact = simulation.simulate(output=[0.0, t])
-        np.testing.assert_allclose(compute_posture(run, t).q, exact.q[-1], atol=1e-12)
+        np.testing.assert_allclose(compute_configuration(run, t).q, exact.q[-1], atol=1e-12)
 
 
 def test_the_rate_between_samples_is_that_of_the_place(four_bar: Result) -> None:
     t, h = 0.2525, 1e-6
-    before, at, after = (compute_posture(four_bar, t + shift) for shift in (-h, 0.0, h))
+    before, at, after = (compute_configuration(four_bar, t + shift) for shift in (-h, 0.0, h))
     assert at.v is not None
     np.testing.assert_allclose(at.v, (after.q - before.q) / (2 * h), rtol=1e-6, atol=1e-7)
 
@@ -220,8 +220,10 @@ def test_walls_stand_still() -> None:
             next(one.ends for one in run.source.parts if one.name == part.split()[1]),
             key=lambda end: not end.startswith("ground"),
         )
-        postures = [compute_posture(run, float(t)) for t in run.t[:: max(1, len(run.t) // 20)]]
-        spans = [posture.get_position(moving) - posture.get_position(fixed) for posture in postures]
+        configurations = [compute_configuration(run, float(t)) for t in run.t[:: max(1, len(run.t) // 20)]]
+        spans = [
+            configuration.get_position(moving) - configuration.get_position(fixed) for configuration in configurations
+        ]
         mean = np.mean([span / np.hypot(*span) for span in spans], axis=0)
         across = walls[0][1] - walls[0][0]
         assert abs(float(across @ mean)) < 0.05 * float(np.hypot(*across)), name

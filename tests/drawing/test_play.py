@@ -18,12 +18,12 @@ def test_a_journal_is_drawn_where_it_is_at_the_scale_that_is_told() -> None:
     """Against the eccentricity that the start is given, and the clearance of the file."""
     text = (ROOT / "mechanisms/slider_crank.yaml").read_text()
     text = text.replace("start:\n", "start:\n  play: {wristpin: {e: [0.05 mm, -0.12 mm]}}\n")
-    posture = drawn(text).posture
-    e = compute_eccentricity(posture, "wristpin")
+    configuration = drawn(text).configuration
+    e = compute_eccentricity(configuration, "wristpin")
     assert e == pytest.approx([5e-5, -1.2e-4], abs=1e-12)
-    sketch = make_sketch(posture)
+    sketch = make_sketch(configuration)
     by_role = {s.role: s for s in sketch.of("inset wristpin") if isinstance(s, Disc)}
-    times = compute_magnification(posture, "wristpin", sketch.unit)
+    times = compute_magnification(configuration, "wristpin", sketch.unit)
     assert by_role["journal"].centre - by_role["hole"].centre == pytest.approx(times * e)
     assert by_role["clearance"].radius == pytest.approx(times * 2e-4)
     assert by_role["hole"].radius - by_role["journal"].radius == pytest.approx(times * 2e-4)  # the gap is to scale
@@ -38,18 +38,20 @@ def test_a_journal_that_begins_in_the_wall_is_red(share: float, role: str) -> No
     """e = share · c, 3-4-5."""
     text = (ROOT / "mechanisms/slider_crank.yaml").read_text()
     x, y = 0.12 * share, -0.16 * share  # mm, of 0.2 mm
-    posture = drawn(text.replace("start:\n", f"start:\n  play: {{wristpin: {{e: [{x} mm, {y} mm]}}}}\n")).posture
-    assert {"journal", "touching"} & {s.role for s in make_sketch(posture).of("inset wristpin")} == {role}
+    configuration = drawn(
+        text.replace("start:\n", f"start:\n  play: {{wristpin: {{e: [{x} mm, {y} mm]}}}}\n")
+    ).configuration
+    assert {"journal", "touching"} & {s.role for s in make_sketch(configuration).of("inset wristpin")} == {role}
 
 
 def test_a_slider_is_drawn_between_its_walls_where_it_is() -> None:
     """A slot on an arm that is turned: corners' ways to their walls are the oracle's, at the told scale."""
     text = (HEAD + ARM).replace("tilt_rate: 6 rad/s", "tilt: 2.5e-3, offset: 0.15 mm")
-    posture = drawn(text).posture
-    delta = [one[0] for one in ORACLE.contacts(np.array([posture.q[2], *posture.q[3:6], *[0.0] * 4]))]
+    configuration = drawn(text).configuration
+    delta = [one[0] for one in ORACLE.contacts(np.array([configuration.q[2], *configuration.q[3:6], *[0.0] * 4]))]
     assert sorted(np.sign(delta)) == [-1.0, -1.0, -1.0, 1.0]
-    sketch = make_sketch(posture)
-    times, up = compute_magnification(posture, "way", sketch.unit), np.array([-np.sin(0.2), np.cos(0.2)])
+    sketch = make_sketch(configuration)
+    times, up = compute_magnification(configuration, "way", sketch.unit), np.array([-np.sin(0.2), np.cos(0.2)])
     shapes = sketch.of("inset way")
     heights = [shape.points @ up for shape in shapes if isinstance(shape, Line) and shape.role == "bearing"]
     discs = [shape for shape in shapes if isinstance(shape, Disc)]
@@ -66,6 +68,6 @@ def test_a_slider_is_drawn_between_its_walls_where_it_is() -> None:
 
 
 def test_a_play_as_large_as_the_mechanism_needs_no_inset() -> None:
-    sketch = make_sketch(drawn(ROOT / "mechanisms/bouncing_ball.yaml").posture)
+    sketch = make_sketch(drawn(ROOT / "mechanisms/bouncing_ball.yaml").configuration)
     (circle,) = [s for s in sketch.of("joint fall") if s.role == "clearance"]
     assert isinstance(circle, Disc) and circle.radius == 1.0 and not sketch.of("inset fall")

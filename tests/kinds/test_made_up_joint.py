@@ -78,13 +78,13 @@ def test_it_runs_by_its_closed_form(tmp_path: Path, formulation: str) -> None:
 
 def test_it_is_drawn_by_its_own_symbol_or_by_squares() -> None:
     found = drawn(MACHINE)
-    sketch = make_sketch(found.posture)
+    sketch = make_sketch(found.configuration)
     (roller,) = (shape for shape in sketch.of("joint face") if shape.role == "roller")
     assert isinstance(roller, Disc) and roller.radius == RADIUS
-    np.testing.assert_allclose(roller.centre, found.posture.get_position("crank.head"))
+    np.testing.assert_allclose(roller.centre, found.configuration.get_position("crank.head"))
     (face,) = (shape for shape in sketch.of("joint face") if shape.role == "rail")
     assert isinstance(face, Line)
-    np.testing.assert_allclose(face.points[:, 1], found.posture.get_position("push.origin")[1])
+    np.testing.assert_allclose(face.points[:, 1], found.configuration.get_position("push.origin")[1])
     assert [shape.role for shape in sketch.of("joint even")] == ["block", "block"]
     svg = encode_figure(build_figure([sketch], [""], "x"), ".svg").decode()
     assert all(f'id="{kind}joint-{name}"' in svg for kind in ("", "name-") for name in ("face", "even"))
@@ -93,15 +93,15 @@ def test_it_is_drawn_by_its_own_symbol_or_by_squares() -> None:
 def test_its_gap_is_what_its_row_lacks() -> None:
     """Of the roller a line along the normal, of the other one a number: the distance of its points means nothing."""
     found = drawn(OPEN)
-    residual = dict(zip(found.problem.names, found.problem.compute_residual(found.posture.q), strict=True))
-    shapes, labels = draw_gaps(found.problem, found.posture)
+    residual = dict(zip(found.problem.names, found.problem.compute_residual(found.configuration.q), strict=True))
+    shapes, labels = draw_gaps(found.problem, found.configuration)
     texts = {label.part: label.text for label in labels}
     lines = {shape.part: shape for shape in shapes}
     face, even = residual["face.distance"], residual["even.height"]
     assert min(abs(face), abs(even)) > 1e-3
     line = lines["gap face"]
     assert isinstance(line, Line)
-    tilt = found.posture.get_angle("push")
+    tilt = found.configuration.get_angle("push")
     np.testing.assert_allclose(line.points[1] - line.points[0], [-face * np.sin(tilt), face * np.cos(tilt)], atol=1e-15)
     assert texts["gap face"] == f"face: {format_length(abs(face))}"
     assert "gap even" not in lines and texts["gap even"] == f"even: {format_length(even)}"

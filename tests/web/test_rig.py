@@ -15,14 +15,14 @@ import pytest
 pytest.importorskip("matplotlib")
 
 import gudgeon  # noqa: E402
+from gudgeon.drawing.configuration import Configuration  # noqa: E402
 from gudgeon.drawing.layout import Layout, make_layout  # noqa: E402
-from gudgeon.drawing.posture import Posture  # noqa: E402
 from gudgeon.drawing.rig import EXACT, Rig, make_rig  # noqa: E402
 from gudgeon.drawing.shapes import Disc, Shape, Sketch  # noqa: E402
 from gudgeon.drawing.sketch import compute_common_box, make_sketch  # noqa: E402
 from gudgeon.loading.shipped import list_shipped_mechanisms  # noqa: E402
 from gudgeon.model.parameters import prepare_values  # noqa: E402
-from gudgeon.results.figures.postures import compute_posture, select_postures  # noqa: E402
+from gudgeon.results.figures.configurations import compute_configuration, select_configurations  # noqa: E402
 from gudgeon.results.results import Result  # noqa: E402
 from gudgeon.web.description import build_description  # noqa: E402
 from gudgeon.web.page import read_file  # noqa: E402
@@ -52,18 +52,18 @@ KINDS = ["andrews_squeezer", "belt_block", "car_axis", "nine_bar_press", "scotch
 
 def ran(name: str, scene: str = "ideal") -> tuple[Result, Rig, Layout, Box]:
     run = gudgeon.load(name, scene).simulate(SHORT.get(name, 1.0), output=120)
-    motion = select_postures(run, 13)
+    motion = select_configurations(run, 13)
     plan = make_layout(motion)
     return run, make_rig(motion, plan), plan, compute_common_box(motion, [plan])
 
 
-def off(rig: Rig, posture: Posture, plan: Layout, box: Box) -> float:
+def off(rig: Rig, configuration: Configuration, plan: Layout, box: Box) -> float:
     """How far the worst point is from where it is drawn, a share of the size."""
-    drawn = dict(keyed(make_sketch(posture, plan, box=box, shows_insets=False)))
+    drawn = dict(keyed(make_sketch(configuration, plan, box=box, shows_insets=False)))
     carried = {id(one.shape): one for one in rig.shapes}
     worst = 0.0
     for key, shape in keyed(rig.sketch):
-        there, here = drawn[key], carried[id(shape)].move_to(posture)
+        there, here = drawn[key], carried[id(shape)].move_to(configuration)
         worst = max(worst, float(np.abs(points(here) - points(there)).max()))
         if isinstance(here, Disc) and isinstance(there, Disc):
             worst = max(worst, abs(here.radius - there.radius))
@@ -76,16 +76,16 @@ def test_points_are_where_they_are_drawn(name: str) -> None:
     run, rig, plan, box = ran(name)
     rows = np.random.default_rng(4).integers(0, len(run.t), 12)
     first = run.v[0]
-    others = [replace(compute_posture(run, float(run.t[k])), v=first) for k in rows]
-    assert max(off(rig, posture, plan, box) for posture in others) < EXACT
+    others = [replace(compute_configuration(run, float(run.t[k])), v=first) for k in rows]
+    assert max(off(rig, configuration, plan, box) for configuration in others) < EXACT
     assert max(one.max_error for one in rig.shapes) < NEAR * rig.size
 
 
 def test_a_slider_with_play_is_carried_between_its_walls() -> None:
     run, rig, plan, box = ran("guided_slider_crank", "hard")
-    others = [replace(compute_posture(run, float(t)), v=run.v[0]) for t in run.t[5::9]]
-    assert np.ptp([posture.q[7] for posture in others]) > 1.9e-3  # from wall to wall
-    assert max(off(rig, posture, plan, box) for posture in others) < EXACT
+    others = [replace(compute_configuration(run, float(t)), v=run.v[0]) for t in run.t[5::9]]
+    assert np.ptp([configuration.q[7] for configuration in others]) > 1.9e-3  # from wall to wall
+    assert max(off(rig, configuration, plan, box) for configuration in others) < EXACT
     numbers = prepare_values(gudgeon.load("guided_slider_crank", "hard").compiled, {"parameters.c": 2e-4})[0]
     assert off(rig, replace(others[0], p=numbers), plan, box) < EXACT
 
@@ -96,17 +96,17 @@ def test_a_length_moves_what_it_carries() -> None:
     place = {slot.address: k for k, slot in enumerate(run.source.slots)}
     p, *_ = prepare_values(gudgeon.load("four_bar").compiled, {"bodies.rocker.length": 0.09, "ground.B0.x": 0.13})
     assert p[place["bodies.rocker.length"]] == 0.09
-    posture = replace(select_postures(run, 2)[1], p=p, v=run.v[0])
-    assert off(rig, posture, plan, box) < NEAR
-    drawn = make_sketch(posture, plan, box=box, shows_insets=False).of("joint B0")
+    configuration = replace(select_configurations(run, 2)[1], p=p, v=run.v[0])
+    assert off(rig, configuration, plan, box) < NEAR
+    drawn = make_sketch(configuration, plan, box=box, shows_insets=False).of("joint B0")
     carried = {id(one.shape): one for one in rig.shapes}
     for shape, there in zip(rig.sketch.of("joint B0"), drawn, strict=True):
-        assert np.allclose(points(carried[id(shape)].move_to(posture)), points(there), atol=EXACT * rig.size)
+        assert np.allclose(points(carried[id(shape)].move_to(configuration)), points(there), atol=EXACT * rig.size)
 
 
 PLACES = """
 const fs = require("fs"), asked = JSON.parse(fs.readFileSync(0, "utf-8")), rig = new Rig(asked.rig, asked.points);
-console.log(JSON.stringify(asked.postures.map(({q, p, loads}) => {
+console.log(JSON.stringify(asked.configurations.map(({q, p, loads}) => {
     rig.update(q, p, (name) => loads[name]);
     return rig.shapes.map((shape) => rig.points(shape).flat());
 })));
@@ -126,12 +126,12 @@ def test_a_page_places_them_alike(name: str, tmp_path: Path) -> None:
     file = tmp_path / "places.js"
     file.write_text(read_file("drawing.js") + PLACES, encoding="utf-8")
     rows, about = [0, 40, 99], json.loads(build_description(gudgeon.load(name).compiled))
-    postures = [replace(compute_posture(run, float(run.t[k])), v=run.v[0]) for k in rows]
-    message = [{"q": one.q.tolist(), "p": one.p.tolist(), "loads": dict(one.loads)} for one in postures]
-    requested = {"rig": rig.to_json_data(), "points": about["points"], "postures": message}
+    configurations = [replace(compute_configuration(run, float(run.t[k])), v=run.v[0]) for k in rows]
+    message = [{"q": one.q.tolist(), "p": one.p.tolist(), "loads": dict(one.loads)} for one in configurations]
+    requested = {"rig": rig.to_json_data(), "points": about["points"], "configurations": message}
     done = subprocess.run([program, str(file)], input=json.dumps(requested), capture_output=True, text=True, timeout=60)
     assert done.returncode == 0, done.stderr
-    for posture, placed in zip(postures, json.loads(done.stdout), strict=True):
+    for configuration, placed in zip(configurations, json.loads(done.stdout), strict=True):
         for carried, found in zip(rig.shapes, placed, strict=True):
-            there = points(carried.move_to(posture))
+            there = points(carried.move_to(configuration))
             assert np.abs(np.reshape(found, (-1, 2)) - there).max() < 0.1 * EXACT * rig.size

@@ -35,7 +35,7 @@ def derive_constraint_equations(first_frame: Any, second_frame: Any, joint_field
 def find_gap_points(joint: Any, residuals: Any) -> Any:
     """Return the follower's point and the point where the profile requires it, (2,) each in ground axes (m).
 
-    joint: the joint at a posture; residuals: the values of its constraint equations (m).
+    joint: the joint at a configuration; residuals: the values of its constraint equations (m).
     """
     return joint.second, joint.second - residuals[0] * joint.direction("axis", joint.get_option("carrier"))
 

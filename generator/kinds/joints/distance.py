@@ -42,7 +42,7 @@ def find_middle(joint: Any) -> Any:
 def find_gap_points(joint: Any, residuals: Any) -> Any:
     """Return the end of a rod of this length from the first point, and the second point; (2,) each in ground axes (m).
 
-    joint: the joint at a posture; the residuals are not used.
+    joint: the joint at a configuration; the residuals are not used.
     """
     return joint.first + joint.get_parameter("length") * joint.unit_vector(joint.second - joint.first), joint.second
 

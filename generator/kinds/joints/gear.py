@@ -63,7 +63,7 @@ def draw_symbol(pen: Any) -> None:
 def find_gap_points(joint: Any, residuals: Any) -> Any:
     """Return the ends of the arc by which the wheels have slipped, (2,) each in ground axes (m).
 
-    The arc is drawn as a line across that of the centres. joint: the joint at a posture; residuals: the arc (m).
+    The arc is drawn as a line across that of the centres. joint: the joint at a configuration; residuals: the arc (m).
     """
     (centre_1, _), (centre_2, _) = find_wheels(joint)
     midpoint = 0.5 * (centre_1 + centre_2)

@@ -53,7 +53,7 @@ def find_gap_to_line(joint: Any, residuals: Any) -> Any:
 class Symbol:
     """Declare how drawings show a joint. Positions are arrays (2,) in ground axes, m.
 
-    The functions get the joint at a posture, a JointAt (runtime/drawing/joint_geometry.py); `draw` gets a Pen
+    The functions get the joint at a configuration, a JointAt (runtime/drawing/joint_geometry.py); `draw` gets a Pen
     (runtime/drawing/pen.py), which is a JointAt with primitives to draw by.
     """
 

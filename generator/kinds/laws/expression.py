@@ -19,9 +19,11 @@ from gudgeon.language.units import FORCE, LENGTH
 
 
 def build_normal_force(inputs: LawInputs) -> dict[str, Any]:
-    """Return the normal force F_n (N) for δ > 0, positive in compression, as equations by name.
+    """Return the equations of F_e and F_n by name: forces (N) for δ > 0, positive in compression.
 
-    F_n is the elastic force F_e of the file times the hysteresis factor of the option `dissipation`.
+    F_e is the elastic force of the file. F_n is F_e times the hysteresis factor of the option `dissipation`. Derived
+    parameters are added to `inputs`: the largest penetration, if the file gives it, and the secant stiffness `spring`
+    at a twentieth of the clearance, if the force depends on δ.
     """
     import sympy as sp
 

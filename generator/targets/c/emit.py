@@ -127,12 +127,13 @@ def _list_shared_files(program: Program) -> FilePrinters:
 
 
 def _list_files_of_parts(program: Program, bounds: Kernel | None) -> dict[int, FilePrinters]:
-    """Return {part of MAIN: {file: function that prints it}}, files in the order of their inclusion.
+    """Return {number of a part of scene.c: {file: function that prints it}}, files in the order of their inclusion.
 
-    A part exists only if the scene needs it: the reduced formulation, the implicit methods or positions from drives.
-    bounds: the kernel that bounds event functions, or None.
+    Parts are compiled in parallel. ABSOLUTE (parameters, constraints, dynamics) always exists, REDUCED with the reduced
+    formulation only. METHODS exists if it has files: positions of a kinematic scene, or Newton's method of implicit
+    integrators, and the bounds of event functions. bounds: the kernel of these bounds, or None.
     """
-    tree, course = program.tree, program.kinematics
+    tree, kinematics = program.tree, program.kinematics
     parts: dict[int, FilePrinters] = {
         ABSOLUTE: {
             "parameters.c": lambda: _print_parameters_file(program),
@@ -142,8 +143,8 @@ def _list_files_of_parts(program: Program, bounds: Kernel | None) -> dict[int, F
     }
     if tree:
         parts[REDUCED] = {"reduced.c": lambda: print_reduced_file(program.model, tree, render_template, _print_kernels)}
-    if course:
-        parts[METHODS] = {"positions.c": lambda: _print_kernels(*course.kernels)}
+    if kinematics:
+        parts[METHODS] = {"positions.c": lambda: _print_kernels(*kinematics.kernels)}
     elif program.methods:
         parts[METHODS] = {"newton.c": lambda: _print_newton_file(program)}
     if program.methods and program.has_complex_stages:
@@ -208,7 +209,11 @@ def _print_newton_file(program: Program) -> str:
     if methods is None:
         return ""
     slopes = print_tangent_functions(program.joints, methods, render_template, program.model.law_states)
-    return slopes + print_newton_functions(methods.newton, render_template) + functions.print_kernel(methods.closing)
+    return (
+        slopes
+        + print_newton_functions(methods.newton, render_template)
+        + functions.print_kernel(methods.correction_kernel)
+    )
 
 
 def _has_bounds(program: Program, bounds: Kernel | None) -> bool:

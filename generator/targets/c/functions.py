@@ -138,7 +138,7 @@ class LinePrinter(ValuePrinter):
             case Sines():
                 return self._print_sines(line)
             case SolveDependentRows():
-                return self._print_dependent_solution(line)
+                return self._print_redundant_equation_solution(line)
             case Largest():
                 name = f"*{line.target}"
                 before = ["0.0", *[name] * len(line.values)]
@@ -226,11 +226,11 @@ class LinePrinter(ValuePrinter):
             f"compute_sines_and_cosines(&angles_{suffix}, &sines_{suffix}, &cosines_{suffix});",
         ]
 
-    def _print_dependent_solution(self, solution: SolveDependentRows) -> list[str]:
-        """Return the code at the label `dependent`, which solves dependent equations after a vanished pivot.
+    def _print_redundant_equation_solution(self, solution: SolveDependentRows) -> list[str]:
+        """Return the code after the label `dependent`, to which the function jumps if a pivot vanishes.
 
-        Without forces in `solution`, the equations of all bodies are solved instead. The label `powers` follows in both
-        cases.
+        With forces in `solution`, the code solves redundant constraint equations by their rank. Without forces, it
+        calls solve_by_absolute_equations() of the engine. At the label `powers` the function continues in all cases.
         """
         if not solution.force:
             return ["dependent:", "pivot = solve_by_absolute_equations(t, q, v, discrete, p, a, rhs);", "powers:"]

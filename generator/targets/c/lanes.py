@@ -9,7 +9,7 @@ from gudgeon.generator.equations.play import Clearance
 from gudgeon.generator.kernels.play import JointFunctions
 from gudgeon.generator.kernels.program import Methods, Program
 from gudgeon.generator.kernels.shared import SharedFunctionCall
-from gudgeon.generator.solvers.contact_slopes import read_parameters_at_places
+from gudgeon.generator.solvers.contact_slopes import read_parameters_from_struct
 from gudgeon.generator.targets.c import functions, lanes_printer, taylor
 from gudgeon.generator.targets.c.curves import print_curve_tables
 from gudgeon.generator.targets.c.newton import STATE, print_shared_slopes
@@ -48,7 +48,7 @@ def print_lanes_files(program: Program, render: Render) -> dict[str, str]:
         *map(lanes_printer.print_kernel, program.laws),
         *(_print_joint_function(joint, render, model.law_states) for joint in program.joints),
     ]
-    kernels = (*program.tree.unpaired_kernels, program.methods.unpaired_closing)
+    kernels = (*program.tree.unpaired_kernels, program.methods.unpaired_correction_kernel)
     kernels_in_lanes = [kernel for kernel in kernels if kernel.name in _KERNELS]
     text = "\n".join([*joint_functions, *map(lanes_printer.print_motion_kernel, kernels_in_lanes)])
     if program.series:
@@ -176,7 +176,9 @@ def _print_force_tangent(
     }
     calls |= {"joint": clearance.label, "kind": clearance.kind.capitalize(), "c": f"p->{clearance.pair.c}"}
     calls["rise"] = (
-        lanes_printer.print_expression(read_parameters_at_places(model, clearance.wall.rise)) if clearance.wall else ""
+        lanes_printer.print_expression(read_parameters_from_struct(model, clearance.wall.rise))
+        if clearance.wall
+        else ""
     )
     return render(
         "play/lane_tangent.c.jinja", rows=4 + n_states, columns=5 + n_states, wall=bool(clearance.wall), **calls

@@ -10,7 +10,7 @@ from gudgeon.generator.equations.play import Clearance, Contour
 from gudgeon.generator.kernels.play import JointFunctions
 from gudgeon.generator.kernels.program import Methods
 from gudgeon.generator.kernels.shared import SharedFunctionCall
-from gudgeon.generator.solvers.contact_slopes import CONTOUR_INPUTS, read_parameters_at_places
+from gudgeon.generator.solvers.contact_slopes import CONTOUR_INPUTS, read_parameters_from_struct
 from gudgeon.generator.solvers.newton import Newton
 from gudgeon.generator.targets.c import functions
 from gudgeon.generator.targets.c.play import CLOSED, CONTOURS
@@ -69,7 +69,7 @@ def print_tangent_functions(joints: Sequence[JointFunctions], methods: Methods, 
         clearance_parameter = f"p->{clearance.pair.c}"
         code = _print_slope_selection(clearance, clearance_parameter, methods.derivative_calls[clearance.name])
         if clearance.wall:
-            rise = print_expression(read_parameters_at_places(methods.newton.system.model, clearance.wall.rise))
+            rise = print_expression(read_parameters_from_struct(methods.newton.system.model, clearance.wall.rise))
             functions_.append(
                 render(
                     "play/wall_tangent.c.jinja",

@@ -25,14 +25,14 @@ from gudgeon.errors import BadValueError, GudgeonError, OutputError
 from gudgeon.files.writing import check_output_path, convert_os_errors, write_bytes, write_text
 from gudgeon.language.argument_checks import check_callable, check_flag, check_number, check_path, raise_bad_value
 from gudgeon.language.text_output import format_one_line
+from gudgeon.results.figures.configurations import compute_configuration, select_configurations
 from gudgeon.results.figures.mechanism_plots import (
     build_path_lines,
     check_points,
     draw_requested_arrows,
-    find_contacts_at_posture,
+    find_contacts_at_configuration,
 )
 from gudgeon.results.figures.plots import format_caption
-from gudgeon.results.figures.postures import compute_posture, select_postures
 
 import matplotlib  # isort: skip  (labels.py says where it is missing)
 from matplotlib.animation import PillowWriter  # isort: skip
@@ -135,21 +135,23 @@ def write_animation(run: Result, target: Any, options: AnimationOptions) -> Anim
 
 def draw_sketches(run: Result, options: AnimationOptions) -> Iterator[Sketch]:
     """Yield the drawing of each picture of an animation, all in one box and to one scale, and report the progress."""
-    motion = select_postures(run, 60)
+    motion = select_configurations(run, 60)
     layout = make_layout(motion)
     box, paths = compute_common_box(motion, [layout]), build_path_lines(run, options.points)
     previous_time = options.times[0]
     for k, t in enumerate(options.times):
         if options.progress:
             options.progress(k / len(options.times), f"picture {k + 1} of {len(options.times)}")
-        posture = compute_posture(run, float(t))
-        scaled_layout, arrows = draw_requested_arrows(run, posture, motion, layout, options.velocities, options.forces)
+        configuration = compute_configuration(run, float(t))
+        scaled_layout, arrows = draw_requested_arrows(
+            run, configuration, motion, layout, options.velocities, options.forces
+        )
         sketch = make_sketch(
-            posture,
+            configuration,
             scaled_layout,
             shapes_on_top=paths,
             arrows=arrows,
-            contact_names=find_contacts_at_posture(run, posture),
+            contact_names=find_contacts_at_configuration(run, configuration),
             earlier_contact_names=find_contacts_between(run, previous_time, t),
             box=box,
             shows_zero_loads=False,

@@ -9,16 +9,21 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gudgeon.drawing.arrows import MAX_ARROW_LENGTH, Arrows, compute_velocities, draw_arrows
+from gudgeon.drawing.configuration import Configuration, get_joint_type
 from gudgeon.drawing.insets import find_contacts
 from gudgeon.drawing.layout import Layout, make_layout
 from gudgeon.drawing.picture import build_figure, draw_sketch, encode_figure
-from gudgeon.drawing.posture import Posture, get_joint_type
 from gudgeon.drawing.shapes import Line, Sketch
 from gudgeon.drawing.sketch import compute_common_box, make_sketch
 from gudgeon.language.argument_checks import check_flag, check_names
 from gudgeon.language.names import make_missing_name_error
+from gudgeon.results.figures.configurations import (
+    compute_configuration,
+    evaluate_loads,
+    read_time,
+    select_configurations,
+)
 from gudgeon.results.figures.plots import choose_colours
-from gudgeon.results.figures.postures import compute_posture, evaluate_loads, read_time, select_postures
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -36,58 +41,67 @@ def draw_sketch_at_time(run: Result, t: Any, velocities: bool = False, forces: b
     `t` is a number in s or a text with a unit. Raises BadValueError, UnknownNameError.
     """
     velocities, forces = check_flag(velocities, "velocities"), check_flag(forces, "forces")
-    posture, motion = compute_posture(run, read_time(run, t)), select_postures(run)
+    configuration, motion = compute_configuration(run, read_time(run, t)), select_configurations(run)
     layout = make_layout(motion)
-    layout, all_arrows = draw_requested_arrows(run, posture, motion, layout, velocities, forces)
-    return make_sketch(posture, layout, arrows=all_arrows, contact_names=find_contacts_at_posture(run, posture))
+    layout, all_arrows = draw_requested_arrows(run, configuration, motion, layout, velocities, forces)
+    return make_sketch(
+        configuration, layout, arrows=all_arrows, contact_names=find_contacts_at_configuration(run, configuration)
+    )
 
 
-def find_contacts_at_posture(run: Result, posture: Posture) -> frozenset[str]:
-    """Return the names of joints and slider corners with play that are in contact at a posture's time.
+def find_contacts_at_configuration(run: Result, configuration: Configuration) -> frozenset[str]:
+    """Return the names of joints and slider corners with play that are in contact at a configuration's time.
 
     The stored contact state decides at a sample; between two samples, the overlap in the drawing.
     """
-    if (sample_indices := np.flatnonzero(run.t == posture.t)).size:
+    if (sample_indices := np.flatnonzero(run.t == configuration.t)).size:
         return frozenset(
             joint.name for k, joint in enumerate(run.source.clearances) if run.state[sample_indices[0], k] > 0
         )
-    return find_contacts(posture)
+    return find_contacts(configuration)
 
 
 def draw_requested_arrows(
-    run: Result, posture: Posture, motion: Sequence[Posture], layout: Layout, velocities: bool, forces: bool
+    run: Result,
+    configuration: Configuration,
+    motion: Sequence[Configuration],
+    layout: Layout,
+    velocities: bool,
+    forces: bool,
 ) -> tuple[Layout, list[Arrows]]:
     """Return the layout, and a list of the requested arrows of velocities and forces.
 
-    `motion` has postures of the whole run, to which the scale of velocities belongs. With `forces` the returned layout
-    draws applied forces to the scale of the reactions.
+    `motion` has configurations of the whole run, to which the scale of velocities belongs. With `forces` the returned
+    layout draws applied forces to the scale of the reactions.
     """
-    all_arrows = [draw_velocity_arrows(posture, motion, layout)] if velocities else []
+    all_arrows = [draw_velocity_arrows(configuration, motion, layout)] if velocities else []
     if not forces:
         return layout, all_arrows
-    reactions, force_scale = draw_force_arrows(run, posture, layout)
+    reactions, force_scale = draw_force_arrows(run, configuration, layout)
     return replace(layout, newton=force_scale), [*all_arrows, reactions]
 
 
-def draw_velocity_arrows(posture: Posture, motion: Sequence[Posture], layout: Layout) -> Arrows:
-    """Return the velocity arrows of all points at a posture, with the largest speed of the whole run as scale."""
+def draw_velocity_arrows(configuration: Configuration, motion: Sequence[Configuration], layout: Layout) -> Arrows:
+    """Return the velocity arrows of all points at a configuration, with the largest speed of the whole run as scale."""
     speeds = [
         float(np.hypot(*vector))
-        for sample_posture in (*motion, posture)
-        for _, (_, vector) in compute_velocities(sample_posture)
+        for sample_configuration in (*motion, configuration)
+        for _, (_, vector) in compute_velocities(sample_configuration)
     ]
-    return draw_arrows("velocity", dict(compute_velocities(posture)), "m/s", layout.unit, max(speeds, default=0.0))
+    return draw_arrows(
+        "velocity", dict(compute_velocities(configuration)), "m/s", layout.unit, max(speeds, default=0.0)
+    )
 
 
-def draw_force_arrows(run: Result, posture: Posture, layout: Layout) -> tuple[Arrows, float]:
-    """Return the arrows of joint forces at a posture, and the length of 1 N (m of the drawing; 0 without forces).
+def draw_force_arrows(run: Result, configuration: Configuration, layout: Layout) -> tuple[Arrows, float]:
+    """Return the arrows of joint forces at a configuration, and the length of 1 N (m of the drawing; 0 without forces).
 
     Forces act on the second body, for a joint with play on the journal, and are interpolated between samples. The
     longest arrow is the largest force of this moment, applied forces included, since a scale for the whole run would
     shrink most forces to nothing next to impacts. Raises UnknownNameError without masses.
     """
-    reactions = dict(_iterate_joint_forces(run, posture))
-    applied_forces = [posture.loads[part.name] for part in posture.iterate_parts("forces", "force")]
+    reactions = dict(_iterate_joint_forces(run, configuration))
+    applied_forces = [configuration.loads[part.name] for part in configuration.iterate_parts("forces", "force")]
     magnitudes = [
         float(np.hypot(*vector)) for vector in (*(vector for _, vector in reactions.values()), *applied_forces)
     ]
@@ -97,13 +111,13 @@ def draw_force_arrows(run: Result, posture: Posture, layout: Layout) -> tuple[Ar
     return reaction_arrows, MAX_ARROW_LENGTH * layout.unit / max_magnitude if max_magnitude > 0.0 else 0.0
 
 
-def _iterate_joint_forces(run: Result, posture: Posture) -> Iterator[tuple[str, tuple[Array, Array]]]:
+def _iterate_joint_forces(run: Result, configuration: Configuration) -> Iterator[tuple[str, tuple[Array, Array]]]:
     """Yield name, position and force vector of each joint that connects points; (name, ((2,) in m, (2,) in N))."""
-    for part in posture.iterate_parts("joints"):
+    for part in configuration.iterate_parts("joints"):
         joint_type = get_joint_type(part)
         if joint_type.joins == "points":
-            vector = [float(np.interp(posture.t, run.t, run[f"{part.name}.F{axis}"])) for axis in "xy"]
-            position = posture.get_position(part.ends[0 if joint_type.reaction_at == "first" else 1])
+            vector = [float(np.interp(configuration.t, run.t, run[f"{part.name}.F{axis}"])) for axis in "xy"]
+            position = configuration.get_position(part.ends[0 if joint_type.reaction_at == "first" else 1])
             yield part.name, (position, np.array(vector))
 
 
@@ -112,7 +126,7 @@ def draw_start_sketch(run: Result) -> Sketch:
 
     Names are left out if there are more than MAX_NAMES.
     """
-    motion = select_postures(run)
+    motion = select_configurations(run)
     sketch = make_sketch(motion[0], make_layout(motion), shows_insets=False)
     return sketch if len(sketch.labels) <= MAX_NAMES else replace(sketch, labels=())
 
@@ -128,8 +142,8 @@ def draw_start_picture(scene_or_run: Any) -> bytes:
     else:
         start = scene_or_run.start()
         loads = evaluate_loads(scene_or_run.source, scene_or_run.p, start.q, start.v)
-        posture = Posture(scene_or_run.source, scene_or_run.p, start.q, 0.0, start.v, loads)
-        sketch = make_sketch(posture, make_layout([posture]))
+        configuration = Configuration(scene_or_run.source, scene_or_run.p, start.q, 0.0, start.v, loads)
+        sketch = make_sketch(configuration, make_layout([configuration]))
     return encode_figure(build_figure([sketch], [""], ""), ".png", dpi=90)
 
 
@@ -138,7 +152,7 @@ def draw_path_sketch(run: Result) -> Sketch:
 
     Its only label is that of the scale.
     """
-    motion = select_postures(run)
+    motion = select_configurations(run)
     layout = make_layout(motion)
     sketch = make_sketch(motion[0], layout, box=compute_common_box(motion, [layout]), shows_insets=False)
     return replace(sketch, labels=tuple(label for label in sketch.labels if label.role == "scale"))

@@ -242,8 +242,8 @@ class Plot:
         run. Returns the axes, new ones if `ax` is None.
         """
         from gudgeon.drawing.picture import draw_sketch
+        from gudgeon.results.figures.configurations import read_time
         from gudgeon.results.figures.mechanism_plots import draw_sketch_at_time
-        from gudgeon.results.figures.postures import read_time
 
         sketch, caption = (
             draw_sketch_at_time(self.run, t, velocities, forces),

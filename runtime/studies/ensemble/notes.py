@@ -9,8 +9,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from gudgeon.assembly.guess_warnings import (
+    COLLECTED_GUESS_DEVIATIONS,
     LISTED,
-    UNFOLLOWED_GUESSES,
     describe_missing_assembly,
     format_guess_difference,
 )
@@ -74,11 +74,11 @@ def collect_guess_notes(source: KernelSource, first_run: int) -> Iterator[dict[s
     """
     noted: list[Mapping[str, float]] = []
     notes: dict[str, Note] = {}
-    token = UNFOLLOWED_GUESSES.set(noted)
+    token = COLLECTED_GUESS_DEVIATIONS.set(noted)
     try:
         yield notes
     finally:
-        UNFOLLOWED_GUESSES.reset(token)
+        COLLECTED_GUESS_DEVIATIONS.reset(token)
     for name in dict.fromkeys(name for off in noted for name in off):
         deviations = [off[name] for off in noted if name in off]
         text = (

@@ -69,10 +69,10 @@ def compute_spectra(t: Any, series: Any, dimension: str | None, name: str, windo
 
 
 def _compute_spectrum_of_runs(times: Any, values: Any, name: str, window: str) -> tuple[Any, Any]:
-    """Return frequencies (M,) in Hz and amplitudes (runs, M) of runs with equal sample times; one NaN without any
-    samples.
+    """Return frequencies (M,) in Hz and amplitudes (runs, M) of runs with equal sample times.
 
-    Raises BadValueError for different sample times.
+    Samples that are not finite are dropped, and runs without finite samples are left out. If no run is left, the
+    result is one frequency 0 with the amplitude NaN. Raises BadValueError for different sample times.
     """
     rows = [
         (t[good], x[good]) for t, x in _iterate_runs(times, values) if (good := np.isfinite(t) & np.isfinite(x)).any()

@@ -1,4 +1,4 @@
-"""Own `Posture`, a mechanism at one position: coordinates of its points, and values of its parameters."""
+"""Own `Configuration`, a mechanism at one position for its drawing: coordinates q, parameters p, velocities, loads."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ UNKNOWN = JointType("", "joint", (), "", (), (), lambda *_: [], None)  # of a fi
 
 
 @dataclass(frozen=True, eq=False)
-class Posture:
+class Configuration:
     """A scene at the position q (n,) and time t (s), with parameters p as returned by `prepare`.
 
     `v` (n,) decides the directions of drives' arrows; `loads` are the values of the elements `force` (N, ground axes)
@@ -125,7 +125,7 @@ class Posture:
     def get_position(self, point: str) -> Array:
         """Return the position of a point in ground axes, (2,), in m; the origin if the scene has no point of that name.
 
-        `point` is a name such as "L1.head". The position is cached in this posture.
+        `point` is a name such as "L1.head". The position is cached in this configuration.
         """
         if point not in self._positions:
             info = self.points.get(point)
@@ -144,7 +144,7 @@ class Posture:
         return float(self.q[self.bodies[body].index + 2]) if body in self.bodies else 0.0
 
     def get_angular_velocity(self, body: str) -> float:
-        """Return the angular velocity of a body in rad/s; 0 for the ground and in a posture without velocities."""
+        """Return the angular velocity of a body in rad/s; 0 for the ground, and if the velocities are unknown."""
         if self.v is None or body not in self.bodies:
             return 0.0
         return float(self.v[self.bodies[body].index + 2])
@@ -202,15 +202,15 @@ def get_body_name(end: str) -> str:
     return end.partition(".")[0]
 
 
-def find_outline_points(posture: Posture, body: str) -> dict[str, Array]:
+def find_outline_points(configuration: Configuration, body: str) -> dict[str, Array]:
     """Return the positions (2,) in m of the points on a body's outline, by name.
 
     They are the ends of joints, drives and force elements, and the named points. If fewer than two positions differ,
     the centre of mass is added as "BODY.com".
     """
-    positions = {name: posture.get_position(name) for name in posture.outline_points.get(body, ())}
+    positions = {name: configuration.get_position(name) for name in configuration.outline_points.get(body, ())}
     if len(remove_repeated_positions(positions.values())) < 2:
-        positions[f"{body}.com"] = posture.get_centre_of_mass(body)
+        positions[f"{body}.com"] = configuration.get_centre_of_mass(body)
     return positions
 
 

@@ -1,4 +1,4 @@
-"""Compute the positions of a mechanism during a run for its drawings: at samples, or interpolated between samples."""
+"""Compute configurations of a mechanism during a run for its drawings: at samples, or interpolated between samples."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gudgeon.assembly.linkage import project_state
-from gudgeon.drawing.posture import Posture
+from gudgeon.drawing.configuration import Configuration
 from gudgeon.errors import BadValueError
 from gudgeon.language.argument_checks import check_number, raise_bad_value
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from gudgeon.results.results import Array, Result
 
 N_PROJECTIONS = 4  # times that a position between samples is led to Φ = 0
-N_MOTION_POSTURES = 24  # positions that stand for a motion where a drawing makes room for it
+N_MOTION_CONFIGURATIONS = 24  # positions that stand for a motion where a drawing makes room for it
 
 
 def read_time(run: Result, t: Any) -> float:
@@ -41,8 +41,8 @@ def read_time(run: Result, t: Any) -> float:
     return time
 
 
-def compute_posture(run: Result, t: float) -> Posture:
-    """Return the posture of the mechanism at t (s), with its forces and torques.
+def compute_configuration(run: Result, t: float) -> Configuration:
+    """Return the configuration of the mechanism at t (s), with its forces and torques.
 
     At a sample the stored state is used. Between samples it is a cubic, projected onto the constraints if the compiled
     scene is available; loads are interpolated linearly.
@@ -63,16 +63,21 @@ def compute_posture(run: Result, t: float) -> Posture:
         if run.compiled is not None:  # between coarse samples the cubic takes joints apart
             for _ in range(N_PROJECTIONS):
                 q, v = project_state(run.compiled, t, q, v, run.p)
-    return Posture(run.source, run.p, q, t, v, loads)
+    return Configuration(run.source, run.p, q, t, v, loads)
 
 
-def select_postures(run: Result, count: int = N_MOTION_POSTURES) -> list[Posture]:
-    """Return up to `count` postures at samples spread evenly over the whole run, the start first."""
+def select_configurations(run: Result, count: int = N_MOTION_CONFIGURATIONS) -> list[Configuration]:
+    """Return up to `count` configurations of the mechanism at samples spread evenly over the run, the start first.
+
+    Each has the coordinates, velocities, parameters and applied loads of its sample.
+    """
     sample_indices = np.unique(np.linspace(0, len(run.t) - 1, count).round().astype(int))
     series = [*_iterate_load_series(run)]
     loads = [{name: (float(x[k]), float(y[k])) for name, x, y in series} for k in sample_indices]
     samples = zip(sample_indices, loads, strict=True)
-    return [Posture(run.source, run.p, run.q[k], float(run.t[k]), run.v[k], loads_there) for k, loads_there in samples]
+    return [
+        Configuration(run.source, run.p, run.q[k], float(run.t[k]), run.v[k], loads_there) for k, loads_there in samples
+    ]
 
 
 def _iterate_load_series(run: Result) -> Iterator[tuple[str, Any, Any]]:
