@@ -69,7 +69,9 @@ def chain_solver(n: int) -> Any:
         """Return y' by loops over the links: XLA did not compile 64 links as one expression within 250 s."""
         scan = import_module("jax").lax.scan
         zeros, links = (jnp.zeros(()),) * 5, (y[:n], y[n:])
-        _, links = scan(lambda carried, x: chain.go_inward(carried, *x, jnp.sin, jnp.cos), zeros, links, reverse=True)
+        _, links = scan(
+            lambda carried, x: chain.go_inward(carried, x[0], x[1], jnp.sin, jnp.cos), zeros, links, reverse=True
+        )
         _, found = scan(chain.go_outward, zeros[:2], links)
         return jnp.concatenate([y[n:], found])
 

@@ -62,8 +62,8 @@ def solve(lengths: Lengths, dtype: Any = float) -> np.ndarray:
     theta = dtype(SPEED) * times().astype(dtype) + dtype(math.pi) / 2
     unit = np.cos(theta), np.sin(theta)
     for k in range(0, runs, BLOCK):
-        part = [np.asarray(x[k : k + BLOCK], dtype)[:, None] for x in lengths]
-        _solve_block(*part, *unit, out[:, k : k + BLOCK])
+        a, b, c = (np.asarray(x[k : k + BLOCK], dtype)[:, None] for x in lengths)
+        _solve_block(a, b, c, *unit, out[:, k : k + BLOCK])
     return out
 
 

@@ -39,7 +39,8 @@ def load(mechanism: str, scene: str) -> Simulation:
 
 def describe(run: Result) -> str:
     """The diagnostics as text, without times of the computer."""
-    return replace(run.diagnostics, **dict.fromkeys(OF_TIME, 0.0)).to_json()
+    without_times: dict[str, Any] = dict.fromkeys(OF_TIME, 0.0)
+    return replace(run.diagnostics, **without_times).to_json()
 
 
 def is_deferred(run: Result) -> bool:
