@@ -7,7 +7,12 @@
 #define STEEP_RATIO 100.0 /* accelerations: largest over median (_yield_unbounded_sample_note in result_builder.py) */
 
 /* Return whether the batch is ending; called as the poll of a cancellation token. */
-static int is_batch_ending(void *caller) { return *((const KinematicBatch *)caller)->ending; }
+/* Return whether a run ends at this poll: the batch is ending, or Python computes runs that are not short. */
+static int is_batch_ending(void *caller)
+{
+    const KinematicBatch *batch = caller;
+    return *batch->ending || batch->must_be_short;
+}
 
 /* Return the row of present works in the samples of a run, J: that of the next sample. */
 static double *get_present_works(const RunSamples *samples) { return samples->y + samples->done * N_S + 2 * N_Q; }
@@ -34,7 +39,7 @@ static void store_sample(const KinematicBatch *batch, KinematicRun *run, const d
     memcpy(y, q, N_Q * sizeof *q);
     memcpy(y + N_Q, v, N_Q * sizeof *v);
     memcpy(a, run->motion.a, N_Q * sizeof *a);
-    samples->are_finite = samples->are_finite && all_finite(y, batch->has_works ? N_S : 2 * N_Q) && all_finite(a, N_Q);
+    samples->are_finite = samples->are_finite && all_finite(y, N_S) && all_finite(a, N_Q);
     const double largest = find_largest_acceleration(samples, k);
     samples->largest_a = max_of(samples->largest_a, largest);
     samples->smallest_a = min_of(samples->smallest_a, largest);
@@ -75,7 +80,7 @@ static int begin_run(const KinematicBatch *batch, long i, KinematicRun *run)
     if (status)
         return status;
     for (int j = 0; j < N_WORK; j++)
-        get_present_works(&run->samples)[j] = batch->has_works ? 0.0 : NAN;
+        get_present_works(&run->samples)[j] = 0.0;
     store_sample(batch, run, start, start + N_Q);
     return 0;
 }
@@ -101,7 +106,7 @@ static int advance_run(const KinematicBatch *batch, KinematicRun *run)
     const Position before = run->motion;
     const double t1 = run->samples.t[run->samples.done];
     int status = make_step(run, &run->samples.stride, t1, &run->motion);
-    if (!status && batch->has_works)
+    if (!status)
         status = integrate_work_of_step(run, &before, &run->motion, get_present_works(&run->samples));
     return status ? status : accept_step(batch, run);
 }

@@ -317,7 +317,7 @@ static void advance_lanes(RunLanes *lanes)
         if (lanes->index[k] >= 0 && is_accepted[k] && lanes->run[k]->samples.stride.halvings <= PULSE_HALVINGS
             && lanes->single->has_transient(position->t[k], next[k], lanes->run[k]->p))
             is_accepted[k] = 0;
-    if (batch->has_works && any_of(is_accepted))
+    if (any_of(is_accepted))
         is_irregular |= is_accepted
             & integrate_lane_works(&lanes->p, lanes->extent, position, &next_position, is_accepted, lanes->work);
     is_accepted &= ~is_irregular;

@@ -144,7 +144,7 @@ typedef struct {
     double *residuals;
     long *n_interpolated;                 /* samples at or near a change point; the time of the first, s */
     double *t_interpolated;
-    int has_works;                        /* whether works are integrated; 0: they are NaN */
+    int must_be_short;                    /* whether a run ends as STOPPED at the first poll, after 0.02 s */
     long n_drawn;
     double drawn[8], limit[4];
     const volatile int *ending;           /* nonzero: all runs end at once */

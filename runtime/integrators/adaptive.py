@@ -142,11 +142,13 @@ def compute_tolerances(compiled: CompiledModel, p: Array, rtol: float) -> tuple[
     velocities. `p` (..., n_slots + n_derived) holds the parameter values of one run, or of several.
     """
     source = compiled.source
-    lengths, sizes = compute_error_lengths(compiled, p)
-    of_angles, of_lengths, of_speeds = compute_error_scales(source, lengths, sizes, rtol)
+    with np.errstate(over="ignore", invalid="ignore"):  # runs with such values fail later, one by one
+        lengths, sizes = compute_error_lengths(compiled, p)
+        of_angles, of_lengths, of_speeds = compute_error_scales(source, lengths, sizes, rtol)
+        ratio = lengths / sizes
     of_q = np.where(find_integrated_angles(source), of_angles[..., None], of_lengths[..., None])
     of_speed = np.broadcast_to(np.asarray(of_speeds)[..., None], of_q.shape)
-    return np.concatenate([of_q, of_speed], axis=-1), np.stack([lengths, lengths / sizes], axis=-1)
+    return np.concatenate([of_q, of_speed], axis=-1), np.stack([lengths, ratio], axis=-1)
 
 
 def compute_error_scales(source: KernelSource, length: Any, size: Any, rtol: float) -> tuple[Any, Any, Any]:

@@ -295,14 +295,13 @@ class Runs(StoredRuns):
     ) -> None:
         """Compute these kinematic runs in C, and those that fail again in Python, which finds the cause; store them.
 
-        Without works, runs in which C found something are computed again with them, for Python's checks. Runs whose
-        start C could not assemble are left as they are. `storages`: memory of C, a row for each of the `lanes`.
+        Runs whose start C could not assemble are left as they are. `storages`: memory of C, a row for each of the
+        `lanes`.
         """
         assert self.kinematic
         self.kinematic.compute_runs(indices, storages, lanes)
         x, status = self.arrays, self.arrays["status"][indices]
-        is_failed = status != 0 if self.kinematic.has_works else x["is_suspect"][indices] > 0
-        failed = [i for i in np.array(indices)[is_failed & ~np.isin(status, (NOT_CLOSED, STOPPED))].tolist()]
+        failed = [i for i in np.array(indices)[~np.isin(status, (0, NOT_CLOSED, STOPPED))].tolist()]
         for i in failed:
             x["phase"][i], x["status"][i], x["done"][i], x["a"][x["sample_block"][i]] = NEW, 0, 0, np.nan
             self.integrate_run_in_python(i)

@@ -65,7 +65,7 @@ class KinematicEnsemble:
         }
         self._struct = struct = compiled.ffi.new("KinematicBatch *")
         struct.samples, struct.time_stride, struct.numbers = times.max_count, times.stride, arrays["p"].shape[1]
-        struct.max_correction, struct.has_works = REACH, 1
+        struct.max_correction = REACH
         for name, array in self._inputs.items():
             setattr(struct, name, compiled.pointer(array, C_TYPES[array.dtype.char]))
         for name in (*FILLED, *OWN):
@@ -81,15 +81,6 @@ class KinematicEnsemble:
         self._struct.n_drawn = len(positions)
         self._struct.drawn[0 : len(positions)] = positions.tolist()
         self._struct.limit = limits.tolist()
-
-    @property
-    def has_works(self) -> bool:
-        """Return whether works are integrated."""
-        return bool(self._struct.has_works)
-
-    def leave_out_works(self) -> None:
-        """Leave out the works of all runs, which take most of the time: they are NaN."""
-        self._struct.has_works = 0
 
     def allocate_storages(self, count: int = 1) -> NDArray[np.uint8]:
         """Return the memory of C, a row for each of `count` runs under way."""
@@ -115,9 +106,13 @@ class KinematicEnsemble:
         """Compute the only run of the batch and return whether it is complete.
 
         Return False for a long run and for one with an observer or a report of progress, which KinematicRun computes,
-        and if C cannot complete it: KinematicRun then computes it again.
+        and if C cannot complete it within 0.02 s: KinematicRun then computes it again, with polls for cancellation.
         """
         if len(problem.t) > SHORT or problem.observer or problem.progress:
             return False
+        self._struct.must_be_short = 1
         self.compute_runs([0], self.allocate_storages())
-        return not self._arrays["status"][0]
+        is_complete = not self._arrays["status"][0]
+        if not is_complete:
+            self._arrays["status"][0], self._arrays["done"][0] = 0, 0
+        return is_complete

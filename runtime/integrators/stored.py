@@ -358,7 +358,7 @@ class StoredRuns:
             "stopped": error if isinstance(error, SolverError) and not is_stopped else None,
             "seconds": x["seconds"].item(i),
             "change_points": self._get_change_points(i),
-            "size": math.nan if driven else x["size"].item(i),
+            "size": math.nan if a is not None else x["size"].item(i),
             "may_fail_audit": driven or b"\0" in (x["audited"][i] <= AUDIT_FAILS).tobytes(),
         }
         envelope = x["trace"][i, : x["traced"].item(i)].copy() if "trace" in x else None

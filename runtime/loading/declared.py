@@ -2,7 +2,7 @@
 
 from _cffi_backend import FFI
 
-OF = "12b2d9e5795bcf44a302736fc274d933dce9bb98b29eb6f174964d77b0188f4f"  # SHA-256 of these declarations
+OF = "0ba1bf88b07990c3a3a12c2c3ca4b227c02351b6fca3c23374f4084824f32868"  # SHA-256 of these declarations
 ffi = FFI(
     "gudgeon",
     _version=0x2601,
@@ -224,7 +224,7 @@ ffi = FFI(
             b"\x00\x00\x14\x11residuals",
             b"\x00\x00c\x11n_interpolated",
             b"\x00\x00\x14\x11t_interpolated",
-            b"\x00\x00\x8a\x11has_works",
+            b"\x00\x00\x8a\x11must_be_short",
             b"\x00\x00\x01\x11n_drawn",
             b"\x00\x01Z\x11drawn",
             b"\x00\x01X\x11limit",

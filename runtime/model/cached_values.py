@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable
 from functools import wraps
 from threading import Lock
@@ -16,6 +17,15 @@ MAX_ENTRIES = 256  # of one scene, of all functions together; the oldest is drop
 MAX_BYTES = 1 << 16  # of an array in a key: calls with larger arrays are not cached
 _LOCK = Lock()
 _EMPTY: dict[Any, Any] = {}  # the cache of an owner without one; as a value: not cached
+
+
+def _replace_lock() -> None:
+    """Replace the lock in a forked process, in which the thread that held it at the fork does not exist."""
+    global _LOCK
+    _LOCK = Lock()
+
+
+os.register_at_fork(after_in_child=_replace_lock)
 
 
 def cache_by_values(function: Callable[..., Value]) -> Callable[..., Value]:

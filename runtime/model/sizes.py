@@ -30,7 +30,8 @@ def compute_mechanism_sizes(source: KernelSource, p: Array) -> Array:
     if not len(x):
         return np.ones(p.shape[:-1])
     first, second = p.take(x, axis=-1), p.take(y, axis=-1) * has_y
-    size = np.sqrt(first * first + second * second).max(axis=-1)  # as in JavaScript and C, to the bit
+    with np.errstate(over="ignore", invalid="ignore"):  # runs with such values fail later, one by one
+        size = np.sqrt(first * first + second * second).max(axis=-1)  # as in JavaScript and C, to the bit
     return np.where(size > 0.0, size, 1.0)
 
 

@@ -268,11 +268,11 @@ def evaluate_step(compiled: CompiledModel, step: float | str | None, method: str
     Without the argument `step`, rk4 takes the step of the file or a default. Raises BadValueError unless it is
     positive. `step` None: not given.
     """
-    if method == "kinematic" or (step is None and method != "rk4"):
+    if step is None and method != "rk4":
         return math.inf
     if step is None:
         return evaluate_scene_step(compiled, p, duration)
     h = parse_seconds("step", step)
     if not h > 0:
         raise BadValueError(f"step is {h:g} s: expected a positive time")
-    return h
+    return math.inf if method == "kinematic" else h

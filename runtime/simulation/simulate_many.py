@@ -290,7 +290,7 @@ class _Results:
 
     def __post_init__(self) -> None:
         """Choose the samples that C audits in kinematic runs, and the runs that Python checks."""
-        self._suspects = SuspectRuns(self.runs, bool(self.starts.states), self.options.keep)
+        self._suspects = SuspectRuns(self.runs, bool(self.starts.states))
 
     def integrate_runs(self, progress: Progress | None) -> None:
         """Integrate all runs. Finished runs are processed at once where series are stored or Python must check them.

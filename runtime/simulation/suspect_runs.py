@@ -15,18 +15,16 @@ from gudgeon.integrators.batch import Runs
 from gudgeon.model.left_limit import find_evaluation_times
 from gudgeon.model.seams import list_periodic_drives
 from gudgeon.model.sizes import compute_mechanism_sizes
-from gudgeon.results.batch import depends_on_works
 from gudgeon.simulation.audit import LIMITS, SHORT_RUN_POSITIONS, find_runs_off_start, list_checks_left_out
 
 
 class SuspectRuns:
     """Select the runs to be checked in Python; without a kinematic ensemble these are all runs.
 
-    `is_resumed`: the runs begin at given states, whose violations Python notes. `stored_series`: names, None for the
-    states. Works are left out if nothing that is stored depends on them.
+    `is_resumed`: the runs begin at given states, whose violations Python notes.
     """
 
-    def __init__(self, runs: Runs, is_resumed: bool, stored_series: tuple[str, ...] | None) -> None:
+    def __init__(self, runs: Runs, is_resumed: bool) -> None:
         self._runs = runs
         compiled, source = runs.compiled, runs.compiled.source
         self._checks_all = (
@@ -35,10 +33,6 @@ class SuspectRuns:
             or is_resumed
             or bool(list_redundant_equations(compiled) or list_periodic_drives(source))
         )
-        is_checked_in_c = not (self._checks_all or source.start_set or compiled.may_drive_acceleration_jump)
-        needs_works = stored_series is None or any(depends_on_works(source, name) for name in stored_series)
-        if runs.kinematic and is_checked_in_c and not needs_works:
-            runs.kinematic.leave_out_works()
         if runs.kinematic and runs.audit == 1:
             left_out = list_checks_left_out(source, runs.method)
             limits = [np.inf if check in left_out else limit for check, limit in LIMITS.items()]
