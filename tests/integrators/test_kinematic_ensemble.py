@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+import gudgeon
 from gudgeon.errors import GudgeonError, SolverError
 from gudgeon.integrators import lanes
+from gudgeon.model import cached_values
 from gudgeon.results.batch import Batch
 from gudgeon.simulation.simulation import Simulation
 from tests.programs import needs_compiler
@@ -227,3 +230,27 @@ def assert_equal_batches(one: Batch, other: Batch) -> None:
         assert name == "seconds" or values.tobytes() == other.diagnostics[name].tobytes(), name
     assert one.failures == other.failures
     assert one.result.notes() == other.result.notes()
+
+
+@pytest.mark.parametrize("step", [-1.0, float("nan"), "abc"])
+def test_a_step_that_is_not_positive_is_an_error_although_it_is_not_used(step: object) -> None:
+    four_bar = gudgeon.load("four_bar")
+    with pytest.raises(gudgeon.InputError, match="step"):
+        four_bar.simulate(0.01, output=2, step=step)  # type: ignore[arg-type]
+
+
+def test_a_long_single_run_is_left_to_the_loop_that_polls() -> None:
+    """C ends a run without polls for Ctrl-C after a short time; the loop in Python has the same bits."""
+    four_bar = gudgeon.load("four_bar")
+    long, polls = four_bar.simulate(300.0, output=2), []
+    observed = four_bar.simulate(300.0, output=2, progress=lambda fraction, stage: polls.append(fraction))
+    assert polls and np.array_equal(long.q, observed.q) and np.array_equal(long.work, observed.work)
+
+
+def test_a_forked_process_has_a_lock_of_its_own() -> None:
+    """A thread of the parent may hold the lock of cached values at the fork."""
+    with cached_values._LOCK:
+        child = os.fork()
+        if not child:
+            os._exit(0 if cached_values._LOCK.acquire(timeout=1.0) else 1)
+    assert os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 0
