@@ -30,7 +30,7 @@ static double find_largest_acceleration(const RunSamples *samples, long k)
  * Store the position as the next sample, whose works are stored already. The next step begins with the length that
  * leads to the sample after it. q, v: those of the position, or the given ones of the start.
  */
-static void store_sample(const KinematicBatch *batch, KinematicRun *run, const double *q, const double *v)
+static void store_sample(KinematicRun *run, const double *q, const double *v)
 {
     RunSamples *samples = &run->samples;
     const long k = samples->done++;
@@ -81,7 +81,7 @@ static int begin_run(const KinematicBatch *batch, long i, KinematicRun *run)
         return status;
     for (int j = 0; j < N_WORK; j++)
         get_present_works(&run->samples)[j] = 0.0;
-    store_sample(batch, run, start, start + N_Q);
+    store_sample(run, start, start + N_Q);
     return 0;
 }
 
@@ -96,7 +96,7 @@ static int accept_step(const KinematicBatch *batch, KinematicRun *run)
         return 0;
     const int status = complete_position(run, &run->motion);
     if (!status)
-        store_sample(batch, run, run->motion.q, run->motion.v);
+        store_sample(run, run->motion.q, run->motion.v);
     return status;
 }
 

@@ -8,7 +8,7 @@ methods read. A program has its own symbols, parameters and switches, those of t
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -19,7 +19,9 @@ from gudgeon.generator.equations.model import Model, derive_stick_gain
 from gudgeon.generator.equations.system import System, make_absolute_system
 from gudgeon.generator.ir.kernels import Kernel, remove_unused_locals
 from gudgeon.generator.ir.series import Series
+from gudgeon.generator.ir.signatures import Number
 from gudgeon.generator.ir.sine_pairs import vectorize_sines
+from gudgeon.generator.ir.statements import Declare
 from gudgeon.generator.kernels import closed_linkage, outputs
 from gudgeon.generator.kernels.driven_loops import DrivenLoopKernels
 from gudgeon.generator.kernels.dynamics import make_dynamics_kernel
@@ -181,14 +183,22 @@ class Program:
 
         That needs the reduced formulation. Dry friction, rigid contacts, contours of bearings, driven loops and more
         than MAX_COORDINATES_FOR_LANES coordinates exclude it. A kinematically driven scene has lanes unless it has user
-        events.
+        events or a block of equations whose rows are exchanged for pivots.
         """
         if self.kinematics:
-            return bool(self.kinematics.unpaired_kernels) and not self.model.events
+            kernels = self.kinematics.unpaired_kernels
+            motion = self.tree.unpaired_kernels if self.tree else ()
+            return bool(kernels) and not self.model.events and not _has_pivoted_block((*kernels, *motion))
         has_contours = any(clearance.contour for clearance in self.model.clearances)
         is_large = len(self.model.q) > MAX_COORDINATES_FOR_LANES
         is_excluded = self.model.has_changing_constraints or has_contours or is_large
         return self.methods is not None and self.tree is not None and not (self.tree.chains or is_excluded)
+
+
+def _has_pivoted_block(kernels: Iterable[Kernel]) -> bool:
+    """Return whether a kernel solves a dense block with an order of rows that differs between lanes."""
+    lines = (line for kernel in kernels for section in kernel.sections for line in section.statements)
+    return any(isinstance(line, Declare) and line.type is Number.INTEGER for line in lines)
 
 
 def make_program(model: Model, formulation: str = "reduced") -> Program:

@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from gudgeon.contract.boundary import ALL_OVER, LISTS, NEW, NOT_CLOSED, OVER
 from gudgeon.contract.methods import IN_LANES, KINEMATIC, SMOOTH
 from gudgeon.loading.compiler import has_compiler
-from gudgeon.model.arrays import find_memory_address
+from gudgeon.model.arrays import find_memory_address, make_pointer
 from gudgeon.model.compiled import CompiledModel
 from gudgeon.waiting.programs import set_cancellation_check
 
@@ -101,7 +101,7 @@ class Lanes:
         them); `indices`: those of the runs.
         """
         pointers = self.ffi.new("void *[]", [self.ffi.cast("void *", address) for address in storages])
-        numbers = self.ffi.from_buffer("long[]", indices)
+        numbers = make_pointer(self.ffi, indices, "long *")
         self.lib.gudgeon_kinematic_lanes(self.ffi.cast("void *", batch), self.single, pointers, len(indices), numbers)
 
     def _build_arguments(self, runs: Runs, storages: NDArray[np.uint8]) -> tuple[tuple[Any, ...], list[Any], Any]:

@@ -39,7 +39,8 @@ def split_off_start(run: Run) -> Run:
     """
     if len(run.t) < 2:
         return run
-    start_row = replace_fields(select_samples(run, lambda x: x[:1].copy()), trace=None, event_states=None)
+    start_row = select_samples(run, lambda x: x[:1].copy())
+    start_row.trace, start_row.event_states = None, None
     run_without_start = select_samples(run, lambda x: x[1:])
     run_without_start.start_row = start_row
     return run_without_start

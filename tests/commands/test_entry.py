@@ -26,9 +26,9 @@ TERMINATED = """
 import os, signal, sys
 signal.signal(signal.SIGINT, signal.default_int_handler)
 signal.signal(signal.SIGTERM, signal.SIG_DFL)  # whoever runs the tests may have it ignored
-from gudgeon.integrators import batch
+from gudgeon.integrators import single_run
 from gudgeon.waiting import cancellation
-cancellation.EVERY, real, looks = 0.0, batch.Runs._poll_and_report_progress, []
+cancellation.EVERY, real, looks = 0.0, single_run.SingleRun._poll_and_report_progress, []
 
 def look(*arguments):
     looks.append(0)
@@ -36,7 +36,7 @@ def look(*arguments):
         os.kill(os.getpid(), signal.SIGTERM)
     real(*arguments)
 
-batch.Runs._poll_and_report_progress = look
+single_run.SingleRun._poll_and_report_progress = look
 """
 
 LATE = """
