@@ -79,8 +79,8 @@ static int start_run(const Batch *batch, long i, const long *candidates, int n, 
     if (batch->trace)
         start_envelope(run, (EnvelopeRow *)batch->trace + i * batch->trace_rows, batch->trace_rows);
     start_batch_polling(batch, &run->cancellation);
-    gudgeon_adaptive_setup(run, batch->choice, batch->automatic, batch->scale + i * 2 * N_X, batch->least + 2 * i,
-        batch->fixed ? batch->step[i] : 0.0);
+    gudgeon_adaptive_setup(run, batch->choice, batch->automatic, batch->scale + i * AT_LEAST_ONE(2 * N_X),
+        batch->least + 2 * i, batch->fixed ? batch->step[i] : 0.0);
     return 0;
 }
 

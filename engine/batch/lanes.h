@@ -56,7 +56,7 @@ static inline int any_of(LaneBits mask)
 #if INTEGRATES
 #define frozen_branches(discrete) (discrete)->branch
 #else
-#define frozen_branches(discrete) NULL
+#define frozen_branches(discrete) ((void)(discrete), (const Lanes *)NULL)
 #endif
 #define reported_branches(rhs) (rhs)->g
 

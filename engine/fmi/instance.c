@@ -115,7 +115,7 @@ static fmi3Status begin_run(Model *model)
         model->latched[k] = NAN;
     free(model->run);
 #if INTEGRATES
-    double least[2], scale[2 * N_X], length = INFINITY;
+    double least[2], scale[FMU_AT_LEAST(2 * N_X)], length = INFINITY;
     model->size = gudgeon_run_size();
     model->run = calloc(1, model->size);
     if (!model->run)
@@ -129,6 +129,8 @@ static fmi3Status begin_run(Model *model)
         scale[k] = model->rtol * (fmu_is_angle[k] ? least[1] : length);
         scale[N_X + k] = FMU_FILM ? fmin(model->rtol, FMU_FELT * least[1]) : model->rtol;
     }
+    if (N_X == 0)
+        scale[0] = model->rtol;
     const int is_fine = model->rtol < FMU_FINE;
     double y[N_S], latched[FMU_AT_LEAST(N_DISCRETE)];
     memcpy(y, model->y, sizeof y);

@@ -86,7 +86,7 @@ static int begin_run(const KinematicBatch *batch, long i, KinematicRun *run)
 }
 
 /* Count a step of a run, and store its end as a sample if it is one. Return 0 or a status. */
-static int accept_step(const KinematicBatch *batch, KinematicRun *run)
+static int accept_step(KinematicRun *run)
 {
     RunSamples *samples = &run->samples;
     samples->steps++;
@@ -101,14 +101,14 @@ static int accept_step(const KinematicBatch *batch, KinematicRun *run)
 }
 
 /* Make one step of a run towards its next sample, and add its works. Return 0 or a status. */
-static int advance_run(const KinematicBatch *batch, KinematicRun *run)
+static int advance_run(KinematicRun *run)
 {
     const Position before = run->motion;
     const double t1 = run->samples.t[run->samples.done];
     int status = make_step(run, &run->samples.stride, t1, &run->motion);
     if (!status)
         status = integrate_work_of_step(run, &before, &run->motion, get_present_works(&run->samples));
-    return status ? status : accept_step(batch, run);
+    return status ? status : accept_step(run);
 }
 
 /* Return whether the largest |a| of a sample may be more than STEEP_RATIO times the median of all samples. */
@@ -176,7 +176,7 @@ void gudgeon_kinematic_ensemble(const void *batch_data, void *integrator, long n
             continue;
         int status = begin_run(batch, indices[k], run);
         while (!status && run->samples.done < run->samples.n)
-            status = advance_run(batch, run);
+            status = advance_run(run);
         end_run(batch, indices[k], run, status);
     }
 }

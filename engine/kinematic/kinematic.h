@@ -75,8 +75,8 @@ typedef struct {
 /* Functions of a single run of a batch, for the loop of several runs in lanes. */
 typedef struct {
     int (*begin)(const KinematicBatch *batch, long i, KinematicRun *run); /* start and first sample; returns a status */
-    int (*advance)(const KinematicBatch *batch, KinematicRun *run);       /* one step; returns a status */
-    int (*accept)(const KinematicBatch *batch, KinematicRun *run); /* a step made in a lane; returns a status */
+    int (*advance)(KinematicRun *run);       /* one step; returns a status */
+    int (*accept)(KinematicRun *run); /* a step made in a lane; returns a status */
     void (*end)(const KinematicBatch *batch, long i, KinematicRun *run, int status);
     int (*has_transient)(double t0, double t1, const Parameters *p); /* whether the step t0 to t1 hides a transient */
 } KinematicRunFunctions;

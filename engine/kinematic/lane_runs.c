@@ -289,8 +289,8 @@ static void complete_lane_step(RunLanes *lanes, int k, enum Outcome outcome, int
     else
         store_lane(lanes, k);
     const long n_done = run->samples.done;
-    const int status = outcome == ACCEPTED ? lanes->single->accept(lanes->batch, run)
-        : lanes->single->advance(lanes->batch, run);
+    const int status = outcome == ACCEPTED ? lanes->single->accept(run)
+        : lanes->single->advance(run);
     if (status || is_complete(lanes, k))
         end_lane(lanes, k, status);
     else if (outcome != ACCEPTED)
@@ -374,7 +374,7 @@ void gudgeon_kinematic_lanes(const void *batch, const void *single, void *const 
             continue;
         store_lane(&lanes, k);
         while (!status && lanes.run[k]->samples.done < lanes.run[k]->samples.n)
-            status = lanes.single->advance(lanes.batch, lanes.run[k]);
+            status = lanes.single->advance(lanes.run[k]);
         lanes.single->end(lanes.batch, lanes.index[k], lanes.run[k], status);
     }
 }

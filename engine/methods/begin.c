@@ -155,8 +155,8 @@ static int begin_integration(Integrator *run, double time_left, const Parameters
 /*
  * Set the method, the tolerances and the step-size control of a run, before its first step. method: index from
  * gudgeon_method(); stiff_method: index of the one to which the run may change, 0: none. scale (2 N_X): tolerances, of
- * velocities relative to speed. min_size: smallest relevant length (m) and angle (rad). fixed_step: length of fixed
- * steps, s; 0: step-size control.
+ * velocities relative to speed; without coordinates the relative tolerance alone (1). min_size: smallest relevant
+ * length (m) and angle (rad). fixed_step: length of fixed steps, s; 0: step-size control.
  */
 void gudgeon_adaptive_setup(void *integrator, int method, int stiff_method, const double *scale,
     const double *min_size, double fixed_step)
@@ -167,8 +167,9 @@ void gudgeon_adaptive_setup(void *integrator, int method, int stiff_method, cons
     initialize_root_finding(run);
     for (int k = 0; k < 2 * N_X; k++)
         run->norm.inverse_scale[k] = 1.0 / scale[k];
-    run->norm.work_scale = max_of(1e-10, WORK_TOL * scale[2 * N_X - 1]); /* smaller: rounding of summed works */
+    const double velocity_tol = scale[N_X > 0 ? 2 * N_X - 1 : 0];
+    run->norm.work_scale = max_of(1e-10, WORK_TOL * velocity_tol); /* smaller: rounding of summed works */
     run->norm.min_size[0] = min_size[0];
     run->norm.min_size[1] = min_size[1];
-    set_series_order(run, scale[2 * N_X - 1]);
+    set_series_order(run, velocity_tol);
 }

@@ -138,7 +138,8 @@ def find_integrated_angles(source: KernelSource) -> NDArray[np.bool_]:
 def compute_tolerances(compiled: CompiledModel, p: Array, rtol: float) -> tuple[Array, Array]:
     """Return the error tolerances (..., 2 n_x) of a step, and L and L/S, (..., 2), for the time loop in C.
 
-    The first n_x are those of coordinates, the others those of velocities per unit of speed. Films have tighter
+    The first n_x are those of coordinates, the others those of velocities per unit of speed. Without integrated
+    coordinates there is one, rtol, with which works are integrated. Films have tighter
     velocities. `p` (..., n_slots + n_derived) holds the parameter values of one run, or of several.
     """
     source = compiled.source
@@ -148,7 +149,10 @@ def compute_tolerances(compiled: CompiledModel, p: Array, rtol: float) -> tuple[
         ratio = lengths / sizes
     of_q = np.where(find_integrated_angles(source), of_angles[..., None], of_lengths[..., None])
     of_speed = np.broadcast_to(np.asarray(of_speeds)[..., None], of_q.shape)
-    return np.concatenate([of_q, of_speed], axis=-1), np.stack([lengths, ratio], axis=-1)
+    tolerances = np.concatenate([of_q, of_speed], axis=-1)
+    if not tolerances.shape[-1]:
+        tolerances = np.full((*lengths.shape, 1), rtol)
+    return tolerances, np.stack([lengths, ratio], axis=-1)
 
 
 def compute_error_scales(source: KernelSource, length: Any, size: Any, rtol: float) -> tuple[Any, Any, Any]:
@@ -188,12 +192,14 @@ def compute_scales_of_values(
 ) -> tuple[Array, tuple[float, float], float]:
     """Return what `compute_scales_of_runs` does for one run, bit for bit, without NumPy's time for short arrays.
 
-    These are the error tolerances (2 n_x,), L and L/S, and S (m). `values`: parameter values (n_p,).
+    These are the error tolerances (2 n_x,), at least one, L and L/S, and S (m). `values`: parameter values (n_p,).
     """
     size = compute_size_of_values(find_size_indices(source), values)
     length = min((c for c in (values[joint.clearance] for joint in source.clearances) if c > 0.0), default=size)
     is_angle = find_integrated_angles(source)
     of_angles, of_lengths, of_speeds = compute_error_scales(source, length, size, rtol)
+    if not len(is_angle):
+        return np.array([rtol]), (length, length / size), size
     scale, n = np.empty(2 * len(is_angle)), len(is_angle)
     scale[:n], scale[n:] = of_lengths, of_speeds
     scale[:n][is_angle] = of_angles

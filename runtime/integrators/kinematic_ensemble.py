@@ -33,11 +33,8 @@ SHORT = 2_000  # samples: a single run of no more is computed without polls for 
 
 
 def has_kinematic_ensemble(source: KernelSource, method: str) -> bool:
-    """Return whether C computes whole runs of a scene by a method: kinematic runs without user events and dry friction.
-
-    At rest, the force of dry friction is that of the last sliding, which KinematicRun records.
-    """
-    return method == "kinematic" and not source.events and not source.frictions
+    """Return whether C computes whole runs of a scene by a method: kinematic runs without user events."""
+    return method == "kinematic" and not source.events
 
 
 def count_kinematic_rows(n_samples: int) -> int:

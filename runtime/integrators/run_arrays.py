@@ -146,7 +146,7 @@ def _list_single_run_fields(sizes: RunSizes) -> tuple[dict[str, Field], dict[str
         "p": (np.float64, (1, sizes.n_p), 0),
         "p_motion": (np.float64, (1, sizes.n_p), 0),
         "step": (np.float64, (1,), 0),
-        "scale": (np.float64, (1, 2 * sizes.n_integrated), 0),
+        "scale": (np.float64, (1, max(2 * sizes.n_integrated, 1)), 0),
         "least": (np.float64, (1, 2), 0),
         "size": (np.float64, (1,), 0),
         "n_requested": (np.int_, (1,), N),

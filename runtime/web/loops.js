@@ -67,7 +67,7 @@ class Session {
         const length = play.length ? Math.min(...play) : size, share = length / size;
         const of_v = about.film ? Math.min(rtol, about.felt_by_films * length / size) : rtol;
         const of_q = about.angles.map((turns) => rtol * (turns ? share : length));
-        const scale = [...of_q, ...about.angles.map(() => of_v)];
+        const scale = of_q.length ? [...of_q, ...about.angles.map(() => of_v)] : [of_v];
         const automatic = this.method === "adaptive", name = automatic ? about.begins : this.method;
         const {memory, lib} = this, number = (name) => {
             const text = new TextEncoder().encode(`${name}\0`);

@@ -170,3 +170,16 @@ def test_friction_without_a_force_is_determined_at_rest(limits: str, noted: bool
     (tmp_path / "dwells.yaml").write_text(text, encoding="utf-8")
     run = gudgeon.load(tmp_path / "dwells.yaml").simulate(1.0, output=100, parameters={"mu": 0.0})
     assert any("rub" in note for note in run.diagnostics.notes) == noted
+
+
+@pytest.mark.parametrize("output", [3, 300])
+@pytest.mark.parametrize("method", ["dop853", "rodas5p"])
+def test_works_of_a_scene_without_integrated_coordinates_have_a_tolerance(
+    output: int, method: str, tmp_path: Path
+) -> None:
+    """The drive moves the block from rest to rest: without friction its work is 0, and some 300 J flow to and fro."""
+    text = DWELLS.replace("12 N, kinetic: 8 N", "0 N, kinetic: 0 N")
+    (tmp_path / "dwells.yaml").write_text(text, encoding="utf-8")
+    scene = gudgeon.load(tmp_path / "dwells.yaml")
+    run, batch = scene.simulate(1.0, output=output, method=method), scene.simulate_many([{}] * 2, 1.0, output=output)
+    assert abs(run["work.drives"][-1]) < 1e-4 and abs(batch["work.drives"][0, -1]) < 1e-4
