@@ -181,7 +181,10 @@ def _compute_scales(compiled: CompiledModel, p: Array, rtol: float) -> tuple[Arr
 
 @cache_by_values
 def _compute_scales_of_run(compiled: CompiledModel, lengths: Array, rtol: float) -> tuple[Array, Array, Array]:
-    """Compute the scales of one run from its lengths, as of `select_lengths`."""
+    """Return what `compute_scales_of_runs` does for one run: tolerances (1, 2 n_x), (L, L/S) (1, 2) and S (1,).
+
+    `lengths`: the parameter values (m) on which they depend, from `select_lengths`.
+    """
     values = spread_lengths(compiled.source, lengths).tolist()
     scale, least, size = compute_scales_of_values(compiled.source, values, rtol)
     return scale[None], np.array([least]), np.array([size])

@@ -183,10 +183,9 @@ def _check_output_times(t0: float, output: ArrayLike) -> tuple[Array, bool]:
 
 
 def _check_t_end_matches_output(t_end: float | None, last_time: float, relative_tolerance: float) -> None:
-    """Raise BadValueError if t_end differs from the last sample time `last_time` by more than the relative
-    `relative_tolerance`.
+    """Raise BadValueError if t_end and the last sample time `last_time` (s) differ by more than rounding.
 
-    None as t_end always passes.
+    They may differ by half of `relative_tolerance`, at least 1e-9, of the larger one. None as t_end always passes.
     """
     if t_end is not None and not abs(t_end - last_time) <= max(1e-9, 0.5 * relative_tolerance) * max(
         abs(t_end), abs(last_time)
