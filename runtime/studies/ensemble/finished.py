@@ -77,7 +77,8 @@ class Study:
     def claims(self) -> Claimed:
         """Return the claims of the file, judged by the runs: `claims.numbers` and `claims.trends`, two tables.
 
-        Of a study in parts, each part has the numbers that name it, and all trends. Raises GudgeonError for a file without claims.
+        Of a study in parts, each part has the numbers that name it, and all trends. Raises GudgeonError for a file
+        without claims.
         """
         if self._whole is None:
             return read_claims(self.folder)
