@@ -112,7 +112,7 @@ class KinematicEnsemble:
             return False
         self._struct.must_be_short = 1
         self.compute_runs([0], self.allocate_storages())
-        is_complete = not self._arrays["status"][0]
+        is_complete = bool(self._arrays["done"][0] == len(problem.t) and not self._arrays["status"][0])
         if not is_complete:
             self._arrays["status"][0], self._arrays["done"][0] = 0, 0
         return is_complete

@@ -20,6 +20,8 @@ if TYPE_CHECKING:
     from gudgeon.integrators.batch import Runs
     from gudgeon.model.compiled import Array
 
+MAX_JOINED_SAMPLES = 2048  # of runs whose series are computed at once: more would need memory without being faster
+
 
 def select_stored_series(source: KernelSource, keep: str | Iterable[str]) -> tuple[str, ...] | None:
     """Return the checked names of the series to store, without "t"; None if the states are stored (`keep` is "states").
@@ -41,18 +43,24 @@ class StoredSeries:
         self.may_join_runs = all(one.stored or one.evaluated or one.is_by_sample for one in series)
 
     def store_finished_runs(self, runs: Runs, finished_runs: Sequence[int]) -> None:
-        """Store the series of finished runs, given by index, all at once where their equations allow it.
+        """Store the series of finished runs, given by index, several at once where their equations allow it.
 
         Runs without samples are skipped. A run whose series cannot be computed is recorded as failed.
         """
         with_samples = [i for i in finished_runs if runs.arrays["done"][i]]
-        if len(with_samples) > 1 and self.may_join_runs:
+        n_joined = max(1, MAX_JOINED_SAMPLES // runs.times.max_count) if self.may_join_runs else 1
+        for k in range(0, len(with_samples), n_joined):
+            self._store_joined_runs(runs, with_samples[k : k + n_joined])
+
+    def _store_joined_runs(self, runs: Runs, indices: Sequence[int]) -> None:
+        """Store the series of runs with samples, at once if there are several and none of them fails."""
+        if len(indices) > 1:
             try:
-                self._copy_samples(with_samples, *_concatenate_samples(runs, with_samples, self.parts))
+                self._copy_samples(indices, *_concatenate_samples(runs, indices, self.parts))
                 return
             except SolverError:  # of one of them: alone it says which
                 pass
-        for i in with_samples:
+        for i in indices:
             if run := build_samples(runs, i, self.parts):
                 self.store_run(runs, i, run)
 
