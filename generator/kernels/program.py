@@ -40,7 +40,7 @@ from gudgeon.generator.solvers.newton import Newton, make_complex_kernels
 from gudgeon.generator.solvers.sparsity import Block
 from gudgeon.generator.solvers.square_rows import SquareSystem
 
-MAX_COORDINATES_FOR_LANES = 900  # 192 take a compiler 50 s: of larger linkages nobody waits for the vector code
+MAX_COORDINATES_FOR_LANES = 900  # 192 take a compiler 50 s; for larger linkages the vector code takes too long
 
 
 @dataclass(frozen=True)

@@ -95,12 +95,10 @@ class SingleRun(Runs):
 
         The problem polls for cancellation. Raises KeyboardInterrupt if no sample was reached.
         """
-        if self.kinematic and self.kinematic.compute_short_run(problem):
-            pass
-        elif self.python_loop:
-            self.store_trajectory(0, self.python_loop(problem))
-        else:
+        if not self.python_loop:
             self._integrate_in_c()
+        elif not (self.kinematic and self.kinematic.compute_short_run(problem)):
+            self.store_trajectory(0, self.python_loop(problem))
         self._join_contacts()
         return self.build_trajectory(0)
 

@@ -12,7 +12,7 @@ from gudgeon.generator.targets.latex.document import Block, Picture, make_entry_
 
 SMALL, TINY, LARGE = 10, 6, 20  # side of an entry in a picture of a matrix, of an assembled one; at most
 ROOM = 420  # pixels up to which a small matrix grows
-MAX_ROWS, MAX_COLUMNS = 150, 150  # beyond which nobody sees anything in it
+MAX_ROWS, MAX_COLUMNS = 150, 150  # a larger picture is not legible
 WIDEST_GRID = 92  # columns of characters
 FULL, EMPTY = "■", "·"
 
