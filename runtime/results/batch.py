@@ -243,14 +243,14 @@ class Batch:
             return np.zeros((len(self), 0)), np.zeros((len(self), 0))
 
     def to_xarray(self, names: Iterable[str] | str = (), part: str = "series") -> xarray.Dataset:
-        """Return an xarray Dataset over `run` and `time` with every series by its name in a Result, and those of
+        """Return an xarray Dataset over `run` and `time` with every series by its name in a Result, and the series of
         `names`.
 
-        Runs with output times of their own have them as `t` over both; `time` is then a counter. Variables over `run`
-        alone: samples, ends, failures, diagnostics, parameters and, as "A.peak.F", the peaks; those over all steps as
-        "S9.ay.peak.max", "S9.ay.error.max". `.to_dataframe()` has a row for each run and time. part: "impacts",
-        "events" or another table of a Result, with a row for each record and its `run`; a text as the only argument
-        names such a part, as it does for a Result.
+        If the output times of runs differ, the variable `t` over `run` and `time` contains them, and `time` is a
+        counter. Variables over `run` alone are the number of samples, the end, failures, diagnostics, parameters, peaks
+        ("A.peak.F") and extremes over all steps ("S9.ay.peak.max", "S9.ay.error.max"). `.to_dataframe()` has a row for
+        each run and time. `part`: "impacts", "events" or another table of a Result, with a row for each record and the
+        number of its `run`. A text as the only argument is a part, as in Result.to_xarray.
         """
         from gudgeon.results.files import netcdf_batch
 

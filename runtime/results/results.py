@@ -267,13 +267,14 @@ class Result(NotebookDisplay):
     ) -> Animation | None:
         """Write an animation of the run: x.gif, x.mp4 (needs ffmpeg) or x.html, a self-contained page that plays.
 
-        `seconds` is its duration; None: that of the run, but 6 s if the run is shorter than 2 s or longer than 20 s.
-        `rate` is in pictures a second; each is painted, so a GIF or film of fewer `seconds` or at a lower `rate` is
-        written sooner. The paths of `points` are drawn; `velocities` and `forces` are as in `plot.mechanism`. Joints
-        with play are magnified next to it, and red in pictures before which their surfaces met.
+        `seconds`: duration of the animation; None for that of the run, or 6 s if the run is shorter than 2 s or longer
+        than 20 s. `rate`: frames per second; the time of writing is proportional to the number of frames. `points`:
+        points whose paths are drawn. `velocities`, `forces`: draw arrows, as in `plot.mechanism`. Joints with play are
+        magnified next to the mechanism, in red if their surfaces have touched since the last frame.
+        `progress(fraction, text)` is called for each frame.
 
-        Returns what a notebook displays for a page or without a path. `progress(share, text)` is called for each
-        picture. Raises BadValueError, UnknownNameError; without ffmpeg GudgeonError.
+        Return an object that a notebook displays, for a page or without a path; else None. Raises BadValueError,
+        UnknownNameError, and GudgeonError for an mp4 file without ffmpeg.
         """
         from gudgeon.results.figures import animation
 

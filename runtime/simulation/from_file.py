@@ -41,13 +41,13 @@ def load(
 
     mechanism: text with "/" or ending in ".yaml" is a path, other text the name of a shipped mechanism.
     scene: a scene of the file; None is "ideal", which has no play and exists in every file.
-    overrides: values by address that may change the structure.
-    formulation: what is integrated, "reduced" (coordinates of a tree) or "full" (absolute coordinates, with the
-    Jacobian of their state equation); results are the same.
-    portable: compile for any CPU of this kind. regenerate: derive and compile even if the cache has both.
-    quick: a new scene may begin with an unoptimized library, made in a third of the time. Runs then take up to three
-    times as long until another process has made the optimized one; numbers are the same. False, or GUDGEON_QUICK=0:
-    wait for the optimized library.
+    overrides: values by address that replace those of the file and may change the structure of the mechanism.
+    formulation: coordinates that are integrated, "reduced" (relative coordinates of a tree) or "full" (absolute
+    coordinates, with the Jacobian of their state equation); the results are the same.
+    portable: compile for any CPU of this kind. regenerate: derive and compile even if the cache contains the library.
+    quick: start with an unoptimized library, which compiles in a third of the time, if the cache contains no library.
+    Runs take up to three times as long until a second process has compiled the optimized library; the results are the
+    same. False, or GUDGEON_QUICK=0: wait for the optimized library.
     Raises InputError if the file is wrong, BuildError if its C cannot be compiled.
     """
     start = perf_counter()

@@ -249,34 +249,34 @@ class Simulation(NotebookDisplay, RepeatedRuns):
         contour: Mapping[str, ArrayLike] | None = None,
         audit: bool | str = True,
     ) -> Result:
-        """Run the scene from t = 0 (or from `start`, the `final` of another run) to t_end (s).
+        """Integrate the scene from t = 0, or from the state `start`, to `t_end` (s), and return the Result.
 
-        `output`: so many equal intervals, both ends included, or the times (s) of all samples, of which the last is
-        t_end: an array of any layout and real type, a list, a column; copied. Texts are numbers: '5 ms', '2*pi/omega'.
+        `output`: number of equal intervals between samples, or times (s) of all samples, the last of which is t_end:
+        an array of any layout and real type, a list or a column. Texts are expressions with units: '5 ms'.
         `method`:
-        - "auto": "kinematic" where there is no degree of freedom; "rk4" where a `step` is given; else "adaptive",
-          "dop853" while steps are bounded by accuracy and a stiff one while stability would (integrators/adaptive.py);
-        - "rk4" with fixed `step` (s), of which only the last one is shorter; outputs lie on the interpolant;
-        - "dop853", "dopri5": explicit, of order 8 and 5; "rodas5p", "radau5", "radau9": stiff, of order 5, 5 and 9;
-          `rtol` (1e-8) is the error of a step as a share of the size or, with play, the clearance; with `step` they
-          take it without error control;
-        - "taylor": for smooth motion, its series, of an order that follows from `rtol`: tight tolerances cost little;
-        - "scipy:DOP853", "sundials:cvode" and others: cross-checks (integrators/peers).
-        `horizon`: run thrice more for the time to which it can be trusted (predictability_horizon.py).
-        `parameters`: {address or parameter name: float in SI or '0.5 mm'}, each number once. Where `start` is given,
-        they are over its own parameters, which hold unless replaced; a number that differs is told in the run's
-        notes. A state of another mechanism, scene, file or overrides is refused. Ctrl-C ends the run and keeps
-        what was computed. `stop` False: events that would end the run are recorded only.
-        `peaks`: names of series whose largest and smallest values over all steps, not over samples, are wanted, as
-        `run.peak("S9.ay")`; None: those that the scene of the file names. `against`: another scene, with which
-        `run.peak_error("S9.y")` tells of the series less that scene's, from t = 0, with the same numbers.
-        `contour`: {joint: depths (m)} by which bearings whose play has a `contour` in the file are deeper than their
-        circles, at as many equal angles as there, from the x axis of the bearing's body on.
-        `audit`: whether the run checks its result; "full": every step. AuditError where it fails. See
-        docs/runs_and_results.md.
+        - "auto": "kinematic" for zero degrees of freedom; "rk4" if a `step` is given; else "adaptive": "dop853" while
+          accuracy limits the steps, a stiff method while stability does (integrators/adaptive.py);
+        - "rk4": fixed `step` (s), except for a shorter last one; samples are interpolated;
+        - "dop853", "dopri5": explicit, of order 8 and 5; "rodas5p", "radau5", "radau9": stiff, of order 5, 5 and 9.
+          `rtol` (1e-8) is the error of a step relative to the size of the mechanism or, with play, to the clearance.
+          With `step`, the steps are fixed and their errors are not controlled;
+        - "taylor": Taylor series for smooth motion, of an order that follows from `rtol`; efficient at small `rtol`;
+        - "scipy:DOP853", "sundials:cvode" and others: reference solvers for comparison (integrators/peers).
+        `parameters`: {address or name of a parameter: SI value or text with a unit, '0.5 mm'}. With `start`, its
+        parameters are the defaults, and the notes of the run report values that differ. A state of another mechanism,
+        scene, file or set of overrides is an error.
+        `progress`: called with the completed fraction and a text. `stop`: False only records events that end runs.
+        `horizon`: compute the predictability horizon with three further runs (predictability_horizon.py).
+        `peaks`: series whose extremes over all steps are computed for `run.peak("S9.ay")`; None: those of the file's
+        scene. `against`: another scene; `run.peak_error("S9.y")` is the largest difference to it with equal values.
+        `contour`: {joint: depths (m) beyond the circle of its bearing}, for joints with a `contour` in the file; as
+        many equal angles as there, from the x axis of the bearing's body.
+        `audit`: True checks the result on a sample of the steps, "full" on every step, False not at all
+        (docs/runs_and_results.md).
 
-        Raises InputError for arguments (ArrayError for arrays), AssemblyError for a start that does not close,
-        SolverError when equations cannot be solved (`partial`: up to there), MemoryError before more than fits.
+        Ctrl-C ends the run; the Result contains the samples up to then. Raises InputError for arguments (ArrayError for
+        arrays), AssemblyError if the start does not close, SolverError if the equations cannot be solved (`partial` is
+        the Result up to there), AuditError if a check fails, MemoryError if the samples do not fit in memory.
         """
         progress = check_callable(progress, "progress")
         settings = check_run_settings(self.source, method, rtol, step is not None, horizon, stop, audit)
@@ -375,25 +375,26 @@ class Simulation(NotebookDisplay, RepeatedRuns):
         contour: Mapping[str, ArrayLike] | None = None,
         audit: bool | str = True,
     ) -> Batch:
-        """Run the scene with each of many parameter sets, in threads; arguments as in `simulate`.
+        """Integrate the scene for many sets of parameters in threads, and return the Batch.
 
-        `parameters`: a mapping for every run, or columns {address: one value, or (n,) values in an array, a list,
-        a column}, as which a structured array or a table counts. `threads`: None for the cores there are; every
-        number is the same with any. Each run is bit for bit what `simulate` makes of its parameters. A run that
-        fails, or whose parameters break a condition of the file, is listed in `failures` and stops no other. Ctrl-C
-        ends all where they are.
-        `start`: a state for all runs or one a run (the `final` of others), at one time; numbers as in `simulate`.
-        `t_end` and `step` may be sequences with one value a run, `output` an array (n, N) or a sequence with the times
-        of each run, as many as it likes; an expression, t_end "2*pi/omega", is that of each run's own numbers. The
-        batch's `t` then has a row a run. A NaN among them fails its own run; what else is none is refused.
-        `keep`: names of series, ["S9.y", "A.F"], which are then evaluated as soon as a run is over: its states are let
-        go, and memory is that of the series alone; of an empty list none is kept, but impacts, events and
-        peaks are. A run of which one cannot be evaluated has failed.
-        `side_by_side`: whether runs may share vector registers, several in each thread; the numbers are the same
-        without, and what that takes is compiled where it is worth it.
-        `peaks`, `against`: as in `simulate`; `batch.peak("S9.ay")`.
-        `contour`: as in `simulate`, one for all runs, or (n, depths) with a row for each.
-        Raises InputError for arguments, MemoryError as `simulate`.
+        Arguments without an entry here are those of `simulate`. Each run equals `simulate` with its parameters bit for
+        bit. A run that fails, or whose parameters violate a condition of the file, is listed in `failures`; the other
+        runs continue. Ctrl-C ends all runs; the Batch contains the samples up to then.
+        `parameters`: one mapping for all runs, or columns {address: one value, or (n,) values in an array or a list}; a
+        table or a structured array also counts as columns. `threads`: None for the number of cores; results do not
+        depend on it.
+        `start`: one state for all runs, or one for each run, all at the same time.
+        `t_end`, `step`: also sequences with a value for each run; an expression such as "2*pi/omega" is evaluated with
+        the parameters of each run. `output`: also an array (n, N), or a sequence with the times of each run. The `t` of
+        the batch then has a row for each run. NaN fails only its own run; other values that are not numbers are errors.
+        `keep`: "states", or names of series, ["S9.y", "A.F"], which are evaluated at the end of each run. The states
+        are then discarded, so that memory is that of the series; an empty list stores none. Impacts, events and peaks
+        are always stored. A run fails if one of its series cannot be evaluated.
+        `side_by_side`: integrate several runs of a thread in one SIMD vector. The results are the same without; the
+        vector code is compiled for batches that gain from it.
+        `contour`: as in `simulate`, the same for all runs, or depths (n, angles) with a row for each run.
+
+        Raises InputError for arguments, MemoryError if the samples do not fit in memory.
         """
         from gudgeon.simulation.simulate_many import simulate_many
 
@@ -433,14 +434,16 @@ class Simulation(NotebookDisplay, RepeatedRuns):
     ) -> Lyapunov:
         """Return the largest Lyapunov exponent (1/s) of the motion up to t_end (s), with its uncertainty; see Lyapunov.
 
-        `by`: "tangent", the variational equation with the exact Jacobian and a jump at each contact; "twin", a second
-        run that is scaled back towards the first at intervals; "auto": the tangent where it describes all neighbours.
-        `section`: an event of the file, or a period (s, '2*pi/omega'): the exponent per return too, and the kind of
-        motion, `found.motion`. Where neither drives nor forces contain t, differences along the motion are then
-        removed. `skip`: time (s) in which the motion settles first. A tenth of the rest is left out, in which the
-        difference turns. `method`, `rtol` (1e-12), `step`, `parameters`, `start`: as in `simulate`, of every run. A run
-        of this simulation in place of t_end: the exponent of that run, from first sample to last, with its numbers.
-        Raises BadValueError without a degree of freedom, and for arguments; SolverError, AssemblyError as `simulate`.
+        `t_end`: also a Result of this simulation; the exponent is then that of its motion from the first to the last
+        sample, with its parameters.
+        `by`: "tangent" integrates the variational equation with the exact Jacobian and a jump at each contact; "twin"
+        a second trajectory whose distance is rescaled at intervals; "auto": "tangent" if it holds for all neighbours.
+        `section`: an event of the file, or a period (s, '2*pi/omega'), for the exponent per return and the kind of
+        motion, `motion` of the result. If no drive and no force depends on t, perturbations along the trajectory are
+        then removed. `skip`: duration (s) of the transient that is not evaluated. A tenth of the rest is not evaluated
+        either, in which the perturbation turns to the most unstable direction. `method`, `rtol` (1e-12), `step`,
+        `parameters`, `start`: as in `simulate`.
+        Raises BadValueError for zero degrees of freedom and for arguments; SolverError, AssemblyError as `simulate`.
         """
         from gudgeon.simulation.lyapunov import compute_lyapunov_exponent
 

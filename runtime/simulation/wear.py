@@ -79,16 +79,17 @@ def wear(
 ) -> Wear:
     """Return the wear depths of a joint with dry contact in a run, over the circumferences of bearing and journal.
 
-    Where it has a film too, by what the touching surfaces bear: what the oil carries wears nothing.
+    In mixed lubrication only the force of the touching asperities wears; the force of the film does not.
 
-    `k`: Archard's pure number with the softer surface's `hardness` (Pa, '1.2 GPa'); without one k/H itself,
-    '1e-6 mm^3/N/m', in m³/(N·m). The journal's are the same unless given. `law`: "archard", k F_n s/H, or "reye",
-    k/H of the work of friction. `contact`: all at the "point" of contact, or by a parabola over the arc in which the
-    undeformed circles "overlap", cos β ≥ c/e. `points`: cells of a circumference, of 0.1°. `since`, `until` (s): a
-    part of the run, without what its start makes.
+    `k`: dimensionless wear coefficient of Archard's law with the `hardness` H of the softer surface (Pa, '1.2 GPa'), or
+    without `hardness` the specific wear rate k/H, '1e-6 mm^3/N/m', in m³/(N·m). `journal_k`, `journal_hardness`: those
+    of the journal, if they differ. `law`: worn volume k F_n s/H over the sliding distance s ("archard"), or k/H times
+    the work of friction ("reye"). `contact`: the force acts at the "point" of contact, or is distributed by a parabola
+    over the arc in which the undeformed circles "overlap", cos β ≥ c/e. `points`: number of cells of a circumference.
+    `since`, `until` (s): the part of the run that is evaluated, for example without the transient at the start.
 
-    Raises UnknownNameError for a joint without play, BadValueError for numbers, for one without dry contact and for
-    the run of another scene, GudgeonError where the run cannot be repeated. Ctrl-C is passed on.
+    Raises UnknownNameError for a joint without play, BadValueError for arguments, for a joint without dry contact and
+    for a run of another scene, GudgeonError if the run cannot be repeated, KeyboardInterrupt after Ctrl-C.
     """
     check_simulation_of_run(simulation, run, "wear")
     requested = _build_sliding_request(run, joint, points, since, until, contact)

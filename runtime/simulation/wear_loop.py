@@ -91,17 +91,19 @@ def wear_loop(
     progress: Progress | None = None,
     **options: Any,
 ) -> Worn:
-    """Return the wear of bearings that have a `contour`, over a number of rounds of one run or of many.
+    """Alternate between runs of a scene and wear of its bearings with a `contour`, and return wear and contours.
 
-    `k`, `hardness`, `law`, `contact`, `points`, `since`: as in `gudgeon.wear`, of the bearings. `scale`: how many runs
-    each run stands for, revolutions of a round over those of a run: contours deepen by as much at once. `passes`: how
-    often depths of neighbouring slots are mixed, a quarter from each side, before they deepen a contour; it keeps sums.
-    `parameters`: of one run, or of many as in `simulate_many`; each has contours of its own. `contour`: with which the
-    first round begins, else those of the file. `options`: further arguments of `simulate_many`, such as method, rtol,
-    step, threads. Every round begins at the scene's start.
+    `rounds`: number of runs, each from the scene's start, with the contours that the runs before it have worn.
+    `k`, `hardness`, `law`, `contact`, `points`, `since`: as in `gudgeon.wear`, for the bearings. `scale`: factor of the
+    wear of each run, for example the revolutions that a round represents divided by those of its run. `passes`: number
+    of times that depths are smoothed around the circumference before a round deepens a contour, with weights 1/4, 1/2,
+    1/4, which conserve the worn volume.
+    `parameters`: for one run, or for many as in `simulate_many`; each run has its own contours. `contour`: depths (m)
+    of the first round; None for those of the file. `options`: further arguments of `simulate_many`, such as method,
+    rtol, step, threads.
 
-    A run that fails goes no further. Raises UnknownNameError for a joint without a contour, BadValueError for numbers.
-    Ctrl-C is passed on.
+    A run that fails has no further rounds. Raises UnknownNameError for a joint without a contour, BadValueError for
+    arguments, KeyboardInterrupt after Ctrl-C.
     """
     from gudgeon.simulation.simulation import Simulation
 
