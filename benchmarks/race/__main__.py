@@ -152,8 +152,11 @@ def work_facts(work: str) -> dict[str, str]:
     return found
 
 
-def race(options: argparse.Namespace, run: int) -> Record:
-    """Run the problems, print the tables, and return the record."""
+def race(options: argparse.Namespace, run: int, before: Record) -> Record:
+    """Run the problems, print the tables, and return the record.
+
+    With `options.write`, the CSV file is written after each problem: the values of `before`, and the new ones.
+    """
     facts, rows = machine_facts(run), []
     print("\n".join(f"{name}: {value}" for name, value in facts.items()))
     for work in options.work:
@@ -178,6 +181,8 @@ def race(options: argparse.Namespace, run: int) -> Record:
         print("\n".join(race_page.facts(record, work)))
         for measure in MEASURES[work]:
             print("\n".join(["", *race_page.table(record, work, measure)]), flush=True)
+        if options.write:
+            race_record.write(race_page.CSV, before.merged(record))
     return Record(facts, tuple(rows))
 
 
@@ -195,11 +200,10 @@ def main() -> None:
     if options.quick:
         sizes.shorten()
     before = race_record.read(race_page.CSV) if race_page.CSV.exists() else Record()
-    record = race(options, 1 if set(options.work) == set(WORKS) else max(before.runs(), default=0) + 1)
+    record = race(options, max(before.runs(), default=0) + 1, before)
     print("\nmeasured values; in brackets the ratio to the goal: 1 or more meets the goal\n")
     print("\n".join(race_page.bars(record)))
     if options.write:
-        race_record.write(race_page.CSV, before.merged(record))
         race_page.main()
 
 

@@ -9,8 +9,10 @@ in an empty cache, also if its C is shipped.
 
 from __future__ import annotations
 
+import contextlib
 import os
 import resource
+import signal
 import subprocess
 import sys
 import tempfile
@@ -51,15 +53,19 @@ def measure_in_process(entry: Entry) -> float:
     """Return the set-up time of an entry in s, measured in a process with an empty cache; NaN if it fails."""
     with tempfile.TemporaryDirectory() as folder:
         try:
-            found = subprocess.run(
+            with subprocess.Popen(
                 [sys.executable, "-m", "benchmarks.race.setup", entry.work, entry.name],
                 env={**os.environ, "GUDGEON_CACHE": folder},
-                capture_output=True,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.DEVNULL,
                 text=True,
-                check=True,
-                timeout=LIMIT,
-            )
-            return float(found.stdout.split()[-1])
+                start_new_session=True,
+            ) as process:
+                try:
+                    return float(process.communicate(timeout=LIMIT)[0].split()[-1])
+                finally:  # also its compilers
+                    with contextlib.suppress(ProcessLookupError):
+                        os.killpg(process.pid, signal.SIGKILL)
         except (subprocess.SubprocessError, ValueError, IndexError) as problem:
             print(f"  {entry.name}: set-up not measured, {type(problem).__name__}", flush=True)
             return float("nan")
