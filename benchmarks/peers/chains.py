@@ -117,7 +117,9 @@ def own(n: int, method: str, rtol: float) -> Measured:
     simulation = loaded(n, method == "taylor")
     timer = CallTimer()
     run = simulation.simulate(T_END[n], output=1, method=method, rtol=rtol)
-    angles, found = run.q[-1][2::3], run.diagnostics
+    angles = run.q[-1][2::3]
+    timer.stop()
+    found = run.diagnostics
     return timer.measured(lambda: error(n, angles), found.right_hand_sides, found.seconds)
 
 
@@ -139,8 +141,9 @@ def own_batch(n: int, method: str, rtol: float) -> Measured:
         batch = loaded(n, method == "taylor").simulate_many(
             {}, T_END[n], start=start, output=1, method=method, rtol=rtol, threads=1
         )
-        angles, found = batch.q[:, -1, 2::3].T, batch.diagnostics
+        angles = batch.q[:, -1, 2::3].T
         timer.stop()
+        found = batch.diagnostics
     cost = timer.measured(
         lambda: float(np.abs(angles - reference(n, RUNS)).max()),
         round(float(found["right_hand_sides"].mean())),

@@ -106,6 +106,7 @@ def own(work: str, method: str, rtol: float) -> Measured:
     timer = CallTimer()
     run = simulation.simulate(float(at[-1]), output=SAMPLES, method=method, rtol=rtol)
     y = own_states(work, run)
+    timer.stop()
     return timer.measured(lambda: error(work, y), run.diagnostics.right_hand_sides, run.diagnostics.seconds)
 
 

@@ -176,6 +176,7 @@ def own_ideal(_: float) -> Found:
     simulation, timer = loaded("nine_bar_press", "ideal"), CallTimer()
     run = simulation.simulate(ideal.T_END, output=ideal.SAMPLES - 1, parameters=parameters)
     motion = np.stack([run["S9.y"], run["S9.vy"], run["S9.ay"]], axis=1)
+    timer.stop()
     cost = timer.measured(lambda: ideal.error(motion), seconds=run.diagnostics.seconds).per(ideal.SAMPLES)
     return Found({"motion": cost.error}, cost.seconds, cost.call, -1)
 

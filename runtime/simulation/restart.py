@@ -20,7 +20,7 @@ from gudgeon.contract.kernel_source import KernelSource, RuntimeParameter
 from gudgeon.errors import AssemblyError, BadValueError
 from gudgeon.language.argument_checks import check_mapping, check_number, check_text, raise_bad_value
 from gudgeon.language.text_output import format_count
-from gudgeon.model.arrays import CODE, as_c_array
+from gudgeon.model.arrays import CODE, FLOAT, as_c_array
 from gudgeon.model.choices import format_parameter, make_choice_notes
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.contours import set_contours
@@ -30,6 +30,7 @@ from gudgeon.results.results import State
 MAX_VIOLATION = 1e-6  # rad, or relative to the mechanism's size: largest constraint violation that a run leaves
 # code of an open contact, and a hint for messages
 FREE, HINT_FINAL = 0, "the `final` of a run has both as they belong together"
+STATE_ARRAYS = {"q": FLOAT, "v": FLOAT, "state": CODE, "memory": FLOAT}  # arrays of a State and their types
 MAX_REPORTED = 6  # largest number of parameters or constraint equations that a message names
 
 
@@ -68,7 +69,8 @@ def copy_checked_states(source: KernelSource, start: Any, n_runs: int) -> list[S
     single = isinstance(start, State) or not isinstance(start, Iterable) or getattr(start, "ndim", 1) == 0
     if single or hasattr(start, "final"):
         return [copy_checked_state(source, start)] * n_runs
-    states = [copy_checked_state(source, given_state) for given_state in start]
+    given_states = list(start)
+    states = _copy_similar_states(source, given_states) or [copy_checked_state(source, x) for x in given_states]
     if len(states) != n_runs and 1 not in (n_runs, len(states)) or not states:
         message = f"start has {format_count(len(states), 'state')} for {format_count(n_runs, 'run')}"
         raise BadValueError(message, hint="one state, or one for every run")
@@ -79,6 +81,44 @@ def copy_checked_states(source: KernelSource, start: Any, n_runs: int) -> list[S
         )
         raise BadValueError(message, hint="states at the same time, or a batch for each time")
     return states * n_runs if len(states) == 1 else states
+
+
+def _copy_similar_states(source: KernelSource, given_states: list[Any]) -> list[State]:
+    """Return checked copies of two or more states that differ in their arrays alone, all at once.
+
+    Return [] for other states, and if an array is not as C needs it: `copy_checked_state` then decides state by state.
+    Raises its errors for the first state, and BadValueError for contradicting discrete states.
+    """
+    if len(given_states) < 2 or any(type(given_state) is not State for given_state in given_states):
+        return []
+    shared = [(name, value) for name, value in vars(given_states[0]).items() if name not in STATE_ARRAYS]
+    for name, value in shared:
+        values = [vars(x)[name] for x in given_states]
+        is_equal = all(x is value for x in values) or (
+            {type(x) for x in values} in ({str}, {float}, {tuple}) and values.count(value) == len(values)
+        )
+        if not is_equal:
+            return []
+    stacked = []
+    for name, dtype in STATE_ARRAYS.items():
+        arrays = [vars(x)[name] for x in given_states]
+        if {type(array) for array in arrays} != {np.ndarray} or {(a.dtype, a.shape) for a in arrays} != {
+            (dtype, arrays[0].shape)
+        }:
+            return []
+        stacked.append(np.array(arrays))
+    q, v, codes, discrete_states = stacked
+    checked = vars(copy_checked_state(source, given_states[0]))
+    if not (np.isfinite(q).all() and np.isfinite(v).all() and ((codes >= 0) & (codes <= 2)).all()):
+        return []
+    if codes.any() or not np.isnan(discrete_states).all():
+        for code, memory in zip(codes, discrete_states, strict=True):
+            _check_discrete_states(source, code, memory)
+    copies = []
+    for rows in zip(*stacked, strict=True):
+        copies.append(State.__new__(State))
+        vars(copies[-1]).update(checked, **dict(zip(STATE_ARRAYS, rows, strict=True)))
+    return copies
 
 
 def _check_discrete_states(source: KernelSource, state: Array, discrete_states: Array) -> None:

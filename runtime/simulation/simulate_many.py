@@ -225,6 +225,7 @@ class _Starts:
             None if self.states or contours else read_uniform_rows(simulation.source, rows)
         )  # then none chooses anything
         self.remarks: list[tuple[str, ...]] = [()] * len(rows) if uniform_values else []
+        self._merged_inputs: tuple[object, ...] = (self, self)  # of the last run: its parameters, those of its state
         self.given: Array
         self.is_given: Any
         self.given, self.is_given = uniform_values or read_each_run(rows, self._merge_parameters)
@@ -234,9 +235,13 @@ class _Starts:
 
         Values of its start state and of its contour are included.
         """
-        given, is_given, remarks = merge_parameters(
-            self.compiled, self.states[i] if self.states else None, parameters, select_contours_of_run(self.contours, i)
-        )
+        state = self.states[i] if self.states else None
+        inputs = parameters, state.parameters if state else None
+        if self.contours or any(x is not y for x, y in zip(inputs, self._merged_inputs, strict=True)):
+            contours = select_contours_of_run(self.contours, i)
+            self._merged = merge_parameters(self.compiled, state, parameters, contours)
+            self._merged_inputs = inputs
+        given, is_given, remarks = self._merged
         self.remarks.append(remarks)
         return given, is_given
 

@@ -230,3 +230,38 @@ def test_what_was_derived_before_an_edit_stays(swing: Path) -> None:
     before = simulation.jacobian(0.0, np.ones(6))
     swing.write_text(FILE.replace("mass: 1 kg", "mass: 2 kg"))
     assert simulation.full is full and (simulation.jacobian(0.0, np.ones(6)) == before).all()
+
+
+@pytest.mark.parametrize(("name", "scene"), [("pendulum", "ideal"), ("slider_crank", "dry")])
+def test_many_states_give_the_runs_of_each(name: str, scene: str) -> None:
+    """States that are copied together equal states that are copied one by one, bit for bit; none is shared."""
+    simulation = gudgeon.load(name, scene)
+    final = simulation.simulate(2e-3, output=1).final
+    states = [replace(final, v=(1.0 + 0.01 * k) * final.v) for k in range(4)]
+    batch = simulation.simulate_many({}, 4e-3, output=3, start=states)
+    mixed = simulation.simulate_many(
+        {}, 4e-3, output=3, start=[replace(states[0], v=states[0].v.tolist()), *states[1:]]
+    )
+    for k, state in enumerate(states):
+        run = simulation.simulate(4e-3, output=3, start=state)
+        np.testing.assert_array_equal(batch.q[k], run.q)
+        np.testing.assert_array_equal(mixed.v[k], run.v)
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"q": np.full(9, np.nan)}, r"start\.q\[0\] is nan"),
+        ({"v": np.zeros(3)}, r"start\.v has shape \(3,\)"),
+        ({"state": np.array([3], np.int8)}, r"start\.state: expected 0"),
+        ({"memory": np.array([0.5])}, r"start\.memory\[0\] of joint .* remembers 0\.5 m/s"),
+        ({"mechanism": "pendulum"}, "another mechanism or scene"),
+        ({"t": 0.001}, "the runs of a batch have their times together"),
+    ],
+)
+def test_one_wrong_state_of_many_is_an_error(change: dict[str, Any], message: str) -> None:
+    crank = gudgeon.load("slider_crank", "dry")
+    final = crank.simulate(2e-3, output=1).final
+    free = replace(final, state=np.zeros_like(final.state), memory=np.full_like(final.memory, np.nan))
+    with pytest.raises(BadValueError, match=message):
+        crank.simulate_many({}, 4e-3, output=1, start=[free, free, replace(free, **change)])
