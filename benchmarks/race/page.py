@@ -98,7 +98,8 @@ def bars(record: Record) -> list[str]:
 
 def table(record: Record, work: str, measure: str) -> list[str]:
     """Return for all entries the times to each error: the engine alone and the whole call side by side; the ratio of
-    both to the default method of gudgeon at the error in the middle; the time of set-up in s.
+    both to the default method of gudgeon at the error in the middle; the time of set-up in s. Columns without values are
+    left out.
     """
     levels = ONSET_LEVELS if measure == "onset" else LEVELS_OF.get(work, LEVELS)
     unit, scale = UNITS.get(work, ("ms", 1e3))
@@ -122,7 +123,9 @@ def table(record: Record, work: str, measure: str) -> list[str]:
     at = [f"{level:.0e}{' s' if measure == 'onset' else ''}" for level in levels]
     head = [f"{kind} {level}" for level in at for kind in ("engine", "call")]
     middle = at[len(at) // 2]
-    return grid([f"{measure}, {unit}", *head, f"× engine {middle}", f"× call {middle}", "set-up, s"], rows)
+    head = [f"{measure}, {unit}", *head, f"× engine {middle}", f"× call {middle}", "set-up, s"]
+    columns = [k for k in range(len(head)) if k == 0 or any(row[k] != number(math.nan) for row in rows)]
+    return grid([head[k] for k in columns], [[row[k] for k in columns] for row in rows])
 
 
 def facts(record: Record, work: str = "") -> list[str]:
