@@ -97,9 +97,10 @@ def bars(record: Record) -> list[str]:
 
 
 def table(record: Record, work: str, measure: str) -> list[str]:
-    """Return for all entries the times to each error: the engine alone and the whole call side by side; the ratio of
-    both to the default method of gudgeon at the error in the middle; the time of set-up in s. Columns without values are
-    left out.
+    """Return the table of a problem: times of all entries to each error, engine alone and whole call side by side.
+
+    Further columns are the ratios of both to the default method of gudgeon at the error in the middle, and the time of
+    set-up in s. Columns without values are left out.
     """
     levels = ONSET_LEVELS if measure == "onset" else LEVELS_OF.get(work, LEVELS)
     unit, scale = UNITS.get(work, ("ms", 1e3))
