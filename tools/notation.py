@@ -16,12 +16,12 @@ import sympy as sp
 from gudgeon.generator.equations import contact_steps as steps
 from gudgeon.generator.field import NUMBER, Field
 from gudgeon.generator.format.sections import BEARING, BODY, CONTACT, GUIDE, MATERIAL
-from gudgeon.generator.kinds.laws.law import RESULTS, find_bundled_laws
+from gudgeon.generator.kinds.laws.law import CONSTRAINT_VARIABLES, RESULTS, find_bundled_laws
 from gudgeon.generator.targets.latex.letters import make_symbol_name
 from gudgeon.generator.targets.latex.notation import get_field_letter
 from gudgeon.generator.targets.latex.play import PAIR
 from gudgeon.generator.targets.latex.play_letters import GUIDE as GUIDE_LETTERS
-from gudgeon.generator.targets.latex.play_letters import LAW_SYMBOL_NAMES, NAMES, get_latex_symbol
+from gudgeon.generator.targets.latex.play_letters import LAW_SPECIFIC_NAMES, LAW_SYMBOL_NAMES, NAMES, get_latex_symbol
 from gudgeon.language.plot_units import format_unit
 from gudgeon.language.units import find_si_unit
 from gudgeon.results.series import CLEARANCE
@@ -36,8 +36,11 @@ and Wang (2022).
 - Values in Python and C are in SI units, angles in radians. The unit 1 marks a pure number.
 - `JOINT`, `BODY` and `NAME` stand for names of the mechanism file; `ROW` is the name of a constraint equation.
 - The sign – marks a quantity without a name in that place.
-- Within a table, each symbol stands for one quantity; in the tables of the laws, within one law.
-- `make tables` writes this page from the declarations.
+- Each symbol stands for one quantity. In the tables of the laws, $K$, $S$ and $v_0$ are quantities of each law.
+- [Physics](physics.md) gives the equations. `make tables` writes this page from the declarations.
+
+Example: the slip velocity $v_t$ of joint A is the series `run["A.vt"]` in Python, and the member `v_t` of
+`rhs->clearance[i]` in C. It is positive if the journal's surface moves along t relative to the bearing's.
 """
 NONE = "–"
 SYSTEM = (  # symbol, quantity, paper, YAML, Python, C, unit
@@ -67,6 +70,7 @@ SYSTEM = (  # symbol, quantity, paper, YAML, Python, C, unit
         "m/s², rad/s²",
     ),
     ("\\lambda", "Lagrange multipliers", "\\lambda", "", '`run["lambda.ROW"]`', "`rhs->lambda`", "N, N·m"),
+    ("G", "Delassus operator: −∂δ̈/∂F_n of closed rigid contacts", "", "", "", "`contacts->D`", "1/kg"),
     ("\\alpha", "Baumgarte's gain of the rates of Φ", "\\alpha", "", "`baumgarte.alpha`", "`p->alpha_`", "1/s"),
     ("\\beta", "Baumgarte's gain of Φ", "\\beta", "", "`baumgarte.beta`", "`p->beta_`", "1/s"),
 )
@@ -86,9 +90,12 @@ MEANING = {  # what a formula says more clearly than the words of CLEARANCE
     "e": "eccentricity: distance of the centres of journal and bearing",
     "deltadot": "rate of the penetration, positive in approach",
     "delta": "penetration, δ = e − c; in a non-circular bearing, c is the clearance at the angle of the journal",
+    "Fn": "normal force, positive in compression: component along −n of the force on the journal; −F_r in a film alone",
+    "Ft": "tangential force: component along t of the force on the journal",
+    "vt": "slip of the journal's surface on the bearing's, along t",
 }
 OF_JOINT = {"ex": "`start.play.JOINT.e`", "ey": "`start.play.JOINT.e`"}  # YAML keys of initial values
-C_MEMBER = {"Fn": "F_n", "Ft": "F_t", "vt": "v_t"}
+C_MEMBER = {"Fn": "-F_n", "Ft": "F_t", "vt": "v_t"}
 STEPS = (  # symbol of the equations, quantity, Python, C variable, unit
     (
         steps.stored,
@@ -106,6 +113,16 @@ STEPS = (  # symbol of the equations, quantity, Python, C variable, unit
     (steps.w_t, "effective squeeze velocity of a film along t, divided by c", "", "w_t", "1/s"),
     (sp.Symbol("F_r", real=True), "force of a film along n", "", "F_r", "N"),
     (steps.share, "fraction of the load that the dry contact carries", "", "share", "1"),
+    (
+        sp.Symbol(CONSTRAINT_VARIABLES[0], real=True),
+        "multiplier of a closed contact of rigid surfaces: its normal force",
+        "",
+        "contact->force",
+        "N",
+    ),
+    (steps.steep, "length of the gradient of δ in a bearing with a contour", "", "steep", "1"),
+    (steps.worn, "depth of a contour beyond the circle, at the angle of the journal", "", "worn", "m"),
+    (steps.beta_i, "angle of e in the body of the bearing, with a contour", "", "beta_i", "rad"),
 )
 SECTIONS = (
     ("Bearings", "bearings.NAME", BEARING),
@@ -117,6 +134,7 @@ SECTIONS = (
 IN_LAWS = {field: sign for field, sign, _ in PAIR}  # symbols of a bearing in the laws
 IN_GUIDE = {field: sign for field, sign, _ in GUIDE_LETTERS}
 IN_CONTACT = {"transition": "e_0", "velocity_floor": "v_{\\min}"}  # as physics.md
+OF_MATERIAL = {"E": "E_i$, $E_j", "nu": "\\nu_i$, $\\nu_j"}  # of the surface of the bearing or the journal
 IN_PAPER = {
     "bearings.NAME.clearance": "r",
     "bearings.NAME.radius": "R_i",
@@ -133,13 +151,15 @@ DERIVED = (  # name in the functions of the laws, quantity, laws, unit
     ("F_e", "elastic force", "`expression`", "N"),
     ("friction_slope", "1/(v_1 − v_0)", "`modified_coulomb`", "s/m"),
     ("z", "deflection of the bristles", "`dahl`, `lugre`", "m"),
-    ("film_clearance", "clearance of the film, c + e_t", "all films", "m"),
+    ("film_clearance", "clearance of the film, c + c_a", "all films", "m"),
     ("S", "film factor: the equation of each law defines it", "all films", "N·s"),
     ("root", "√(1 − ε²)", "all films", "1"),
+    ("q", "√(w_n² + s_ε² w_t²)", "`finite_length`", "1/s"),
+    ("x", "ε w_n/w_ε", "`finite_length`", "1"),
     ("W", "√(w_n² + w_t²)", "`pinkus_sternlicht`, `ocvirk`", "1/s"),
     ("factor", "correction of the squeeze motion", "`pinkus_sternlicht`", "1"),
     ("shear", "shear torque of the centred journal divided by ω_j − ω_i", "films with `shear`", "N·m·s"),
-    ("T0", "shear torque divided by ω_j − ω_i", "films with `shear`", "N·m·s"),
+    ("T0", "shear torque M_τ divided by ω_j − ω_i", "films with `shear`", "N·m·s"),
     ("mean_clearance", "clearance between the mean surfaces", "laws of mixed lubrication", "m"),
 )
 
@@ -152,7 +172,7 @@ def notation() -> str:
         "In Python, `run` is a result, `equations` is `simulation.model.numpy()`, and `p` is `equations.prepare()`.",
         "",
     ]
-    lines += _table(head, ((f"${row[0]}$", row[1], f"${row[2]}$", *row[3:]) for row in SYSTEM))
+    lines += _table(head, ((f"${row[0]}$", row[1], f"${row[2]}$" * bool(row[2]), *row[3:]) for row in SYSTEM))
     lines += [
         "",
         "## A joint with play",
@@ -207,7 +227,7 @@ def _of_play() -> Iterator[tuple[str, ...]]:
             f"${paper}$" * bool(paper),
             OF_JOINT.get(name, ""),
             f"`JOINT.{name}`",
-            f"`{C_MEMBER.get(name, name)}`",
+            f"`{C_MEMBER.get(name, name)}`".replace("`-", "−`"),
             unit,
         )
 
@@ -218,7 +238,12 @@ def _of_steps() -> Iterator[tuple[str, ...]]:
 
 
 def _of_record(path: str, record: Field) -> Iterator[tuple[str, ...]]:
-    symbols = {id(BEARING): IN_LAWS, id(GUIDE): IN_GUIDE, id(CONTACT): IN_CONTACT}.get(id(record), {})
+    symbols = {
+        id(BEARING): IN_LAWS,
+        id(GUIDE): IN_GUIDE,
+        id(CONTACT): IN_CONTACT,
+        id(MATERIAL): OF_MATERIAL,
+    }.get(id(record), {})
     for field in record.fields:
         if field.kind == NUMBER:
             key = f"{path}.{field.name}"
@@ -240,8 +265,9 @@ def _of_laws() -> Iterator[tuple[str, ...]]:
 
 
 def _of_derived() -> Iterator[tuple[str, ...]]:
+    specific = {name: letter for (_, name), letter in LAW_SPECIFIC_NAMES.items()}
     for name, meaning, laws, unit in DERIVED:
-        letter = LAW_SYMBOL_NAMES.get(name) or make_symbol_name(name)
+        letter = {**LAW_SYMBOL_NAMES, **specific}.get(name) or make_symbol_name(name)
         yield f"${letter.latex}$", meaning, laws, f"`{name}`", unit
 
 

@@ -1,10 +1,10 @@
 /*
  * Friction in impacts between rigid surfaces. The impact without friction has already set the separation speeds by the
- * restitution. Tangential impulses P bring the slip after the impact to rest, as far as |P| <= mu Lambda allows; normal
- * impulses change with P so that no separation speed does. Let v be the slip after an impact without rebound: P adds P
- * v + P S P/2 to the kinetic energy, and is reduced where that sum would be positive. A. Chatterjee, A. Ruina, Journal
- * of Applied Mechanics 65 (1998) 939-951, doi 10.1115/1.2791938: their e_t between -1 and 1 is chosen here, for several
- * contacts at once.
+ * restitution. Tangential impulses P_t bring the slip after the impact to rest, as far as |P_t| <= c_d P_n allows;
+ * normal impulses P_n change with P_t so that no separation speed does. Let v be the slip after an impact without
+ * rebound: P_t adds P_t v + P_t G_t P_t/2 to the kinetic energy, and is reduced where that sum would be positive.
+ * A. Chatterjee, A. Ruina, Journal of Applied Mechanics 65 (1998) 939-951, doi 10.1115/1.2791938: their tangential
+ * restitution between -1 and 1 is chosen here, for several contacts at once.
  */
 #if N_RUBBED
 #define INCONSISTENT_RATIO 10.0 /* ratio to the forces without friction that only an inconsistency reaches */

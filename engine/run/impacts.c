@@ -210,11 +210,12 @@ static int separate_contacts(Integrator *run, const Parameters *p)
 /*
  * Resolve impacts at the present time until no rigid surfaces approach; return 0, CHATTERING or another status. One
  * impact may make other surfaces approach, and these the first ones again, as in a wedge. Two contacts with the
- * Delassus operator D that strike in turn approach at x[n+1] = (1 + e) k x[n] - e x[n-1], where k = -D12/sqrt(D11 D22),
- * x scaled by sqrt(D). If (1 + e) k < 2 sqrt(e) some x is negative: the sequence ends. Otherwise the x tend to a
- * geometric sequence that never ends. Its limit has no approach speed left and the impulses sum = D^-1 u: the joint
- * impact of all touching contacts with e = 0. That impact is solved directly once the ratio is steady, or after
- * MAX_PASSES. Called by update_contacts() at each event, also if nothing approaches.
+ * Delassus operator G approach in turn at chi[n+1] = (1 + c_e) kappa chi[n] - c_e chi[n-1], where kappa =
+ * -G12/sqrt(G11 G22), and chi is the approach speed over sqrt(G11) or sqrt(G22). If (1 + c_e) kappa < 2 sqrt(c_e) some
+ * chi is negative: the sequence ends. Otherwise the chi tend to a geometric sequence that never ends. Its limit has no
+ * approach speed left and the impulses sum = G^-1 u: the joint impact of all touching contacts with c_e = 0. That
+ * impact is solved directly once the ratio is steady, or after MAX_PASSES. Called by update_contacts() at each event,
+ * also if nothing approaches.
  */
 static int resolve_impacts(Integrator *run, const Parameters *p)
 {

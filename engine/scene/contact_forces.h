@@ -1,7 +1,7 @@
 /*
  * Forces of closed contacts of rigid surfaces (Newton's restitution), which keep the gap at zero. Accelerations are
- * affine in these forces F. The right-hand side without them and with each alone determines delta'' = r - D F, with the
- * Delassus operator D, and the rates a + response F.
+ * affine in these forces F. The right-hand side without them and with each alone determines delta'' = r - G F, with the
+ * Delassus operator G, the member D, and the rates a + response F.
  */
 #ifndef GUDGEON_CONTACT_FORCES_H
 #define GUDGEON_CONTACT_FORCES_H

@@ -137,7 +137,7 @@ typedef struct {
 /* A joint with play at one state; the force acts on the second body (journal or slider), ground axes. */
 typedef struct {
     double Fx, Fy;                       /* N */
-    double F_n, F_t;                     /* along n = e/|e| and along t = n turned by +90 degrees */
+    double F_n, F_t;                     /* along n = e/|e|, negative in compression; along t = n turned by +90 deg */
     double ex, ey, e, deltadot, v_t;     /* m, m/s */
     double moment_first, moment_second;  /* about each body's pin centre, N*m */
     double delta, power;                 /* m, W */

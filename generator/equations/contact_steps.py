@@ -44,7 +44,7 @@ theta_i, beta_i, u_x, u_y, worn, worn_slope = map(
 )
 beta_rate, slant, steep, F_N = map(_make_symbol, ("beta_rate", "slant", "steep", "F_N"))
 along = _make_symbol("along")  # position of a slider's corner along its guide
-de_n, across, lean = map(_make_symbol, ("de_n", "across", "lean"))  # rates along e and across it, w′/e
+de_n, across, lean = map(_make_symbol, ("de_n", "across", "lean"))  # rates along e and across it, d′/e
 
 
 def make_part_symbol(symbol: sp.Symbol, part: str) -> sp.Symbol:
@@ -73,11 +73,11 @@ def make_gap_equations(clearance: Clearance) -> list[Assignment]:
 
 
 def _make_contour_gap(clearance: Clearance, contour: Contour) -> list[Assignment]:
-    """Return the equations of the gap of a bearing with a contour: δ = e − c − w(β), β the angle of e in it.
+    """Return the equations of the gap of a bearing with a contour: δ = e − c − d(β_i), β_i the angle of e in it.
 
-    w is the depth beyond the circle. The normal n is along the gradient of δ by e, u − w′/e t, whose length is `steep`
-    = `slant`/e; u is along e and t across it. A force −F_n times that gradient is conservative if F_n depends on δ
-    alone; the bearing then also takes the moment −w′ F_n.
+    d is the depth beyond the circle. The normal n is along the gradient of δ by e, u − d′/e u_⊥, whose length Γ is
+    `steep` = `slant`/e; u is along e and u_⊥ across it. A force −F_δ times that gradient is conservative if the result
+    F_δ of the normal law depends on δ alone; the bearing then also receives the moment −d′ F_δ.
     """
     return [
         Assignment(e, sp.sqrt(e_x**2 + e_y**2)),
@@ -120,8 +120,8 @@ def make_penetration_equation(clearance: Clearance) -> Assignment:
 def make_contour_gap_equations(clearance: Clearance) -> list[Assignment]:
     """Return the equations of δ, δ̇ and ė_t of a bearing with a contour, by components along e and across it.
 
-    `de_n` and `across` are the rates of e in these directions, `worn` and `worn_slope` the contour's depth w and w′.
-    `lean` = w′/e and `steep` = √(1 + lean²), the length of the gradient of δ, are defined on the way.
+    `de_n` and `across` are the rates of e in these directions, `worn` and `worn_slope` the contour's depth d and d′.
+    `lean` = d′/e and `steep` = √(1 + lean²), the length of the gradient of δ, are defined on the way.
     """
     return [
         Assignment(delta, e - clearance.pair.c - worn),
@@ -152,9 +152,10 @@ def make_lever_arm_equations(clearance: Clearance) -> list[Assignment]:
 
 
 def make_contour_normal_force(clearance: Clearance) -> list[Assignment]:
-    """Return the equation of the normal force of a contour, F_N = steep F_n, on which friction depends.
+    """Return the equation of the normal force of a contour, F_n = Γ F_δ, on which friction depends.
 
-    F_n is the result of the normal law. The list is empty without a contour.
+    `F_N` is that normal force, and the symbol F_n of the code the result F_δ of the normal law. The list is empty
+    without a contour.
     """
     return [Assignment(F_N, steep * _make_symbol("F_n"))] if clearance.contour else []
 
@@ -171,7 +172,7 @@ def resolve_contour_force(F_n: sp.Expr, friction_force: sp.Expr) -> tuple[sp.Exp
 def make_dry_moment_equations(clearance: Clearance) -> list[Assignment]:
     """Return the equations of the moments of the dry contact: M_i = −a_i F_t on the bearing, M_j = a_j F_t.
 
-    M_i acts on the bearing and M_j on the journal, each about its own centre. With a contour −w′ F_n is added to M_i.
+    M_i acts on the bearing and M_j on the journal, each about its own centre. With a contour −d′ F_δ is added to M_i.
     """
     tangential = make_part_symbol(F_along_t, "dry")
     moment = -worn_slope * _make_symbol("F_n") if clearance.contour else 0
@@ -208,7 +209,7 @@ def make_film_moment_equations(film: LawEquations) -> list[Assignment]:
     """Return the equations of the moments of the film, M_i about the bearing's and M_j about the journal's centre.
 
     Without the film's option `shear` the force acts at the journal's centre: M_i = −e F_t, M_j = 0. With `shear` it
-    acts midway between the centres, and the drag T0 (ω_j − ω_i) is added to M_i and subtracted from M_j.
+    acts midway between the centres, and the shear torque M_τ = T0 (ω_j − ω_i) is added to M_i and subtracted from M_j.
     """
     tangential = make_part_symbol(F_along_t, "film")
     if not film.options.get("shear", False):

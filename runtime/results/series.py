@@ -48,7 +48,7 @@ REACTION = (("Fx", "N", "force, x"), ("Fy", "N", "force, y"), ("M", "N*m", "mome
 CLEARANCE = {
     "Fx": (0, "N", "force on the journal, x in ground axes"),
     "Fy": (1, "N", "force on the journal, y in ground axes"),
-    "Fn": (2, "N", "normal force: its magnitude in dry contact, its component along e in a film"),
+    "Fn": (2, "N", "normal force: component along −n of the force on the journal, positive in compression"),
     "Ft": (3, "N", "tangential force, along e turned by +90°"),
     "ex": (4, "m", "eccentricity of the journal in its bearing, x in ground axes"),
     "ey": (5, "m", "eccentricity of the journal in its bearing, y in ground axes"),

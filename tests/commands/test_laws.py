@@ -44,7 +44,7 @@ STATES = {  # of what laws read, by the letter; z lies within what bristles take
 }
 NUMBERS = {"dahl": {"presliding": 1e-4}, "modified_coulomb": {"v0": 0.01, "v1": 0.05}}
 DRAWN = {"hertz", "expression", "lugre", "ocvirk", "christensen", "newton_restitution"}
-LETTERS = {"held_force": "λ", "delta": "δ", "deltadot": dots_apart("δ̇"), "epsilon": "ε"}
+LETTERS = {"held_force": "λ_n", "delta": "δ", "deltadot": dots_apart("δ̇"), "epsilon": "ε"}
 NO_SYMPY = """
 import sys
 from gudgeon.cli import app

@@ -19,7 +19,8 @@ static inline void hertz_none(double delta, double ratio, double stiffness, doub
  * Force of the dry contact in joint fall (physics.md, section 3). It is zero for delta < 0, where a step
  * that ends at the separation may evaluate it.
  * Both bodies take the force at one point, in the middle of the penetration: a_i - a_j = e, so that
- * linear and angular momentum are conserved to rounding. F_n < 0 pushes the journal back.
+ * linear and angular momentum are conserved to rounding. F_n > 0 pushes the journal back: the returned force along n
+ * is -F_n.
  */
 static inline PinForce dry_fall_(double delta, double deltadot, double de_t, double omega_i, double omega_j,
     const ContactState *contact, const Parameters *p, const double *branch, double *g)

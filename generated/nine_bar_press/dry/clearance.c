@@ -62,7 +62,8 @@ static inline void modified_coulomb(double F_n, double v_t, double mu, double v0
  * Force of the dry contact in joint A (physics.md, section 3). It is zero for delta < 0, where a step
  * that ends at the separation may evaluate it.
  * Both bodies take the force at one point, in the middle of the penetration: a_i - a_j = e, so that
- * linear and angular momentum are conserved to rounding. F_n < 0 pushes the journal back.
+ * linear and angular momentum are conserved to rounding. F_n > 0 pushes the journal back: the returned force along n
+ * is -F_n.
  */
 static inline PinForce dry_A_(double delta, double deltadot, double de_t, double omega_i, double omega_j,
     const ContactState *contact, const Parameters *p, const double *branch, double *g)
@@ -108,7 +109,8 @@ static void clearance_A_(double e_x, double e_y, double de_x, double de_y, doubl
  * Force of the dry contact in joint B (physics.md, section 3). It is zero for delta < 0, where a step
  * that ends at the separation may evaluate it.
  * Both bodies take the force at one point, in the middle of the penetration: a_i - a_j = e, so that
- * linear and angular momentum are conserved to rounding. F_n < 0 pushes the journal back.
+ * linear and angular momentum are conserved to rounding. F_n > 0 pushes the journal back: the returned force along n
+ * is -F_n.
  */
 static inline PinForce dry_B_(double delta, double deltadot, double de_t, double omega_i, double omega_j,
     const ContactState *contact, const Parameters *p, const double *branch, double *g)

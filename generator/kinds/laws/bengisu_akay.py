@@ -1,6 +1,6 @@
 """Bengisu and Akay's friction: a parabola up to static friction at the slip v0, then a decay to kinetic friction.
 
-    c_d = c_s [1 − (u/v0 − 1)²],  u ≤ v0;    c_d = c_f + (c_s − c_f) e^{−ξ (u − v0)},  u ≥ v0;    u = |v_t|
+    c_d = c_s [1 − (|v_t|/v_0 − 1)²],  |v_t| ≤ v_0;    c_d = c_f + (c_s − c_f) exp(−(|v_t| − v_0)/v_d),  |v_t| ≥ v_0
     F_t = −c_d F_n sgn v_t
 
 M. T. Bengisu, A. Akay, J. Sound Vib. 171 (1994) 557–570, as E. Pennestri et al., Nonlinear Dynamics 83 (2016)
@@ -39,9 +39,9 @@ LAW = Law(
     role="friction",
     title="Bengisu and Akay's friction: static friction at v0, then a decay to kinetic friction",
     equation=(
-        r"F_t = -c_d F_n\, \mathrm{sgn}(v_t), \quad u = |v_t|",
-        r"c_d = c_s \left[1 - (u/v_0 - 1)^2\right], \quad u \le v_0",
-        r"c_d = c_f + (c_s - c_f)\, e^{-(u - v_0)/v_d}, \quad u \ge v_0",
+        r"F_t = -c_d F_n\, \mathrm{sgn}(v_t)",
+        r"c_d = c_s \left[1 - (|v_t|/v_0 - 1)^2\right], \quad |v_t| \le v_0",
+        r"c_d = c_f + (c_s - c_f) \exp\left(-(|v_t| - v_0)/v_d\right), \quad |v_t| \ge v_0",
     ),
     source="M. T. Bengisu, A. Akay, J. Sound Vib. 171 (1994) 557-570",
     reference="M. T. Bengisu, A. Akay, Stability of friction-induced vibrations in multi-degree-of-freedom systems, "

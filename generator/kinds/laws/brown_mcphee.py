@@ -1,6 +1,6 @@
-"""Brown and McPhee's friction: one smooth expression whose peak is static friction at the slip v_t0.
+"""Brown and McPhee's friction: one smooth expression whose peak is static friction at the slip v_0.
 
-    F_t = −F_n [c_f tanh(4x) + (c_s − c_f) x/(x²/4 + ¾)²],   x = v_t/v_t0
+    F_t = −F_n [c_f tanh(4x) + (c_s − c_f) x/(x²/4 + ¾)²],   x = v_t/v_0
 
 P. Brown, J. McPhee, J. Comput. Nonlinear Dyn. 11 (2016) 054502, without its viscous part.
 """

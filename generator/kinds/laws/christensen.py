@@ -1,11 +1,11 @@
 """Christensen's mixed lubrication: a fraction of the area is in contact, and the film acts on the rest.
 
-    F = b F_dry + (1 − b) F_film,   b = ∫ from Λ to 3 of 35/96 (1 − (u/3)²)³ du,   Λ = 3 − δ/σ
+    F = b F_dry + (1 − b) F_film,   b = ∫ from Λ to 3 of 35/96 (1 − (η/3)²)³ dη,   Λ = 3 − δ/σ_r
 
-b is the share of the area in which the heights of both surfaces overlap, for Christensen's density of heights, which is
-nearly a normal one and ends at ±3 σ. With x = δ/(6σ) and y = 1 − x it is x⁴ (x³ + 7 x² y + 21 x y² + 35 y³): from 0
-at Λ = 3 to 1 at Λ = −3, three times differentiable at both. No term takes from another: it is good to rounding
-everywhere, and to its own where it is small.
+η is a height in units of the combined roughness σ_r. b is the share of the area in which the heights of both surfaces
+overlap, for Christensen's density of heights, which is nearly a normal one and ends at ±3 σ_r. With x = δ/(6σ_r) and
+y = 1 − x it is x⁴ (x³ + 7 x² y + 21 x y² + 35 y³): from 0 at Λ = 3 to 1 at Λ = −3, three times differentiable at both.
+No term takes from another: it is good to rounding everywhere, and to its own where it is small.
 The contact's force is that of its own laws, the film's that of its own: what only dissipates does so together.
 H. Christensen, Proc. Instn Mech. Engrs 184 (1969) 1013–1026 (heights), 186 (1972) 421–430 (the share of the area).
 """
@@ -36,7 +36,7 @@ LAW = Law(
     title="Christensen: film and contact share the area, by the film thickness ratio",
     equation=(
         r"F = b F_\mathrm{dry} + (1 - b) F_\mathrm{film}",
-        r"b = \int_\Lambda^3 \frac{35}{96} \left[1 - \left(\frac{u}{3}\right)^2\right]^3 du, \quad \Lambda"
+        r"b = \int_\Lambda^3 \frac{35}{96} \left[1 - \left(\frac{\eta}{3}\right)^2\right]^3 d\eta, \quad \Lambda"
         r" = 3 - \frac{\delta}{\sigma_r}",
     ),
     source="H. Christensen, Proc. Instn Mech. Engrs 184 (1969) 1013-1026 and 186 (1972) 421-430",

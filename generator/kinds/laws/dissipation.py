@@ -1,7 +1,7 @@
 """The hysteresis damping factor a in F = K δⁿ (1 + a δ̇/δ̇⁻), by several authors (physics.md, section 3).
 
 Each is a function of the coefficient of restitution c_e. What a law delivers is another number: it obeys
-a (1 + e) = ln[(1 + a)/(1 − a e)] whatever n, K and m (physics.md, section 3), and `exact` solves that for a.
+a (1 + e_r) = ln[(1 + a)/(1 − a e_r)] whatever n, K and m (physics.md, section 3), and `exact` solves that for a.
 """
 
 from __future__ import annotations
@@ -82,7 +82,7 @@ def make_hysteresis_factor(inputs: LawInputs, formula_name: str) -> Any:
     """Return the hysteresis factor 1 + a δ̇/δ̇⁻ for a restitution.
 
     It is not negative unless the law has the option `pulls`. `formula_name` names the formula of a, a key of FACTORS or
-    EXACT. With a e < 1 the factor stays positive unless something drives the surfaces apart.
+    EXACT. With a e_r < 1 the factor stays positive unless something drives the surfaces apart.
     """
     import sympy as sp
 
@@ -99,9 +99,9 @@ def make_normal_force(inputs: LawInputs, K: Any, formula_name: str) -> Any:
 
 
 def compute_delivered_restitution(a: float) -> float:
-    """Return the restitution e of a free impact from the factor a ≥ 0 by root finding; 1 for a = 0.
+    """Return the restitution e_r of a free impact from the factor a ≥ 0 by root finding; 1 for a = 0.
 
-    e solves a (1 + e) = ln[(1 + a)/(1 − a e)].
+    e_r solves a (1 + e_r) = ln[(1 + a)/(1 − a e_r)].
     """
     from scipy.optimize import brentq
 
@@ -114,9 +114,9 @@ def compute_delivered_restitution(a: float) -> float:
 def _solve_exact_factor(inputs: LawInputs, c_e: Any) -> Any:
     """Return the factor a that solves 1 − a c_e = (1 + a) e^{−a(1 + c_e)}, by four steps of Newton's method.
 
-    This is the identity above with e = c_e. The start is Hu and Guo's factor, which exceeds a by half at most, so that
-    the steps approach a from above. Each step is at most a third of a, since rounding dominates where a is small. All
-    steps are derived constants of the law.
+    This is the identity above with e_r = c_e. The start is Hu and Guo's factor, which exceeds a by at most half, so
+    that the steps approach a from above. Each step is at most a third of a, since rounding dominates where a is small.
+    All steps are derived constants of the law.
     """
     import sympy as sp
 

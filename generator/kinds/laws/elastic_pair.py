@@ -1,6 +1,6 @@
 """The stiffness of two elastic surfaces by Hertz, from their radii and materials; both conventions of the curvature.
 
-K = 4/(3(σ_i + σ_j)) √(R_i R_j/(R_i ± R_j)),   σ = (1 − ν²)/E
+K = 4/3 E* √R*,   1/E* = (1 − ν_i²)/E_i + (1 − ν_j²)/E_j,   R* = R_i R_j/(R_i ± R_j)
 
 The 6.61e10 N/m^1.5 that the literature has for steel pins of 9.5 mm in holes of 10 mm is that of R_i − R_j, whatever
 sign stands in the formula beside it; R_i + R_j gives 1.06e10. The latter is the default, for it is what the paper that
@@ -8,10 +8,10 @@ the press is taken from prints, and its golden figures follow; the former is the
 
 What contacts of cylinders with parallel axes share, whose penetration is a known function of the load.
 
-    δ = u (ln(4 ΔR/u) + k),   u = F/(π L E*),   1/E* = (1 − ν_i²)/E_i + (1 − ν_j²)/E_j,   ΔR = R_i − R_j = c
+    δ = u (ln(4 c/u) + k),   u = F_el/(π L E*),   c = R_i − R_j
 
-The root of small loads: u = δ/p with p − ln p = ln(4 ΔR/δ) + k, p > 1, by Lambert's function −W₋₁(−δ e^{−k}/(4 ΔR)).
-It ends at p = 1, where the load grows without penetration: δ = 4 ΔR e^{k−1}. Three of Newton's steps from a start that
+The root of small loads: u = δ/p with p − ln p = ln(4 c/δ) + k, p > 1, by Lambert's function −W₋₁(−δ e^{−k}/(4 c)).
+It ends at p = 1, where the load grows without penetration: δ = 4 c e^{k−1}. Three of Newton's steps from a start that
 is within .8 % leave rounding.
 R. M. Corless et al., Adv. Comput. Math. 5 (1996) 329–359, for W; the bounds of I. Chatzigeorgiou, IEEE Commun. Lett. 17
 (2013) 1505–1508, for the start.
@@ -36,9 +36,9 @@ GEOMETRY = word(
 
 
 def make_pair_stiffness(inputs: LawInputs) -> Any:
-    """Return the contact stiffness K (N/m^1.5) of Hertz, K = 4/3 E* √R, as a derived constant.
+    """Return the contact stiffness K (N/m^1.5) of Hertz, K = 4/3 E* √R*, as a derived constant.
 
-    R = R_i R_j/(R_i ± R_j), + with the option `geometry: external`, − with `internal`; R_j for a corner on a wall
+    R* = R_i R_j/(R_i ± R_j), + with the option `geometry: external`, − with `internal`; R_j for a corner on a wall
     (R_i = ∞). E* is the contact modulus. Equal materials give a shorter formula.
     """
     import sympy as sp
@@ -49,7 +49,7 @@ def make_pair_stiffness(inputs: LawInputs) -> Any:
     radius = sp.sqrt(pair.R_j) if is_flat else sp.sqrt(pair.R_i * pair.R_j / (pair.R_i + signed_radius))
     if (pair.E_i, pair.nu_i) == (pair.E_j, pair.nu_j):
         K = sp.Rational(2, 3) * pair.E_i * radius / (1 - pair.nu_i**2)
-    else:  # σ_i + σ_j times E_i, in wholes: two that hold the numbers of one material give its bits
+    else:  # E_i/E*, in wholes: two that hold the numbers of one material give its bits
         compliance_i, compliance_j = (inputs.whole(1 - nu**2) for nu in (pair.nu_i, pair.nu_j))
         K = sp.Rational(4, 3) * pair.E_i * radius / (compliance_i + compliance_j * inputs.whole(pair.E_i / pair.E_j))
     return inputs.derive("K", K, "contact stiffness")
@@ -69,16 +69,16 @@ def make_contact_modulus(inputs: LawInputs) -> Any:
 
 CYLINDER_FIELDS: tuple[Field, ...] = (RESTITUTION, DISSIPATION, PULLS)
 STEPS = 3  # of Newton's method
-_NEVER = 1e-150  # of 4 ΔR, below every penetration: ln is finite at δ = 0
+_NEVER = 1e-150  # of 4 c, below every penetration: ln is finite at δ = 0
 _END = 1e-9  # beyond the end, where no run goes on, ln(…) + k − 1 tends to 0, so that a stage's force is a number
 
 
 def make_cylinder_force(inputs: LawInputs, log_constant: int, max_penetration_ratio: Any) -> dict[str, Any]:
     """Return the steps to the normal force F_n (N) of parallel cylinders, δ > 0, by Newton's method.
 
-    F_n contains the hysteresis factor of the option `dissipation`. `log_constant` is k in δ = u (ln(4 ΔR/u) + k). The
+    F_n contains the hysteresis factor of the option `dissipation`. `log_constant` is k in δ = u (ln(4 c/u) + k). The
     steps contain `STEPS` unrolled iterations of Newton's method, without a test of convergence. A run stops beyond the
-    penetration `max_penetration_ratio` times the clearance. That limit, the stiffness and 4 ΔR become derived
+    penetration `max_penetration_ratio` times the clearance. That limit, the stiffness and 4 c become derived
     parameters.
     """
     import sympy as sp

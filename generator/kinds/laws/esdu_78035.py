@@ -1,8 +1,8 @@
 """ESDU 78035's contact of a journal in its bearing: cylinders with parallel axes, by the data sheet's formula.
 
-    δ = F/(π L E*) [ln(4 π L E* ΔR/F) + 1],   F_n = F (1 + a δ̇/δ̇⁻),   1/E* = (1 − ν_i²)/E_i + (1 − ν_j²)/E_j
+    δ = F_el/(π L E*) [ln(4 π L E* c/F_el) + 1],   F_n = F_el (1 + a δ̇/δ̇⁻),   1/E* = (1 − ν_i²)/E_i + (1 − ν_j²)/E_j
 
-never negative unless it `pulls`, solved for F (elastic_pair.py). ΔR = R_i − R_j = c.
+never negative unless it `pulls`, solved for F_el (elastic_pair.py). c = R_i − R_j.
 ESDU 78035, Contact phenomena I: stresses, deflections and contact dimensions for normally loaded unlubricated elastic
 components (1978), as in C. Pereira, A. Ramalho, J. Ambrósio, Nonlinear Dynamics 63 (2011) 681–697. The damping factors
 are those of dissipation.py.
@@ -29,8 +29,8 @@ LAW = Law(
     role="normal",
     title="ESDU 78035: cylinders with parallel axes, with a choice of hysteresis damping",
     equation=(
-        r"\delta = \frac{F_e}{\pi L E^{*}}\left[\ln\frac{4\pi L E^{*} c}{F_e} + 1\right]",
-        r"F_n = F_e \max\left(0, 1 + a\,\frac{\dot\delta}{\dot\delta^{-}}\right)",
+        r"\delta = \frac{F_{\mathrm{el}}}{\pi L E^{*}}\left[\ln\frac{4\pi L E^{*} c}{F_{\mathrm{el}}} + 1\right]",
+        r"F_n = F_{\mathrm{el}} \max\left(0, 1 + a\,\frac{\dot\delta}{\dot\delta^{-}}\right)",
         r"\frac{1}{E^{*}} = \frac{1 - \nu_i^2}{E_i} + \frac{1 - \nu_j^2}{E_j}",
     ),
     source="ESDU 78035 (1978), as in Pereira et al. (2011)",
@@ -38,7 +38,7 @@ LAW = Law(
     "unlubricated elastic components (1978), as in C. Pereira, A. Ramalho, J. Ambrosio, A critical overview "
     "of internal and external cylinder contact force models, Nonlinear Dynamics 63 (2011) 681-697, doi "
     "10.1007/s11071-010-9830-3",
-    validity="a contact that is narrow compared with the radii; the equation for F_e has no solution for a "
+    validity="a contact that is narrow compared with the radii; the equation for F_el has no solution for a "
     f"penetration above 4 clearances, and a run stops at 3.7 clearances; {SEPARATION}",
     fields=CYLINDER_FIELDS,
     build=build_normal_force,

@@ -1,9 +1,9 @@
 """Contact whose elastic force is an expression of the penetration that the file gives, with hysteresis damping.
 
-    F_n = F_e(δ) (1 + a δ̇/δ̇⁻),   F_e(0) = 0,   F_e ≥ 0
+    F_n = F_el(δ) (1 + a δ̇/δ̇⁻),   F_el(0) = 0,   F_el ≥ 0
 
-never negative unless it `pulls`. What the factor a delivers hangs on no form of F_e: m δ̈ = −F_e (1 + a δ̇/δ̇⁻) is
-m v dv/(1 + a v/δ̇⁻) = −F_e dδ, whose right side is the same on the way in and on the way out. So every factor of
+never negative unless it `pulls`. What the factor a delivers does not depend on F_el: m δ̈ = −F_el (1 + a δ̇/δ̇⁻) is
+m v dv/(1 + a v/δ̇⁻) = −F_el dδ, whose right side is the same on the way in and on the way out. So every factor of
 dissipation.py may go with it, `exact` too. How the expression is read, and what is looked at:
 equations/user_defined_laws.py.
 """
@@ -42,7 +42,7 @@ LAW = Law(
     name="expression",
     role="normal",
     title="An elastic force as an expression of the penetration, with a choice of hysteresis damping",
-    equation=(r"F_n = F_e(\delta) \max\left(0, 1 + a\,\frac{\dot\delta}{\dot\delta^{-}}\right)",),
+    equation=(r"F_n = F_{\mathrm{el}}(\delta) \max\left(0, 1 + a\,\frac{\dot\delta}{\dot\delta^{-}}\right)",),
     source="the file; the damping as K. H. Hunt, F. R. E. Crossley, J. Appl. Mech. 42 (1975) 440-445",
     reference="The file specifies the elastic force; the damping has the form of K. H. Hunt, F. R. E. Crossley, "
     "Journal of Applied Mechanics 42 (1975) 440-445, doi 10.1115/1.3423596",
@@ -55,7 +55,7 @@ LAW = Law(
             "force",
             "elastic force, an expression of the penetration delta, of parameters and of curves",
             FORCE,
-            symbol="f",
+            symbol=r"f_{\delta}",
             required=True,
             varies=OF_PENETRATION,
         ),

@@ -1,20 +1,21 @@
 """Oil film of a bearing of finite length with open ends and p ≥ 0: a potential with four fitted terms.
 
-Under that condition the force is the gradient of half the power that the film takes, F = −∂V/∂w, with V of the
-second degree in w. With s = √(1 − ε²), q = √(w_n² + s² w_t²), x = ε w_n/q, Λ = L/D and S = μ R_j³ L/c²
+Under that condition the force is the gradient of half the power that the film takes, F = −∂V_f/∂w, with V_f of
+the second degree in w. With s = √(1 − ε²) (s_ε in physics.md), w_ε = √(w_n² + s² w_t²), ξ = ε w_n/w_ε, Λ = L/D and
+S = μ R_j³ L/c²
 
-    V = S q² (a0 + a1 x + a2 x² + a3 x³)
-    F_r = −S [w_n (2 a0 + a1 x − a3 x³) + ε q (a1 + 2 a2 x + 3 a3 x²)],   F_t = −S s² w_t (2 a0 + a1 x − a3 x³)
+    V_f = c S w_ε² (a0 + a1 ξ + a2 ξ² + a3 ξ³),   F_r = −(1/c) ∂V_f/∂w_n,   F_t = −(1/c) ∂V_f/∂w_t
+    F_r = −S [w_n (2 a0 + a1 ξ − a3 ξ³) + ε w_ε (a1 + 2 a2 ξ + 3 a3 ξ²)],   F_t = −S s² w_t (2 a0 + a1 ξ − a3 ξ³)
 
-x lies between −ε and ε. a0 and a1 are what rotation makes of it, a2 and a3 what squeeze needs besides. A bearing leaks
+ξ lies between −ε and ε. a0 and a1 are what rotation makes of it, a2 and a3 what squeeze needs besides. A bearing leaks
 at its ends and around, one path beside the other: each has the short bearing's limit and the long one's power of s,
 
     a0 = π Λ²/(s³ (s² + g0 Λ²)),  a1 = 8 Λ²/(s³ (s² + g1 Λ²)),  a3 = 4/3 Λ²/(s (s² + g3 Λ²)²),
-    a2 = a1 + a3 − (1 − r) a0,    so that V = S q² [(1 + x)(a0 (1 − x) + a1 x + a3 x²) + r a0 x²]
+    a2 = a1 + a3 − (1 − r) a0,    so that V_f = c S w_ε² [(1 + ξ)(a0 (1 − ξ) + a1 ξ + a3 ξ²) + r a0 ξ²]
 
 with a small r > 0: next to nothing holds a journal that leaves the wall. Λ → 0 is Ocvirk's film, in rotation exactly.
 g0, g1, g3 and r are fitted to tables of `gudgeon.reynolds` by tools/finite_length.py, which prints them, under the
-condition that V > 0 for every ε < 1 and every Λ: then the film only dissipates.
+condition that V_f > 0 for every ε < 1 and every Λ: then the film only dissipates.
 That such a film has a potential, and its impedance: D. Childs, H. Moes, H. van Leeuwen, ASME J. Lubr. Technol. 99
 (1977) 198–214; the four terms and the fit are this project's.
 """
@@ -78,10 +79,11 @@ LAW = Law(
     role="film",
     title="Journal bearing of finite length, Reynolds' condition: fitted potential",
     equation=(
-        r"V = S q^2 (a_0 + a_1 x + a_2 x^2 + a_3 x^3), \quad S = \frac{\mu L R_j^3}{c^2}",
-        r"q = \sqrt{w_n^2 + s^2 w_t^2}, \quad x = \varepsilon w_n/q, \quad s = \sqrt{1"
-        r" - \varepsilon^2}, \quad \Lambda = L/D",
-        r"F_r = -\frac{\partial V}{\partial w_n}, \quad F_t = -\frac{\partial V}{\partial w_t}",
+        r"V_f = c\, S\, w_\varepsilon^2 (a_0 + a_1 \xi + a_2 \xi^2 + a_3 \xi^3), \quad S = \frac{\mu R_j^3 L}{c^2}",
+        r"w_\varepsilon = \sqrt{w_n^2 + s_\varepsilon^2 w_t^2}, \quad \xi = \varepsilon w_n/w_\varepsilon, \quad"
+        r" s_\varepsilon = \sqrt{1 - \varepsilon^2}",
+        r"F_r = -\frac{1}{c}\,\frac{\partial V_f}{\partial w_n}, \quad"
+        r" F_t = -\frac{1}{c}\,\frac{\partial V_f}{\partial w_t}",
     ),
     source="fit to gudgeon.reynolds by tools/finite_length.py; limits: F. W. Ocvirk, NACA TN 2808 (1952)",
     reference="A potential of four terms, fitted to Reynolds' equation (p above 0, open ends); the impedance of short, "

@@ -1,11 +1,11 @@
 """Greenwood and Tripp's mixed lubrication: asperities take the load as their overlap grows.
 
-    F = b F_dry + (1 − b) F_film,   b = F_{5/2}(Λ)/F_{5/2}(0),   Λ = 4 − δ/σ
+    F = b F_dry + (1 − b) F_film,   b = F_{5/2}(Λ)/F_{5/2}(0),   Λ = 4 − δ/σ_r
 
-F_{5/2}(Λ) = ∫ from Λ of (u − Λ)^{5/2} φ(u) du, with normal heights, is what the asperities' load is in proportion to;
-in the form that N. Patir, H. S. Cheng, Proc. 5th Leeds-Lyon Symp. (1978) 15–21, fit to it, 4.4086e-5 (4 − Λ)^6.804 for
-Λ < 4, b is (δ/(4σ))^6.804. How large the contact's force is its own law says; at Λ = 0, where the mean surfaces meet,
-it is alone. There b has a corner.
+F_{5/2}(Λ) = ∫ from Λ of (η − Λ)^{5/2} φ(η) dη, with normally distributed heights η, is proportional to the load of
+the asperities. N. Patir, H. S. Cheng, Proc. 5th Leeds-Lyon Symp. (1978) 15–21, fit it by 4.4086e-5 (4 − Λ)^6.804 for
+Λ < 4, so that b is (δ/(4σ_r))^6.804. The law of the dry contact gives its force. At Λ = 0 the mean surfaces meet and
+the dry contact acts alone; the slope of b jumps there.
 J. A. Greenwood, J. H. Tripp, Proc. Instn Mech. Engrs 185 (1970) 625–633; film and asperities side by side: K. L.
 Johnson, J. A. Greenwood, S. Y. Poon, Wear 19 (1972) 91–108.
 """

@@ -3,9 +3,9 @@
     F_n = K δ + D δ̇,   never negative unless it `pulls`
 
 The force begins with D δ̇⁻: it jumps at the onset. It ends where K δ = −D δ̇, before δ = 0, so that none is left to
-jump at the separation. With the reduced mass m, ω = √(K/m) and ζ = D/(2 m ω) < 1 the restitution is
+jump at the separation. With the effective mass m, ω_0 = √(K/m) and ζ = D/(2 m ω_0) < 1 the restitution is
 
-    e = exp(−(ζ/√(1 − ζ²)) (π − 2 arcsin ζ))
+    e_r = exp(−(ζ/√(1 − ζ²)) (π − 2 arcsin ζ))
 
 at any speed, and exp(−π ζ/√(1 − ζ²)) where it pulls until δ = 0 (T. Schwager, T. Pöschel, Granular Matter 9 (2007)
 465–469); the model: W. Goldsmith, Impact (1960).

@@ -1,6 +1,6 @@
 """Liu's contact of a journal that nearly fills its bearing: conforming cylinders, explicit in the penetration.
 
-    F_n = (π/2) L E* δ √(δ/(2(ΔR + δ))) (1 + a δ̇/δ̇⁻),   1/E* = (1 − ν_i²)/E_i + (1 − ν_j²)/E_j,   ΔR = R_i − R_j = c
+    F_n = (π/2) L E* δ √(δ/(2(c + δ))) (1 + a δ̇/δ̇⁻),   1/E* = (1 − ν_i²)/E_i + (1 − ν_j²)/E_j,   c = R_i − R_j
 
 never negative unless it `pulls`. C. S. Liu, K. Zhang, R. Yang, Mechanism and Machine Theory 42 (2007) 183–197; the
 damping factors are those of dissipation.py.

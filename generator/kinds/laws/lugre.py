@@ -1,11 +1,11 @@
 """LuGre friction: bristles bend before the surfaces slide, with static friction and damping of the bristles.
 
-    F_t = −F_n (σ0 z + σ1 ż),   ż = v_t − σ0 |v_t| z/g,   g = c_f + (c_s − c_f) e^{−(v_t/v_s)²}
+    F_t = −F_n (σ0 z + σ1 ż),   ż = v_t − σ0 |v_t| z/g_v,   g_v = c_f + (c_s − c_f) exp(−(v_t/v_s)²)
 
 z is the bristles' deflection, 0 at each onset; |z| ≤ c_s/σ0 for ever. As in tyres the bristles are as stiff as the load
-makes them. Steady sliding gives −F_n g sgn v_t. At a steady load ½ σ0 F_n z² is what they store, and it delivers no
-more than that where σ1 ≤ 4 g/|v_t|: v_t (σ0 z + σ1 ż) − σ0 z ż is a quadratic form in v_t and σ0 z √(|v_t|/g) that is
-nowhere negative then.
+makes them. Steady sliding gives −F_n g_v sgn v_t. At a steady load ½ σ0 F_n z² is what they store, and it delivers no
+more than that where σ1 ≤ 4 g_v/|v_t|: v_t (σ0 z + σ1 ż) − σ0 z ż is a quadratic form in v_t and σ0 z √(|v_t|/g_v) that
+is nowhere negative then.
 C. Canudas de Wit, H. Olsson, K. J. Åström, P. Lischinsky, IEEE Trans. Autom. Control 40 (1995) 419–425; C. Canudas de
 Wit, P. Tsiotras, Proc. 38th IEEE Conf. Decision and Control (1999) 3746–3751, for the load; N. Barabanov, R. Ortega,
 IEEE Trans. Autom. Control 45 (2000) 830–832, for the bound.
@@ -24,7 +24,7 @@ from gudgeon.language.units import make_dimension
 def build_friction_force(inputs: LawInputs) -> dict[str, Any]:
     """Return the friction force F_t (N) on the journal along t and the rate of the bristle state, as equations by name.
 
-    The rate is z_rate = v_t − σ_0 |v_t| z/g(v_t) (m/s).
+    The rate is z_rate = v_t − σ_0 |v_t| z/g_v (m/s).
     """
     import sympy as sp
 
@@ -47,15 +47,15 @@ LAW = Law(
     title="LuGre friction, with the deflection of bristles",
     equation=(
         r"F_t = -F_n (\sigma_0 z + \sigma_1 \dot z)",
-        r"\dot z = v_t - \sigma_0 |v_t|\, \frac{z}{g}",
-        r"g = c_f + (c_s - c_f)\, e^{-(v_t/v_s)^2}",
+        r"\dot z = v_t - \sigma_0 |v_t|\, \frac{z}{g_v}",
+        r"g_v = c_f + (c_s - c_f) \exp\left(-(v_t/v_s)^2\right)",
     ),
     source="C. Canudas de Wit et al., IEEE Trans. Autom. Control 40 (1995) 419-425; load as in C. Canudas de Wit, "
     "P. Tsiotras (1999)",
     reference="C. Canudas de Wit, H. Olsson, K. J. Astrom, P. Lischinsky, A new model for control of systems with "
     "friction, IEEE Transactions on Automatic Control 40 (1995) 419-425, doi 10.1109/9.376053; dependence on the "
     "load as in C. Canudas de Wit, P. Tsiotras (1999)",
-    validity="presliding and sliding; the friction force only dissipates energy where sigma_1 <= 4 g/|v_t|, "
+    validity="presliding and sliding; the friction force only dissipates energy where sigma_1 <= 4 g_v/|v_t|, "
     "for which sigma_1 <= 4 c_f/|v_t| is sufficient",
     fields=(
         number(

@@ -1,8 +1,8 @@
 """Modified Coulomb friction: no force below the slip v0, the full Coulomb force above v1.
 
-    F_t = −c_f c_d F_n,   c_d = clip((v_t − v0)/(v1 − v0), 0, 1) − clip((−v_t − v0)/(v1 − v0), 0, 1)
+    F_t = −c_f [clip((v_t − v_0)/(v_1 − v_0), 0, 1) − clip((−v_t − v_0)/(v_1 − v_0), 0, 1)] F_n
 
-which is the usual c_d(|v_t|) sgn(v_t), written without a corner at v_t = 0, where there is no force.
+which is the usual −c_d(|v_t|) F_n sgn(v_t), written without a corner at v_t = 0, where there is no force.
 
 J. A. C. Ambrósio's form of Coulomb's law, as in the paper (physics.md, section 3). It depends on the
 slip alone, so it cannot hold stick.
@@ -43,8 +43,8 @@ LAW = Law(
     role="friction",
     title="modified Coulomb friction",
     equation=(
-        r"F_t = -c_d c_f F_n\, \mathrm{sgn}(v_t)",
-        r"c_d = \min\left[1, \max\left(0, \frac{|v_t| - v_0}{v_1 - v_0}\right)\right]",
+        r"F_t = -c_d F_n\, \mathrm{sgn}(v_t)",
+        r"c_d = c_f \min\left[1, \max\left(0, \frac{|v_t| - v_0}{v_1 - v_0}\right)\right]",
     ),
     source="physics.md section 3, after J. A. C. Ambrosio",
     reference="J. A. C. Ambrosio, as in X. Chen, S. Gao, T. Wang, Nonlinear Dynamics, doi 10.1007/s11071-022-07478-4",

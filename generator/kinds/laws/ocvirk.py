@@ -1,18 +1,19 @@
 """Ocvirk's film of a short bearing with squeeze motion; only the half with positive pressure contributes.
 
-    (F_r, F_t) = (μ R_j L³/c²) ∫ (½ ω_s ε sin θ − ε̇ cos θ)(cos θ, sin θ)/(1 + ε cos θ)³ dθ,  θ₁ … θ₁ + π
-    θ₁ = atan2(ε̇, ½ ω_s ε)
+    (F_r, F_t) = S ∫ (½ ω_s ε sin φ − ε̇ cos φ)(cos φ, sin φ)/(1 + ε cos φ)³ dφ,  φ₁ … φ₁ + π
+    S = μ R_j L³/c²,   φ₁ = atan2(ε̇, ½ ω_s ε)
 
-in closed form. With W = √(w_n² + w_t²), cos θ₁ = −w_t/W, sin θ₁ = w_n/W, s = √(1 − ε²), D = 1 − ε² cos² θ₁ and
-P = π + 2 arctan(ε sin θ₁/s), the three integrals of (cos², sin cos, sin²)/(1 + ε cos θ)³ are
+in closed form, with the angle φ from the widest gap. With W = √(w_n² + w_t²), cos φ₁ = −w_t/W, sin φ₁ = w_n/W,
+s_ε = √(1 − ε²), D = 1 − ε² cos² φ₁ and P = π + 2 arctan(ε sin φ₁/s_ε), the three integrals of
+(cos², sin cos, sin²)/(1 + ε cos φ)³ are
 
-    cc = P (1 + 2 ε²)/(2 s⁵) + 3 ε sin θ₁/(s⁴ D) + 2 ε sin θ₁ cos² θ₁/(s² D²)
-    sc = −2 ε cos³ θ₁/D²
-    ss = P/(2 s³) + ε sin θ₁ (1 − 2 cos² θ₁ + ε² cos² θ₁)/(s² D²)
+    cc = P (1 + 2 ε²)/(2 s_ε⁵) + 3 ε sin φ₁/(s_ε⁴ D) + 2 ε sin φ₁ cos² φ₁/(s_ε² D²)
+    sc = −2 ε cos³ φ₁/D²
+    ss = P/(2 s_ε³) + ε sin φ₁ (1 − 2 cos² φ₁ + ε² cos² φ₁)/(s_ε² D²)
 
-by derivatives of ∫ dθ/(1 + ε cos θ) = P/s with respect to ε: nothing is divided by ε or ε̇.
+by derivatives of ∫ dφ/(1 + ε cos φ) = P/s_ε with respect to ε: nothing is divided by ε or ε̇.
 That is Guembel's condition: no pressure below that of the ends. With `cavitation: full`, Sommerfeld's, all of the gap
-carries, the oil pulls where the surfaces part, and with P = 2π: F_r = −S π (1 + 2 ε²) w_n/s⁵, F_t = −S π w_t/s³.
+carries, the oil pulls where the surfaces part, and with P = 2π: F_r = −S π (1 + 2 ε²) w_n/s_ε⁵, F_t = −S π w_t/s_ε³.
 F. W. Ocvirk, NACA TN 2808 (1952), half film; squeeze and the film's place as physics.md, section 4.
 """
 
@@ -68,10 +69,11 @@ LAW = Law(
     role="film",
     title="Ocvirk: short journal bearing, half film, with squeeze",
     equation=(
-        r"\begin{pmatrix} F_r \\ F_t \end{pmatrix} = \frac{\mu R_j L^3}{c^2} \int_{\theta_1}^{\theta_1"
-        r" + \pi} \frac{\frac{1}{2} \omega_s \varepsilon \sin\theta - \dot\varepsilon \cos\theta}{(1"
-        r" + \varepsilon \cos\theta)^3} \begin{pmatrix} \cos\theta \\ \sin\theta \end{pmatrix} d\theta",
-        r"\theta_1 = \mathrm{atan2}\left(\dot\varepsilon, \tfrac{1}{2} \omega_s \varepsilon\right)",
+        r"\begin{pmatrix} F_r \\ F_t \end{pmatrix} = S \int_{\varphi_1}^{\varphi_1"
+        r" + \pi} \frac{\frac{1}{2} \omega_s \varepsilon \sin\varphi - \dot\varepsilon \cos\varphi}{(1"
+        r" + \varepsilon \cos\varphi)^3} \begin{pmatrix} \cos\varphi \\ \sin\varphi \end{pmatrix} d\varphi",
+        r"S = \frac{\mu R_j L^3}{c^2}, \quad \varphi_1 = \mathrm{atan2}\left(\dot\varepsilon, \tfrac{1}{2} \omega_s"
+        r" \varepsilon\right)",
     ),
     source="F. W. Ocvirk, NACA TN 2808 (1952), with squeeze",
     reference="F. W. Ocvirk, Short-bearing approximation for full journal bearings, NACA Technical Note 2808 (1952), "

@@ -1,12 +1,12 @@
 """Long-bearing film of Pinkus and Sternlicht in a form without branch, arctangent or division by ε.
 
-    s = √(1 − ε²),  W = √(w_n² + w_t²),  f = 1 + 1.5 ε w_n/(s W + 1.5 ε |w_n|),  S = 6 μ R_j³ L/c²
-    F_r = −(S/s³)[4 ε s W/(2 + ε²) + π w_n f],   F_t = −2π S w_t f/((2 + ε²) s)
+    s_ε = √(1 − ε²),  W = √(w_n² + w_t²),  f = 1 + 1.5 ε w_n/(s_ε W + 1.5 ε |w_n|),  S = 6 μ R_j³ L/c²
+    F_r = −(S/s_ε³)[4 ε s_ε W/(2 + ε²) + π w_n f],   F_t = −2π S w_t f/((2 + ε²) s_ε)
 
 w is the effective squeeze velocity ė − ½(ω_i + ω_j) ẑ × e, over c: w_n = ε̇, w_t = −½ ε ω_s. It is the
 formula of O. Pinkus, B. Sternlicht, Theory of Hydrodynamic Lubrication (1961) with the sign of the
 radial force for ε̇ < 0 corrected; option `as_printed` restores the sign that the paper prints.
-With `shear` the film also carries the friction torque T0 = 2π μ R_j³ L (ω_j − ω_i)/(c s).
+With `shear` the film also transmits the shear torque M_τ = 2π μ R_j³ L (ω_j − ω_i)/(c s_ε).
 """
 
 from __future__ import annotations
@@ -58,10 +58,12 @@ LAW = Law(
     role="film",
     title="Pinkus and Sternlicht: long journal bearing, half film",
     equation=(
-        r"F_r = -\frac{S}{s^3} \left[\frac{4 \varepsilon s W}{2 + \varepsilon^2} + \pi w_n f\right]",
-        r"F_t = -\frac{2 \pi S w_t f}{(2 + \varepsilon^2)\, s}",
-        r"f = 1 + \frac{3 \varepsilon w_n}{2 s W + 3 \varepsilon |w_n|}",
-        r"S = \frac{6 \mu R_j^3 L}{c^2}, \quad s = \sqrt{1 - \varepsilon^2}, \quad W = \sqrt{w_n^2 + w_t^2}",
+        r"F_r = -\frac{S}{s_\varepsilon^3} \left[\frac{4 \varepsilon s_\varepsilon W}{2 + \varepsilon^2}"
+        r" + \pi w_n f\right]",
+        r"F_t = -\frac{2 \pi S w_t f}{(2 + \varepsilon^2)\, s_\varepsilon}",
+        r"f = 1 + \frac{3 \varepsilon w_n}{2 s_\varepsilon W + 3 \varepsilon |w_n|}",
+        r"S = \frac{6 \mu R_j^3 L}{c^2}, \quad s_\varepsilon = \sqrt{1 - \varepsilon^2}, \quad W = \sqrt{w_n^2"
+        r" + w_t^2}",
     ),
     source="O. Pinkus, B. Sternlicht, Theory of Hydrodynamic Lubrication (1961), sign corrected",
     reference="O. Pinkus, B. Sternlicht, Theory of hydrodynamic lubrication, McGraw-Hill, New York (1961), sign "

@@ -4,8 +4,8 @@ Friction by slip: the parts of c_d(v_t), which is odd, without a corner at v_t =
 oil, clearance and shear torque. Mixed lubrication: the roughness of both surfaces, and where its tips first touch.
 
 The bearing's clearance c is that of the tips: at δ = 0 the highest of them touch. There the mean surfaces are still
-Λ₀ σ apart, so that the film thickness ratio is Λ = h/σ = Λ₀ − δ/σ, h = c + Λ₀ σ − e, and the film, which fills the gap
-between the mean surfaces, has the clearance c + Λ₀ σ: where the tips touch it is finite.
+Λ₀ σ_r apart, so that the film thickness ratio is Λ = h/σ_r = Λ₀ − δ/σ_r, h = c + Λ₀ σ_r − e. The film, which fills the
+gap between the mean surfaces, has the clearance c + Λ₀ σ_r: where the tips touch it is finite.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ def declare_slip_field(name: str, meaning: str, symbol: str) -> Field:
 def make_odd_function(v_t: Any, positive_branch: Callable[[Any], Any]) -> Any:
     """Return an odd function of the slip v_t from its values at positive slip.
 
-    `positive_branch` returns the value at u = max(v_t, 0), and 0 at u = 0.
+    `positive_branch` returns the value at a slip max(v_t, 0), and 0 at 0.
     """
     import sympy as sp
 
@@ -57,7 +57,7 @@ EXTRA_CLEARANCE = number(
     "extra_clearance",
     "added to c, in the film law only",
     LENGTH,
-    symbol="e_t",
+    symbol="c_a",
     default=0.0,
     bounds=(Bound(">=", 0.0),),
 )
@@ -88,7 +88,7 @@ def make_film_clearance(inputs: LawInputs) -> Any:
 def make_shear_torque(inputs: LawInputs, film_clearance: Any, eccentricity_root: Any) -> Any:
     """Return the shear torque of a full gap per unit ω_j − ω_i (N·m·s), 0 without the option `shear`.
 
-    film_clearance: clearance of the film (m); eccentricity_root: √(1 − ε²). T0 = 2π μ R_j³ L/(c √(1 − ε²))
+    film_clearance: clearance of the film (m); eccentricity_root: √(1 − ε²). It is D_s = 2π μ R_j³ L/(c √(1 − ε²)).
     """
     import sympy as sp
 

@@ -1,6 +1,6 @@
 """Stribeck's friction: static friction that falls to kinetic friction as the surfaces slide, smoothed at v_t = 0.
 
-    F_t = −F_n [c_f + (c_s − c_f) e^{−(v_t/v_s)²}] tanh(v_t/v0)
+    F_t = −F_n [c_f + (c_s − c_f) exp(−(v_t/v_s)²)] tanh(v_t/v_0)
 
 R. Stribeck, Z. VDI 46 (1902) 1341; the Gaussian fall is that of L. C. Bo, D. Pavelescu, Wear 82 (1982) 277–289, with
 exponent 2.
@@ -30,7 +30,7 @@ LAW = Law(
     name="stribeck",
     role="friction",
     title="Stribeck's friction: static friction falls to kinetic friction",
-    equation=(r"F_t = -F_n \left[c_f + (c_s - c_f)\, e^{-(v_t/v_s)^2}\right] \tanh\frac{v_t}{v_0}",),
+    equation=(r"F_t = -F_n \left[c_f + (c_s - c_f) \exp\left(-(v_t/v_s)^2\right)\right] \tanh\frac{v_t}{v_0}",),
     source="R. Stribeck (1902); L. C. Bo, D. Pavelescu, Wear 82 (1982) 277-289, exponent 2",
     reference="R. Stribeck, Zeitschrift des Vereines deutscher Ingenieure 46 (1902); L. C. Bo, D. Pavelescu, The "
     "friction-speed relation and its influence on the critical velocity of stick-slip motion, Wear 82 (1982) "

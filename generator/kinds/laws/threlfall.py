@@ -1,6 +1,6 @@
 """Threlfall's friction, which rises exponentially with the slip up to the slip v_r.
 
-    F_t = −c_f F_n (1 − e^{−3u/v_r}) sgn v_t,   u = min(|v_t|, v_r)
+    F_t = −c_f F_n (1 − exp(−3 min(|v_t|, v_r)/v_r)) sgn v_t
 
 so that .9502 c_f F_n is reached at v_r and stays. A. G. Threlfall, Mechanism and Machine Theory 13 (1978) 475–483, as
 E. Pennestri et al., Nonlinear Dynamics 83 (2016) 1785–1801, give it.
@@ -30,7 +30,7 @@ LAW = Law(
     name="threlfall",
     role="friction",
     title="Threlfall's friction: an exponential rise with the slip",
-    equation=(r"F_t = -c_f F_n \left(1 - e^{-3 u/v_r}\right) \mathrm{sgn}(v_t), \quad u = \min(|v_t|, v_r)",),
+    equation=(r"F_t = -c_f F_n \left[1 - \exp\left(-\frac{3 \min(|v_t|, v_r)}{v_r}\right)\right] \mathrm{sgn}(v_t)",),
     source="A. G. Threlfall, Mechanism and Machine Theory 13 (1978) 475-483",
     reference="A. G. Threlfall, The inclusion of Coulomb friction in mechanisms programs with particular reference to "
     "DRAM, Mechanism and Machine Theory 13 (1978) 475-483, as in E. Pennestri et al., Nonlinear Dynamics 83 "

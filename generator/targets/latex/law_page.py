@@ -23,7 +23,7 @@ _CHOICES = {
     "geometry": "R_i + R_j in the equation of K becomes R_i − R_j.",
     "pulls": "the equation of F_n applies without max(0, …).",
     "shear": "the film also transmits the [shear torque](physics.md#line-of-action-and-shear-torque)"
-    " T_0 = D_s (ω_j − ω_i), with D_s in N·m·s and the clearance c_film = c + e_t of the film.",
+    " M_τ = D_s (ω_j − ω_i), with D_s in N·m·s and the clearance c_film = c + c_a of the film.",
     "cavitation": "the whole film contributes, with S = μ R_j L³/c_film²:",
     "as_printed": "the radial force has the sign that Chen, Gao and Wang (2022) print:",
 }
@@ -68,8 +68,9 @@ def _describe_dissipation() -> Iterator[str]:
     yield from ("## The dissipation of a normal force", "")
     yield (
         "The key `dissipation` chooses the hysteresis damping factor a of 1 + a δ̇/δ̇⁻ in the laws `esdu_78035`,"
-        " `expression`, `hertz`, `johnson` and `liu`. Each column `c_e = …` gives the restitution e that a free impact"
-        " delivers for that specified restitution c_e. The restitution e solves a (1 + e) = ln[(1 + a)/(1 − a e)]."
+        " `expression`, `hertz`, `johnson` and `liu`. Each column `c_e = …` gives the restitution e_r that a free"
+        " impact delivers for that specified restitution c_e. The restitution e_r solves"
+        " a (1 + e_r) = ln[(1 + a)/(1 − a e_r)]."
     )
     restitutions = " | ".join(f"c_e = {c_e:g}" for c_e in SPECIFIED_RESTITUTIONS)
     yield from ("", f"| `dissipation` | a | {restitutions} | source |", "|" + "---|" * 6)

@@ -38,19 +38,21 @@ from gudgeon.language.units import find_si_unit
 def describe_contour(joint: JointWithPlay) -> Iterator[Block]:
     """Yield the equation of the bearing's angle and the paragraph on its contour.
 
-    The joint must have a contour. The paragraph states the number of depths w and the direction of the force.
+    The joint must have a contour. The paragraph states the number of depths d and the direction of the force.
     """
     clearance = joint.clearance
     assert clearance.contour
     yield make_equation(contact.theta_i, joint.notation.expand_symbols(clearance.first.theta), joint.notation, joint.of)
     yield make_paragraph(
-        f"The bearing is no circle: w is how much deeper it is, {clearance.contour.count} depths at equal angles from "
-        f"the x axis of {clearance.joint.first.body} on, between them polynomials of degree five with two continuous "
-        "derivatives. F acts along the gradient of ",
+        f"The bearing is not circular: d is how much deeper it is, {clearance.contour.count} depths at equal angles "
+        f"from the x axis of {clearance.joint.first.body} on, between them polynomials of degree five with two "
+        "continuous derivatives. The normal law gives ",
+        joint.notation.format_expression(sp.Symbol("F_n", real=True)),
+        ", which acts along the gradient of ",
         Name(r"\delta", "δ"),
         ", whose length is ",
         joint.notation.format_expression(contact.steep),
-        ": an elastic force keeps the energy.",
+        ": an elastic force is conservative.",
     )
 
 
@@ -90,7 +92,7 @@ def describe_rigid_contact(joint: JointWithPlay, approach_speed: Name) -> Block:
         " times that, or leaves them together where that is less than ",
         threshold,
         f"; all rows and contacts that are closed bear it{friction_note}. A contact that is closed has the force ",
-        Name(r"\lambda \geq 0,\ \ddot{\delta} \leq 0,\ \lambda \ddot{\delta} = 0", "λ ≥ 0, δ̈ ≤ 0, λ δ̈ = 0"),
+        Name(r"\lambda_n \geq 0,\ \ddot{\delta} \leq 0,\ \lambda_n \ddot{\delta} = 0", "λ_n ≥ 0, δ̈ ≤ 0, λ_n δ̈ = 0"),
         ".",
     )
 
@@ -161,7 +163,7 @@ class JointWithPlay:
         section_name, *parts = (
             ("guides", "guide", "slider") if isinstance(bearing, Guide) else ("bearings", "bearing", "journal")
         )
-        materials = [(i, "", "both")] if i == j else [(i, "_i", parts[0]), (j, "_j", parts[1])]
+        materials = [(i, "_i", "both")] if i == j else [(i, "_i", parts[0]), (j, "_j", parts[1])]
         for material, index, part in materials if self.clearance.normal is not None else []:
             name = self.model.scene.materials.get(f"{section_name}.{bearing.name}.{part}_material", material.name)
             yield material.numbers["E"], f"E{index}", f"modulus of elasticity of {name} ({part})"

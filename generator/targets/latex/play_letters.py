@@ -93,19 +93,18 @@ NAMES: Mapping[sp.Symbol, Name] = {
     beta_i: make_symbol_name("beta", "i"),
     u_x: make_symbol_name("u", "x"),
     u_y: make_symbol_name("u", "y"),
-    worn: make_symbol_name("w"),
-    worn_slope: Name("w'", "w'"),
+    worn: make_symbol_name("d"),
+    worn_slope: Name("d'", "d'"),
     beta_rate: make_symbol_name("beta", "i", dots=1),
     slant: make_symbol_name("r"),
-    steep: make_symbol_name("zeta"),
-    F_N: make_symbol_name("F", "N"),
+    steep: make_symbol_name("Gamma"),
     sp.Symbol("F_n", real=True): make_symbol_name("F", "n"),
     sp.Symbol("F_r", real=True): make_symbol_name("F", "r"),
-    sp.Symbol(CONSTRAINT_VARIABLES[0], real=True): make_symbol_name("lambda"),
+    sp.Symbol(CONSTRAINT_VARIABLES[0], real=True): make_symbol_name("lambda", "n"),
 }
 # What the laws call their abbreviations and constants, by the paper's symbols.
 LAW_SYMBOL_NAMES = {
-    "root": make_symbol_name("s"),
+    "root": make_symbol_name("s", "epsilon"),
     "factor": make_symbol_name("f"),
     "hysteresis": make_symbol_name("a"),
     "film_clearance": make_symbol_name("c", "film"),
@@ -124,12 +123,17 @@ LAW_SYMBOL_NAMES = {
     "left": make_symbol_name("y"),
     "F_e": make_symbol_name("F", "el"),
 }
+# Abbreviations of single laws, by the letters of physics.md.
+LAW_SPECIFIC_NAMES = {
+    ("finite_length", "q"): make_symbol_name("w", "epsilon"),
+    ("finite_length", "x"): make_symbol_name("xi"),
+}
 _LETTERS_AT_WALL = (("c", "c"), ("R_i", "h_i"))  # lengths of the slider, which points of bodies have too, keep theirs
 GUIDE = (
     ("gap", "c", "gap on each side"),
-    ("half_length", "a", "half the slider's length"),
-    ("half_height", "b", "half the slider's height"),
-    ("corner_radius", r"\rho", "radius of the slider's corners"),
+    ("half_length", "a_g", "half the slider's length"),
+    ("half_height", "b_g", "half the slider's height"),
+    ("corner_radius", r"\rho_g", "radius of the slider's corners"),
 )
 RATIO, CLIPPED = Name(r"\frac{\dot{\delta}}{\dot{\delta}^{-}}", "(δ̇/δ̇⁻)"), make_symbol_name("r")
 
@@ -151,6 +155,8 @@ def name_contact_variables(clearance: Clearance) -> dict[sp.Symbol, Name]:
             step_names[symbol] = make_symbol_name(base, index)
     if len(parts) < 2:
         del step_names[share]
+    if clearance.contour:  # friction depends on the normal force F_N; the normal law gives F_n along the gradient of δ
+        step_names |= {F_N: make_symbol_name("F", "n"), sp.Symbol("F_n", real=True): make_symbol_name("F", "delta")}
     if clearance.wall:
         step_names |= {M_i: make_symbol_name("M", "i"), make_part_symbol(M_i, "dry"): make_symbol_name("M", "i", "t")}
     return step_names
@@ -177,7 +183,7 @@ def _propose_symbol_names(model: Model, clearance: Clearance) -> Iterator[tuple[
     for constant in ("E", "nu"):
         i, j = getattr(pair, f"{constant}_i"), getattr(pair, f"{constant}_j")
         yield from (
-            [(i, make_symbol_name(constant))]
+            [(i, make_symbol_name(constant, "i"))]
             if i == j
             else [(i, make_symbol_name(constant, "i")), (j, make_symbol_name(constant, "j"))]
         )
@@ -225,7 +231,8 @@ def name_law_variable(law: Law, name: str) -> Name:
     """Return the name of an abbreviation or result of a law; the rate of an inner state has a dot."""
     name = name.removesuffix("__")  # of a user-defined law
     rate_names = {f"{state.name}_rate": make_symbol_name(state.name, dots=1) for state in law.states}
-    return (LAW_SYMBOL_NAMES | rate_names).get(name) or make_word_name(name)
+    of_law = LAW_SPECIFIC_NAMES.get((law.name, name))
+    return of_law or (LAW_SYMBOL_NAMES | rate_names).get(name) or make_word_name(name)
 
 
 def get_latex_symbol(parameter: Field) -> str:

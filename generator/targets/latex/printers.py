@@ -107,8 +107,8 @@ class TextPrinter(_BodyOrder, StrPrinter):
     _print_UnevaluatedQuotient = _print_Unevaluated
 
     def _print_ContourOf(self, expr: ContourOf) -> str:
-        """Print W or its derivative."""
-        return f"W{_PRIME * expr.order}({self._print(expr.args[3])})"
+        """Print the depth d of a contour or its derivative."""
+        return f"d{_PRIME * expr.order}({self._print(expr.args[3])})"
 
     def _print_CurveOf(self, expr: CurveOf) -> str:
         """Print a curve or its derivative."""
@@ -198,8 +198,8 @@ class TexPrinter(_BodyOrder, LatexPrinter):
         return power if mantissa == "1" else rf"{mantissa} \cdot {power}"
 
     def _print_ContourOf(self, expr: ContourOf, exp: str | None = None) -> str:
-        """Print W or its derivative."""
-        text = rf"W{_PRIME * expr.order}\left({self._print(expr.args[3])}\right)"
+        """Print the depth d of a contour or its derivative."""
+        text = rf"d{_PRIME * expr.order}\left({self._print(expr.args[3])}\right)"
         return rf"\left({text}\right)^{{{exp}}}" if exp else text
 
     def _print_CurveOf(self, expr: CurveOf, exp: str | None = None) -> str:

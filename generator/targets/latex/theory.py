@@ -143,7 +143,7 @@ def _list_clearance_symbols(model: Model, clearance: Clearance) -> Iterator[str]
     if clearance.normal is not None and clearance.film is not None:
         yield from ("d", "f", "b")
     if clearance.contour:
-        yield from ("W", "F", "w")
+        yield "d"
 
 
 def _list_clearance_assignments(clearance: Clearance) -> Iterator[Assignment]:
