@@ -36,7 +36,7 @@ bearings: {{pin: {{radius: 10 mm, clearance: 0.1 mm, length: 20 mm, bearing_mate
 contacts: {{it: {{{contact}}}}}
 scenes: {{alone: {{play: {{A: {{bearing: pin, contact: it}}}}}}}}
 """
-# Ranges of the random variables in SI; inner states of laws as z.
+# Ranges of the random variables in SI; internal states of laws as z.
 DRAWN = {
     "delta": (0.0, 5e-6),
     "ratio": (-1.0, 1.0),

@@ -1,7 +1,8 @@
 /*
- * Scores of the site's search (html_search_scorer): Sphinx's own values, with pages for contributors after the others,
- * unless the query is half of a title or more.
- * Each result is [page, title, anchor, description, score, file name, kind].
+ * Score the results of the site's search (html_search_scorer of Sphinx).
+ *
+ * The values are Sphinx's own. Pages for contributors come after the others, unless the query is half of a title or
+ * more. Each result is [page, title, anchor, description, score, file name, kind].
  */
 var Scorer = {
   score: ([page, , , , score, , kind]) =>

@@ -1,5 +1,6 @@
 /*
- * The search of the built site, as a browser runs it: the first pages for each query, as JSON.
+ * Search the built site as a browser does, and print the first five pages for each query as JSON.
+ *
  * node search.js SITE QUERY ...
  */
 const fs = require("fs");

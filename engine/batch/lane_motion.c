@@ -38,19 +38,19 @@ static LaneBits find_nonfinite_lanes(const Lanes *a, const Lanes *b, int n)
     return ~(lanes_fabs(sum) <= DBL_MAX);
 }
 
-#include "../scalar_simd/inner_states.h"
+#include "../scalar_simd/internal_states.h"
 
 /*
- * Compute the rates dy of the integrated state y at times t (s) and the outputs rhs, in all lanes. Inner states of
+ * Compute the rates dy of the integrated state y at times t (s) and the outputs rhs, in all lanes. Internal states of
  * contact laws are copied from y, their rates to dy. Always return 0: lanes in which the evaluation fails are added to
  * the mask run->discrete.rare.
  */
 static int evaluate_run_rhs(
     LaneIntegrator *run, Lanes t, const Lanes *y, const LaneParameters *p, Lanes *dy, LaneRhsOutputs *rhs)
 {
-    copy_inner_states(&run->discrete, y);
+    copy_internal_states(&run->discrete, y);
     evaluate_lane_rhs(t, y, &run->discrete, p, dy, rhs);
-    copy_inner_rates(rhs, dy);
+    copy_internal_state_rates(rhs, dy);
     return 0;
 }
 

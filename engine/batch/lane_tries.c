@@ -136,7 +136,7 @@ static inline Lanes read_stage_component(const LaneStep *step, int s, int i) { r
  */
 static int factor_newton_matrix(LaneIntegrator *run, Lanes hg, const LaneParameters *p)
 {
-    copy_inner_states(&run->discrete, run->y);
+    copy_internal_states(&run->discrete, run->y);
     linearize(run->t, run->y, run->y + N_X, &run->discrete, p, run->dy + N_X, &run->rhs, &run->newton.linear,
         &run->discrete.rare);
     newton_factor(hg, &run->newton.linear, &run->discrete.rare);

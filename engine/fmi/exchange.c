@@ -40,7 +40,7 @@ static int evaluate_exchange_rates(Model *model, double *dx, RhsOutputs *rhs)
 
 /*
  * Raise the nominal of each velocity to the largest present velocity of its kind (length or angle), and those of works
- * and inner states to the kinetic energy, J. Nominals are never lowered. Return whether any was raised.
+ * and internal states to the kinetic energy, J. Nominals are never lowered. Return whether any was raised.
  */
 static int raise_nominals(Model *model)
 {

@@ -77,11 +77,11 @@ static int is_starting_in_contact(const Integrator *run)
 }
 
 /*
- * Set the error weights of the inner states of contact laws, such as bristle deflections, once at the start. They are
- * relative to the deflection at which a joint slides, or treated as lengths if that is 0. Nothing is done in scenes
- * without inner states.
+ * Set the error weights of the internal states of contact laws, such as bristle deflections, once at the start. They
+ * are relative to the deflection at which a joint slides, or treated as lengths if that is 0. Nothing is done in scenes
+ * without internal states.
  */
-static void set_inner_state_weights(Integrator *run, const Parameters *p)
+static void set_internal_state_weights(Integrator *run, const Parameters *p)
 {
 #if LAW_STATES
     const double length = is_angle[0] ? run->norm.min_size[0] / run->norm.min_size[1] : 1.0;
@@ -132,7 +132,7 @@ static int begin_integration(Integrator *run, double time_left, const Parameters
     update_speeds(run);
     /* error weights are its inverse */
     run->norm.energy_scale = max_of(compute_initial_energy_scale(run, p), MIN_RESOLVED / run->norm.work_scale);
-    set_inner_state_weights(run, p);
+    set_internal_state_weights(run, p);
     update_error_weights(run);
     if (!status)
         status = apply_drive_jumps_now(run, p); /* to the branches after the jumps */

@@ -11,7 +11,7 @@
 static int factor_newton_matrix(Integrator *run, double hg, const Parameters *p)
 {
     if (run->newton.ready != IN_RUN) {
-        copy_inner_states(&run->discrete, run->y);
+        copy_internal_states(&run->discrete, run->y);
         const int status = linearize_state(run->t, run->y, &run->discrete, p, run->dy + N_X, &run->rhs,
             &run->newton.linear);
         if (status)

@@ -140,7 +140,7 @@ static void check_constraints(Integrator *run, double t, const double *absolute_
 #if TREE
 /*
  * Compute the states of all bodies at t - h and t + h (s) from the state y and its rates dy at t. Coordinates are
- * extrapolated quadratically and velocities linearly; inner states of laws stay. neighbours[0], neighbours[1]: the
+ * extrapolated quadratically and velocities linearly; internal states of laws stay. neighbours[0], neighbours[1]: the
  * results. Return the exact difference of both times in s, which rounding makes different from 2 h. Used by
  * check_accelerations() for central differences.
  */

@@ -19,9 +19,9 @@ static int project_contacts(
     for (int pass = 0; pass < 3; pass++) {
         double dy[N_Y], depth[N_RIGID], rate[N_RIGID], x[N_RIGID], u[N_RIGID], largest_ratio = 0.0;
         RhsOutputs rhs;
-        int status = compute_delassus(evaluate_motion_with_inner_states, N_Y, t, y, &discrete, p, contacts);
+        int status = compute_delassus(evaluate_motion_with_internal_states, N_Y, t, y, &discrete, p, contacts);
         if (!status)
-            status = evaluate_motion_with_inner_states(t, y, &discrete, p, dy, &rhs);
+            status = evaluate_motion_with_internal_states(t, y, &discrete, p, dy, &rhs);
         count_evaluations(run, contacts->n + 2);
         if (status)
             return status;

@@ -16,8 +16,8 @@ static double compute_penetration_tolerance(const Parameters *p, int joint)
         : -SHALLOW_RIGID * radial_clearance(p, joint);
 }
 
-/* Set the integrated inner states of the contact laws of a joint to zero, when its contact begins or ends. */
-static void reset_inner_states(Integrator *run, int joint)
+/* Set the integrated internal states of the contact laws of a joint to zero, when its contact begins or ends. */
+static void reset_internal_states(Integrator *run, int joint)
 {
     for (int k = 0; k < LAW_STATES; k++)
         run->y[FIRST_STATE + joint * LAW_STATES + k] = 0.0;
@@ -121,7 +121,7 @@ static inline void set_force_rising(Integrator *run, int joint,
 
 /*
  * Begin the contact of a joint with compliant surfaces at time t (s). The approach speed deltadot (m/s), raised to
- * min_speed, is stored; inner states of the laws restart, and the onset is counted.
+ * min_speed, is stored; internal states of the laws restart, and the onset is counted.
  */
 static void close_contact(Integrator *run, int joint, double t, double deltadot, double min_speed)
 {
@@ -129,19 +129,19 @@ static void close_contact(Integrator *run, int joint, double t, double deltadot,
     run->discrete.contact[joint].deltadot_minus = max_of(deltadot, min_speed);
     run->contacts.is_compressing[joint] = 1;
     run->contacts.is_rising[joint] = 1;
-    reset_inner_states(run, joint);
+    reset_internal_states(run, joint);
     run->contacts.onsets++;
     start_contact_record(run, joint, t, run->discrete.contact[joint].deltadot_minus);
 }
 
 /*
- * End the contact of a joint with compliant surfaces at time t (s), reset the inner states of its laws, and append the
- * contact to the list that Python fetches.
+ * End the contact of a joint with compliant surfaces at time t (s), reset the internal states of its laws, and append
+ * the contact to the list that Python fetches.
  */
 static void open_contact(Integrator *run, int joint, double t)
 {
     run->discrete.contact[joint].closed = 0;
-    reset_inner_states(run, joint);
+    reset_internal_states(run, joint);
     run->contacts.open[joint].t_off = t;
     append_contact(run, &run->contacts.open[joint]);
 }

@@ -52,7 +52,7 @@ static int diagnose_stall(const Integrator *run, int default_status, const Param
         contacts.n = list_closed_contacts(&discrete, contacts.joint);
         if (smooth)
             disable_friction(&discrete);
-        if (compute_delassus(evaluate_motion_with_inner_states, N_Y, run->t, run->y, &discrete, p, &contacts))
+        if (compute_delassus(evaluate_motion_with_internal_states, N_Y, run->t, run->y, &discrete, p, &contacts))
             return default_status;
         solve_contact_subset(&contacts, NULL, contacts.r, force[smooth]);
         for (int k = 0; k < contacts.n; k++) {
@@ -76,7 +76,7 @@ static void update_frozen_branches(Integrator *run, const Parameters *p)
         RhsOutputs rhs;
         changed = 0;
         count_evaluations(run, 1);
-        if (evaluate_motion_with_inner_states(run->t, run->y, &run->discrete, p, dy, &rhs))
+        if (evaluate_motion_with_internal_states(run->t, run->y, &run->discrete, p, dy, &rhs))
             return; /* the next evaluation reports the status */
         for (int k = 0; k < N_SWITCHES; k++)
             if (run->discrete.branch[k] * rhs.g[k] < 0.0) {
@@ -106,7 +106,7 @@ static int compute_slips_after_impact(Integrator *run, const Delassus *impact, c
             y[N_X + i] += impact->response[k][N_X + i] * impulse[k];
     }
     count_evaluations(run, 1);
-    const int status = evaluate_motion_with_inner_states(run->t, y, &discrete, p, dy, &rhs);
+    const int status = evaluate_motion_with_internal_states(run->t, y, &discrete, p, dy, &rhs);
     for (int k = 0; k < impact->n; k++) {
         const Clearance *joint = &rhs.clearance[impact->joint[k]];
         slip[k] = joint->v_t;
@@ -128,7 +128,7 @@ static int compute_tangential_response(Integrator *run, const Delassus *impact, 
     RhsOutputs rhs;
     discrete.contact[impact->joint[contact]].along = unit_impulse;
     count_evaluations(run, 2);
-    int status = evaluate_motion_with_inner_states(run->t, run->y, &discrete, p, rates_pushed, &rhs);
+    int status = evaluate_motion_with_internal_states(run->t, run->y, &discrete, p, rates_pushed, &rhs);
     discrete.contact[impact->joint[contact]].along = 0.0;
     for (int i = 0; i < N_Y; i++)
         y[i] = run->y[i];
@@ -136,7 +136,7 @@ static int compute_tangential_response(Integrator *run, const Delassus *impact, 
         friction->velocity[contact][i] = (rates_pushed[N_X + i] - base_rates[N_X + i]) / unit_impulse;
         y[N_X + i] += friction->velocity[contact][i] * unit_impulse;
     }
-    status = status ? status : evaluate_motion_with_inner_states(run->t, y, &discrete, p, rates_pushed, &rhs);
+    status = status ? status : evaluate_motion_with_internal_states(run->t, y, &discrete, p, rates_pushed, &rhs);
     for (int k = 0; k < impact->n; k++) {
         const int i = impact->joint[k];
         friction->gap_rate[k][contact] = (rhs.clearance[i].deltadot - rhs_base->clearance[i].deltadot) / unit_impulse;
@@ -230,7 +230,7 @@ static int compute_friction_impulses(
     for (int k = 0; k < impact->n; k++)
         run->discrete.contact[impact->joint[k]].force = 0.0;
     count_evaluations(run, 1);
-    int status = evaluate_motion_with_inner_states(run->t, run->y, &run->discrete, p, base_rates, &rhs_before);
+    int status = evaluate_motion_with_internal_states(run->t, run->y, &run->discrete, p, base_rates, &rhs_before);
     solve_contact_subset(impact, pushes, approach_speed, impulse_plastic);
     status = status ? status : compute_slips_after_impact(run, impact, impulse_plastic, unit_force, p,
         friction->plastic, mu_plastic);

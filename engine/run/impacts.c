@@ -58,7 +58,7 @@ static double compute_flight_step_limit(const Integrator *run, const Step *step,
 static int compute_present_delassus(Integrator *run, const Parameters *p, Delassus *contacts)
 {
     count_evaluations(run, 1 + contacts->n);
-    return compute_delassus(evaluate_motion_with_inner_states, N_Y, run->t, run->y, &run->discrete, p, contacts);
+    return compute_delassus(evaluate_motion_with_internal_states, N_Y, run->t, run->y, &run->discrete, p, contacts);
 }
 
 /*

@@ -3,19 +3,19 @@
 #include "../watch/zeros.h"
 #include "../scalar_simd/scalar.h"
 
-#include "../scalar_simd/inner_states.h"
+#include "../scalar_simd/internal_states.h"
 
 /*
- * Evaluate the right-hand side at (t, y) with the inner states of contact laws, for the rigid contact forces stored in
- * `discrete`. Inner states are copied from y into the contact states; their rates follow the works in dy. Return 0 or
- * the status.
+ * Evaluate the right-hand side at (t, y) with the internal states of contact laws, for the rigid contact forces stored
+ * in `discrete`. Internal states are copied from y into the contact states; their rates follow the works in dy. Return
+ * 0 or the status.
  */
-static int evaluate_motion_with_inner_states(
+static int evaluate_motion_with_internal_states(
     double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dy, RhsOutputs *rhs)
 {
-    copy_inner_states(discrete, y);
+    copy_internal_states(discrete, y);
     const int status = compute_motion_rates(t, y, discrete, p, dy, rhs);
-    copy_inner_rates(rhs, dy);
+    copy_internal_state_rates(rhs, dy);
     return status;
 }
 
@@ -38,9 +38,9 @@ static int evaluate_run_rhs(
     int joint[N_RIGID];
     const int n = list_closed_contacts(&run->discrete, joint);
     count_evaluations(run, n ? n + 1 : 0);
-    return compute_rates_in_contact(evaluate_motion_with_inner_states, N_Y, t, y, &run->discrete, p, dy, rhs);
+    return compute_rates_in_contact(evaluate_motion_with_internal_states, N_Y, t, y, &run->discrete, p, dy, rhs);
 #else
-    return evaluate_motion_with_inner_states(t, y, &run->discrete, p, dy, rhs);
+    return evaluate_motion_with_internal_states(t, y, &run->discrete, p, dy, rhs);
 #endif
 }
 
@@ -97,8 +97,8 @@ static int record_accepted_state(Integrator *run, const double *residuals, const
 /*
  * Store the state of all bodies, the discrete state and the contact codes at time t (s) in a row of the arrays y,
  * discrete and codes. state_vector (N_Y): integrated state. In `discrete`: approach speeds (NaN for open joints),
- * friction modes and inner states of laws. Called for output times, events, rows of the step record, and the end of a
- * run.
+ * friction modes and internal states of laws. Called for output times, events, rows of the step record, and the end of
+ * a run.
  */
 static void store_sample(const Integrator *run, double t, const double *state_vector, const Parameters *p, long row,
     double *y,
@@ -293,7 +293,7 @@ size_t gudgeon_run_size(void)
 
 /*
  * Initialize the memory of a run at time t (s) for parameters p. y (N_S): state of all bodies; discrete (N_DISCRETE):
- * the discrete state as in a sample. NaN inner states, those of a new run, become zero.
+ * the discrete state as in a sample. NaN internal states, those of a new run, become zero.
  */
 void gudgeon_run_start(void *integrator, const double *p, double t, const double *y, const double *discrete)
 {
@@ -304,7 +304,7 @@ void gudgeon_run_start(void *integrator, const double *p, double t, const double
     run->discrete.token = &run->cancellation;
     if (HAS_CONTINUATION)
         run->discrete.least = run->discrete.least_size = NEARBY;
-    for (int k = 0; k < N_STATES; k++) /* NaN at a new run: no inner states yet */
+    for (int k = 0; k < N_STATES; k++) /* NaN at a new run: no internal states yet */
         run->y[FIRST_STATE + k] = isnan(discrete[N_DISCRETE - N_STATES + k]) ? 0.0
             : discrete[N_DISCRETE - N_STATES + k];
     initialize_contacts(run, t, discrete);

@@ -17,7 +17,7 @@ static Real compute_constraint_distance(const IntegratorOf *run, const Real *y_b
 
 /*
  * Return the index in the state of component k (0 ... N_MOTION - 1) on which the motion depends. These are coordinates,
- * velocities and inner states of contact laws. The works are skipped, as nothing depends on them.
+ * velocities and internal states of contact laws. The works are skipped, as nothing depends on them.
  */
 static inline int get_motion_index(int k) { return k < 2 * N_X ? k : k + N_WORK; }
 

@@ -16,7 +16,7 @@ static void update_energy_scale(IntegratorOf *run, Mask is_accepted, const Real 
 /*
  * Update the error weights of a run, 1/tolerance, after an accepted step. Tolerances of coordinates are fixed. Those of
  * velocities grow with the largest speed of their kind. Those of works grow with the energy scale, because the motion
- * does not depend on them. Weights of inner states are set once (methods/begin.c).
+ * does not depend on them. Weights of internal states are set once (methods/begin.c).
  */
 static void update_error_weights(IntegratorOf *run)
 {

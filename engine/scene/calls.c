@@ -51,8 +51,8 @@ static int evaluate_rates_at(
 
 /*
  * Read the discrete state of a sample (N_DISCRETE numbers) into `discrete`: approach speeds (NaN for open joints),
- * friction modes, inner states of laws (NaN: zero). Branches are not frozen, signs of events are unknown, pivots have
- * their usual limits, and no cancellation is set. Called before each evaluation of a sample.
+ * friction modes, internal states of laws (NaN: zero). Branches are not frozen, signs of events are unknown, pivots
+ * have their usual limits, and no cancellation is set. Called before each evaluation of a sample.
  */
 void read_discrete_state(const double *sample, DiscreteState *discrete)
 {

@@ -37,7 +37,7 @@ static int compute_residual_column(const Linear *linearization, int column, cons
 
 /*
  * Compute a column of the Jacobian of the state equation (N_Y entries) from x, the change of accelerations, multipliers
- * and rates of inner states. stride: distance of successive values; column N_Y: the derivative by t.
+ * and rates of internal states. stride: distance of successive values; column N_Y: the derivative by t.
  */
 static void compute_jacobian_column(const Linear *linearization, int column, const double *x,
     double *column_values, long stride)
@@ -70,7 +70,7 @@ static void compute_jacobian_column(const Linear *linearization, int column, con
  * Linearize the equations of motion at a state and factorize Newton's matrix, by which (1/eta - J) u = r is solved for
  * accelerations and multipliers. eta: h gamma of the method, s; with 0 it is the KKT matrix, for the Jacobian J alone.
  * discrete: discrete state as in a sample. Return 0, the number of a vanished pivot of dynamics(), or minus the number
- * (from 1) of the coordinate, constraint equation, stick or inner state whose pivot vanished in newton_factor().
+ * (from 1) of the coordinate, constraint equation, stick or internal state whose pivot vanished in newton_factor().
  */
 static int linearize_and_factorize_equations(double t, const double *y, const double *discrete, const Parameters *p,
     double eta, Linear *linearization)
@@ -90,7 +90,7 @@ static int linearize_and_factorize_equations(double t, const double *y, const do
 
 /*
  * Compute the Jacobian J = df/dy, by rows (N_Y x N_Y), and f_t of the state equation: a linear solve per column, with
- * the factors of the KKT matrix. Contacts, branches and modes of friction are frozen. Inner states are read from
+ * the factors of the KKT matrix. Contacts, branches and modes of friction are frozen. Internal states are read from
  * `discrete` only. Return 0, or the nonzero result of linearize_and_factorize_equations().
  */
 int gudgeon_jacobian(double t, const double *y, const double *discrete, const double *p, double *J, double *f_t)

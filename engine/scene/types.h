@@ -14,12 +14,12 @@
 #define AT_LEAST_ONE(n) ((n) > 0 ? (n) : 1) /* length of an array, which may not be 0 in C */
 
 enum {
-    N_STATES = N_CLEARANCES * LAW_STATES, /* inner states of laws, joint by joint, after the works in y */
+    N_STATES = N_CLEARANCES * LAW_STATES, /* internal states of laws, joint by joint, after the works in y */
     N_DISCRETE = N_CLEARANCES + N_FRICTIONS + N_STATES,
     N_S = 2 * N_Q + N_WORK,            /* state of all bodies: q, v, works */
     N_Y = 2 * N_X + N_WORK + N_STATES, /* state that is integrated */
     N_MOTION = N_Y - N_WORK,             /* components on which the motion depends: all but the works */
-    FIRST_STATE = 2 * N_X + N_WORK     /* index of the first inner state in it */
+    FIRST_STATE = 2 * N_X + N_WORK     /* index of the first internal state in it */
 };
 
 enum {
@@ -65,7 +65,7 @@ typedef struct {
     int closed;
     double deltadot_minus;
 #if LAW_STATES
-    double state[LAW_STATES]; /* inner states of its laws at the evaluated state */
+    double state[LAW_STATES]; /* internal states of its laws at the evaluated state */
 #endif
 #if N_RIGID
     double force; /* N, of rigid surfaces: the force that keeps a closed contact closed (contact_forces.h) */
@@ -145,7 +145,7 @@ typedef struct {
     double from_x, from_y;               /* from the guide's point to the centre of a corner's radius, m */
 #endif
 #if LAW_STATES
-    double state_rate[LAW_STATES];       /* of the laws' inner states, each unit a second */
+    double state_rate[LAW_STATES];       /* of the laws' internal states, each unit a second */
 #endif
 #if N_RIGID
     double half_square_rate;             /* e . e'' + e' . e', m^2/s^2; of rigid surfaces */

@@ -49,7 +49,7 @@ static int evaluate_contacts_at(Integrator *run, double t, const double *y, cons
     count_evaluations(run, 1);
     if (is_cancelled(&run->cancellation))
         return STOPPED;
-    copy_inner_states(&run->discrete, y);
+    copy_internal_states(&run->discrete, y);
     return evaluate_contacts(t, y, &run->discrete, p, rhs);
 #endif
 }

@@ -41,7 +41,7 @@ def write_scene_notes(model: Model) -> tuple[str, ...]:
     for joint in (name for name, law_options in options.items() if law_options.get("geometry") == "internal"):
         notes.append(f"geometry: internal says nothing in {joint}: its wall is flat, K is by the corner's radius")
     if states := [f"{c.name}.{state.name}" for c in model.clearances for state in c.states]:
-        notes.append(f"inner states of laws, {', '.join(states)}: integrated with the motion, which peers do not do")
+        notes.append(f"internal states of laws, {', '.join(states)}: integrated with the motion, which peers do not do")
     if model.rigid:
         notes.append(f"impacts by Newton's restitution in {', '.join(model.rigid)}: no slopes, so no rodas5p, no peers")
     if all(component == 0 for component in model.gravity):

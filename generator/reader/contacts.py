@@ -232,8 +232,8 @@ def _check_contact_keys(name: Text, node: Map) -> None:
 def _check_rigid_contact(name: Text, law: Text, node: Map) -> None:
     """Raise BadValueError if a contact of rigid surfaces has keys or a friction law that impacts cannot use.
 
-    Friction in an impact must be F_n times a coefficient of the slip, without inner states, and not a user-defined law.
-    `law` is the normal law's name.
+    Friction in an impact must be F_n times a coefficient of the slip, without internal states, and not a user-defined
+    law. `law` is the normal law's name.
     """
     for part in ("film", "mixed", "velocity_floor", "clip_ratio"):
         if part in node:

@@ -136,7 +136,7 @@ def _read_scene(reader: Reader, name: Text, merged_scene: _MergedScene, parts: S
     """Return one merged scene: play, parameter values, materials and run settings.
 
     Errors are collected; entries with errors are left out. An error is collected for a cycle of parameters, and for a
-    contour together with a friction law that has an inner state.
+    contour together with a friction law that has an internal state.
     """
     play = {}
     for joint, play_node in merged_scene.play.list_entries():
@@ -276,7 +276,7 @@ def check_peaks(
     """
     for scene in scenes.values():
         for name in scene.peaks:
-            is_later = name.partition(".")[0] in UNCHECKED_OWNERS or name in _find_inner_states(scene)
+            is_later = name.partition(".")[0] in UNCHECKED_OWNERS or name in _find_internal_states(scene)
             if isinstance(name, Text) and name not in outputs and not is_later:
                 with reader.collect_errors():
                     result_names.check_series_name(name, outputs)
@@ -285,20 +285,20 @@ def check_peaks(
 
 
 def _check_contour_friction(scene: SceneSpec, play_section: Map) -> None:
-    """Raise BadValueError if a scene combines a contour with a friction law that has an inner state.
+    """Raise BadValueError if a scene combines a contour with a friction law that has an internal state.
 
-    Derivatives by the angle in the bearing and by inner states are not derived together. `play_section` is the scene's
-    `play`.
+    Derivatives by the angle in the bearing and by internal states are not derived together. `play_section` is the
+    scene's `play`.
     """
     with_contour = [joint for joint, play in scene.play.items() if play.contour]
-    if with_contour and (states := sorted(_find_inner_states(scene))):
-        message = f"scene {scene.name} has a contour beside a law with an inner state ({states[0]})"
+    if with_contour and (states := sorted(_find_internal_states(scene))):
+        message = f"scene {scene.name} has a contour beside a law with an internal state ({states[0]})"
         location = play_section[with_contour[0]].find_key("contour").where
-        raise BadValueError(message, location, "expected friction without an inner state, or no contour")
+        raise BadValueError(message, location, "expected friction without an internal state, or no contour")
 
 
-def _find_inner_states(scene: SceneSpec) -> set[str]:
-    """Return the names of the inner states of a scene's friction laws, such as A.z."""
+def _find_internal_states(scene: SceneSpec) -> set[str]:
+    """Return the names of the internal states of a scene's friction laws, such as A.z."""
     friction_laws = {joint: play.contact.friction for joint, play in scene.play.items()}
     laws_of_friction = find_laws_of_role("friction")
     return {

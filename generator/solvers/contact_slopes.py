@@ -77,7 +77,7 @@ class _DerivativeBuilder:
             [
                 f"{part.capitalize()}: F along n and t, M_i, M_j, and their derivatives by e, {rate_names}, omega_i,",
                 f"omega_j{further_names} (forward differentiation of the same steps).",
-                *["Then the rates of inner states, and derivatives by these states."] * bool(model.law_states),
+                *["Then the rates of internal states, and derivatives by these states."] * bool(model.law_states),
             ],
         )
         self.states = tuple(sp.Symbol(f"state_{k}", real=True) for k in range(model.law_states))

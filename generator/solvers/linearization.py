@@ -5,7 +5,7 @@ With accelerations a and multipliers λ that satisfy, at (t, q, v),
 and are held constant, this collects the structural non-zeros of R1_q, R1_v, R1_t, R2_t and of V and Q in
     R2_v = 2α Φ_q + V,    R2_q = β² Φ_q + Q
 where Φ_q itself is taken out. Friction that may stick is an equation as well, v = J q̇ − speed = 0 with β = 0; its
-multiplier is zero while it slips. Powers P are those of the works that are integrated with the motion. An inner
+multiplier is zero while it slips. Powers P are those of the works that are integrated with the motion. An internal
 state z of a law is R3 = ż − Z = 0; forces, powers and Z have derivatives by it (R1_z, P_z, R3_z).
 """
 

@@ -235,7 +235,7 @@ class Newton:
         `inverse`. The function returns 0, or the number of the node, from 1, whose pivot vanished.
         """
         states = range(self.first_state, self.nodes)
-        note = ", inner states" if states else ""
+        note = ", internal states" if states else ""
         builder = self._begin_function(
             "newton_factor",
             [
@@ -316,7 +316,7 @@ class Newton:
             "newton_solve",
             [
                 "(1/eta - J) u = r + s f_t with the factors of newton_factor at the same eta; r, u: q, v, works"
-                f"{', inner states' if states else ''}.",
+                f"{', internal states' if states else ''}.",
             ],
         )
         self._append_scales(builder, {self._find_scale(node) for node in range(self.nodes)})

@@ -148,7 +148,7 @@ def find_solved_drives(source: KernelSource) -> tuple[str, ...]:
 def _can_run_in_reference_solvers(source: KernelSource) -> bool:
     """Return whether the integrators of SciPy and SUNDIALS can run the scene.
 
-    Sticking friction, impulses and inner states of laws are supported by the C methods only (integrators/peers).
+    Sticking friction, impulses and internal states of laws are supported by the C methods only (integrators/peers).
     """
     return KINEMATIC not in source.methods and not (source.frictions or source.rate_jumps or source.is_explicit)
 

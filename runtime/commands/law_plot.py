@@ -235,7 +235,7 @@ def _draw_normal_force(ax: Axes, law: Function, selected_law: _SelectedLaw) -> N
 
 
 def _draw_friction_force(ax: Axes, law: Function, selected_law: _SelectedLaw) -> None:
-    """Draw F_t/F_n over the slip velocity; for laws with inner states over two oscillations of the slip.
+    """Draw F_t/F_n over the slip velocity; for laws with internal states over two oscillations of the slip.
 
     The largest velocity is three times the law's largest parameter with the unit m/s.
     """
@@ -262,7 +262,7 @@ def _simulate_slip_oscillation(
 ) -> tuple[Any, Any]:
     """Return v_t (m/s) and F_t (N) of a friction law for a slip that oscillates like a cosine, in its third period.
 
-    max_slip_velocity: in m/s. amplitude: in m. The inner states start at 0. Raises BadValueError if they
+    max_slip_velocity: in m/s. amplitude: in m. The internal states start at 0. Raises BadValueError if they
     diverge.
     """
     from scipy.integrate import solve_ivp
@@ -270,7 +270,7 @@ def _simulate_slip_oscillation(
     omega = max_slip_velocity / amplitude
 
     def compute_state_rates(t: float, z: Any) -> list[float]:
-        """Return the rates of the inner states z at the time t."""
+        """Return the rates of the internal states z at the time t."""
         solution = law(1.0, max_slip_velocity * np.cos(omega * t), *z)
         return [float(solution[f"{state.name}_rate"]) for state in law_description.states]
 

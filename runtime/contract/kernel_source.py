@@ -196,7 +196,7 @@ class KernelSource:
     written: tuple[WrittenInfo, ...] = ()
     expressions: tuple[WrittenInfo, ...] = ()  # named expressions of the file that are used by name here
     lines: tuple[tuple[str, int], ...] = ()  # lines of the file at which joints and drives are
-    states: tuple[str, ...] = ()  # inner states of laws, "A.z", equally many per joint with play; "": none
+    states: tuple[str, ...] = ()  # internal states of laws, "A.z", equally many per joint with play; "": none
     # parts in which `main` is compiled in parallel, as PART in C counts them; (): as a whole
     units: tuple[int, ...] = ()
     taylor: str = ""  # file with the Taylor series of the motion; "": the library has none
@@ -249,7 +249,7 @@ class KernelSource:
 
     @property
     def n_memory(self) -> int:
-        """Return the number of discrete states: δ̇⁻ per joint with play, mode per friction, then inner states."""
+        """Return the number of discrete states: δ̇⁻ per joint with play, mode per friction, then internal states."""
         return len(self.clearances) + len(self.frictions) + len(self.states)
 
     @property

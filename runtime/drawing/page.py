@@ -200,64 +200,68 @@ svg { width: 100%; height: auto; display: block }
 svg path { stroke-linejoin: round; stroke-linecap: round }
 svg text { font: 11px sans-serif; text-anchor: middle; dominant-baseline: central }
 .bar { display: flex; gap: .7em; align-items: center; flex-wrap: wrap }
-#when { flex: 1; min-width: 8em }
+#time { flex: 1; min-width: 8em }
 output { font-variant-numeric: tabular-nums; min-width: 7em }
 p { color: #555; font-size: 12px }
 @media screen and (prefers-color-scheme: dark) {
   :root { color-scheme: dark }
   body { color: #e8e8ea; background: #16171a }
   p { color: #a3a3ad }
-  svg { filter: invert(.92) hue-rotate(180deg) } /* dark papers, light ink, hues as they are */
+  svg { filter: invert(.92) hue-rotate(180deg) } /* dark background, light lines, the same hues */
 }
 </style></head><body>
 <h1 dir="auto" style="font-size: 1.1em">@TITLE@</h1>
 <svg viewBox="0 0 @WIDTH@ @HEIGHT@" role="img" aria-label="@TITLE@"><g>@PATHS@</g><g id="names">@NAMES@</g></svg>
 <div class="bar"><button id="play">Play</button>
-<input id="when" type="range" min="0" value="0" step="1" aria-label="time"><output id="t"></output>
+<input id="time" type="range" min="0" value="0" step="1" aria-label="time"><output id="time-text"></output>
 <label>speed <select id="speed"><option>0.1</option><option>0.25</option><option>0.5</option>
 <option selected>1</option><option>2</option></select></label>
-<label><input id="named" type="checkbox" checked> names</label></div>
+<label><input id="show-names" type="checkbox" checked> names</label></div>
 <p>@NOTE@</p>
 <script type="application/json" id="data">@DATA@</script>
 <script>
 "use strict";
 const data = JSON.parse(document.getElementById("data").textContent);
-const by = name => document.getElementById(name);
-const paths = [...document.querySelectorAll("svg path")], texts = [...document.querySelectorAll("#names text")];
-for (const frames of [data.frames, data.places])          // a 0 stands for what the frame before has
+const getElement = id => document.getElementById(id);
+const paths = [...document.querySelectorAll("svg path")], names = [...document.querySelectorAll("#names text")];
+const slider = getElement("time"), playButton = getElement("play"), lastFrame = data.times.length - 1;
+for (const frames of [data.frames, data.places]) // a 0 stands for the entry of the previous frame
   for (let k = 1; k < frames.length; k++) frames[k] = frames[k].map((x, i) => x === 0 ? frames[k - 1][i] : x);
-const last = data.times.length - 1;
-by("when").max = last;
-let now = 0, playing = false, before = 0;
-function show(k) {
+slider.max = lastFrame;
+let position = 0, isPlaying = false, previousTime = 0; // position in frames; ms
+/* Show a frame: shapes, names and time. */
+function showFrame(k) {
   data.frames[k].forEach((shape, i) => {
     const path = paths[i];
     path.setAttribute("d", shape ? shape[0] : "");
     if (shape) path.setAttribute("style", data.styles[shape[1]]);
   });
-  data.places[k].forEach(([x, y, told], i) => {
-    texts[i].setAttribute("x", x);
-    texts[i].setAttribute("y", y);
-    if (told) texts[i].textContent = told;
+  data.places[k].forEach(([x, y, text], i) => {
+    names[i].setAttribute("x", x);
+    names[i].setAttribute("y", y);
+    if (text) names[i].textContent = text;
   });
-  by("when").value = k;
-  by("t").textContent = "t = " + data.times[k].toPrecision(5) + " s";
+  slider.value = k;
+  getElement("time-text").textContent = "t = " + data.times[k].toPrecision(5) + " s";
 }
-function step(ms) {
-  if (!playing) return;
-  now = (now + (ms - before) / 1000 / data.seconds * by("speed").value * last) % (last + 1);
-  before = ms;
-  show(Math.floor(now));
-  requestAnimationFrame(step);
+/* Advance the animation to the time `now` in ms, and request the next frame. */
+function advance(now) {
+  if (!isPlaying) return;
+  const framesPerSecond = lastFrame / data.seconds * getElement("speed").value;
+  position = (position + (now - previousTime) / 1000 * framesPerSecond) % (lastFrame + 1);
+  previousTime = now;
+  showFrame(Math.floor(position));
+  requestAnimationFrame(advance);
 }
-by("play").onclick = () => {
-  playing = !playing;
-  by("play").textContent = playing ? "Pause" : "Play";
-  if (playing) requestAnimationFrame(ms => { before = ms; step(ms); });
+playButton.onclick = () => {
+  isPlaying = !isPlaying;
+  playButton.textContent = isPlaying ? "Pause" : "Play";
+  if (isPlaying) requestAnimationFrame(now => { previousTime = now; advance(now); });
 };
-by("when").oninput = () => { now = +by("when").value; show(now); };
-by("named").onchange = () => { by("names").style.display = by("named").checked ? "" : "none"; };
-show(0);
-if (!matchMedia("(prefers-reduced-motion: reduce)").matches) by("play").click();
+slider.oninput = () => { position = +slider.value; showFrame(position); };
+const showNames = getElement("show-names");
+showNames.onchange = () => { getElement("names").style.display = showNames.checked ? "" : "none"; };
+showFrame(0);
+if (!matchMedia("(prefers-reduced-motion: reduce)").matches) playButton.click();
 </script></body></html>
 """

@@ -109,7 +109,7 @@ def explain_exchange_obstacle(source: KernelSource) -> str:
     if source.rate_jumps:
         return f"impulses where the rate of {', '.join(source.rate_jumps)} jumps"
     if source.states:
-        return f"inner states of laws ({', '.join(source.states)})"
+        return f"internal states of laws ({', '.join(source.states)})"
     if source.chain:
         return "loops that drives alone determine"
     return source.reason_without_jacobian

@@ -236,9 +236,9 @@ class CompiledModel:
     def rhs(self, t: float, y: ArrayLike, p: ArrayLike, discrete_states: ArrayLike | None = None) -> Array:
         """Return (q̇, q̈, powers of drives, forces and joints with play), (2n + 3,), at y = (q, q̇), (2n,) or longer.
 
-        `discrete_states` (n_memory,): δ̇⁻ of closed contacts, NaN for free ones (the default), modes of frictions, inner
-        states of laws. Raises ArrayError for another length, SingularError for a vanished pivot or a state that is not
-        finite.
+        `discrete_states` (n_memory,): δ̇⁻ of closed contacts, NaN for free ones (the default), modes of frictions,
+        internal states of laws. Raises ArrayError for another length, SingularError for a vanished pivot or a state
+        that is not finite.
         """
         out = np.empty(2 * self.n + N_WORK)
         status = self.lib.gudgeon_rhs(
@@ -252,11 +252,11 @@ class CompiledModel:
     ) -> tuple[Array, Array]:
         """Return the exact ∂f/∂y and ∂f/∂t of `rhs` f at y = (q, q̇); SI.
 
-        The shapes are (2n + 3 + k, 2n + 3 + k) and (2n + 3 + k,). k is the number of inner states of laws: their rates
-        follow q̈ and the powers, the states follow the works. Their values are in `discrete_states`, as in a sample.
-        Contacts, branches of switching functions and modes of friction are those of this state. Raises SingularError
-        where constraint equations depend on each other, ValueError where nothing is integrated. `discrete_states` None:
-        all contacts are open.
+        The shapes are (2n + 3 + k, 2n + 3 + k) and (2n + 3 + k,). k is the number of internal states of laws: their
+        rates follow q̈ and the powers, the states follow the works. Their values are in `discrete_states`, as in a
+        sample. Contacts, branches of switching functions and modes of friction are those of this state. Raises
+        SingularError where constraint equations depend on each other, ValueError where nothing is integrated.
+        `discrete_states` None: all contacts are open.
         """
         if reason := self.source.reason_without_jacobian:
             raise ValueError(f"this scene has no Jacobian: {reason}")
@@ -308,8 +308,8 @@ class CompiledModel:
     def check_linearization(self, status: int, t: float) -> None:
         """Raise SingularError for a nonzero status of a linearization; return for status 0.
 
-        −k names the k-th of coordinates, constraint equations, frictions and inner states; a positive status is that of
-        `check_pivot`.
+        −k names the k-th of coordinates, constraint equations, frictions and internal states; a positive status is that
+        of `check_pivot`.
         """
         s = self.source
         self.check_pivot(status, t)
@@ -335,7 +335,7 @@ class CompiledModel:
         return evaluate(self, t, q, v, discrete_states, p, poll_cancellation, field_names)
 
     def as_discrete_states(self, discrete_states: ArrayLike | None) -> Array:
-        """Return the discrete states (n_memory,): δ̇⁻ per joint with play, mode per friction, inner states of laws.
+        """Return the discrete states (n_memory,): δ̇⁻ per joint with play, mode per friction, internal states of laws.
 
         None: all joints free, modes unknown; this array is shared and read-only. In a scene without discrete states, an
         array of one number is accepted. Raises ArrayError for another length.

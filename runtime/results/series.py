@@ -275,7 +275,7 @@ def _iterate_state_series(source: KernelSource) -> Iterator[tuple[str, Series]]:
     first_index = len(source.clearances) + len(source.frictions)
     for k, name in enumerate(source.states):
         if name:
-            meaning = "inner state of the joint's law of friction"
+            meaning = "internal state of the joint's law of friction"
             yield name, _make_stored_series("m", meaning, "memory", first_index + k)
 
 

@@ -235,7 +235,7 @@ def select_method(source: KernelSource, method: str, has_step: bool) -> str:
             *fitting_methods,
             ADAPTIVE,
             *(() if source.states else driver.NAMES),
-        )  # peers integrate no inner states
+        )  # peers integrate no internal states
     if source.taylor:
         fitting_methods = (*fitting_methods, *SMOOTH)
     if method == "auto":
@@ -254,7 +254,7 @@ def select_method(source: KernelSource, method: str, has_step: bool) -> str:
         if source.rigid:
             reason = source.reason_without_jacobian
         elif source.states:
-            reason = f"a law has an inner state ({next(filter(None, source.states))}), which peers do not integrate"
+            reason = f"a law has an internal state ({next(filter(None, source.states))}), which peers do not integrate"
         *others, last = source.methods
         fit = f"{', '.join(others)} and {last} fit it" if others else f"{last} fits it"
         raise BadValueError(f"method {method!r} does not fit: {reason}; use auto ({fit})")

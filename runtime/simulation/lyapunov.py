@@ -60,7 +60,7 @@ def explain_invalid_tangent(source: KernelSource) -> str:
     if source.reason_without_jacobian:
         return source.reason_without_jacobian
     if source.states:
-        return f"a law has an inner state, {next(filter(None, source.states))}, which is no coordinate"
+        return f"a law has an internal state, {next(filter(None, source.states))}, which is no coordinate"
     if source.frictions:
         return f"{source.frictions[0]} sticks and slips: its rows come and go"
     if source.rate_jumps:

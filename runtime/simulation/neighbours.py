@@ -7,8 +7,8 @@ the motion crosses the size. The exponent does not depend on the scales.
 
 The second run is scaled back towards the first one after each interval (G. Benettin, L. Galgani, J.-M. Strelcyn, Phys.
 Rev. A 14:2338, 1976). Both runs proceed in two threads, each with its own contacts, switching points, friction modes
-and inner states. If only one of them is in contact at the end of an interval, the difference is measured but not scaled
-until both are alike again.
+and internal states. If only one of them is in contact at the end of an interval, the difference is measured but not
+scaled until both are alike again.
 """
 
 from __future__ import annotations
@@ -187,7 +187,7 @@ class SecondRun:
     def _rescale_neighbour(self, difference: Array) -> None:
         """Move the state `neighbour_state` to INITIAL_DISTANCE from the first, along the present `difference` (2n,).
 
-        Inner states are scaled alike, and the new state is projected onto the constraints.
+        Internal states are scaled alike, and the new state is projected onto the constraints.
         """
         s, y = INITIAL_DISTANCE / self.distance, flatten_state(self.state)
         neighbour = self.measure.project_state(self.state.t, y + s * difference)

@@ -124,7 +124,7 @@ def _copy_similar_states(source: KernelSource, given_states: list[Any]) -> list[
 def _check_discrete_states(source: KernelSource, state: Array, discrete_states: Array) -> None:
     """Raise BadValueError if contact codes and discrete states of a state contradict each other.
 
-    Closed contacts need a finite approach speed, open ones NaN. Inner states and friction modes are checked too.
+    Closed contacts need a finite approach speed, open ones NaN. Internal states and friction modes are checked too.
     """
     for k, (joint, code, rate) in enumerate(
         zip(source.clearances, state.tolist(), discrete_states.tolist(), strict=False)
@@ -140,7 +140,7 @@ def _check_discrete_states(source: KernelSource, state: Array, discrete_states: 
     for k, (name, z) in enumerate(zip(source.states, discrete_states[first:].tolist(), strict=True), first):
         joint_of = (k - first) * len(state) // max(len(source.states), 1)
         if name and not math.isfinite(z) and not (math.isnan(z) and state[joint_of] == FREE):
-            message = f"start.memory[{k}], the inner state {name}, is {z:g}: expected a length (m), or NaN while free"
+            message = f"start.memory[{k}], the internal state {name}, is {z:g}: expected a length (m), NaN while free"
             raise BadValueError(message, hint=HINT_FINAL)
     if np.isinf(discrete_states).any():
         k = int(np.isinf(discrete_states).argmax())

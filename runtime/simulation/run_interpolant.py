@@ -222,7 +222,7 @@ class RunInterpolant:
     def _interpolate_states(self, k: int, t: Array) -> Steps:
         """Interpolate the states at times t (T,) between states k and k + 1, with the contacts of state k.
 
-        Inner states vary linearly. Works are NaN unless a requested series needs them.
+        Internal states vary linearly. Works are NaN unless a requested series needs them.
         """
         x = self.steps
         s = ((t - x.t[k]) / (x.t[k + 1] - x.t[k]))[:, None]

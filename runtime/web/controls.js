@@ -1,200 +1,216 @@
 /* Edit the parameters of the file and the options of a run, as fields for pointer and keyboard. */
-const METHODS = {
-    auto: "auto", driven: "rk4 (all rows of Φ kept: they drift)", kinematic: "kinematic (Φ = 0 by Newton)", rk4: "rk4 (Baumgarte, not projected)",
-    dop853: "dop853 (projected onto Φ = 0)", rodas5p: "rodas5p (implicit, projected)",
+const METHOD_LABELS = {
+    auto: "auto", driven: "rk4 (all constraint equations: they drift)", kinematic: "kinematic (Φ = 0 by Newton)",
+    rk4: "rk4 (Baumgarte, not projected)", dop853: "dop853 (projected onto Φ = 0)",
+    rodas5p: "rodas5p (implicit, projected)",
 };
 
-const HOLDS = 0.4; // 2 alpha h up to which Baumgarte's terms do more good than harm
+const MAX_GAIN_STEP = 0.4; // 2 α h up to which Baumgarte's terms do not make Φ grow
 
-/* Create an HTML element. */
-function element(name, attributes = {}, parent = null) {
-    const made = document.createElement(name);
-    for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
-    parent?.append(made);
-    return made;
+/* Create an HTML element, with attributes, at the end of `parent` if it is given. */
+function createElement(name, attributes = {}, parent = null) {
+    const element = document.createElement(name);
+    for (const [key, value] of Object.entries(attributes)) element.setAttribute(key, value);
+    parent?.append(element);
+    return element;
 }
 
-/* Create a folding section of the panel. */
-function section(title, open, parent) {
-    const box = element("details", {class: "g-section"}, parent);
-    box.open = open;
+/* Create a folding section of the panel, and return its element. */
+function createSection(title, isOpen, parent) {
+    const box = createElement("details", {class: "g-section"}, parent);
+    box.open = isOpen;
     box.ontoggle = () => {
         if (box.open && box.contains(document.activeElement)) box.scrollIntoView({block: "nearest"});
     };
-    element("summary", {}, box).textContent = title;
+    createElement("summary", {}, box).textContent = title;
     return box;
 }
 
-/* Return a unit as in UNITS of runtime/language/units.py. */
-function asWritten(unit) {
+/* Return a unit in the form of UNITS of runtime/language/units.py: "kg·m²" as "kg*m^2". */
+function convertToFileUnit(unit) {
     const signs = {"°": "deg", "·": "*", "²": "^2", "³": "^3", "µ": "u", "μ": "u", " ": ""};
     return unit.replace(/[°·²³µμ ]/g, (sign) => signs[sign]);
 }
 
 /*
- * Return the number that a user typed in SI: with decimal point or comma, in the field's unit or with its own; NaN if
+ * Return the number that a user typed, in SI: with decimal point or comma, in the field's unit or with its own; NaN if
  * invalid.
  *
- * With a decimal prefix it is the number nearest to the text.
+ * factor: value in SI of the field's unit. units: values in SI by name of the units that may follow the number. With a
+ * decimal prefix the result is the number nearest to the text.
  */
-function typed(text, {factor, unit: own = ""}, units = {}) {
+function parseNumber(text, {factor, unit: fieldUnit = ""}, units = {}) {
     const plain = text.trim().replace(",", ".").replace("−", "-");
-    const [, number, unit] = /^([-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?)(.*)$/i.exec(plain) ?? [];
+    const [, number, typedUnit] = /^([-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?)(.*)$/i.exec(plain) ?? [];
     if (number === undefined) return NaN;
-    const behind = asWritten(unit), of = !behind || behind === asWritten(own) ? factor : units[behind] ?? NaN;
-    const ten = Math.round(Math.log10(of));
-    if (Number(`1e${ten}`) !== of) return Number(number) * of;
-    const [digits, power = "0"] = number.toLowerCase().split("e");
-    return Number(`${digits}e${Number(power) + ten}`);
+    const unit = convertToFileUnit(typedUnit);
+    const scale = !unit || unit === convertToFileUnit(fieldUnit) ? factor : units[unit] ?? NaN;
+    const exponent = Math.round(Math.log10(scale));
+    if (Number(`1e${exponent}`) !== scale) return Number(number) * scale;
+    const [mantissa, power = "0"] = number.toLowerCase().split("e");
+    return Number(`${mantissa}e${Number(power) + exponent}`);
 }
 
 /* Mark a field as invalid, and return the message. */
-function refusal(field, name, text, units = {}) {
+function markInvalid(field, name, text, units = {}) {
     field.setAttribute("aria-invalid", true);
     const names = Object.keys(units).join(", ");
-    return `${name}: ${text} is no number${names && `; a unit may stand behind one: ${names}`}`;
+    return `${name}: ${text} is no number${names && `; a unit may follow the number: ${names}`}`;
 }
 
-/* Parameter with a slider over its range, and a field for any value. */
+/*
+ * Parameter with a slider over its range, and a field for any value.
+ *
+ * entry: {k, name, unit, factor, low, high} of build_parameter_sections (parameter_panel.py). parameter: {address,
+ * unit, …} of the description.
+ */
 class NumberField {
-    constructor(panel, told, slot, parent) {
-        Object.assign(this, {panel, told, slot, units: panel.units[slot.unit]});
-        const row = this.row = element("div", {class: "g-number"}, parent), id = `g-number-${told.k}`;
-        const label = element("label", {for: id}, row);
-        label.textContent = told.name;
-        this.slider = element("input", {type: "range", id, min: 0, max: 1000, step: 1}, row);
-        const name = `${slot.address} in ${told.unit || "one"}`;
-        this.field = element("input", {type: "text", "aria-label": name, size: 8}, row);
-        element("span", {class: "g-unit"}, row).textContent = told.unit;
-        this.back = element("button", {type: "button", class: "g-small", title: "as in the file"}, row);
-        this.back.textContent = "↺";
-        this.back.setAttribute("aria-label", `${slot.address} as in the file`);
-        this.slider.oninput = () => this.slide();
-        this.field.onchange = () => this.take(typed(this.field.value, told, this.units), this.field.value);
-        this.back.onclick = () => panel.forget(slot.address);
+    constructor(panel, entry, parameter, parent) {
+        Object.assign(this, {panel, entry, parameter, units: panel.units[parameter.unit]});
+        const row = this.row = createElement("div", {class: "g-parameter"}, parent), id = `g-parameter-${entry.k}`;
+        const label = createElement("label", {for: id}, row);
+        label.textContent = entry.name;
+        this.slider = createElement("input", {type: "range", id, min: 0, max: 1000, step: 1}, row);
+        const name = `${parameter.address} in ${entry.unit || "one"}`;
+        this.field = createElement("input", {type: "text", "aria-label": name, size: 8}, row);
+        createElement("span", {class: "g-unit"}, row).textContent = entry.unit;
+        const attributes = {type: "button", class: "g-small", title: "as in the file"};
+        this.resetButton = createElement("button", attributes, row);
+        this.resetButton.textContent = "↺";
+        this.resetButton.setAttribute("aria-label", `${parameter.address} as in the file`);
+        this.slider.oninput = () => this.setFromSlider();
+        this.field.onchange = () => this.setValue(parseNumber(this.field.value, entry, this.units), this.field.value);
+        this.resetButton.onclick = () => panel.resetParameter(parameter.address);
     }
 
     /* Set the parameter to the slider's position, rounded to four digits. */
-    slide() {
-        const {low, high, factor} = this.told, x = low + this.slider.value / 1000 * (high - low);
+    setFromSlider() {
+        const {low, high, factor} = this.entry, x = low + this.slider.value / 1000 * (high - low);
         const digits = String(Number((x / factor).toPrecision(4)));
-        this.take(typed(digits, this.told), digits);
+        this.setValue(parseNumber(digits, this.entry), digits);
     }
 
-    /* Set the parameter, or report an invalid text. */
-    take(value, text) {
-        if (Number.isFinite(value)) this.panel.set(this.slot.address, value);
-        else this.panel.complain(refusal(this.field, this.slot.address, text, this.units));
+    /* Set the parameter (SI), or report the text of an invalid value. */
+    setValue(value, text) {
+        if (Number.isFinite(value)) this.panel.set(this.parameter.address, value);
+        else this.panel.showError(markInvalid(this.field, this.parameter.address, text, this.units));
     }
 
-    /* Show the value of the run; a field with focus keeps its text. */
-    show(p, given) {
-        const {k, low, high, factor} = this.told, value = given ?? p[k];
-        const mine = given !== undefined;
-        this.row.classList.toggle("g-mine", mine);
+    /* Show the value of the run, given by the user or else from p; a field with focus keeps its text. */
+    show(p, givenValue) {
+        const {k, low, high, factor} = this.entry, value = givenValue ?? p[k], isGiven = givenValue !== undefined;
+        this.row.classList.toggle("g-changed", isGiven);
         this.field.removeAttribute("aria-invalid");
-        this.back.style.visibility = mine ? "" : "hidden";
-        const place = Math.round(1000 * (value - low) / (high - low));
-        if (document.activeElement !== this.slider) this.slider.value = place;
-        this.slider.setAttribute("aria-valuetext", `${told(value / factor, 6)} ${this.told.unit}`);
-        const exact = String(Number((value / factor).toPrecision(12))), rounded = Number((value / factor).toPrecision(6));
-        this.field.value = exact.length > 9 ? String(rounded) : exact;
+        this.resetButton.style.visibility = isGiven ? "" : "hidden";
+        const position = Math.round(1000 * (value - low) / (high - low));
+        if (document.activeElement !== this.slider) this.slider.value = position;
+        this.slider.setAttribute("aria-valuetext", `${formatNumber(value / factor, 6)} ${this.entry.unit}`);
+        const round = (digits) => String(Number((value / factor).toPrecision(digits))), exact = round(12);
+        this.field.value = exact.length > 9 ? round(6) : exact;
         this.field.title = exact;
     }
 }
 
-/* Parameter with a choice of words. */
-class Choice {
-    constructor(panel, told, slot, parent) {
-        Object.assign(this, {slot, told});
-        const row = this.row = element("div", {class: "g-number"}, parent), id = `g-number-${told.k}`;
-        element("label", {for: id}, row).textContent = told.name;
-        this.select = element("select", {id, class: "g-across"}, row);
-        for (const word of slot.words) element("option", {value: word}, this.select).textContent = word;
-        this.select.onchange = () => panel.set(slot.address, this.select.value);
+/* Parameter with a choice of words; arguments as of NumberField. */
+class ChoiceField {
+    constructor(panel, entry, parameter, parent) {
+        Object.assign(this, {parameter, entry});
+        const row = this.row = createElement("div", {class: "g-parameter"}, parent), id = `g-parameter-${entry.k}`;
+        createElement("label", {for: id}, row).textContent = entry.name;
+        this.select = createElement("select", {id, class: "g-wide-field"}, row);
+        for (const word of parameter.words) createElement("option", {value: word}, this.select).textContent = word;
+        this.select.onchange = () => panel.set(parameter.address, this.select.value);
     }
 
-    /* Show the chosen word. */
-    show(p, given) {
-        this.row.classList.toggle("g-mine", given !== undefined);
-        this.select.value = given ?? this.slot.words[p[this.told.k]];
+    /* Show the chosen word, given by the user or else from p. */
+    show(p, givenWord) {
+        this.row.classList.toggle("g-changed", givenWord !== undefined);
+        this.select.value = givenWord ?? this.parameter.words[p[this.entry.k]];
     }
 }
 
-const MOST_BLAMED = 12; // largest number of parameters that are tried one by one
+const MAX_TRIED = 12; // largest number of parameters that are tried one by one as the cause of an error
 
-/* All parameters and options of a run; `changed` is called after each change, `complain` with messages. */
+/*
+ * All parameters and options of a run.
+ *
+ * givenValues: values by address that differ from the file. changedSinceRun: addresses changed since the last complete
+ * run. Callbacks: `onChange` after each change, `showError` with messages, `onFormulation` with the suffix of the
+ * chosen formulation's elements.
+ */
 class Panel {
-    constructor(form, {groups, units, drift, drifts}, about, {changed, complain, formulated}) {
-        Object.assign(this, {about, changed, complain, formulated, units, drift, drifts, given: {},
-            since: new Set(), gains: []});
-        this.options = new Options(form, about, this);
-        this.fields = groups.flatMap(({title, numbers}, k) => {
-            const box = section(title, k === 0, form);
-            if (numbers.every((one) => about.gains.includes(one.k))) this.gains.push(box);
-            return numbers.map((one) => {
-                const slot = about.slots[one.k];
-                return new (slot.words ? Choice : NumberField)(this, one, slot, box);
+    constructor(form, {groups, units, drift, drifts: hasDrift}, description, {onChange, showError, onFormulation}) {
+        Object.assign(this, {description, onChange, showError, onFormulation, units, drift, hasDrift, givenValues: {},
+            changedSinceRun: new Set(), gainSections: []});
+        this.options = new RunOptions(form, description, this);
+        this.fields = groups.flatMap(({title, numbers: entries}, k) => {
+            const box = createSection(title, k === 0, form);
+            if (entries.every((entry) => description.gains.includes(entry.k))) this.gainSections.push(box);
+            return entries.map((entry) => {
+                const parameter = description.slots[entry.k];
+                return new (parameter.words ? ChoiceField : NumberField)(this, entry, parameter, box);
             });
         });
-        this.reset = element("button", {type: "button", class: "g-reset"}, element("div", {class: "g-foot"}, form));
-        this.reset.textContent = "All as in the file";
-        this.reset.onclick = () => {
-            this.given = {};
-            this.since.clear();
-            this.changed();
+        const footer = createElement("div", {class: "g-footer"}, form);
+        this.resetButton = createElement("button", {type: "button", class: "g-reset"}, footer);
+        this.resetButton.textContent = "All as in the file";
+        this.resetButton.onclick = () => {
+            this.givenValues = {};
+            this.changedSinceRun.clear();
+            this.onChange();
         };
         form.onsubmit = (event) => event.preventDefault();
     }
 
-    /* Set a parameter. */
+    /* Set a parameter, in SI or to a word. */
     set(address, value) {
-        this.given[address] = value;
-        this.since.add(address);
-        this.changed();
+        this.givenValues[address] = value;
+        this.changedSinceRun.add(address);
+        this.onChange();
     }
 
     /* Reset a parameter to the file's value. */
-    forget(address) {
-        delete this.given[address];
-        this.since.delete(address);
-        this.changed();
+    resetParameter(address) {
+        delete this.givenValues[address];
+        this.changedSinceRun.delete(address);
+        this.onChange();
     }
 
     /* Show the values of the simulator. */
     show(sim) {
-        for (const field of this.fields) field.show(sim.p, this.given[field.slot.address]);
+        for (const field of this.fields) field.show(sim.p, this.givenValues[field.parameter.address]);
         this.options.show(sim);
-        for (const box of this.gains) box.hidden = !this.options.heldByGains;
-        this.reset.disabled = !Object.keys(this.given).length;
+        for (const box of this.gainSections) box.hidden = !this.options.usesGains;
+        this.resetButton.disabled = !Object.keys(this.givenValues).length;
     }
 
-    /* Return the parameters that cause an error which does not name them, as text; their fields are marked. */
-    blamed(error, sim) {
-        const words = error.message.split(/[\s,:;=]+/), named = (one) => words.includes(one);
-        const found = Object.keys(this.given).some(named) ? [] : this.culprits(error, sim);
-        const fields = this.fields.filter(({slot}) => found.includes(slot.address) || (slot.address in this.given
-            && named(slot.address)));
+    /* Return text on the parameters that cause an error which does not name them; "" for others. Mark their fields. */
+    describeCauses(error, sim) {
+        const words = error.message.split(/[\s,:;=]+/), isNamed = (address) => words.includes(address);
+        const causes = Object.keys(this.givenValues).some(isNamed) ? [] : this.findCauses(error, sim);
+        const fields = this.fields.filter(({parameter: {address}}) => causes.includes(address)
+            || (address in this.givenValues && isNamed(address)));
         for (const {field} of fields) field?.setAttribute("aria-invalid", true);
-        if (!found.length) return "";
-        const told_ = fields.map(({told: {factor, unit}, slot: {address, words}}) => {
-            const value = this.given[address];
-            return `${address} = ${words ? value : `${told(value / factor, 6)} ${unit}`.trim()}`;
+        if (!causes.length) return "";
+        const values = fields.map(({entry: {factor, unit}, parameter: {address, words}}) => {
+            const value = this.givenValues[address];
+            return `${address} = ${words ? value : `${formatNumber(value / factor, 6)} ${unit}`.trim()}`;
         });
-        return `. ${error.partial ? "Moved since the last whole run" : "What makes it"}: ${told_.join(", ")}`;
+        return `. ${error.partial ? "Changed since the last complete run" : "Cause"}: ${values.join(", ")}`;
     }
 
     /*
-     * Return parameters without which the run starts; if no single one suffices, those that fail alone, otherwise all.
+     * Return the parameters without which the run starts; if no single one suffices, those that fail alone, otherwise
+     * all.
      *
-     * After the start of a run: all changed ones.
+     * After the start of a run: all that changed since the last complete one. The simulator is left as it was.
      */
-    culprits(error, sim) {
-        const all = Object.keys(this.given), {given} = this, {p, projected, given: values, mask} = sim;
-        if (error.partial) return [...this.since];
-        const begins = (names) => {
+    findCauses(error, sim) {
+        const addresses = Object.keys(this.givenValues), {p, p_motion, givenValues, isGiven} = sim;
+        if (error.partial) return [...this.changedSinceRun];
+        const hasStart = (selected) => {
             try {
-                sim.setParameters(Object.fromEntries(names.map((name) => [name, given[name]])));
+                sim.setParameters(Object.fromEntries(selected.map((address) => [address, this.givenValues[address]])));
                 sim.start();
                 return true;
             } catch {
@@ -202,118 +218,123 @@ class Panel {
             }
         };
         try {
-            if (begins(all)) return [];
-            if (all.length > MOST_BLAMED) return [...this.since];
-            const needed = all.filter((name) => begins(all.filter((other) => other !== name)));
+            if (hasStart(addresses)) return [];
+            if (addresses.length > MAX_TRIED) return [...this.changedSinceRun];
+            const needed = addresses.filter((address) => hasStart(addresses.filter((other) => other !== address)));
             if (needed.length) return needed;
-            const alone = all.filter((name) => !begins([name]));
-            return alone.length ? alone : all;
+            const failing = addresses.filter((address) => !hasStart([address]));
+            return failing.length ? failing : addresses;
         } finally {
-            Object.assign(sim, {p, projected, given: values, mask});
+            Object.assign(sim, {p, p_motion, givenValues, isGiven});
         }
     }
 }
 
-/* Method, tolerance, length and samples; empty fields stand for the scene's defaults. */
-class Options {
-    constructor(form, about, panel) {
-        const box = section("Run", true, form);
-        const driven = about.methods[0] === "kinematic";
-        Object.assign(this, {about, seconds: panel.units.s, drifts: panel.drifts});
-        this.method = this.row(box, "method", element("select", {class: "g-across"}));
-        for (const name of driven ? about.methods : ["auto", ...about.methods])
-            element("option", {value: name}, this.method).textContent = METHODS[driven && name === "rk4" ? "driven" : name] ?? name;
-        if (by("gudgeon-module-full")) this.formulations(box, panel);
-        if (panel.drift) this.drift(box, panel.drift);
-        this.rtol = !driven ? this.field(box, "rtol", "") : null;
-        this.step = about.methods.includes("rk4") ? this.field(box, "step", "s") : null;
-        this.t_end = this.field(box, "t_end", "s");
-        this.output = this.field(box, "output", "intervals");
-        for (const one of [this.method, this.rtol, this.step, this.t_end, this.output])
-            if (one) one.onchange = () => {
-                this.fit();
-                panel.changed();
+/* Method, tolerance, length and samples of a run; empty fields stand for the scene's defaults. */
+class RunOptions {
+    constructor(form, description, panel) {
+        const box = createSection("Run", true, form), isDriven = description.methods[0] === "kinematic";
+        Object.assign(this, {description, timeUnits: panel.units.s, hasDrift: panel.hasDrift});
+        this.method = this.addRow(box, "method", createElement("select", {class: "g-wide-field"}));
+        for (const name of isDriven ? description.methods : ["auto", ...description.methods]) {
+            const label = METHOD_LABELS[isDriven && name === "rk4" ? "driven" : name] ?? name;
+            createElement("option", {value: name}, this.method).textContent = label;
+        }
+        if (getElement("gudgeon-module-full")) this.addFormulationChoice(box, panel);
+        if (panel.drift) this.addDriftNote(box, panel.drift);
+        this.rtol = !isDriven ? this.addField(box, "rtol", "") : null;
+        this.step = description.methods.includes("rk4") ? this.addField(box, "step", "s") : null;
+        this.t_end = this.addField(box, "t_end", "s");
+        this.output = this.addField(box, "output", "intervals");
+        for (const input of [this.method, this.rtol, this.step, this.t_end, this.output])
+            if (input) input.onchange = () => {
+                this.updateFields();
+                panel.onChange();
             };
-        this.held = element("p", {class: "g-quiet"}, box);
-        this.fit();
+        this.gainNote = createElement("p", {class: "g-quiet"}, box);
+        this.updateFields();
     }
 
     /* Add the choice of the formulation: reduced, where tree joints do not drift, or full, where all joints drift. */
-    formulations(box, panel) {
-        const made = this.formulation = this.row(box, "formulation", element("select", {class: "g-across"}));
-        for (const [name, told_] of [["", "reduced (a tree’s coordinates)"], ["-full", "full (all rows of Φ)"]])
-            element("option", {value: name}, made).textContent = told_;
-        made.onchange = () => panel.formulated(made.value);
+    addFormulationChoice(box, panel) {
+        const select = this.formulation = createElement("select", {class: "g-wide-field"});
+        this.addRow(box, "formulation", select);
+        for (const [suffix, label] of [["", "reduced (a tree’s coordinates)"], ["-full", "full (all rows of Φ)"]])
+            createElement("option", {value: suffix}, select).textContent = label;
+        select.onchange = () => panel.onFormulation(select.value);
     }
 
-    /* Add a row with an element. */
-    row(box, name, made, unit = "") {
-        const row = element("div", {class: "g-number"}, box), id = `g-run-${name}`;
-        element("label", {for: id}, row).textContent = name;
-        made.id = id;
-        row.append(made);
-        element("span", {class: "g-unit"}, row).textContent = unit;
-        return made;
+    /* Add a row with a name, an input element and a unit, and return the element. */
+    addRow(box, name, input, unit = "") {
+        const row = createElement("div", {class: "g-parameter"}, box), id = `g-run-${name}`;
+        createElement("label", {for: id}, row).textContent = name;
+        input.id = id;
+        row.append(input);
+        createElement("span", {class: "g-unit"}, row).textContent = unit;
+        return input;
     }
 
     /* Show why no constraint drifts here, with Python code in which they do. */
-    drift(box, {note, code}) {
-        element("p", {class: "g-quiet"}, box).textContent = note;
-        const more = section("A drift in Python", false, box);
-        element("pre", {}, more).textContent = code;
+    addDriftNote(box, {note, code}) {
+        createElement("p", {class: "g-quiet"}, box).textContent = note;
+        const section = createSection("A drift in Python", false, box);
+        createElement("pre", {}, section).textContent = code;
     }
 
-    /* Add a text field. */
-    field(box, name, unit) {
-        return this.row(box, name, element("input", {type: "text", size: 8}), unit);
+    /* Add a text field, and return it. */
+    addField(box, name, unit) {
+        return this.addRow(box, name, createElement("input", {type: "text", size: 8}), unit);
     }
 
     /* Return whether Baumgarte's terms act: on integrated constraints without projection. */
-    get heldByGains() {
-        return this.method.value === "rk4" && (this.drifts || this.formulation?.value === "-full");
+    get usesGains() {
+        return this.method.value === "rk4" && (this.hasDrift || this.formulation?.value === "-full");
     }
 
     /* Show the defaults in empty fields. */
     show(sim) {
-        const given = typed(this.t_end.value, {factor: 1}, this.seconds);
-        const usual = {rtol: sim.about.rtol, ...sim.usual(given > 0 ? given : undefined)};
+        const t_end = parseNumber(this.t_end.value, {factor: 1}, this.timeUnits);
+        const defaults = {rtol: sim.description.rtol, ...sim.computeDefaultOptions(t_end > 0 ? t_end : undefined)};
         for (const name of ["rtol", "step", "t_end", "output"])
-            if (this[name]) this[name].placeholder = told(usual[name], 4);
-        this.hold(sim, usual.step);
-        if (!this.step || !usual.estimated) return;
+            if (this[name]) this[name].placeholder = formatNumber(defaults[name], 4);
+        this.showGainNote(sim, defaults.step);
+        if (!this.step || !defaults.isStepEstimated) return;
         this.step.placeholder += ", estimated";
         this.step.title = "estimated for the file’s numbers";
     }
 
-    /* Show whether Baumgarte's terms hold Φ at this step or destabilize it (docs/error_control.md). */
-    hold({p}, usual) {
-        const {gains} = this.about, own = typed(this.step?.value ?? "", {factor: 1}, this.seconds), h = own > 0 ? own : usual;
-        this.held.hidden = !this.heldByGains || !gains.length;
-        if (this.held.hidden) return;
-        const share = 2 * h * Math.max(...gains.map((k) => p[k])), good = told(0.1 / h, 1);
-        const what = share > HOLDS ? `is too much: gains near 1/h push Φ away. Some ${good} 1/s would hold it at this step`
-            : share > 0 ? "is small enough: Φ is held" : `holds nothing: Φ drifts on. Some ${good} 1/s would hold it`;
-        this.held.textContent = `2αh = ${told(share, 2)} ${what}.`;
+    /* Show whether Baumgarte's terms limit Φ at this step (s) or make it grow (docs/error_control.md). */
+    showGainNote({p}, defaultStep) {
+        const {gains} = this.description, step = parseNumber(this.step?.value ?? "", {factor: 1}, this.timeUnits);
+        this.gainNote.hidden = !this.usesGains || !gains.length;
+        if (this.gainNote.hidden) return;
+        const h = step > 0 ? step : defaultStep, gainStep = 2 * h * Math.max(...gains.map((k) => p[k]));
+        const suitable = formatNumber(0.1 / h, 1);
+        const effect = gainStep > MAX_GAIN_STEP
+            ? `is too much: with gains near 1/h, Φ grows. Some ${suitable} 1/s would hold it at this step`
+            : gainStep > 0 ? "is small enough: Φ is held"
+                : `holds nothing: Φ drifts on. Some ${suitable} 1/s would hold it`;
+        this.gainNote.textContent = `2αh = ${formatNumber(gainStep, 2)} ${effect}.`;
     }
 
     /* Show the field of the step for rk4, that of the tolerance for other methods. */
-    fit() {
-        for (const one of [this.rtol, this.step, this.t_end, this.output]) one?.removeAttribute("aria-invalid");
-        const fixed = this.method.value === "rk4";
-        if (this.step) this.step.parentElement.hidden = !fixed;
-        if (this.rtol) this.rtol.parentElement.hidden = fixed;
+    updateFields() {
+        for (const input of [this.rtol, this.step, this.t_end, this.output]) input?.removeAttribute("aria-invalid");
+        const hasFixedStep = this.method.value === "rk4";
+        if (this.step) this.step.parentElement.hidden = !hasFixedStep;
+        if (this.rtol) this.rtol.parentElement.hidden = hasFixedStep;
     }
 
     /* Return the options for `sim.running`. Throws an Error for text that is not a number. */
     read() {
-        const found = {method: this.method.value}, fixed = found.method === "rk4";
-        for (const name of fixed ? ["step", "t_end", "output"] : ["rtol", "t_end", "output"]) {
+        const options = {method: this.method.value}, hasFixedStep = options.method === "rk4";
+        for (const name of hasFixedStep ? ["step", "t_end", "output"] : ["rtol", "t_end", "output"]) {
             const text = this[name]?.value.trim();
             if (!text) continue;
-            const units = name === "step" || name === "t_end" ? this.seconds : {};
-            found[name] = typed(text, {factor: 1}, units);
-            if (Number.isNaN(found[name])) throw new Error(refusal(this[name], name, text, units));
+            const units = name === "step" || name === "t_end" ? this.timeUnits : {};
+            options[name] = parseNumber(text, {factor: 1}, units);
+            if (Number.isNaN(options[name])) throw new Error(markInvalid(this[name], name, text, units));
         }
-        return found;
+        return options;
     }
 }

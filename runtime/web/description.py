@@ -35,8 +35,8 @@ from gudgeon.results.series import get_catalogue
 from gudgeon.simulation.arguments import DEFAULT_OUTPUT
 from gudgeon.simulation.hidden_jumps import may_jump
 
-SEEN = 1.0 / 60.0  # step of rk4 at which constraints drift visibly, over the length of the run
-NOT_SEEN = "jumps of drives that their form does not show are looked for in Python only"
+DRIFT_STEP_FRACTION = 1.0 / 60.0  # step of rk4 at which constraints drift visibly, over the length of the run
+HIDDEN_JUMPS_NOTE = "jumps of drives that their expressions do not show are searched in Python only"
 
 
 def build_description(compiled: CompiledModel, drift_step: float | None = None) -> str:
@@ -94,7 +94,7 @@ def build_description(compiled: CompiledModel, drift_step: float | None = None) 
             for name, series in get_catalogue(source).items()
             if name in source.outputs
         },
-        "notes": [NOT_SEEN] if may_jump(source) else [],
+        "notes": [HIDDEN_JUMPS_NOTE] if may_jump(source) else [],
     }
     return json.dumps(values, ensure_ascii=False, separators=(",", ":"), allow_nan=False)
 
@@ -182,7 +182,7 @@ def _compute_default_step(compiled: CompiledModel, drift_step: float | None) -> 
     For a scene that rk4 does not integrate in Python, the bound is `drift_step`; None without it.
     """
     if "rk4" not in compiled.source.methods:
-        return None if drift_step is None else [SEEN, drift_step]
+        return None if drift_step is None else [DRIFT_STEP_FRACTION, drift_step]
     return [SMOOTH, estimate_default_step(compiled, prepare_values(compiled, {})[0], math.inf)]
 
 

@@ -12,21 +12,21 @@ from gudgeon.loading.shipped import find_shipped_file, list_shipped_mechanisms
 from gudgeon.results.results import Result
 from gudgeon.simulation.simulation import Simulation
 
-STEPS = 60  # steps in one turn
-SOLVED = "The drives leave no freedom: Φ = 0 is solved at each sample, so that no constraint drifts."
-KEPT = (
-    " Method rk4 integrates a = Φ_q⁻¹ (γ − 2α Φ̇ − β² Φ) instead, with all rows kept: Φ drifts (its trace is Phi.max),"
-    " or is held by Baumgarte’s terms, whose α and β are shown then. The step is so long that the drift is seen: it"
-    " grows on from turn to turn."
+STEPS_PER_TURN = 60  # steps of rk4, so that the drift is visible
+KINEMATIC_NOTE = "The scene has no degrees of freedom: Φ = 0 is solved at each sample, so that no constraint drifts."
+RK4_NOTE = (
+    " The method rk4 integrates a = Φ_q⁻¹ (γ − 2α Φ̇ − β² Φ) instead: Φ drifts (series Phi.max), unless Baumgarte’s"
+    " terms limit it. Their gains α and β are then shown. The step is so long that the drift is visible: it grows with"
+    " each turn."
 )
-EVENTS = " Its rows are not integrated on this page, for its events are looked for along the solved motion alone."
-HELD = (
-    "Here the joints of the tree hold by themselves. The full formulation, in which all rows of Φ, those of the drives"
-    " too, drift or are held by Baumgarte’s terms, has no room on this page: its C takes {size} kB, and beside more"
-    " than {most} kB there is no second one. gudgeon.load({loaded}).full.to_html() is a page of it."
+EVENTS_NOTE = " The page does not offer rk4, because it searches events along the solved motion only."
+REDUCED_NOTE = (
+    "In the reduced formulation, the joints of the tree cannot drift. This page does not contain the full formulation,"
+    " in which all rows of Φ drift or are limited by Baumgarte’s terms: the C of the scene takes {size} kB, more than"
+    " the limit of {max_size} kB. gudgeon.load({loaded}).full.to_html() is a page of the full formulation."
 )
-# a = Φ_q⁻¹ (γ − 2 α Φ̇ − β² Φ): a driven mechanism with its rows kept, as a student would integrate it
-INTEGRATED = Template("""import gudgeon, numpy as np
+# a = Φ_q⁻¹ (γ − 2 α Φ̇ − β² Φ): all constraint equations integrated, as a student would do it
+RK4_CODE = Template("""import gudgeon, numpy as np
 
 sim = gudgeon.load($loaded).full
 model, run, steps = sim.model.numpy(), sim.simulate(), $steps
@@ -38,7 +38,7 @@ def rate(t, y, gain):  # gain: alpha and beta of Baumgarte's terms
     a = model.gamma(t, q, v, p) - drift - gain**2 * model.phi(t, q, p)
     return np.r_[v, np.linalg.lstsq(J, a)[0]]
 
-for gain in 0, $gains:  # phi grows on; it is held; 1 / h pushes it away: 2 gain h must stay small
+for gain in 0, $gains:  # phi drifts; is limited; grows with 1 / h, since 2 gain h must stay small
     y, worst = np.r_[run.q[0], run.v[0]], 0
     for t in h * np.arange(5 * steps):  # rk4, for five times as long
         k1 = rate(t, y, gain)
@@ -47,9 +47,9 @@ for gain in 0, $gains:  # phi grows on; it is held; 1 / h pushes it away: 2 gain
         y = y + h / 6 * (k1 + 2 * k2 + 2 * k3 + rate(t + h, y + h * k3, gain))
         worst = max(worst, np.abs(model.phi(t + h, y[:n], p)).max())
     print(gain, worst)
-# neither drifts: sim.simulate() solves phi = 0; method="dop853" projects onto it where something is free
+# without drift: sim.simulate() solves phi = 0; with degrees of freedom, method="dop853" projects onto it
 """)
-RUN = Template("""import gudgeon
+FULL_CODE = Template("""import gudgeon
 
 sim = gudgeon.load($loaded).full
 for gain in 0, 5:  # of Baumgarte's terms: off, on
@@ -66,7 +66,7 @@ def compute_drift_step(run: Result) -> float:
     """
     max_rates = [float(np.abs(run.v[:, body.index + 2]).max()) for body in run.source.bodies]
     period = 2.0 * np.pi / max([*max_rates, 1e-300])
-    return min(period, float(run.t[-1] - run.t[0])) / STEPS
+    return min(period, float(run.t[-1] - run.t[0])) / STEPS_PER_TURN
 
 
 def explain_missing_drift(
@@ -79,16 +79,16 @@ def explain_missing_drift(
     """
     replacements = dict[str, str]()
     if simulation.source.methods == (KINEMATIC,):
-        note, code = SOLVED + (EVENTS if simulation.source.events else KEPT), INTEGRATED
+        note, code = KINEMATIC_NOTE + (EVENTS_NOTE if simulation.source.events else RK4_NOTE), RK4_CODE
         replacements = _format_step_and_gains(run)
     elif simulation.source.formulation == "reduced" and module_size > max_module_size:
         note, code = (
-            HELD.format(
+            REDUCED_NOTE.format(
                 size=round(module_size / 1e3),
-                most=round(max_module_size / 1e3),
+                max_size=round(max_module_size / 1e3),
                 loaded=format_load_arguments(simulation),
             ),
-            RUN,
+            FULL_CODE,
         )
     else:
         return None

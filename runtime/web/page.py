@@ -16,9 +16,9 @@ from gudgeon.simulation.simulation import Simulation
 from gudgeon.web.description import build_description
 from gudgeon.web.module import compile_simulator
 
-UNDEFINED = "undefined.js"
-FILES = ("boundary.js", "run.js", UNDEFINED, "loops.js", "start.js", "simulator.js")
-DESCRIPTION, MODULE = "gudgeon-description", "gudgeon-module"  # ids of hidden elements
+UNDEFINED_PARTS = "undefined_parts.js"
+SIMULATOR_FILES = ("boundary.js", "run.js", UNDEFINED_PARTS, "time_loops.js", "start.js", "simulator.js")
+DESCRIPTION_ID, MODULE_ID = "gudgeon-description", "gudgeon-module"  # ids of hidden elements
 
 
 class Parts(NamedTuple):
@@ -61,13 +61,15 @@ def build_script(source: KernelSource) -> str:
 
     The check for undefined expressions is included if the scene needs it.
     """
-    sources = [read_script(name) for name in FILES if name != UNDEFINED or find_partial_expressions(source)]
+    sources = [
+        read_script(name) for name in SIMULATOR_FILES if name != UNDEFINED_PARTS or find_partial_expressions(source)
+    ]
     return "\n".join(
         (
             "const gudgeon = (() => {",
             '"use strict";',
             *sources,
-            "return {load, unpacked, Simulator, Run};",
+            "return {load, unpack, Simulator, Run};",
             "})();",
             'if (typeof module !== "undefined") module.exports = gudgeon;',
             "",
@@ -83,17 +85,17 @@ def carried(compiled: CompiledModel) -> str:
     module = pack_module(compiled)
     return (
         f"<script>\n{build_script(compiled.source)}</script>\n"
-        f"{build_json_element(DESCRIPTION, build_description(compiled))}{module}"
+        f"{build_json_element(DESCRIPTION_ID, build_description(compiled))}{module}"
     )
 
 
 def pack_module(compiled: CompiledModel, suffix: str = "") -> str:
     """Return the WebAssembly module of a scene as a hidden HTML element (gzip, base64); `suffix` ends its id."""
-    return pack_element(f"{MODULE}{suffix}", compile_simulator(compiled.source))
+    return pack_element(f"{MODULE_ID}{suffix}", compile_simulator(compiled.source))
 
 
 def pack_element(name: str, data: bytes) -> str:
-    """Return bytes as a hidden HTML element with the id `name` (gzip, base64), which `gudgeon.unpacked` reads."""
+    """Return bytes as a hidden HTML element with the id `name` (gzip, base64), which `gudgeon.unpack` reads."""
     encoded = base64.b64encode(gzip.compress(data, 9, mtime=0)).decode("ascii")
     return f'<script type="text/plain" id="{name}">{encoded}</script>\n'
 

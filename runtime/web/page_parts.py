@@ -21,17 +21,17 @@ from gudgeon.results.results import Result
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.web import drift
 from gudgeon.web.description import build_description
-from gudgeon.web.page import DESCRIPTION, Parts, build_script, pack_element, pack_module, read_file, read_script
-from gudgeon.web.panel import NARROW, WIDE, build_panel, build_rig, list_styles, pack_run
+from gudgeon.web.page import DESCRIPTION_ID, Parts, build_script, pack_element, pack_module, read_file, read_script
+from gudgeon.web.panel import NARROW_INCHES, WIDE_INCHES, build_panel, build_rig, list_styles, pack_run
 from gudgeon.web.style_sheet import build_style_sheet, make_css_class
 
-APP = ("names.js", "drawing.js", "chart.js", "controls.js", "app.js")
-PANEL = "gudgeon-panel"
-PROGRAM = "gudgeon-program"  # packed program that begin.js unpacks and runs
+APP_FILES = ("labels.js", "drawing.js", "chart.js", "controls.js", "app.js")
+PANEL_ID = "gudgeon-panel"
+PROGRAM_ID = "gudgeon-program"  # packed program that loader.js unpacks and runs
 MAX_MODULE_BYTES = 62_000  # largest module, in bytes, that is accompanied by the full formulation
-NO_SIMULATOR = (
-    "This page carries one run, with the numbers of the file: it was written without the compiler for pages"
-    " (pip install 'gudgeon[web]'), with which its numbers can be moved."
+NO_SIMULATOR_NOTE = (
+    "This page contains one run with the parameters of the file. They can be changed in pages that are written with"
+    " the compiler for pages (pip install 'gudgeon[web]')."
 )
 
 
@@ -44,7 +44,9 @@ def build_simulator_parts(simulation: Simulation, scenes: Mapping[str, str]) -> 
     run = _run_scene(simulation)
     rig = build_rig(run)
     contents, note = build_panel(simulation, run, rig) | _describe_drawing(rig) | {"scenes": dict(scenes)}, ""
-    elements = pack_element(DESCRIPTION, build_description(simulation.compiled, drift.compute_drift_step(run)).encode())
+    elements = pack_element(
+        DESCRIPTION_ID, build_description(simulation.compiled, drift.compute_drift_step(run)).encode()
+    )
     try:
         module = pack_module(simulation.compiled)
         elements += _pack_modules(simulation, module)
@@ -53,16 +55,14 @@ def build_simulator_parts(simulation: Simulation, scenes: Mapping[str, str]) -> 
     except BuildError as error:
         if error.__cause__ is None or not isinstance(error.__cause__, ImportError):
             raise
-        contents["recorded"], note = pack_run(run, [*contents["traces"], *contents["values"]]), NO_SIMULATOR
+        contents["recorded"], note = pack_run(run, [*contents["traces"], *contents["values"]]), NO_SIMULATOR_NOTE
         warn(f"{note[0].lower()}{note[1:]}", stacklevel=find_user_stack_level())
     text = json.dumps(contents, ensure_ascii=False, separators=(",", ":"), allow_nan=False)
-    elements += pack_element(PANEL, text.encode())
+    elements += pack_element(PANEL_ID, text.encode())
     title = format_one_line(simulation.source.title or simulation.source.mechanism)
     frame = read_file("app.html").replace("@NOTE@", escape(note)).replace("@TITLE@", escape(title))
-    elements += pack_element(PROGRAM, build_app_script().encode())
-    scripts = (
-        f"{elements}<script>\n{build_script(simulation.source)}</script>\n<script>\n{read_script('begin.js')}</script>"
-    )
+    elements += pack_element(PROGRAM_ID, (build_script(simulation.source) + build_app_script()).encode())
+    scripts = f"{elements}<script>\n{read_script('loader.js')}</script>"
     return Parts(f"<style>\n{build_style_sheet(*list_styles(rig))}</style>", frame, scripts)
 
 
@@ -74,7 +74,7 @@ def _pack_modules(simulation: Simulation, module_element: str) -> str:
     full_model = simulation.full.compiled
     return (
         module_element
-        + pack_element(f"{DESCRIPTION}-full", build_description(full_model).encode())
+        + pack_element(f"{DESCRIPTION_ID}-full", build_description(full_model).encode())
         + pack_module(full_model, "-full")
     )
 
@@ -100,7 +100,7 @@ def _describe_drawing(rig: Rig) -> dict[str, Any]:
     looks: CSS classes of the shapes. pixels: pixels per metre on a wide and on a narrow screen.
     """
     pixels_per_metre = []
-    for inches in (WIDE, NARROW):
+    for inches in (WIDE_INCHES, NARROW_INCHES):
         figure_size, sketch = compute_figure_size(rig.sketch, inches), replace(rig.sketch, labels=())
         pixels_per_metre.append(
             PIXELS
@@ -118,4 +118,4 @@ def _describe_drawing(rig: Rig) -> dict[str, Any]:
 @cache
 def build_app_script() -> str:
     """Return the JavaScript of the visible part, which follows `build_script` of page.py."""
-    return "\n".join(("(() => {", '"use strict";', *(read_script(name) for name in APP), "})();", ""))
+    return "\n".join(("(() => {", '"use strict";', *(read_script(name) for name in APP_FILES), "})();", ""))

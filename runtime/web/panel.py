@@ -25,15 +25,15 @@ from gudgeon.simulation.simulation import Simulation
 from gudgeon.web.parameter_panel import build_parameter_sections, list_units
 from gudgeon.web.style_sheet import make_css_class
 
-WIDE, NARROW = 7.0, 3.6  # inches of a drawing on wide and narrow screens; names are placed for both
-SHOWN_AT = 24  # number of configurations from which the drawing is made
-MORE = ("reaction", "reaction head", "path")  # roles that exist on pages only
+WIDE_INCHES, NARROW_INCHES = 7.0, 3.6  # inches of a drawing on wide and narrow screens; names are placed for both
+N_CONFIGURATIONS = 24  # number of configurations from which the drawing is made
+PAGE_ROLES = ("reaction", "reaction head", "path")  # roles that exist on pages only
 MAX_SAMPLES, MAX_SERIES = 400, 60  # samples and series of a recorded run
 
 
 def build_rig(run: Result) -> Rig:
     """Return the drawing of a run."""
-    motion = select_configurations(run, SHOWN_AT)
+    motion = select_configurations(run, N_CONFIGURATIONS)
     return make_rig(motion, make_layout(motion))
 
 
@@ -108,7 +108,7 @@ def list_styles(rig: Rig) -> tuple[list[tuple[str, int]], list[tuple[str, int]]]
     """
     shape_styles = dict.fromkeys((carried.shape.role, carried.shape.tint) for carried in rig.shapes)
     unique_shape_styles = {
-        make_css_class(role, tint): (role, tint) for role, tint in [*shape_styles, *((role, 0) for role in MORE)]
+        make_css_class(role, tint): (role, tint) for role, tint in [*shape_styles, *((role, 0) for role in PAGE_ROLES)]
     }
     name_styles = {make_css_class(role, tint): (role, tint) for role, tint in _iterate_name_styles(rig)}
     return list(unique_shape_styles.values()), list(name_styles.values())
@@ -126,7 +126,10 @@ def _iterate_names(rig: Rig) -> Iterator[list[Any]]:
 
     Shifts are in pixels with y down, None where the name is hidden; the distance from the part is in m.
     """
-    wide_shifts, narrow_shifts = _compute_name_offsets(rig.sketch, WIDE), _compute_name_offsets(rig.sketch, NARROW)
+    wide_shifts, narrow_shifts = (
+        _compute_name_offsets(rig.sketch, WIDE_INCHES),
+        _compute_name_offsets(rig.sketch, NARROW_INCHES),
+    )
     for label, (role, tint) in zip(rig.sketch.labels, _iterate_name_styles(rig), strict=True):
         shifts = [
             [round(x, 1), round(-y, 1)]

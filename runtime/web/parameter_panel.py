@@ -35,13 +35,15 @@ SECTIONS = {
     "baumgarte": "Baumgarte's terms",
     "start": "Start",
 }
-MORE, TURN = 4.0, 3.141592653589793  # range of a positive number over its value, half range of an angle in rad
-SMALL = 0.05  # lengths below this fraction of the mechanism's size are not link lengths
-STAY = ("bodies", "bearings", "guides", "contacts", "materials", "baumgarte")  # whose positive numbers keep their sign
-HALVINGS = 30  # bisections between a valid value and a refused end
-EDGE = 1e-3  # distance of a slider from an open bound, over its range
-WRITTEN = re.compile(r".*?(?:[\d.)]|\bpi)\s+([A-Za-zµΩ°%][\w*/^.()µ°-]*)$")  # "2*pi rad/s": the unit at its end
-ANGLES = ("deg", "rad", "°")
+MAX_FACTOR = 4.0  # largest value of the slider of a positive number, over the present value
+HALF_TURN = 3.141592653589793  # half the range of an angle, rad
+MIN_LINK_FRACTION = 0.05  # lengths below this fraction of the mechanism's size are not link lengths
+# sections whose positive numbers keep their sign
+SIGNED_SECTIONS = ("bodies", "bearings", "guides", "contacts", "materials", "baumgarte")
+N_BISECTIONS = 30  # bisections between a valid value and a refused end
+BOUND_MARGIN = 1e-3  # distance of a slider from an open bound, over its range
+UNIT_PATTERN = re.compile(r".*?(?:[\d.)]|\bpi)\s+([A-Za-zµΩ°%][\w*/^.()µ°-]*)$")  # "2*pi rad/s": the unit at its end
+ANGLE_UNITS = ("deg", "rad", "°")
 
 
 def build_parameter_sections(simulation: Simulation, p: Array) -> list[dict[str, Any]]:
@@ -62,7 +64,7 @@ def build_parameter_sections(simulation: Simulation, p: Array) -> list[dict[str,
         entry: dict[str, Any] = {"k": k, "name": name or section}
         if not parameter.words:
             unit, factor = units.find_unit(parameter)
-            is_angle = unit in ANGLES or parameter.address.endswith((".theta", ".angle"))
+            is_angle = unit in ANGLE_UNITS or parameter.address.endswith((".theta", ".angle"))
             low, high = _compute_slider_range(source, parameter, p, mechanism_length, is_angle)
             low, high = (_limit_range_end(simulation.compiled, parameter, float(p[k]), end) for end in (low, high))
             entry |= {"unit": format_unit(unit), "factor": factor, "low": low, "high": high}
@@ -115,11 +117,13 @@ def _limit_range_end(compiled: CompiledModel, parameter: RuntimeParameter, value
     if not is_value_refused(end) or is_value_refused(value):
         return end
     accepted, refused = value, end
-    for _ in range(HALVINGS):
+    for _ in range(N_BISECTIONS):
         middle = 0.5 * (accepted + refused)
         accepted, refused = (accepted, middle) if is_value_refused(middle) else (middle, refused)
     return (
-        0.0 if abs(accepted) < EDGE * abs(value) and not is_value_refused(0.0) else accepted + EDGE * (value - accepted)
+        0.0
+        if abs(accepted) < BOUND_MARGIN * abs(value) and not is_value_refused(0.0)
+        else accepted + BOUND_MARGIN * (value - accepted)
     )
 
 
@@ -170,7 +174,7 @@ def _read_unit(document: Any, parameter: RuntimeParameter) -> tuple[str, float] 
             node = node["xy".index(key)] if key in ("x", "y") and len(node) == 2 else None
         else:
             node = node.get(key) if isinstance(node, dict) else None
-    match = WRITTEN.match(node.strip()) if isinstance(node, str) else None
+    match = UNIT_PATTERN.match(node.strip()) if isinstance(node, str) else None
     try:
         if match is None:  # pi/6
             expression = (
@@ -207,11 +211,12 @@ def _compute_slider_range(
         if condition.relation in ("<", "<=")
     ]
     section, is_length = parameter.address.partition(".")[0], parameter.unit == "m"
-    is_small = is_length and abs(value) < SMALL * mechanism_length  # a clearance or a bearing width, not a position
-    if value > 0.0 and (lower or is_small or (section in STAY and not is_length)):
-        low, high = 0.0, (2.0 if is_length and not is_small else MORE) * value
+    # a small length is a clearance or a bearing width, not a position
+    is_small = is_length and abs(value) < MIN_LINK_FRACTION * mechanism_length
+    if value > 0.0 and (lower or is_small or (section in SIGNED_SECTIONS and not is_length)):
+        low, high = 0.0, (2.0 if is_length and not is_small else MAX_FACTOR) * value
     elif is_angle:
-        low, high = value - TURN, value + TURN
+        low, high = value - HALF_TURN, value + HALF_TURN
     elif value == 0.0:
         half_range = {"m": 0.5 * mechanism_length, "m/s^2": 20.0, "": 1.0}.get(parameter.unit, 1.0)
         low, high = -half_range, half_range
@@ -221,6 +226,6 @@ def _compute_slider_range(
         low, high = -2.0 * abs(value), 2.0 * abs(value)
     low = max([low, *(bound for bound, _ in lower)])
     high = min([high, *(bound for bound, _ in upper)])
-    edge = EDGE * (high - low)
+    edge = BOUND_MARGIN * (high - low)
     low += edge if (low, ">") in lower else 0.0
     return low, high - (edge if (high, "<") in upper else 0.0)

@@ -1,47 +1,47 @@
 /*
- * Store a run and compute its series by name, like runtime/results/series.py.
+ * Store a run and compute its series by name, as runtime/results/series.py does.
  *
- * Series are columns of stored arrays and of what C evaluates at the samples, points of bodies, magnitudes, outputs of
- * the file.
+ * Series are columns of the stored arrays and of what C evaluates at the samples, points of bodies, magnitudes of
+ * forces, and outputs of the file. Values are in SI units, angles in rad.
  */
 const FUNCTIONS = { // of outputs; other functions are the browser's, whose last digit may differ from NumPy's
     "+": (a, b) => a + b, "*": (a, b) => a * b, "/": (a, b) => a / b, "**": Math.pow,
     "-": (a, b) => (b === undefined ? -a : a - b),
-    where: (left, right, then, otherwise) =>
-        (Number.isNaN(left) || Number.isNaN(right) ? NaN : left < right ? then : otherwise),
+    where: (left, right, valueBelow, valueAbove) =>
+        (Number.isNaN(left) || Number.isNaN(right) ? NaN : left < right ? valueBelow : valueAbove),
     mod: (a, b) => {
-        const rest = a % b;
-        return rest !== 0 && rest < 0 !== b < 0 ? rest + b : rest;
+        const remainder = a % b;
+        return remainder !== 0 && remainder < 0 !== b < 0 ? remainder + b : remainder;
     },
-    ramp: (t, start, lasts) => Math.min(Math.max((t - start) / lasts, 0), 1),
-    smooth_step: (t, start, lasts) => {
-        const s = FUNCTIONS.ramp(t, start, lasts);
+    ramp: (t, start, duration) => Math.min(Math.max((t - start) / duration, 0), 1),
+    smooth_step: (t, start, duration) => {
+        const s = FUNCTIONS.ramp(t, start, duration);
         return s ** 3 * (10 + s * (6 * s - 15));
     },
 };
 
-/* Return the value of an expression: a number, a name, or [function, ...]. */
-function valueOf(tree, named) {
+/* Return the value of an expression tree: a number, a name, or [function, ...]; `getValue` returns that of a name. */
+function evaluateExpression(tree, getValue) {
     if (typeof tree === "number") return tree;
-    if (typeof tree === "string") return named(tree);
+    if (typeof tree === "string") return getValue(tree);
     const [head, ...rest] = tree;
-    if (head === "curve") return curveAt(rest[0], valueOf(rest[1], named));
-    return (FUNCTIONS[head] ?? Math[head])(...rest.map((part) => valueOf(part, named)));
+    if (head === "curve") return evaluateCurve(rest[0], evaluateExpression(rest[1], getValue));
+    return (FUNCTIONS[head] ?? Math[head])(...rest.map((part) => evaluateExpression(part, getValue)));
 }
 
-const UNPACKED = new Map(); // tables of long curves: base64 of binary64, by their text
+const DECODED_TABLES = new Map(); // tables of long curves by their base64 texts
 
-/* Return the numbers of a packed table, cached. */
-function unpacked(text) {
-    if (!UNPACKED.has(text)) {
+/* Return the numbers of a table from its base64 text (binary64, little-endian); results are cached. */
+function decodeTable(text) {
+    if (!DECODED_TABLES.has(text)) {
         const bytes = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
-        UNPACKED.set(text, new Float64Array(bytes.buffer));
+        DECODED_TABLES.set(text, new Float64Array(bytes.buffer));
     }
-    return UNPACKED.get(text);
+    return DECODED_TABLES.get(text);
 }
 
-/* Return the index of the interval between knots that contains x, or of the outermost one. */
-function pieceOf(knots, x) {
+/* Return the index of the interval between knots that contains x; outside of all knots that of the nearest one. */
+function findInterval(knots, x) {
     let low = 0, high = knots.length - 1;
     while (high - low > 1) {
         const middle = (low + high) >> 1;
@@ -51,177 +51,204 @@ function pieceOf(knots, x) {
     return low;
 }
 
-/* Return the value of a cubic spline (runtime/language/curves.py): [name, knots, coefficients, ends, outside, unit]. */
-function curveAt([, knots, pieces, ends, outside], x) {
-    if (typeof knots === "string") knots = unpacked(knots);
-    const first = knots[0], last = knots[knots.length - 1], range = last - first, margin = 1e-9 * range;
-    const periodic = ends === "periodic";
-    if (periodic) x -= range * Math.floor((x - first) / range);
-    else if (outside === "none" && !(x >= first - margin && x <= last + margin)) return NaN;
-    const held = periodic || outside === "none" ? x : Math.min(Math.max(x, first), last);
-    const k = pieceOf(knots, held), h = held - knots[k];
-    const row = typeof pieces === "string" ? unpacked(pieces).subarray(4 * k, 4 * k + 4) : pieces[k];
-    const [c0, c1, c2, c3] = row, value = c0 + h * (c1 + h * (c2 + h * c3));
-    if (outside !== "line" || x === held) return value;
-    return value + (c1 + h * (2 * c2 + h * (3 * c3))) * (x - held);
+/*
+ * Return the value of a cubic spline at x (runtime/language/curves.py).
+ *
+ * The curve is [name, knots, coefficients, ends, extrapolation, unit]; knots and coefficients are arrays, or base64
+ * texts if they are long. NaN outside of the knots if the extrapolation is "none".
+ */
+function evaluateCurve([, knots, coefficients, ends, extrapolation], x) {
+    if (typeof knots === "string") knots = decodeTable(knots);
+    const first = knots[0], last = knots[knots.length - 1], range = last - first, tolerance = 1e-9 * range;
+    const isPeriodic = ends === "periodic";
+    if (isPeriodic) x -= range * Math.floor((x - first) / range);
+    else if (extrapolation === "none" && !(x >= first - tolerance && x <= last + tolerance)) return NaN;
+    const clamped = isPeriodic || extrapolation === "none" ? x : Math.min(Math.max(x, first), last);
+    const k = findInterval(knots, clamped), h = clamped - knots[k];
+    const isEncoded = typeof coefficients === "string";
+    const [c0, c1, c2, c3] = isEncoded ? decodeTable(coefficients).subarray(4 * k, 4 * k + 4) : coefficients[k];
+    const value = c0 + h * (c1 + h * (c2 + h * c3));
+    if (extrapolation !== "line" || x === clamped) return value;
+    return value + (c1 + h * (2 * c2 + h * (3 * c3))) * (x - clamped);
 }
 
-const RATES = [["x", "y"], ["vx", "vy"], ["ax", "ay"]];
+const POINT_AXES = [["x", "y"], ["vx", "vy"], ["ax", "ay"]]; // names of coordinates, velocities, accelerations
 const POINT_UNITS = ["m", "m/s", "m/s^2"];
-const STORED = ["q", "v", "work", "memory", "state"]; // arrays that the loops store
+const STORED_ARRAYS = ["q", "v", "work", "memory", "state"]; // which the time loops store
 
-/* Samples by rows: t (N), q, v (N n), work (N 3), memory, state; impacts, events; counts of the loop. */
+/*
+ * Samples of a run by rows, and lists of events and impacts.
+ *
+ * t (N) in s; q, v (N n); work (N 3) in J; memory: discrete states; state: contact codes; a (N n) of a kinematic
+ * analysis. counts: steps and others by name; p: parameter values; size of the mechanism in m.
+ */
 class Run {
     constructor(sim, t) {
-        Object.assign(this, {sim, about: sim.about, t, p: sim.p, size: sim.size});
-        Object.assign(this, {events: [], impacts: [], noNumber: []});
-        this.found = new Map(); // series that were computed
-        this.ways = this.followUps();
+        Object.assign(this, {sim, description: sim.description, t, p: sim.p, size: sim.size});
+        Object.assign(this, {events: [], impacts: [], undefinedEvents: []});
+        this.seriesCache = new Map();
+        this.catalogue = this.buildCatalogue();
     }
 
-    /* Return the start, which is known first; `followed`: it was continued from the file's start. */
-    begin() {
-        this.first = this.sim.start();
-        this.followed = Boolean(this.first.followed);
-        return this.first;
+    /*
+     * Find the start of the run and return it, {q, v, isContinued}; it is stored before the time loop begins.
+     *
+     * isContinued: whether the start was continued from that of the file's parameter values. Throws an Error.
+     */
+    findStart() {
+        this.start = this.sim.start();
+        this.isContinued = Boolean(this.start.isContinued);
+        return this.start;
     }
 
-    /* Enter an event at a time (s), or the time from which its expression is not a number. */
-    noteEvent(which, t) {
-        const {events} = this.about, told = which >= events.length;
-        if (told) this.noNumber.push({name: events[which - events.length][0], t});
-        else if (t > this.t[0] + resolution(this.t)) this.events.push({name: events[which][0], t});
+    /* Add event `index` at a time (s), or the time from which the expression of an event is not a number. */
+    addEvent(index, t) {
+        const {events} = this.description, isUndefined = index >= events.length;
+        if (isUndefined) this.undefinedEvents.push({name: events[index - events.length][0], t});
+        else if (t > this.t[0] + computeTimeResolution(this.t)) this.events.push({name: events[index][0], t});
     }
 
-    /* Enter an impact from its columns. */
-    noteImpact(which, columns) {
-        const named = Boundary.IMPACT_COLUMN_NAMES.map((name, k) => [name, columns[k]]);
-        this.impacts.push({joint: this.about.clearances[which][0], ...Object.fromEntries(named)});
+    /* Add an impact of the joint with play `index` from its columns (ImpactColumn of engine/boundary.h). */
+    addImpact(index, columns) {
+        const values = Boundary.IMPACT_COLUMN_NAMES.map((name, k) => [name, columns[k]]);
+        this.impacts.push({joint: this.description.clearances[index][0], ...Object.fromEntries(values)});
     }
 
-    /* Sort the lists by time, without entries after the last sample. */
-    closeLists() {
-        const last = this.t[this.t.length - 1] + resolution(this.t);
-        for (const name of ["events", "noNumber"])
+    /* Sort the lists by time, and remove events after the last sample. */
+    sortLists() {
+        const last = this.t[this.t.length - 1] + computeTimeResolution(this.t);
+        for (const name of ["events", "undefinedEvents"])
             this[name] = this[name].filter(({t}) => t <= last).sort((a, b) => a.t - b.t);
         this.impacts.sort((a, b) => a.t_on - b.t_on);
     }
 
     /* Return the names of all series. */
-    get names() { return [...this.ways.keys()]; }
+    get names() { return [...this.catalogue.keys()]; }
 
     /* Return the SI unit of a series; "" for a pure number. */
-    unit(name) { return name === "t" ? "s" : this.way(name).unit; }
+    unit(name) { return name === "t" ? "s" : this.findSeries(name).unit; }
 
-    /* Return a series by name, Float64Array (N), SI. */
+    /* Return a series by name, Float64Array (N), SI; it is computed once. */
     series(name) {
         if (name === "t") return this.t;
-        if (!this.found.has(name)) this.found.set(name, this.way(name).compute());
-        return this.found.get(name);
+        if (!this.seriesCache.has(name)) this.seriesCache.set(name, this.findSeries(name).compute());
+        return this.seriesCache.get(name);
     }
 
-    /* Return unit and function of a series. Throws an Error for an unknown name. */
-    way(name) {
-        if (!this.ways.has(name)) throw new Error(`this scene has no series named ${name}`);
-        return this.ways.get(name);
+    /* Return {unit, compute} of a series. Throws an Error for an unknown name. */
+    findSeries(name) {
+        if (!this.catalogue.has(name)) throw new Error(`this scene has no series named ${name}`);
+        return this.catalogue.get(name);
     }
 
-    /* Return all series by name: unit, and the function that computes it. */
-    followUps() {
-        const {columns, points, outputs, clearances, unknown} = this.about, ways = new Map();
-        const add = (name, unit, compute) => ways.set(name, {unit, compute});
-        const each = (f) => Float64Array.from(this.t, (_, i) => f(i));
+    /* Return all series by name: {unit, compute}, where `compute()` returns the values (N). */
+    buildCatalogue() {
+        const {columns, points, outputs, clearances, unknown} = this.description, catalogue = new Map();
+        const add = (name, unit, compute) => catalogue.set(name, {unit, compute});
+        const computeEach = (f) => Float64Array.from(this.t, (_, i) => f(i));
         for (const [name, [unit, array, column]] of Object.entries(columns))
-            add(name, unit, () => (unknown.includes(name) ? each(() => NaN) : this.column(array, column)));
+            add(name, unit, () => // unknown: left indeterminate by redundant constraints
+                (unknown.includes(name) ? computeEach(() => NaN) : this.getColumn(array, column)));
         for (const [name, point] of Object.entries(points))
             for (let order = 0; order < (point[0] < 0 ? 1 : 3); order++)
                 for (const axis of [0, 1])
-                    add(`${name}.${RATES[order][axis]}`, POINT_UNITS[order], () => this.point(point, axis, order));
+                    add(`${name}.${POINT_AXES[order][axis]}`, POINT_UNITS[order],
+                        () => this.computePointMotion(point, axis, order));
         const owners = Object.keys(columns).filter((name) => name.endsWith(".Fx")).map((name) => name.slice(0, -3));
         for (const owner of owners) {
             const [x, y] = [`${owner}.Fx`, `${owner}.Fy`];
-            add(`${owner}.F`, "N", () => each((i) => Math.hypot(this.series(x)[i], this.series(y)[i])));
+            add(`${owner}.F`, "N", () => computeEach((i) => Math.hypot(this.series(x)[i], this.series(y)[i])));
         }
         for (const [name, k] of clearances)
             add(`${name}.eps`, "", () => this.series(`${name}.e`).map((e) => e / this.p[k]));
-        if (columns["energy.kinetic"]) add("energy.residual", "J", () => this.residual());
+        if (columns["energy.kinetic"]) add("energy.residual", "J", () => this.computeEnergyResidual());
         for (const [name, [unit, tree]] of Object.entries(outputs))
-            add(name, unit, () => each((i) => valueOf(tree, (path) => this.named(path, i))));
-        return ways;
+            add(name, unit, () => computeEach((i) => evaluateExpression(tree, (path) => this.getValue(path, i))));
+        return catalogue;
     }
 
-    /* Return the value of a name in an output's expression at a sample. */
-    named(path, i) {
-        if (path === "t" || this.ways.has(path)) return this.series(path)[i];
-        const {place} = this.sim;
-        return this.p[place.get(path) ?? place.get(`parameters.${path}`)];
+    /* Return the value of a name in an output's expression at sample i: of a series, or of a parameter. */
+    getValue(path, i) {
+        if (path === "t" || this.catalogue.has(path)) return this.series(path)[i];
+        const {parameterIndices} = this.sim;
+        return this.p[parameterIndices.get(path) ?? parameterIndices.get(`parameters.${path}`)];
     }
 
-    /* Return a column of a stored or evaluated array. */
-    column(array, column) {
-        const values = STORED.includes(array) ? this[array] : this.accelerations(array) ?? this.evaluation[array];
+    /* Return a column (N) of a stored or evaluated array. */
+    getColumn(array, column) {
+        const values = STORED_ARRAYS.includes(array) ? this[array]
+            : this.getAccelerations(array) ?? this.evaluation[array];
         const width = values.length / this.t.length;
         return Float64Array.from(this.t, (_, i) => values[i * width + column]);
     }
 
-    /* Return the accelerations that the loop found, if nothing is integrated. */
-    accelerations(array = "a") { return array === "a" ? this.a : undefined; }
+    /* Return the accelerations (N n) that the kinematic analysis stored; undefined after integration. */
+    getAccelerations(array = "a") { return array === "a" ? this.a : undefined; }
 
-    /* Return the residual of the energy balance in J. */
-    residual() {
+    /* Return the residual of the energy balance (N) in J. */
+    computeEnergyResidual() {
         const [kinetic, potential, ...works] = ["energy.kinetic", "energy.potential", "work.drives", "work.forces",
             "work.clearances"].map((name) => this.series(name));
         const start = kinetic[0] + potential[0];
         return kinetic.map((T, i) => T + potential[i] - start - (works[0][i] + works[1][i] + works[2][i]));
     }
 
-    /* Return a coordinate of r_P = r + A(theta) s or of its time derivatives; s = (x, y) in the body's frame. */
-    point([body, x, y, sign_x, sign_y], axis, order) {
+    /*
+     * Return a coordinate of r_P = r + A(theta) s (N), or its first or second time derivative.
+     *
+     * s = (x, y) in the body's frame; the point is [index of the body in q, indices of x and y in p, signs].
+     */
+    computePointMotion([body, x, y, sign_x, sign_y], axis, order) {
         const s = [x < 0 ? 0 : sign_x * this.p[x], y < 0 ? 0 : sign_y * this.p[y]];
         if (body < 0) return new Float64Array(this.t.length).fill(s[axis]);
         const n = this.sim.n, at = (rows, i, k) => rows[i * n + body + k];
-        const a = order < 2 ? [] : this.accelerations() ?? this.evaluation.a;
+        const a = order < 2 ? [] : this.getAccelerations() ?? this.evaluation.a;
         return Float64Array.from(this.t, (_, i) => {
             const [sin, cos] = [Math.sin(at(this.q, i, 2)), Math.cos(at(this.q, i, 2))];
-            const arm = [cos * s[0] - sin * s[1], sin * s[0] + cos * s[1]], turned = axis ? arm[0] : -arm[1];
+            const arm = [cos * s[0] - sin * s[1], sin * s[0] + cos * s[1]], normal = axis ? arm[0] : -arm[1];
             if (order === 0) return at(this.q, i, axis) + arm[axis];
-            if (order === 1) return at(this.v, i, axis) + at(this.v, i, 2) * turned;
-            return at(a, i, axis) + at(a, i, 2) * turned - at(this.v, i, 2) ** 2 * arm[axis];
+            if (order === 1) return at(this.v, i, axis) + at(this.v, i, 2) * normal;
+            return at(a, i, axis) + at(a, i, 2) * normal - at(this.v, i, 2) ** 2 * arm[axis];
         });
     }
 
-    /* Return accelerations, multipliers, forces and energies at all samples, computed once. */
+    /* Return accelerations, multipliers, forces and energies at all samples by array name, computed once. */
     get evaluation() {
-        this.evaluated ??= within(this.sim.lib, (memory) => this.evaluate(memory));
-        return this.evaluated;
+        this.evaluatedArrays ??= withMemory(this.sim.lib, (memory) => this.evaluateSamples(memory));
+        return this.evaluatedArrays;
     }
 
-    /* Evaluate all samples in C. */
-    evaluate(memory) {
-        const {widths, beyond} = this.about, N = this.t.length, {lib} = this.sim;
+    /* Evaluate all samples in C, and return the arrays by name, row by row. Throws an Error at a singular sample. */
+    evaluateSamples(memory) {
+        const {widths, beyond: hasModInDrives} = this.description, N = this.t.length, {lib} = this.sim;
         // velocities are those after a switching point, although rounding may put the time before it
-        const t = beyond ? this.t.map((x) => x + Math.max(32 * Number.EPSILON * Math.abs(x), 1e-100)) : this.t;
-        const given = [t, this.q, this.v, this.memory, this.p].map((values) => memory.numbers(values.length, values));
-        const places = Object.entries(widths).map(([name, width]) => [name, memory.numbers(N * width), N * width]);
-        const failed = memory.bytes(4), out = places.map(([, place]) => place);
-        const status = lib.gudgeon_evaluate(N, ...given, ...out, failed);
-        if (status) throw failure(this, status, {}, this.about.evaluation_pivots, this.t[memory.longs(failed, 1)[0]]);
-        return Object.fromEntries(places.map(([name, place, count]) => [name, memory.copy(place, count)]));
+        const t = hasModInDrives ? this.t.map((x) => x + Math.max(32 * Number.EPSILON * Math.abs(x), 1e-100)) : this.t;
+        const inputs = [t, this.q, this.v, this.memory, this.p].map((x) => memory.allocateDoubles(x.length, x));
+        const outputs = Object.entries(widths).map(([name, width]) =>
+            [name, memory.allocateDoubles(N * width), N * width]);
+        const failed = memory.allocateBytes(4);
+        const status = lib.gudgeon_evaluate(N, ...inputs, ...outputs.map(([, address]) => address), failed);
+        if (status) {
+            const k = memory.viewLongs(failed, 1)[0];
+            throw makeRunError(this, status, {}, this.description.evaluation_pivots, this.t[k]);
+        }
+        return Object.fromEntries(outputs.map(([name, address, count]) => [name, memory.copyDoubles(address, count)]));
     }
 
-    /* Check that constraint equations redundant at the file's values are satisfied (assembly/rank.py); else throw. */
-    checkLeftOut() {
-        const {left_out, open, rows} = this.about, {lib, n} = this.sim;
-        if (!left_out.length) return;
-        within(lib, (memory) => {
-            const p = memory.numbers(this.p.length, this.p), q = memory.numbers(n), phi = memory.numbers(rows.length);
+    /* Throw an Error if a constraint equation that is redundant at the file's values is violated (assembly/rank.py). */
+    checkRedundantEquations() {
+        const {left_out: redundant, open, rows} = this.description, {lib, n} = this.sim;
+        if (!redundant.length) return;
+        withMemory(lib, (memory) => {
+            const p = memory.allocateDoubles(this.p.length, this.p), q = memory.allocateDoubles(n);
+            const phi = memory.allocateDoubles(rows.length);
             this.t.forEach((t, i) => {
-                memory.view(q, n).set(this.q.subarray(i * n, (i + 1) * n));
+                memory.viewDoubles(q, n).set(this.q.subarray(i * n, (i + 1) * n));
                 lib.gudgeon_phi(t, q, p, phi);
-                for (const [k, owner, length] of left_out)
-                    if (Math.abs(memory.view(phi, rows.length)[k]) > open * (length ? this.size : 1)) {
-                        const told = {0: `${owner} said nothing new with the file's numbers and opens with these`};
-                        throw failure(this, 0, told, [], t);
+                for (const [k, owner, isLength] of redundant)
+                    if (Math.abs(memory.viewDoubles(phi, rows.length)[k]) > open * (isLength ? this.size : 1)) {
+                        const message = `${owner} depends on others at the file's values, and is violated at these`;
+                        throw makeRunError(this, 0, {0: message}, [], t);
                     }
             });
         });

@@ -1,220 +1,248 @@
 /*
  * Simulate a scene in a page or in Node by its C and the engine as WebAssembly, called as Python calls them.
  *
- * Numbers are SI, angles rad. With start.js, run.js and loops.js this is one script (`script` of web.page):
+ * Numbers are SI, angles rad. With run.js, time_loops.js and start.js this is one script (`build_script` of page.py):
  *
  *     const sim = await gudgeon.load(description, module);   // JSON, and base64 or bytes, as Python wrote them
  *     sim.setParameters({omega: 3, "joints.A.clearance": 5e-4});   // all others are the file's
  *     const run = sim.run({t_end: 2, output: 500, method: "auto", rtol: 1e-8});
  *     run.t, run.series("S9.y"), run.unit("S9.y"), run.names, run.events, run.impacts
  *
- * To keep its frame rate, a page uses `sim.running(...)`, a generator that yields the fraction done after some steps and
- * returns the run. `return()` stops it and frees its memory. `throw(error)` with `error.stops` stops it too, and the run
- * up to there is the error's `partial`:
+ * To keep its frame rate, a page uses `sim.running(...)`, a generator that yields the fraction done after some steps
+ * and returns the run. `return()` stops it and frees its memory. `throw(error)` with `error.stops` stops it too, and
+ * the run up to there is the error's `partial`:
  *
- *     const way = sim.running({t_end: 2});
- *     const some = () => {
- *         let next = way.next();
- *         for (const until = performance.now() + 8; !next.done && performance.now() < until;) next = way.next();
- *         next.done ? show(next.value) : requestAnimationFrame(some);
+ *     const steps = sim.running({t_end: 2});
+ *     const advance = () => {
+ *         let next = steps.next();
+ *         for (const until = performance.now() + 8; !next.done && performance.now() < until;) next = steps.next();
+ *         next.done ? show(next.value) : requestAnimationFrame(advance);
  *     };
  *
- * What cannot be computed is an Error; its `partial` is the run up to there.
+ * A failure is an Error; its `partial` is the run up to there.
  */
-const SMALLEST_RTOL = 1e-14, MOST_STEPS = 2 ** 31, MOST_OUTPUT = 1e7, FURTHEST = 1e18;
-const DRIVEN_STEP = 1e-3; // default step of rk4 for driven scenes, over the length of the run
-const SLICE = {rk4: 4000, kinematic: 50, adaptive: 500}; // default steps or samples between two yields
-const OPTIONS = "t_end, output, method, rtol, step, slice";
+const MIN_RTOL = 1e-14, MAX_STEPS = 2 ** 31, MAX_INTERVALS = 1e7, MAX_TIME_S = 1e18;
+const DRIVEN_STEP_FRACTION = 1e-3; // default step of rk4 without degrees of freedom, over the length of the run
+const DEFAULT_SLICES = {rk4: 4000, kinematic: 50, adaptive: 500}; // steps or samples between two yields
+const OPTION_NAMES = "t_end, output, method, rtol, step, slice";
 const RELATIONS = {">": (a, b) => a > b, ">=": (a, b) => a >= b, "<": (a, b) => a < b, "<=": (a, b) => a <= b};
 
-/* Return a simulator of a description (JSON or object) and a module (bytes, or base64 of bytes packed by gzip). */
+/*
+ * Return the simulator of a scene, as a promise.
+ *
+ * description: JSON or its object. module: bytes, or base64 of bytes packed by gzip.
+ */
 async function load(description, module) {
-    const about = typeof description === "string" ? JSON.parse(description) : description;
-    const bytes = typeof module === "string" ? await unpacked(module) : module;
+    const parsed = typeof description === "string" ? JSON.parse(description) : description;
+    const bytes = typeof module === "string" ? await unpack(module) : module;
     // the engine reads the clock to poll cancellation only, which pages do not use: 52 is "no such call"
     const host = {wasi_snapshot_preview1: {clock_time_get: () => 52}};
     const {instance} = await WebAssembly.instantiate(bytes, host);
     instance.exports._initialize();
-    return new Simulator(about, instance.exports);
+    return new Simulator(parsed, instance.exports);
 }
 
-/* Return the bytes of base64 text that gzip packed. */
-async function unpacked(text) {
+/* Return the bytes (ArrayBuffer) of a base64 text that gzip packed, as a promise. */
+async function unpack(text) {
     const packed = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
-    const way = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
-    return new Response(way).arrayBuffer();
+    const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
+    return new Response(stream).arrayBuffer();
 }
 
 /*
  * Blocks of the module's memory for one call or one run, freed together.
  *
- * Views are created at each use, because growing memory invalidates old ones.
+ * Addresses are in bytes. Views are created at each use, because growing memory invalidates old ones.
  */
 class Memory {
     constructor(lib) {
         this.lib = lib;
-        this.places = [];
+        this.blocks = [];
     }
 
-    /* Allocate zeroed bytes, and return their address. */
-    bytes(count, values) {
-        const place = this.lib.malloc(Math.max(count, 8));
-        if (!place) throw new Error("no memory is left: ask for fewer samples");
-        this.places.push(place);
-        new Uint8Array(this.lib.memory.buffer, place, count).fill(0);
-        if (values) new Uint8Array(this.lib.memory.buffer, place, count).set(values);
-        return place;
+    /* Allocate bytes, zero or from `values`, and return their address. Throws an Error if no memory is left. */
+    allocateBytes(count, values) {
+        const address = this.lib.malloc(Math.max(count, 8));
+        if (!address) throw new Error("no memory is left: ask for fewer samples");
+        this.blocks.push(address);
+        new Uint8Array(this.lib.memory.buffer, address, count).fill(0);
+        if (values) new Uint8Array(this.lib.memory.buffer, address, count).set(values);
+        return address;
     }
 
-    /* Allocate doubles, and return their address. */
-    numbers(count, values) {
-        const place = this.bytes(8 * count);
-        if (values) this.view(place, count).set(values);
-        return place;
+    /* Allocate doubles, zero or from `values`, and return their address. */
+    allocateDoubles(count, values) {
+        const address = this.allocateBytes(8 * count);
+        if (values) this.viewDoubles(address, count).set(values);
+        return address;
     }
 
     /* Return a view of doubles. */
-    view(place, count) { return new Float64Array(this.lib.memory.buffer, place, count); }
+    viewDoubles(address, count) { return new Float64Array(this.lib.memory.buffer, address, count); }
 
-    longs(place, count) { return new Int32Array(this.lib.memory.buffer, place, count); } // `long` of wasm32, and `int`
+    /* Return a view of integers: `long` of wasm32, and `int`. */
+    viewLongs(address, count) { return new Int32Array(this.lib.memory.buffer, address, count); }
 
     /* Return a copy of doubles. */
-    copy(place, count) { return this.view(place, count).slice(); }
+    copyDoubles(address, count) { return this.viewDoubles(address, count).slice(); }
 
     /* Return a copy of signed bytes. */
-    codes(place, count) { return new Int8Array(this.lib.memory.buffer, place, count).slice(); }
+    copyBytes(address, count) { return new Int8Array(this.lib.memory.buffer, address, count).slice(); }
 
     /* Free all blocks. */
     free() {
-        for (const place of this.places.splice(0)) this.lib.free(place);
+        for (const address of this.blocks.splice(0)) this.lib.free(address);
     }
 }
 
-/* Return the result of `work(memory)`, and free that memory afterwards. */
-function within(lib, work) {
+/* Return the result of `call(memory)`, and free that memory afterwards. */
+function withMemory(lib, call) {
     const memory = new Memory(lib);
     try {
-        return work(memory);
+        return call(memory);
     } finally {
         memory.free();
     }
 }
 
-/* Simulator of one scene with its parameter values. */
+/*
+ * Simulator of one scene with its parameter values.
+ *
+ * p: parameter values of a run. p_motion: without Baumgarte's terms, for methods that project. defaults: p of the file.
+ * n: number of coordinates. lib: exports of the module. notes: texts on what pages do not check.
+ */
 class Simulator {
-    constructor(about, lib) {
-        this.about = about;
+    constructor(description, lib) {
+        this.description = description;
         this.lib = lib;
-        this.n = about.coordinates.length;
-        this.place = new Map(about.slots.map((slot, k) => [slot.address, k]));
-        this.notes = about.notes;
+        this.n = description.coordinates.length;
+        this.parameterIndices = new Map(description.slots.map(({address}, k) => [address, k]));
+        this.notes = description.notes;
         this.setParameters({});
-        this.file = this.p;
-        this.beginning = new Start(this);
+        this.defaults = this.p;
+        this.startFinder = new StartFinder(this);
     }
 
-    /* Set parameters by address or name (a choice by its word); all others get the file's values. Throws an Error. */
+    /*
+     * Set parameters by address or name, a choice by its word; all others get the file's values.
+     *
+     * Throws an Error for an unknown name, a value of another kind, or a violated condition of the file.
+     */
     setParameters(values = {}) {
         expect(isMapping(values), "parameters", values, "an object {address: number}");
-        const given = new Float64Array(this.place.size), mask = new Uint8Array(this.place.size);
+        const count = this.parameterIndices.size;
+        const givenValues = new Float64Array(count), isGiven = new Uint8Array(count);
         for (const [name, value] of Object.entries(values)) {
-            const k = this.place.get(name) ?? this.place.get(`parameters.${name}`);
+            const k = this.parameterIndices.get(name) ?? this.parameterIndices.get(`parameters.${name}`);
             if (k === undefined) throw new Error(`no run-time number has the address ${name} in this scene`);
-            const {words, address} = this.about.slots[k];
-            if (mask[k]) throw new Error(`${address} is given twice`);
+            const {words, address} = this.description.slots[k];
+            if (isGiven[k]) throw new Error(`${address} is given twice`);
             const expected = words ? words.join(" or ") : "a number";
             expect(words ? words.includes(value) : Number.isFinite(value), address, value, expected);
-            given[k] = words ? words.indexOf(value) : value;
-            mask[k] = 1;
+            givenValues[k] = words ? words.indexOf(value) : value;
+            isGiven[k] = 1;
         }
-        const p = this.prepared(given, mask);
-        this.check(p, mask);
-        Object.assign(this, {p, given, mask});
-        this.projected = this.withoutGains(given, mask);
+        const p = this.prepareValues(givenValues, isGiven);
+        this.checkParameterValues(p, isGiven);
+        Object.assign(this, {p, givenValues, isGiven});
+        this.p_motion = this.prepareWithoutBaumgarte(givenValues, isGiven);
     }
 
     /* Return all parameter values of a run; a chosen material defines further ones (runtime/model/choices.py). */
-    prepared(given, mask) {
-        const p = this.called(given, mask), chosen = this.about.slots.filter((slot, k) => slot.words && mask[k]);
+    prepareValues(givenValues, isGiven) {
+        const p = this.callPrepare(givenValues, isGiven);
+        const chosen = this.description.slots.filter(({words}, k) => words && isGiven[k]);
         if (!chosen.length) return p;
-        const [values, filled] = [given.slice(), mask.slice()];
+        const [values, isFilled] = [givenValues.slice(), isGiven.slice()];
         for (const {address, words} of chosen) {
-            const word = words[given[this.place.get(address)]];
-            for (const [own, k] of this.place)
-                if (own.startsWith(`${address}.`) && !mask[k]) {
-                    values[k] = p[this.place.get(`materials.${word}.${own.slice(address.length + 1)}`)];
-                    filled[k] = 1;
+            const word = words[givenValues[this.parameterIndices.get(address)]];
+            for (const [other, k] of this.parameterIndices)
+                if (other.startsWith(`${address}.`) && !isGiven[k]) {
+                    const key = other.slice(address.length + 1);
+                    values[k] = p[this.parameterIndices.get(`materials.${word}.${key}`)];
+                    isFilled[k] = 1;
                 }
         }
-        return this.called(values, filled);
+        return this.callPrepare(values, isFilled);
     }
 
-    /* Return the values that `gudgeon_prepare` computes. */
-    called(given, mask) {
-        const count = this.place.size + this.about.derived.length;
-        return within(this.lib, (memory) => {
-            const p = memory.numbers(count);
-            this.lib.gudgeon_prepare(memory.numbers(given.length, given), memory.bytes(mask.length, mask), p);
-            return memory.copy(p, count);
+    /* Return the values that `gudgeon_prepare` computes, of all parameters and of the derived ones. */
+    callPrepare(givenValues, isGiven) {
+        const count = this.parameterIndices.size + this.description.derived.length;
+        return withMemory(this.lib, (memory) => {
+            const p = memory.allocateDoubles(count), given = memory.allocateDoubles(givenValues.length, givenValues);
+            this.lib.gudgeon_prepare(given, memory.allocateBytes(isGiven.length, isGiven), p);
+            return memory.copyDoubles(p, count);
         });
     }
 
     /* Return the values without Baumgarte's terms, for methods that project onto the constraints. */
-    withoutGains(given, mask) {
-        const [values, filled] = [given.slice(), mask.slice()];
-        for (const k of this.about.gains) [values[k], filled[k]] = [0, 1];
-        return this.prepared(values, filled);
+    prepareWithoutBaumgarte(givenValues, isGiven) {
+        const [values, isFilled] = [givenValues.slice(), isGiven.slice()];
+        for (const k of this.description.gains) [values[k], isFilled[k]] = [0, 1];
+        return this.prepareValues(values, isFilled);
     }
 
     /* Check the conditions of the file, and that all expressions are defined as written. Throws an Error. */
-    check(p, mask) {
-        const {conditions, slots, derived} = this.about, value = (address) => p[this.place.get(address)];
-        const unit = (address) => slots[this.place.get(address)].unit;
+    checkParameterValues(p, isGiven) {
+        const {conditions, slots: parameters, derived, partials, divides} = this.description;
+        const getValue = (address) => p[this.parameterIndices.get(address)];
+        const getUnit = (address) => parameters[this.parameterIndices.get(address)].unit;
         for (const [address, relation, bound, message] of conditions) {
-            const limit = typeof bound === "number" ? bound : bound.split(" + ").reduce((sum, a) => sum + value(a), 0);
-            const known = Number.isFinite(value(address)) && Number.isFinite(limit);
-            if (known && !RELATIONS[relation](value(address), limit))
-                throw new Error(`${address} is ${said(value(address), unit(address))}: ${message}; expected ${relation}`
-                    + ` ${said(limit, unit(address))}${typeof bound === "number" ? "" : `, which is ${bound}`}`);
+            const limit = typeof bound === "number" ? bound
+                : bound.split(" + ").reduce((sum, term) => sum + getValue(term), 0);
+            const x = getValue(address), isKnown = Number.isFinite(x) && Number.isFinite(limit);
+            if (!isKnown || RELATIONS[relation](x, limit)) continue;
+            const origin = typeof bound === "number" ? "" : `, which is ${bound}`, unit = getUnit(address);
+            throw new Error(`${address} is ${formatQuantity(x, unit)}: ${message}; expected ${relation}`
+                + ` ${formatQuantity(limit, unit)}${origin}`);
         }
-        [...slots.map((slot) => slot.address), ...derived].forEach((name, k) => {
+        [...parameters.map(({address}) => address), ...derived].forEach((name, k) => {
             if (!Number.isFinite(p[k])) throw new Error(`${name} is ${p[k]}: not finite with these numbers`);
         });
-        for (const {address, tree, slot, slots: used} of this.about.partials) {
-            if (slot >= 0 && mask[slot]) continue;
-            const known = Object.fromEntries(Object.entries(used).map(([name, k]) => [name, p[k]]));
-            const odd = undefinedPart(tree, known, this.about.divides), by = Object.entries(known);
-            if (odd !== undefined)
-                throw new Error(`${address} has a part that is ${odd} with ${by.map((pair) => pair.join(" = ")).join(", ")}`);
+        for (const {address, tree, slot: index, slots: indices} of partials) {
+            if (index >= 0 && isGiven[index]) continue;
+            const known = Object.fromEntries(Object.entries(indices).map(([name, k]) => [name, p[k]]));
+            const value = findUndefinedPart(tree, known, divides), pairs = Object.entries(known);
+            if (value !== undefined) {
+                const values = pairs.map((pair) => pair.join(" = ")).join(", ");
+                throw new Error(`${address} has a part that is ${value} with ${values}`);
+            }
         }
     }
 
-    /* Return values at a fraction of the path from the file's values to the given ones; words are as given. */
-    between(share) {
-        const along = (x, k) => this.about.slots[k].words ? x : this.file[k] + share * (x - this.file[k]);
-        return share === 1 ? this.p : this.prepared(this.given.map(along), this.mask);
+    /* Return values at a fraction of the way from the file's values to the given ones; words are as given. */
+    interpolateParameters(fraction) {
+        const interpolate = (x, k) =>
+            this.description.slots[k].words ? x : this.defaults[k] + fraction * (x - this.defaults[k]);
+        return fraction === 1 ? this.p : this.prepareValues(this.givenValues.map(interpolate), this.isGiven);
     }
 
     /* Return whether the scene has no degrees of freedom. */
-    get driven() { return this.about.methods[0] === "kinematic"; }
+    get isDriven() { return this.description.methods[0] === "kinematic"; }
 
-    /* Return the size of the mechanism in m, as mechanism_sizes of sizes.py. */
-    get size() { return this.sizeOf(this.p); }
+    /* Return the size of the mechanism in m, as compute_mechanism_sizes of runtime/model/sizes.py. */
+    get size() { return this.computeSize(this.p); }
 
-    /* Return the size for parameter values p. */
-    sizeOf(p) {
-        const length = ([x, y]) => Math.sqrt(p[x] * p[x] + (y < 0 ? 0 : p[y] * p[y])); // to the bit as in Python and C
-        return Math.max(0, ...this.about.sizes.map(length)) || 1;
+    /* Return the size of the mechanism in m for parameter values p. */
+    computeSize(p) {
+        // equal to the last bit to Python and C
+        const computeLength = ([x, y]) => Math.sqrt(p[x] * p[x] + (y < 0 ? 0 : p[y] * p[y]));
+        return Math.max(0, ...this.description.sizes.map(computeLength)) || 1;
     }
 
-    /* Return q and q̇ of the closed linkage at t = 0; `followed`: continued from the file's start. */
-    start() { return this.beginning.find(); }
+    /*
+     * Return the start of a run at t = 0, {q, v, isContinued}, of the closed linkage.
+     *
+     * isContinued: whether it was continued from the start of the file's values. Throws an Error if there is none.
+     */
+    start() { return this.startFinder.find(); }
 
     /* Return the complete run of `running`. */
     run(options = {}) {
-        const way = this.running(options);
+        const steps = this.running(options);
         for (;;) {
-            const next = way.next();
+            const next = steps.next();
             if (next.done) return next.value;
         }
     }
@@ -223,21 +251,22 @@ class Simulator {
      * Run with options like `simulate` of Python: t_end (s), output (number of intervals, or times), method, rtol, step
      * (s).
      *
-     * A generator that yields the fraction done. `slice`: steps or samples between two yields. `begun` receives the run
-     * at first.
+     * A generator that yields the fraction done, and returns the Run. `slice`: steps or samples between two yields.
+     * `onStart` is called with the Run before its first step. Throws an Error.
      */
-    *running(options = {}, begun = () => {}) {
+    *running(options = {}, onStart = () => {}) {
         expect(isMapping(options), "options", options, "an object {t_end, output, ...}");
-        const asked = this.checked(options), memory = new Memory(this.lib), run = new Run(this, asked.t);
-        Object.assign(run, {step: asked.step, estimated: asked.estimated});
-        begun(run);
+        const settings = this.checkOptions(options), memory = new Memory(this.lib), run = new Run(this, settings.t);
+        Object.assign(run, {step: settings.step, isStepEstimated: settings.isStepEstimated});
+        onStart(run);
         try {
-            const loop = asked.method === "kinematic" ? follow : this.driven ? drift : integrate;
-            yield* loop(this, asked, memory, run);
+            const loop = settings.method === "kinematic" ? integrateKinematic
+                : this.isDriven ? integrateWithDrift : integrate;
+            yield* loop(this, settings, memory, run);
             return run;
         } catch (error) {
-            if (error.stops && run.soFar) { // by `throw` of who goes on with it
-                run.soFar();
+            if (error.stops && run.storePartial) { // by `throw` of the caller
+                run.storePartial();
                 error.partial = run;
             }
             throw error;
@@ -246,71 +275,81 @@ class Simulator {
         }
     }
 
-    /* Return all options with the scene's defaults. Throws an Error. */
-    checked({t_end, output, method = "auto", rtol, step, slice, ...unknown}) {
-        for (const name of Object.keys(unknown)) throw new Error(`${name} is no option: expected ${OPTIONS}`);
+    /* Return {t, method, rtol, step, slice, isStepEstimated} of options and the scene's defaults. Throws an Error. */
+    checkOptions({t_end, output, method = "auto", rtol, step, slice, ...unknown}) {
+        for (const name of Object.keys(unknown)) throw new Error(`${name} is no option: expected ${OPTION_NAMES}`);
         for (const [name, value] of Object.entries({t_end, rtol, step, slice}))
             expect(value == null || typeof value === "number", name, value, "a number");
-        const {methods} = this.about, usual = this.usual(t_end);
-        if (this.driven && method === "rk4") // a sample a step, no more: a step ends at each sample
-            output ??= Math.min(usual.output, Math.max(1, Math.ceil(usual.t_end / (step ?? usual.step) * (1 - 1e-12))));
-        const t = outputTimes(usual.t_end, output ?? usual.output, t_end), end = t[t.length - 1];
-        if (method === "auto") method = this.driven ? "kinematic" : step == null ? "adaptive" : "rk4";
-        const known = methods.includes(method) || (method === "adaptive" && !this.driven);
-        expect(known, "method", method, `auto, ${methods.join(", ")}`);
-        if (method === "kinematic") step = null;
-        const estimated = method === "rk4" && step == null && usual.estimated;
-        if (method === "rk4") step ??= this.usual(end).step;
-        if (step != null) {
-            expect(step > 0 && end / step < MOST_STEPS, "step", step, "a positive time (s), not too short");
-            expect(rtol == null, "rtol", rtol, "none beside a fixed step");
+        const {methods} = this.description, defaults = this.computeDefaultOptions(t_end);
+        if (this.isDriven && method === "rk4") { // at most a sample for each step: a step ends at each sample
+            const n_steps = Math.ceil(defaults.t_end / (step ?? defaults.step) * (1 - 1e-12));
+            output ??= Math.min(defaults.output, Math.max(1, n_steps));
         }
-        rtol ??= this.about.rtol;
-        expect(rtol >= SMALLEST_RTOL && rtol < 1, "rtol", rtol, `a share from ${SMALLEST_RTOL} to 1`);
-        slice ??= SLICE[method] ?? SLICE.adaptive;
-        expect(Number.isInteger(slice) && slice >= 1 && slice < MOST_STEPS, "slice", slice, "a whole number from 1 on");
-        return {t, method, rtol, step, slice, estimated};
+        const t = computeOutputTimes(defaults.t_end, output ?? defaults.output, t_end), end = t[t.length - 1];
+        if (method === "auto") method = this.isDriven ? "kinematic" : step == null ? "adaptive" : "rk4";
+        const isKnown = methods.includes(method) || (method === "adaptive" && !this.isDriven);
+        expect(isKnown, "method", method, `auto, ${methods.join(", ")}`);
+        if (method === "kinematic") step = null;
+        const isStepEstimated = method === "rk4" && step == null && defaults.isStepEstimated;
+        if (method === "rk4") step ??= this.computeDefaultOptions(end).step;
+        if (step != null) {
+            expect(step > 0 && end / step < MAX_STEPS, "step", step, "a positive time (s), not too short");
+            expect(rtol == null, "rtol", rtol, "none with a fixed step");
+        }
+        rtol ??= this.description.rtol;
+        expect(rtol >= MIN_RTOL && rtol < 1, "rtol", rtol, `a fraction from ${MIN_RTOL} to 1`);
+        slice ??= DEFAULT_SLICES[method] ?? DEFAULT_SLICES.adaptive;
+        expect(Number.isInteger(slice) && slice >= 1 && slice < MAX_STEPS, "slice", slice, "a whole number from 1 on");
+        return {t, method, rtol, step, slice, isStepEstimated};
     }
 
-    /* Return the default options: those of the scene; a step of rk4 may be estimated for the file's values. */
-    usual(t_end) {
-        const {simulate, step} = this.about, named = (name) => this.p[this.place.get(`parameters.${name}`)];
-        const said = (name) => simulate[name] === undefined ? undefined : valueOf(simulate[name], named);
-        const end = t_end ?? said("t_end"), own = said("step"), estimated = own === undefined;
-        const short = step ? Math.min(step[0] * end, step[1]) : end * DRIVEN_STEP;
-        return {t_end: end, output: said("output"), step: own ?? short, estimated: estimated && step !== null};
+    /* Return the default {t_end, output, step, isStepEstimated} of the scene; a step may be estimated for the file. */
+    computeDefaultOptions(t_end) {
+        const {simulate, step} = this.description;
+        const getParameter = (name) => this.p[this.parameterIndices.get(`parameters.${name}`)];
+        const evaluateOption = (name) =>
+            simulate[name] === undefined ? undefined : evaluateExpression(simulate[name], getParameter);
+        const end = t_end ?? evaluateOption("t_end"), fileStep = evaluateOption("step");
+        const estimate = step ? Math.min(step[0] * end, step[1]) : end * DRIVEN_STEP_FRACTION;
+        return {t_end: end, output: evaluateOption("output"), step: fileStep ?? estimate,
+            isStepEstimated: fileStep === undefined && step !== null};
     }
 }
 
-/* Throw an Error unless a condition holds. */
-function expect(holds, name, value, expected) {
-    if (!holds) throw new Error(`${name} is ${told(value)}: expected ${expected}`);
+/* Throw an Error that names the value and what was expected, unless a condition holds. */
+function expect(condition, name, value, expected) {
+    if (!condition) throw new Error(`${name} is ${formatValue(value)}: expected ${expected}`);
 }
 
-/* Return a number in SI with its unit. */
-function said(x, unit, digits = 6) { return `${Number(x.toPrecision(digits))} ${unit}`.trim(); }
+/* Return a number in SI with its unit, as text with a number of digits. */
+function formatQuantity(x, unit, digits = 6) { return `${Number(x.toPrecision(digits))} ${unit}`.trim(); }
 
-/* Return a value for a message; of an object its kind, such as [object Map]. */
-function told(value) {
-    const plain = value === null || typeof value !== "object" || Array.isArray(value);
-    return plain ? String(value) : Object.prototype.toString.call(value);
+/* Return a value as text for a message; of an object its kind, such as [object Map]. */
+function formatValue(value) {
+    const isPlain = value === null || typeof value !== "object" || Array.isArray(value);
+    return isPlain ? String(value) : Object.prototype.toString.call(value);
 }
 
 /* Return whether a value is an object with names and values, not a list or a Map. */
 function isMapping(value) { return typeof value === "object" && value !== null && !(Symbol.iterator in value); }
 
-/* Return the times of samples (s), with the same bits as NumPy's linspace. */
-function outputTimes(end, output, given_end) {
+/*
+ * Return the times of samples (s), with the same bits as NumPy's linspace.
+ *
+ * end: of the run (s). output: number of intervals, or increasing times, to which 0 is added. given_end: the caller's
+ * t_end, which must agree with the last time. Throws an Error.
+ */
+function computeOutputTimes(end, output, given_end) {
     if (typeof output !== "number") {
         const times = Float64Array.from(output), last = times[times.length - 1];
-        const rise = times.every((t, k) => t <= FURTHEST && (k ? t > times[k - 1] : t >= 0));
-        expect(times.length && rise, "output", output, "increasing times (s), from 0 on");
-        const apart = given_end == null ? 0 : Math.abs(given_end - last);
-        expect(apart <= 1e-9 * last, "t_end", given_end, "the last of the times of output, or none");
+        const isIncreasing = times.every((t, k) => t <= MAX_TIME_S && (k ? t > times[k - 1] : t >= 0));
+        expect(times.length && isIncreasing, "output", output, "increasing times (s), from 0 on");
+        const difference = given_end == null ? 0 : Math.abs(given_end - last);
+        expect(difference <= 1e-9 * last, "t_end", given_end, "the last of the times of output, or none");
         return times[0] === 0 ? times : Float64Array.of(0, ...times);
     }
-    expect(end > 0 && end <= FURTHEST, "t_end", end, "a positive time (s)");
-    const whole = Number.isInteger(output) && output >= 1 && output <= MOST_OUTPUT;
-    expect(whole, "output", output, `a number of intervals, 1 to ${MOST_OUTPUT}`);
+    expect(end > 0 && end <= MAX_TIME_S, "t_end", end, "a positive time (s)");
+    const isValid = Number.isInteger(output) && output >= 1 && output <= MAX_INTERVALS;
+    expect(isValid, "output", output, `a number of intervals, 1 to ${MAX_INTERVALS}`);
     return Float64Array.from({length: output + 1}, (_, k) => (k === output ? end : k * (end / output)));
 }

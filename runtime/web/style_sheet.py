@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable
 from functools import cache
 from pathlib import Path
@@ -67,8 +66,10 @@ def make_css_class(role: str, tint: int) -> str:
 
 @cache
 def _read_style_sheet() -> str:
-    """Return page.css without indentation."""
-    return re.sub(r"(?m)^ +", "", Path(__file__).with_name("page.css").read_text(encoding="utf-8"))
+    """Return page.css in the form for pages."""
+    from gudgeon.generator.targets.latex.to_html import compress_style_sheet
+
+    return compress_style_sheet(Path(__file__).with_name("page.css").read_text(encoding="utf-8"))
 
 
 def _format_light_colour(colour_name: str, tint: int) -> str:

@@ -137,7 +137,7 @@ def test_a_package_that_is_not_installed_is_told_with_what_brings_it(tmp_path: P
 def test_a_page_that_was_written_without_its_compiler_is_told(tmp_path: Path) -> None:
     done = without("ziglang", "equations four_bar -o x.html", tmp_path)
     assert (done.returncode, done.stdout) == (0, "wrote x.html\n")
-    assert done.stderr.startswith("warning: this page carries one run") and "gudgeon[web]" in done.stderr
+    assert done.stderr.startswith("warning: this page contains one run") and "gudgeon[web]" in done.stderr
 
 
 def test_a_reader_that_has_enough(tmp_path: Path) -> None:

@@ -132,9 +132,9 @@ const matchMedia = () => ({ matches: true }), requestAnimationFrame = () => 0;
     raw = re.search(r'id="data">(.*?)</script>', html)[1]  # type: ignore[index]
     stub = stub.replace("PATHS", str(len(pictures[0]))).replace("TEXTS", str(len(places[0])))
     ask = """
-made.when.value = 7; made.when.oninput();
+made.time.value = 7; made.time.oninput();
 const [drawn, named] = [pages["svg path"].map(p => p.at.d), pages["#names text"].map(p => p.at.x)];
-console.log(JSON.stringify([drawn, made.t.textContent, named]));
+console.log(JSON.stringify([drawn, made["time-text"].textContent, named]));
 """
     (tmp_path / "x.js").write_text(stub.replace("DATA", json.dumps(raw)) + script + ask)
     done = subprocess.run(["node", tmp_path / "x.js"], capture_output=True, text=True, check=True)

@@ -67,7 +67,7 @@ _CORNERS: Mapping[type, tuple[str, Callable[..., Any]]] = {
 class ComplexStep:
     """f of y' = f(t, y), y = (q, v), of one scene; `values` are slots by address that differ from their defaults.
 
-    `memory` holds δ̇⁻ of each joint with play (NaN: none yet), then the mode of each friction, then inner states of
+    `memory` holds δ̇⁻ of each joint with play (NaN: none yet), then the mode of each friction, then internal states of
     laws, as many of each joint.
     """
 
@@ -130,14 +130,14 @@ class ComplexStep:
         )
 
     def bent(self, memory: Sequence[float] | np.ndarray) -> np.ndarray:
-        """Inner states of laws, (joints, states)."""
+        """Internal states of laws, (joints, states)."""
         joints, each = len(self._joints), self.model.law_states
         return np.asarray(memory[len(memory) - each * joints :], dtype=float).reshape(joints, each)
 
     def __call__(
         self, t: complex, y: Complex, memory: Sequence[float] | np.ndarray, z: np.ndarray | None = None
     ) -> Complex:
-        """(q̇, q̈, powers, rates of inner states z), (2n + 3 + states,); z is that of `memory` unless it is given."""
+        """(q̇, q̈, powers, rates of internal states z), (2n + 3 + states,); z is that of `memory` unless given."""
         model, n, m = self.model, self.n, len(self.model.rows)
         z = self.bent(memory) if z is None else z
         bending = np.zeros(z.shape, dtype=complex)
@@ -151,7 +151,7 @@ class ComplexStep:
         for k, (joint, function) in enumerate(zip(model.clearances, self._joints, strict=True)):
             powers[2] += self._pin(joint, function(complex(t), q, v), memory[k], v, g, z[k], bending[k])
         sticks, right = [], [gamma - 2 * alpha * (phi_q @ v - nu) - beta**2 * phi]
-        for function, mode in zip(self._slips, memory[len(model.clearances) :], strict=False):  # then inner states
+        for function, mode in zip(self._slips, memory[len(model.clearances) :], strict=False):  # then internal states
             *row, rate, slip, speed, kinetic = function(complex(t), q, v)
             if mode == 0.0:
                 sticks.append((np.array(row), slip + speed))
@@ -168,7 +168,7 @@ class ComplexStep:
         return np.concatenate([v, x[:n], powers, bending.ravel()])
 
     def jacobian(self, t: float, y: np.ndarray, memory: Sequence[float] | np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """∂f/∂y by (q, v) and inner states, (2n + 3 + states, 2n + states), and ∂f/∂t."""
+        """∂f/∂y by (q, v) and internal states, (2n + 3 + states, 2n + states), and ∂f/∂t."""
         columns, z = [], self.bent(memory)
         for k in range(2 * self.n):
             moved = y.astype(complex)
@@ -183,7 +183,7 @@ class ComplexStep:
     def _pin(
         self, joint: Clearance, geometry: Complex, stored: float, v: Complex, g: Complex, z: Complex, bending: Complex
     ) -> complex:
-        """Adds the joint's force to g and fills in the rates of its inner states z; its power."""
+        """Adds the joint's force to g and fills in the rates of its internal states z; its power."""
         ex, ey, ux, uy, w_i, w_j, c, R_i, R_j, film, e_0, theta, *arms = geometry
         ends = ((joint.first, -1, arms[:2]), (joint.second, 1, arms[2:4]))
         if joint.wall:

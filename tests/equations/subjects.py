@@ -51,7 +51,7 @@ class Subject:
 
 
 def assert_columns(got: np.ndarray, want: np.ndarray, n: int, tolerance: float) -> None:
-    """Velocities, accelerations, powers, rates of inner states, each column relative to its largest entry.
+    """Velocities, accelerations, powers, rates of internal states, each column relative to its largest entry.
 
     Not less than 1e-4 of the block's largest, and 1e-2, below which nothing in these mechanisms matters.
     """

@@ -245,7 +245,7 @@ BENT = ("dahl", "dry"), ("lugre", "lubricated"), ("lugre", "dry"), ("dahl", "lub
 
 
 @pytest.mark.parametrize("of", slow_but(BENT[:2], BENT), ids="-".join)
-def test_a_law_with_an_inner_state(of: tuple[str, str]) -> None:
+def test_a_law_with_an_internal_state(of: tuple[str, str]) -> None:
     """Of forces by the state, of its rate by everything; A in contact, B beside it free, both; dry and blended."""
     law, scene = of
     before = PRESS if scene == "dry" else SHIPPED.encode()  # its bodies tell how far a solve within the blend goes

@@ -30,11 +30,11 @@ FOUND_BEFORE = ("k", "next", "share", "g_v", "root_far", "a_0_", "bent", "at", "
 ROLES = 12  # names of a scene but parameters
 EACH = 60  # parameters of a scene
 ASKED = """
-const {functions, given, numbers} = (() => {SCRIPT return gudgeonEquations;})(), p = {};
-for (const [name, k] of Object.entries(numbers)) p[name] = 1 + k / 8;
+const {functions, argumentNames, parameterIndices} = (() => {SCRIPT return gudgeonEquations;})(), p = {};
+for (const [name, k] of Object.entries(parameterIndices)) p[name] = 1 + k / 8;
 const state = {t: 0.3, q: [0.1, 0.2, 0.3, 0.4, 0.5, 0.6], v: [1, -1, 2, -2, 3, -3], p};
 const got = ["constraints", "acceleration_rhs", "jacobian"].map((name) =>
-    Object.values(functions[name](...given[name].map((one) => state[one]))).flat());
+    Object.values(functions[name](...argumentNames[name].map((one) => state[one]))).flat());
 console.log(JSON.stringify(got.flat().filter((x) => typeof x === "number")));
 """
 

@@ -21,24 +21,24 @@ from tests.equations.models import random_state
 from tests.slow import slow_but
 from tests.web.node import needs_node, node
 
-LIVE = resources.files("gudgeon.generator.targets.latex").joinpath("live.js")
+LIVE = resources.files("gudgeon.generator.targets.latex").joinpath("current_values.js")
 ASKED = """
 const live = require(process.argv[2]), equations = (() => {%s return gudgeonEquations;})();
-live.take(equations);
+live.setEquations(equations);
 const answer = %s.map((state) => {
-    live.announce(state);
-    const {rows, functions} = equations, all = {};
+    live.setState(state);
+    const {rowIndices: rows, functions} = equations, all = {};
     for (const [of, name] of [["phi", "constraints"], ["nu", "velocity_rhs"], ["gamma_rows", "acceleration_rhs"]]) {
         const given = {t: state.t, q: state.q, v: state.v,
-            p: Object.fromEntries(Object.entries(equations.numbers).map(([name, k]) => [name, state.p[k]]))};
-        all[of] = functions[name](...equations.given[name].map((one) => given[one]))[of];
+            p: Object.fromEntries(Object.entries(equations.parameterIndices).map(([name, k]) => [name, state.p[k]]))};
+        all[of] = functions[name](...equations.argumentNames[name].map((one) => given[one]))[of];
     }
-    const by = (kind) => rows.map((_, k) => live.value(`${kind}.${k + 1}`));
+    const by = (kind) => rows.map((_, k) => live.getValue(`${kind}.${k + 1}`));
     return {all, phi: by("phi"), nu: by("nu"), gamma: by("gamma"),
-        phi_q: rows.map((_, k) => state.q.map((_, i) => live.value(`phi_q.${k + 1}.${i + 1}`) ?? 0)),
-        rhs: equations.names.map((name) => live.value(`tmp.rhs.rhs_${name.replaceAll(".", "_")}_`)),
-        numbers: state.p.map((_, k) => live.value(`tmp.p.${k + 1}`)),
-        gap: %s.map((name) => live.value(`tmp.law.${name}`))};
+        phi_q: rows.map((_, k) => state.q.map((_, i) => live.getValue(`phi_q.${k + 1}.${i + 1}`) ?? 0)),
+        rhs: equations.rowNames.map((name) => live.getValue(`tmp.rhs.rhs_${name.replaceAll(".", "_")}_`)),
+        numbers: state.p.map((_, k) => live.getValue(`tmp.p.${k + 1}`)),
+        gap: %s.map((name) => live.getValue(`tmp.law.${name}`))};
 });
 console.log(JSON.stringify(answer));
 """

@@ -25,7 +25,7 @@ from tests.scenes import loader
 from tests.web.node import needs_node, node
 
 pytestmark = [needs_compiler, needs_node]
-LIVE = resources.files("gudgeon.generator.targets.latex").joinpath("live.js")
+LIVE = resources.files("gudgeon.generator.targets.latex").joinpath("current_values.js")
 PINS = """
 bodies: {j: {mass: 0.2 kg, inertia: 1e-5 kg*m^2}, k: {mass: 0.2 kg, inertia: 1e-5 kg*m^2}}
 ground: {O: [0, 0], Q: [50 mm, 0]}
@@ -65,13 +65,13 @@ OWN = {"m": PINS, "worn": PINS, "slot": SLOT}
 SCENES = (pytest.param("dry", marks=pytest.mark.slow), "lubricated", *OWN)
 ASKED = """
 const live = require(process.argv[2]);
-live.take((() => {%s return gudgeonEquations;})());
-globalThis.gudgeonLight = {isLit: (token) => token === globalThis.lit};
-const told = (name) => live.text(live.value(`tmp.${name}`)) && live.value(`tmp.${name}`);
+live.setEquations((() => {%s return gudgeonEquations;})());
+globalThis.gudgeonHighlighting = {isHighlighted: (token) => token === globalThis.highlighted};
+const told = (name) => live.formatValue(live.getValue(`tmp.${name}`)) && live.getValue(`tmp.${name}`);
 console.log(JSON.stringify(%s.map((state) => {
-    live.announce({...state, run: {memory: Float64Array.from(state.memory), t: [0]}, k: 0});
+    live.setState({...state, run: {memory: Float64Array.from(state.memory), t: [0]}, k: 0});
     return Object.fromEntries(%s.map((joint) => {
-        globalThis.lit = `joint-${joint}`;
+        globalThis.highlighted = `joint-${joint}`;
         return [joint, Object.fromEntries(%s.map((name) => [name, told(name)]))];
     }));
 })));

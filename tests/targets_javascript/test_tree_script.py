@@ -27,14 +27,14 @@ from tests.targets_latex.test_trace import statements
 from tests.web.node import needs_node, node
 
 pytestmark = [needs_compiler, needs_node]
-LIVE = resources.files("gudgeon.generator.targets.latex").joinpath("live.js")
+LIVE = resources.files("gudgeon.generator.targets.latex").joinpath("current_values.js")
 ASKED = """
 const live = require(process.argv[2]);
-live.take((() => {%s return gudgeonEquations;})());
+live.setEquations((() => {%s return gudgeonEquations;})());
 console.log(JSON.stringify(%s.map(({memory, a, ...state}) => {
     const series = (name) => [a[name] ?? NaN];
-    live.announce({...state, run: {memory: Float64Array.from(memory), t: [0], series}, k: 0});
-    return Object.fromEntries(%s.map((name) => [name, live.value(`tmp.${name}`)]));
+    live.setState({...state, run: {memory: Float64Array.from(memory), t: [0], series}, k: 0});
+    return Object.fromEntries(%s.map((name) => [name, live.getValue(`tmp.${name}`)]));
 })));
 """
 FUNCTIONS = (

@@ -250,24 +250,24 @@ ASKED = """<pre id="told"></pre><script>
 addEventListener("load", () => setTimeout(() => {
     const n = %d, told = {}, lines = () => [...document.querySelectorAll("#gudgeon-lines .line")];
     for (const token of %s) {
-        gudgeonLight.light([token]);
-        told[token] = lines().map((line) => line.dataset.place);
+        gudgeonHighlighting.highlight([token]);
+        told[token] = lines().map((line) => line.dataset.location);
     }
     const equation = document.querySelector('.equation[data-pick="row-3"]'), key = (key) => equation.dispatchEvent(
         new KeyboardEvent("keydown", {key, bubbles: true}));
-    gudgeonLight.light([]);
+    gudgeonHighlighting.highlight([]);
     key("Enter");
-    told.keyed = document.querySelectorAll(".lit").length && equation.classList.contains("lit");
+    told.keyed = document.querySelectorAll(".highlighted").length && equation.classList.contains("highlighted");
     key("Escape");
-    told.dark = document.querySelectorAll(".lit").length;
+    told.dark = document.querySelectorAll(".highlighted").length;
     equation.click();
-    told.clicked = equation.classList.contains("lit");
+    told.clicked = equation.classList.contains("highlighted");
     equation.click();
-    told.again = document.querySelectorAll(".lit").length;
+    told.again = document.querySelectorAll(".highlighted").length;
     const state = {sim: null, run: {series: (name) => [name === "lambda.O4.x" ? 7.5 : 0]}, k: 0, t: 0, p: [],
         q: new Float64Array(n).fill(0.25), v: new Float64Array(n)};
     document.dispatchEvent(new CustomEvent("gudgeon:state", {detail: state}));
-    const at = (name) => gudgeonValues.text(gudgeonValues.value(name));
+    const at = (name) => gudgeonValues.formatValue(gudgeonValues.getValue(name));
     told.values = [at("q.3"), at("phi.18"), at("lambda.3"), at("phi_q.3.10")];
     told.wide = document.documentElement.scrollWidth - document.documentElement.clientWidth;
     document.getElementById("told").textContent = JSON.stringify(told);

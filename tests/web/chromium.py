@@ -19,10 +19,10 @@ from tests.programs import missing
 from tests.web.node import browser
 
 DESK, PHONE = {"width": 1366, "height": 900}, {"width": 390, "height": 844}
-READY = "window.gudgeonApp && gudgeonApp.run && !gudgeonApp.way"
+READY = "window.gudgeonApp && gudgeonApp.run && !gudgeonApp.activeRun"
 BITS = """name => { const bytes = new Uint8Array(Float64Array.from(gudgeonApp.run[name]).buffer);
     return btoa(Array.from(bytes, (byte) => String.fromCharCode(byte)).join("")); }"""
-C, SECTION = "#g-number-3", ".g-section:has(#g-number-{})"
+C, SECTION = "#g-parameter-3", ".g-section:has(#g-parameter-{})"
 
 
 @pytest.fixture(scope="session")
@@ -80,7 +80,7 @@ class Opened:
     def type_into(self, k: int, text: str) -> None:
         """A number of the file, in its unit."""
         self.page.evaluate("(k) => { document.querySelector(k).open = true; }", SECTION.format(k))
-        field = self.page.locator(f"#g-number-{k} + input")
+        field = self.page.locator(f"#g-parameter-{k} + input")
         field.fill(text)
         field.press("Enter")
         self.wait()

@@ -53,8 +53,8 @@ class Answer:
     impacts: list[dict[str, Any]]
     counts: dict[str, int]
     error: str = ""
-    shares: tuple[float, ...] = ()  # that a run in slices told on its way
-    followed: bool = False  # its start from the file's
+    fractions: tuple[float, ...] = ()  # that a run in slices yielded
+    is_continued: bool = False  # whether its start was continued from the file's
 
 
 NOTHING: dict[str, Any] = {"arrays": {}, "series": {}, "units": {}, "events": [], "impacts": [], "counts": {}}
@@ -62,15 +62,15 @@ NOTHING: dict[str, Any] = {"arrays": {}, "series": {}, "units": {}, "events": []
 
 def answer(message: dict[str, Any]) -> Answer:
     """What runner.js printed of one run."""
-    error, shares = message.get("error", ""), message.get("shares", ())
+    error, fractions = message.get("error", ""), message.get("fractions", ())
     message = (message["partial"] or NOTHING) if error else message
     arrays, series = (
         {name: np.frombuffer(base64.b64decode(bits)) for name, bits in message[part].items()}
         for part in ("arrays", "series")
     )
     units, events, impacts, counts = (message[part] for part in ("units", "events", "impacts", "counts"))
-    followed = bool(message.get("followed"))
-    return Answer(arrays, series, units, events, impacts, counts, error, tuple(shares), followed)
+    is_continued = bool(message.get("isContinued"))
+    return Answer(arrays, series, units, events, impacts, counts, error, tuple(fractions), is_continued)
 
 
 def in_node(simulation: Simulation, folder: Path, runs: list[dict[str, Any]]) -> list[Answer]:
@@ -96,7 +96,7 @@ PAGE = """<!DOCTYPE html><meta charset="utf-8"><pre id="told"></pre>
 const text = (id) => document.getElementById(id).textContent;
 const ticks = setInterval(() => {{}}, 1); // so long virtual time does not run ahead of what is unpacked and compiled
 gudgeon.load(text("gudgeon-description"), text("gudgeon-module"))
-    .then((sim) => JSON.stringify(answers(sim, {runs})), (error) => `failed: ${{error}}`)
+    .then((sim) => JSON.stringify(runAll(sim, {runs})), (error) => `failed: ${{error}}`)
     .then((told) => {{ document.getElementById("told").textContent = told; clearInterval(ticks); }});
 </script>
 """

@@ -33,7 +33,8 @@ def test_what_a_hand_moves_is_simulated_and_shown(opened: Any, press: Path) -> N
     shown.page.evaluate("gudgeonApp.seek(0.3)")
     shown.wait()
     drawn = shown.shown()
-    shown.page.locator("#g-number-2").evaluate("(one) => { one.value = 540; one.dispatchEvent(new Event('input')); }")
+    move = "(slider) => { slider.value = 540; slider.dispatchEvent(new Event('input')); }"
+    shown.page.locator("#g-parameter-2").evaluate(move)
     shown.wait()
     l5 = shown.page.evaluate("gudgeonApp.sim.p[2]")
     assert l5 != 0.3
@@ -46,19 +47,19 @@ def test_what_cannot_be_run_is_told(opened: Any, press: Path) -> None:
     shown = opened(press)
     before = shown.array("q")
     field = shown.page.locator(f"{C} + input")
-    for text, message in (("-1", "expected > 0"), ("one", "one is no number"), ("90 deg/s", "a unit may stand behind")):
+    for text, message in (("-1", "expected > 0"), ("one", "one is no number"), ("90 deg/s", "a unit may follow")):
         shown.type_into(3, text)
         assert message in shown.error() and field.get_attribute("aria-invalid") == "true"
         assert np.array_equal(shown.array("q"), before)
     shown.type_into(3, "0.3")
     assert shown.error() == "" and field.get_attribute("aria-invalid") is None
     shown.type_into(21, "20")  # L2 does not reach
-    address = shown.page.evaluate("gudgeonApp.about.slots[21].address")
+    address = shown.page.evaluate("gudgeonApp.description.slots[21].address")
     message = rf"closes beyond {address} = ([\d.]+) mm: the largest gap, ([\d.]+) mm, is in a row of \w+\. Python"
     gap = re.search(message, shown.error())
     assert gap and 20.0 < float(gap[1]) < 200.0 and 1.0 < float(gap[2]) < 300.0
     shown.type_into(3, "0.31")  # which moves no start: the blame stays where it is
-    assert f"What makes it: {address} = 20 mm." in shown.error()
+    assert f"Cause: {address} = 20 mm." in shown.error()
     assert field.get_attribute("aria-invalid") is None
     shown.page.locator(".g-reset").click()
     shown.wait()
@@ -67,9 +68,9 @@ def test_what_cannot_be_run_is_told(opened: Any, press: Path) -> None:
 
 
 FRAMES = """() => new Promise((done) => {
-    const slider = document.querySelector("#g-number-3"), apart = [];
+    const slider = document.querySelector("#g-parameter-3"), apart = [];
     let [last, k] = [0, 0];
-    gudgeonApp.play(true);
+    gudgeonApp.setPlaying(true);
     const step = (now) => {
         if (last) apart.push(now - last);
         last = now;
@@ -118,7 +119,7 @@ def test_scenes_lead_to_each_other(opened: Any, tmp_path: Path, call: Gudgeon) -
     page.page.select_option("#g-scene", "s")
     page.page.wait_for_url("**/attacked_0_s.html#*")
     page.wait()
-    assert page.page.evaluate("[gudgeonApp.about.scene, gudgeonApp.t]") == ["s", 0.05]
+    assert page.page.evaluate("[gudgeonApp.description.scene, gudgeonApp.t]") == ["s", 0.05]
     assert page.same_bits(native.simulate(parameters={"omega": 40.0}))
     page.page.goto(
         f"{page.page.url.partition('#')[0]}#parameters.omega=nan&bodies.crank.inertia=&t=x&bodies.crank.mass=-1"
@@ -126,19 +127,19 @@ def test_scenes_lead_to_each_other(opened: Any, tmp_path: Path, call: Gudgeon) -
     )
     page.page.reload()
     page.page.wait_for_function("document.getElementById('g-error').textContent")
-    assert page.page.evaluate("gudgeonApp.panel.given") == {"bodies.crank.mass": -1}
+    assert page.page.evaluate("gudgeonApp.panel.givenValues") == {"bodies.crank.mass": -1}
     assert "bodies.crank.mass is -1 kg: a mass is positive; expected > 0 kg" in page.error()
     assert page.page.inner_text("#g-note") == (
         "Not taken from the link: parameters.omega = nan (expected a number), bodies.crank.inertia = nothing"
         " (expected a number), t = x (expected a number), bodies.rad.mass = 1 (this scene has no such number),"
-        f" t = -5 (the run has 0 to {page.page.evaluate('gudgeonApp.end')} s)."
+        f" t = -5 (the run has 0 to {page.page.evaluate('gudgeonApp.endTime')} s)."
     )
     assert page.same_bits(native.simulate())  # the file's numbers are what is shown
     page.page.goto(f"{page.page.url.partition('#')[0]}#bodies.crank.mass=300 g&t=50 ms")
     page.page.reload()
-    page.page.wait_for_function("window.gudgeonApp?.run?.p && Object.keys(gudgeonApp.panel.given).length")
+    page.page.wait_for_function("window.gudgeonApp?.run?.p && Object.keys(gudgeonApp.panel.givenValues).length")
     page.wait()
-    assert page.page.evaluate("[gudgeonApp.panel.given, gudgeonApp.t]") == [{"bodies.crank.mass": 0.3}, 0.05]
+    assert page.page.evaluate("[gudgeonApp.panel.givenValues, gudgeonApp.t]") == [{"bodies.crank.mass": 0.3}, 0.05]
     assert page.page.inner_text("#g-note") == "" and page.complaints == []
 
 
@@ -147,22 +148,22 @@ def test_a_run_without_an_end_is_seen_and_stopped(opened: Any, tmp_path: Path) -
     pytest.importorskip("ziglang")
     simulation = loader(tmp_path)(LONG, "s")
     shown = opened(written(tmp_path, simulation), PHONE)
-    page, way = shown.page, shown.page.locator("#g-way")
+    page, progress = shown.page, shown.page.locator("#g-progress")
     assert page.evaluate("document.documentElement.scrollWidth") <= 390  # its title is one word
     assert page.evaluate("(([one]) => one.scrollWidth <= one.clientWidth)(document.getElementsByTagName('h1'))")
     page.evaluate("""() => { gudgeonApp.run = undefined;
         for (const one of document.querySelectorAll("#g-drawing path")) one.removeAttribute("d");
         gudgeonApp.panel.set("parameters.omega", 1e9); }""")
-    way.wait_for(state="visible")
-    assert re.fullmatch(r"running: \S+ % after \d+ s; given up after 120 s", way.locator("span").inner_text())
+    progress.wait_for(state="visible")
+    assert re.fullmatch(r"running: \S+ % after \d+ s; given up after 120 s", progress.locator("span").inner_text())
     assert page.evaluate("gudgeonApp.run === undefined && [...document.querySelectorAll('#g-drawing [d]')].length > 0")
-    way.locator("button").click()
+    progress.locator("button").click()
     shown.wait()
     assert shown.error().startswith("stopped by hand at ") and "the run up to there" in shown.error()
-    assert way.is_hidden() and page.evaluate("gudgeonApp.run.q[2]") == 0.5
-    page.evaluate("gudgeonApp.limit = 0.6; gudgeonApp.begin()")
+    assert progress.is_hidden() and page.evaluate("gudgeonApp.run.q[2]") == 0.5
+    page.evaluate("gudgeonApp.limit_s = 0.6; gudgeonApp.startRun()")
     page.wait_for_function("document.getElementById('g-error').textContent.startsWith('given up after 0.6 s at ')")
-    assert page.evaluate("gudgeonApp.way") is None
+    assert page.evaluate("gudgeonApp.activeRun") is None
     page.locator(".g-reset").click()
     shown.wait()
     assert shown.error() == "" and shown.same_bits(simulation.simulate())
@@ -194,10 +195,10 @@ def test_numbers_beyond_all_prefixes_have_none(opened: Any, press: Path) -> None
     page = opened(press).page
     page.evaluate("""() => { const {run} = gudgeonApp, unit = run.unit.bind(run), name = gudgeonApp.values[0].name;
         run.unit = (one) => one === name ? "N*m" : unit(one);
-        run.found.set(name, run.t.map((t, k) => [-1.555e299, 1.2e7, 1e-25][k] ?? 0));
+        run.seriesCache.set(name, run.t.map((t, k) => [-1.555e299, 1.2e7, 1e-25][k] ?? 0));
         gudgeonApp.scales["N*m"] = 0; }""")
     for k, message in enumerate(("−1.555·10²⁹⁹ N·m", "12 MN·m", "1·10⁻²⁵ N·m")):
-        page.evaluate("(k) => { gudgeonApp.seek(gudgeonApp.run.t[k]); gudgeonApp.show(); }", k)
+        page.evaluate("(k) => { gudgeonApp.seek(gudgeonApp.run.t[k]); gudgeonApp.showSample(); }", k)
         assert page.locator("#g-values tr").first.locator("td").all_inner_texts() == message.split(" ")
 
 
@@ -219,7 +220,9 @@ def test_constraints_drift_where_nothing_holds_them(opened: Any, pendulum: Path)
     shown.wait()
     assert page.evaluate(worst) < 1e-14
     page.select_option("#g-run-formulation", "-full")
-    page.wait_for_function("gudgeonApp.about.rows.length && gudgeonApp.run.sim === gudgeonApp.sim && !gudgeonApp.way")
+    page.wait_for_function(
+        "gudgeonApp.description.rows.length && gudgeonApp.run.sim === gudgeonApp.sim && !gudgeonApp.activeRun"
+    )
     drifts = []
     for gain in ("5", "0"):
         for name in ("alpha", "beta"):
@@ -238,13 +241,13 @@ def test_without_the_compiler_it_carries_one_run(opened: Any, tmp_path: Path, mo
     shown, run = opened(written(tmp_path, four_bar)), four_bar.simulate()
     assert "one run" in shown.page.inner_text("#g-note") and "gudgeon[web]" in shown.page.inner_text("#g-note")
     assert shown.page.evaluate("gudgeonState.sim") is None
-    assert shown.page.evaluate("document.querySelectorAll('#g-numbers *').length") == 0
+    assert shown.page.evaluate("document.querySelectorAll('#g-parameters *').length") == 0
     assert len(shown.array("t")) == 400
     q = shown.array("q").reshape(400, -1)
     assert np.abs(q[-1] - run.q[-1]).max() < 1e-6 and np.abs(q[0] - run.q[0]).max() < 1e-6
     lines = shown.shown()[-4:]
     assert min(map(len, lines)) > 1000
-    shown.page.evaluate("gudgeonApp.play(true)")
+    shown.page.evaluate("gudgeonApp.setPlaying(true)")
     shown.page.wait_for_function("gudgeonApp.k > 3")
     assert shown.complaints == []
 

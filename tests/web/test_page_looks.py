@@ -28,7 +28,7 @@ def seen(seen_before: Opened) -> Iterator[Opened]:
     page = seen_before.page
     page.set_viewport_size(DESK)
     page.emulate_media(media="screen", color_scheme="light")
-    page.evaluate("gudgeonApp.play(false); gudgeonApp.seek(0); scrollTo(0, 0)")
+    page.evaluate("gudgeonApp.setPlaying(false); gudgeonApp.seek(0); scrollTo(0, 0)")
     seen_before.wait()
     assert seen_before.complaints == []
 
@@ -46,11 +46,11 @@ def test_the_state_is_announced_at_each_sample(seen: Opened) -> None:
 
 
 NAMES = """() => [...Array(200).keys()].map((i) => {
-    gudgeonApp.seek(gudgeonApp.run.t[0] + i / 199 * gudgeonApp.span);
-    gudgeonApp.show();
-    return gudgeonApp.drawing.named.map(({made, at, planned}) => {
-        const {x, y, width, height} = made.getBBox(), {e, f} = made.transform.baseVal[0].matrix;
-        return [e - width / 2, f - height / 2, e + width / 2, f + height / 2, ...at, ...planned];
+    gudgeonApp.seek(gudgeonApp.run.t[0] + i / 199 * gudgeonApp.duration);
+    gudgeonApp.showSample();
+    return gudgeonApp.drawing.visibleLabels.map(({element, anchor, plannedOffset}) => {
+        const {x, y, width, height} = element.getBBox(), {e, f} = element.transform.baseVal[0].matrix;
+        return [e - width / 2, f - height / 2, e + width / 2, f + height / 2, ...anchor, ...plannedOffset];
     });
 })"""
 
@@ -95,7 +95,7 @@ def test_keys_reach_everything(seen: Opened) -> None:
     at = page.evaluate("document.activeElement.id")
     page.keyboard.press("End")
     seen.wait()
-    assert (at, page.evaluate("gudgeonApp.t")) == ("g-when", 1.0)
+    assert (at, page.evaluate("gudgeonApp.t")) == ("g-time", 1.0)
     reached = set()
     for _ in range(60):
         page.keyboard.press("Tab")
@@ -106,7 +106,7 @@ def test_keys_reach_everything(seen: Opened) -> None:
             break
         assert message[1] == "solid" and message[2] == "2px", message
         reached.add(message[0])
-    assert {"g-speed", "g-named", "g-forces", "g-run-method", "g-number-3", "g-add"} <= reached
+    assert {"g-speed", "g-show-names", "g-show-forces", "g-run-method", "g-parameter-3", "g-add-trace"} <= reached
 
 
 # of each text its colour's contrast with what lies behind it (WCAG 2.2, 1.4.3), the worst first
@@ -161,10 +161,10 @@ def test_what_is_wide_is_read_whole_on_a_phone_and_in_print(seen: Opened) -> Non
 def test_the_panel_s_foot_is_seen_and_traces_stand_below_the_drawing(seen: Opened) -> None:
     page = seen.page
     page.set_viewport_size({"width": 1280, "height": 900})
-    box = {of: page.locator(of).bounding_box() for of in (".g-reset", "#g-numbers", ".g-stage", ".g-traces")}
+    box = {of: page.locator(of).bounding_box() for of in (".g-reset", "#g-parameters", ".g-stage", ".g-traces")}
     assert box[".g-reset"]["y"] + box[".g-reset"]["height"] <= 900
     gap = box[".g-traces"]["y"] - box[".g-stage"]["y"] - box[".g-stage"]["height"]
-    assert 0 <= gap < 40 < box["#g-numbers"]["height"]
+    assert 0 <= gap < 40 < box["#g-parameters"]["height"]
 
 
 def test_print_has_no_controls(seen: Opened) -> None:

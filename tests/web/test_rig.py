@@ -108,7 +108,7 @@ PLACES = """
 const fs = require("fs"), asked = JSON.parse(fs.readFileSync(0, "utf-8")), rig = new Rig(asked.rig, asked.points);
 console.log(JSON.stringify(asked.configurations.map(({q, p, loads}) => {
     rig.update(q, p, (name) => loads[name]);
-    return rig.shapes.map((shape) => rig.points(shape).flat());
+    return rig.shapes.map((shape) => rig.computePoints(shape).flat());
 })));
 """
 
@@ -119,7 +119,7 @@ LINKAGES = ("slider_crank_spring", "andrews_squeezer", "car_axis")
 @needs_node
 @pytest.mark.parametrize("name", slow_but(LINKAGES[1:], LINKAGES))
 def test_a_page_places_them_alike(name: str, tmp_path: Path) -> None:
-    """drawing.js beside Carried.at; numbers are carried to 1e-11 of the size."""
+    """drawing.js against MovingShape.move_to; the page has numbers to 1e-11 of the size."""
     run, rig, *_ = ran(name)
     program = node()
     assert program

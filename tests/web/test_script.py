@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import pytest
@@ -9,6 +10,7 @@ import pytest
 import gudgeon.generator.targets.latex
 import gudgeon.web
 from gudgeon.generator.targets.javascript.module import compress_script
+from gudgeon.web.page import SIMULATOR_FILES, read_file
 
 FOLDERS = (gudgeon.web, gudgeon.generator.targets.latex)
 FILES = [file for folder in FOLDERS for file in sorted(Path(str(folder.__file__)).parent.glob("*.js"))]
@@ -31,3 +33,10 @@ def test_comments_and_spaces_alone_are_left_out(file: Path) -> None:
 
     assert words(carried) == words(text) and ends(carried) == ends(text)
     assert len(carried) < 0.85 * len(text) and "/*" not in carried
+
+
+def test_files_that_share_a_scope_declare_each_name_once() -> None:
+    """Of two functions with one name, the later would silently replace the earlier."""
+    text = "\n".join(map(read_file, SIMULATOR_FILES))
+    names = re.findall(r"^(?:async )?(?:function\*?|class|const|let) (\w+)", text, re.MULTILINE)
+    assert len(names) > 40 and sorted(names) == sorted(set(names))

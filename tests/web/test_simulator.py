@@ -260,7 +260,7 @@ def test_events_are_noted_and_end_a_run(text: str, scene: str, tmp_path: Path) -
     assert same_bits(found, native)
     assert [(one["name"], one["t"]) for one in found.events] == [(names[k], t) for k, t in native.events.tolist()]
     assert len(native.events) == 2
-    assert list(found.shares) == sorted(found.shares)
+    assert list(found.fractions) == sorted(found.fractions)
 
 
 LONG: dict[str, Any] = {"t_end": 2000.0, "output": 2}
@@ -276,7 +276,7 @@ def test_few_samples_of_a_long_time_come_in_pieces(scene: str, tmp_path: Path) -
     (found,) = in_node(simulation, tmp_path, [{"parameters": moved, "options": requested, "slices": True}])
     assert found.error == "" and found.arrays["t"] == pytest.approx(native.t, rel=1e-13)
     assert (native.t[-1] < 501.0) == (scene == "stopped")
-    assert found.counts["steps"] / len(found.shares) < 3000 and list(found.shares) == sorted(found.shares)
+    assert found.counts["steps"] / len(found.fractions) < 3000 and list(found.fractions) == sorted(found.fractions)
     for name, most in (("q", 1e-12), ("v", 1e-12), ("work", 1e-8)):
         assert np.abs(found.arrays[name] - np.ravel(getattr(native, name))).max() < most
     assert [one["t"] for one in found.events] == pytest.approx(native.events["t"].tolist(), rel=1e-12)
@@ -293,6 +293,28 @@ def test_a_run_that_fails_gives_what_it_has(tmp_path: Path) -> None:
     assert "singular" in message or "cannot follow" in message
     assert float(t) == pytest.approx(caught.value.time, rel=1e-8) and len(t) <= 11  # as it is written, 9 digits
     assert same_bits(found, caught.value.partial)
+
+
+SIGNAL = f"""
+curves: {{wave: {{table: wave.csv, x: s}}}}
+bodies: {{crank: {{length: 50 mm, {BODY}}}}}
+ground: {{O: [0, 0]}}
+joints: {{O: {{revolute: [ground.O, crank.tail]}}}}
+drives: {{motor: {{angle: crank, value: 1 rad/s * t}}}}
+outputs: {{signal: wave(t)}}
+"""
+
+
+@needs_node
+@pytest.mark.parametrize("n_points", [20, 4500])
+def test_a_curve_in_an_output_is_interpolated(n_points: int, tmp_path: Path) -> None:
+    """A page gets the table of a long curve as bytes, that of a short one as numbers; both give a sine."""
+    t = np.linspace(0.0, 1.0, n_points)
+    np.savetxt(tmp_path / "wave.csv", np.column_stack([t, np.sin(np.pi * t)]), delimiter=",", fmt="%.17g")
+    simulation, options = loader(tmp_path)(SIGNAL), {"t_end": 0.9, "output": 30}
+    (found,) = in_node(simulation, tmp_path, [{"options": options, "names": ["signal"]}])
+    assert found.error == ""
+    assert np.abs(found.series["signal"] - np.sin(np.pi * found.arrays["t"])).max() < 10.0 / n_points**4
 
 
 @pytest.mark.slow  # test_page.py's lie on disk too

@@ -33,7 +33,7 @@ def test_a_start_that_only_python_finds_holds_while_nothing_moves_it(tmp_path: P
         ],
     )
     assert same_bits(weaker, pendulum.simulate(parameters={"g": 1.62}, **options))
-    assert not weaker.followed and longer.followed
+    assert not weaker.is_continued and longer.is_continued
     assert_near(longer, pendulum.simulate(parameters={"length": 2.0}, **options))
 
 
@@ -89,7 +89,7 @@ def test_a_start_that_only_python_finds_is_followed(name: str, tmp_path: Path) -
     found = in_node(simulation, tmp_path, requested)
     for one, parameters in zip(found, MOVED[name], strict=True):
         assert_near(one, simulation.simulate(parameters=parameters, **BRIEF))
-    assert not any(one.followed for one in found[:2]) and any(one.followed for one in found)
+    assert not any(one.is_continued for one in found[:2]) and any(one.is_continued for one in found)
 
 
 @needs_node

@@ -17,7 +17,7 @@ from tests.web.chromium import Opened  # noqa: E402
 
 # the lit lines of C: file, text, value; seen one by one, because values are filled in where they are seen
 LINES = """async (token) => {
-    gudgeonLight.light([token]);
+    gudgeonHighlighting.highlight([token]);
     document.getElementById("gudgeon-lines").style.maxHeight = "none";
     for (let k = 0; k < 4; k++) await new Promise((done) => requestAnimationFrame(done));
     return [...document.querySelectorAll("#gudgeon-lines .line")].map((one) =>
@@ -25,7 +25,7 @@ LINES = """async (token) => {
 }"""
 STORES = re.compile(r"^\s*(?:const double )?(?:\w|->|\[\d+\])+ = .*;")
 # of each mark that is shown in a plot: where it is across, its dots, the plot's curves
-MARKS = """() => [...document.querySelectorAll("g.now[visibility=visible]")].map((mark) => [
+MARKS = """() => [...document.querySelectorAll("g.state-marker[visibility=visible]")].map((mark) => [
     Number(mark.getAttribute("transform").match(/[\\d.]+/)[0]),
     [...mark.querySelectorAll("circle")].map((dot) => Number(dot.getAttribute("cy"))),
     [...mark.parentNode.querySelectorAll("polyline")].map((curve) =>
@@ -73,8 +73,8 @@ def test_a_row_lights_its_lines_with_the_run_s_values(typed: tuple[Opened, Resul
         assert sorted(entries) == pytest.approx(sorted(phi_q[k][np.flatnonzero(phi_q[k])]), rel=1e-4)
         assert any(x == pytest.approx(gamma[k], rel=1e-4) for name, x in of.items() if name.startswith("gamma_rows["))
         assert any(abs(x - phi[k]) < 1e-15 for name, x in of.items() if name.startswith("phi["))
-        for what in (".listing .lit", ".equation.lit, .lit .equation, tr.lit", "svg .lit"):
-            assert page.evaluate(COUNT, what) > 0, (row, what)
+        for what in (".listing .X", ".equation.X, .X .equation, tr.X", "svg .X"):
+            assert page.evaluate(COUNT, what.replace("X", "highlighted")) > 0, (row, what)
     assert shown.complaints == []
 
 
@@ -96,7 +96,7 @@ def test_a_law_s_lines_are_of_the_joint_that_is_lit(typed: tuple[Opened, Result]
 def test_a_joint_s_state_is_marked_on_each_curve(typed: tuple[Opened, Result]) -> None:
     """The film's two, at moments at which the eccentricity is within the plot; the dots lie on the curves."""
     (shown, run), found = typed, 0
-    shown.page.evaluate("[...document.querySelectorAll('g.now')].at(-1).closest('svg').scrollIntoView()")
+    shown.page.evaluate("[...document.querySelectorAll('g.state-marker')].at(-1).closest('svg').scrollIntoView()")
     shown.wait()
     for k in np.flatnonzero(run["A.e"] / run.parameters["c"] < 0.85)[:: len(run.t) // 6]:
         seek(shown, int(k))
@@ -120,7 +120,7 @@ def test_lines_of_parameters_have_the_numbers_that_were_typed(typed: tuple[Opene
     assert row.get_attribute("aria-pressed") == "true"
     shown.page.keyboard.press("Escape")
     assert row.get_attribute("aria-pressed") == "false"
-    assert shown.page.evaluate("document.querySelectorAll('.lit').length") == 0
+    assert shown.page.evaluate("document.querySelectorAll('.highlighted').length") == 0
     assert shown.complaints == []
 
 
@@ -128,8 +128,8 @@ PICKED = """() => {
     const terms = [...document.querySelectorAll(".equation[data-pick^=row-] [data-of*='name-']")];
     const term = terms.find((one) => /^entry-\\d+-\\d+ name-\\w+$/.test(one.dataset.of) && terms.filter((other) =>
         other.dataset.of.endsWith(one.dataset.of.split(" ")[1])).length > 1); // a coordinate, in more rows than one
-    gudgeonLight.select(term);
-    const lit = [...document.querySelectorAll(".lit")].map((one) => one.dataset.of);
+    gudgeonHighlighting.select(term);
+    const lit = [...document.querySelectorAll(".highlighted")].map((one) => one.dataset.of);
     return [term.dataset.of.split(" "), lit, document.querySelector("#gudgeon-lines pre").textContent];
 }"""
 

@@ -43,10 +43,10 @@ def test_undefined_parts_are_those_of_python(tmp_path: Path) -> None:
     cases = [(tree, {"d": d, "e": e}) for tree in TREES for d in VALUES for e in VALUES]
     program = "\n".join(
         (
-            read_file("run.js").split("/* A run")[0],
-            read_file("undefined.js"),
+            read_file("run.js"),
+            read_file("undefined_parts.js"),
             f"const cases = {json.dumps(cases)}, divides = {json.dumps(sorted(DIVIDING))};",
-            "const found = cases.map(([tree, known]) => undefinedPart(tree, known, divides));",
+            "const found = cases.map(([tree, known]) => findUndefinedPart(tree, known, divides));",
             "console.log(JSON.stringify(found.map((value) => (value === undefined ? 'defined' : String(value)))));",
         )
     )

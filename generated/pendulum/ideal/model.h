@@ -14,7 +14,7 @@
 #define N_JOINTS 1            /* joints without play */
 #define N_DRIVES 0            /* drives */
 #define N_CLEARANCES 0        /* joints with play */
-#define LAW_STATES 0          /* inner states of the laws of a joint with play, at most */
+#define LAW_STATES 0          /* internal states of the laws of a joint with play, at most */
 #define N_FRICTIONS 0         /* slips that friction may hold */
 #define N_SWITCHES 0          /* corners of min, max, abs and sign */
 #define N_USER_EVENTS 0       /* expressions whose zeros are watched */

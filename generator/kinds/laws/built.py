@@ -287,7 +287,7 @@ Results = dict[str, NDArray[np.float64]]
 def make_law_function(
     law: Law, parameter_values: Mapping[str, Any], options: Mapping[str, str | bool], pair_values: Mapping[str, float]
 ) -> Callable[..., Results]:
-    """Return a law by itself as a function of arrays: variables of its role, further ones, inner states.
+    """Return a law by itself as a function of arrays: variables of its role, further ones, internal states.
 
     The function returns the law's results by name in SI units. parameter_values: by key, without optional ones that are
     left out; expressions of a variable as SymPy. pair_values: R_i, R_j, c, L, E_i, nu_i, E_j, nu_j. Further variables
@@ -324,5 +324,5 @@ def make_law_function(
 
 
 def count_further_variables(law: Law) -> int:
-    """Return the number of further variables between those of the role and the inner states."""
+    """Return the number of further variables between those of the role and the internal states."""
     return len(law.further)

@@ -72,8 +72,8 @@ RESULTS: Mapping[str, tuple[str, ...]] = {
 MEAN_CLEARANCE = "mean_clearance"
 # Constant that a normal law may derive: the penetration (m) beyond which it is not valid and a run stops.
 MAX_PENETRATION = "deepest"
-# What a law with an inner state may derive: the deflection (m) at which its friction slides, which errors of the state
-# are measured by; without it they are measured by the lengths of the linkage.
+# What a law with an internal state may derive: the deflection (m) at which its friction slides, which errors of the
+# state are measured by; without it they are measured by the lengths of the linkage.
 BREAKAWAY = "breakaway"
 # Of the clearance: where the stiffness of a force that is no power law is taken, for the default step.
 SECANT_DEPTH = 0.05
@@ -81,7 +81,7 @@ SECANT_DEPTH = 0.05
 
 @dataclass(frozen=True)
 class State:
-    """Declare an inner state of a law, a length (m), 0 at each onset and integrated while in contact.
+    """Declare an internal state of a law, a length (m), 0 at each onset and integrated while in contact.
 
     `build` reads it as a variable of that name and returns its rate (m/s) as `<name>_rate`.
     """
@@ -124,7 +124,7 @@ class Law:
 
     @property
     def variables(self) -> tuple[str, ...]:
-        """Return the names of the variables of `build`: those of its role, further ones, inner states."""
+        """Return the names of the variables of `build`: those of its role, further ones, internal states."""
         return (*VARIABLES[self.role], *self.further, *(state.name for state in self.states))
 
     @property
@@ -134,7 +134,7 @@ class Law:
 
     @property
     def results(self) -> tuple[str, ...]:
-        """Return the names of the results of `build`: those of its role, then rates of inner states."""
+        """Return the names of the results of `build`: those of its role, then rates of internal states."""
         return (*RESULTS[self.role], *(f"{state.name}_rate" for state in self.states))
 
     @property

@@ -220,7 +220,7 @@ def _check_keys_of_law(law: Law) -> None:
     )
     _require_condition(not law.rigid, "it is rigid", "velocities jump by gudgeon's newton_restitution alone")
     _require_condition(
-        law.role == "friction" or not law.states, "it has inner states", "only laws of friction have them so far"
+        law.role == "friction" or not law.states, "it has internal states", "only laws of friction have them so far"
     )
     option_names = {field_of_law.name for field_of_law in law.options}
     _require_condition(

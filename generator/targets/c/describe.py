@@ -121,7 +121,7 @@ def describe_scene(
             for expression in mechanism.expressions.values()
         ),
         simulate_written=tuple(_describe_settings(model)),
-        states=_name_inner_states(model),
+        states=_name_internal_states(model),
         story=story,
         lanes=lanes,
         parts=tuple(_describe_connections(mechanism)),
@@ -183,8 +183,8 @@ def _format_point_names(*points: PointRef) -> tuple[str, ...]:
     return tuple(f"{point.body}.{point.point}" for point in points)
 
 
-def _name_inner_states(model: Model) -> tuple[str, ...]:
-    """Return the names "joint.state" of the inner states of laws in the order of DiscreteState.
+def _name_internal_states(model: Model) -> tuple[str, ...]:
+    """Return the names "joint.state" of the internal states of laws in the order of DiscreteState.
 
     Each joint with play has `model.law_states` entries; those that its law does not use are "".
     """

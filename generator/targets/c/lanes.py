@@ -97,7 +97,7 @@ def _print_kinematic_file(program: Program, render: Render, parameters: Sequence
 def _print_joint_function(joint: JointFunctions, render: Render, n_states: int) -> str:
     """Return the function of a joint with play for lanes, from a template.
 
-    Each joint has `n_states` inner states of laws. Dry contact and film are included as far as the joint has them.
+    Each joint has `n_states` internal states of laws. Dry contact and film are included as far as the joint has them.
     """
     clearance = joint.clearance
     step_names = ("gap", "before_dry", "after_dry", "before_film", "after_film", "share")

@@ -125,7 +125,7 @@ _PARAMETER_MEANINGS = {
     "radial_clearance": "Radial clearance of joint i with play, m.",
     _MAX_PENETRATION: "The penetration beyond which contact laws mean nothing, m: a tenth of the bearing's radius.",
     "min_approach_speed": "The least velocity that counts as that of an impact, m/s.",
-    "breakaway": "The deflection at which friction with an inner state slides, m; 0: not known.",
+    "breakaway": "The deflection at which friction with an internal state slides, m; 0: not known.",
     "restitution_of": "Where surfaces do not give, speed of parting by speed of approach.",
     "threshold_of": "Where surfaces do not give, the speed of parting below which a contact closes, m/s.",
 }
@@ -191,7 +191,7 @@ def _list_linkage_sizes(program: Program) -> Sizes:
         "N_JOINTS": (len(outputs.find_constraining_joints(model)), "joints without play"),
         "N_DRIVES": (len(model.scene.mechanism.drives), "drives"),
         "N_CLEARANCES": (len(model.clearances), "joints with play"),
-        "LAW_STATES": (model.law_states, "inner states of the laws of a joint with play, at most"),
+        "LAW_STATES": (model.law_states, "internal states of the laws of a joint with play, at most"),
         "N_FRICTIONS": (len(model.frictions), "slips that friction may hold"),
         "N_SWITCHES": (switches, "corners of min, max, abs and sign"),
         "N_USER_EVENTS": (len(model.events), "expressions whose zeros are watched"),
@@ -455,7 +455,7 @@ def _find_start_indices(model: Model) -> dict[str, list[int]]:
 def list_joint_parameters(model: Model) -> list[tuple[str, str, list[str]]]:
     """Return (meaning, name of the C function, [C expression for each joint]) of the parameters of joints with play.
 
-    Breakaway, restitution and threshold are included only if laws with inner states or rigid contacts exist.
+    Breakaway, restitution and threshold are included only if laws with internal states or rigid contacts exist.
     """
     values = {
         "radial_clearance": [c.pair.c for c in model.clearances],

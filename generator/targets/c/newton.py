@@ -48,7 +48,7 @@ def print_newton_functions(newton: Newton, render: Render) -> str:
 def print_tangent_functions(joints: Sequence[JointFunctions], methods: Methods, render: Render, n_states: int) -> str:
     """Return the C function `tangent_<joint>` of every joint with play, after the shared derivatives of laws.
 
-    Each joint has `n_states` inner states of laws. Contours and walls of guides have their own templates. "" without
+    Each joint has `n_states` internal states of laws. Contours and walls of guides have their own templates. "" without
     play.
     """
     if not joints:
@@ -110,8 +110,8 @@ def print_shared_slopes(
 ) -> str:
     """Return the C functions that combine derivatives of joints with play, for numbers or for vectors.
 
-    number_type, slopes_type: the C types of a value and of a set of derivatives. n_states: inner states of laws of each
-    joint. Blending and walls of guides are included if a joint needs them.
+    number_type, slopes_type: the C types of a value and of a set of derivatives. n_states: internal states of laws of
+    each joint. Blending and walls of guides are included if a joint needs them.
     """
     blend_function = (
         _BLENDING.replace("{number}", number_type)

@@ -54,7 +54,7 @@ def print_clearances_file(program: Program, render: Render) -> str:
 
 
 def print_clearance_functions(joint: JointFunctions, render: Render, n_states: int) -> str:
-    """Return the C functions of one joint with play; each joint has `n_states` inner states of laws."""
+    """Return the C functions of one joint with play; each joint has `n_states` internal states of laws."""
     return "\n".join(part.text for part in print_joint_functions(joint, render, n_states))
 
 
@@ -66,7 +66,7 @@ def get_function_name(part: str, joint: str) -> str:
 def print_joint_functions(joint: JointFunctions, render: Render, n_states: int) -> Iterator[PrintedFunction]:
     """Yield the functions of a joint with their stores: dry contact and film, if it has them, then the total force.
 
-    n_states: the number of inner states of laws that each joint has.
+    n_states: the number of internal states of laws that each joint has.
     """
     label, clearance = joint.clearance.label, joint.clearance
     if clearance.normal is not None:
@@ -124,7 +124,7 @@ def _print_mixed_law_comment(clearance: Clearance) -> str:
 def _print_dry_function(joint: JointFunctions, render: Render, n_states: int) -> PrintedFunction:
     """Return the function of a joint's dry contact: its text from a template, and its stores in order.
 
-    render: prints a template. n_states: the number of inner states of laws that each joint has.
+    render: prints a template. n_states: the number of internal states of laws that each joint has.
     """
     label, clearance = joint.clearance.label, joint.clearance
     ratio_name = "unclipped" if clearance.clip_ratio else "ratio"
@@ -157,7 +157,7 @@ def _list_further_arguments(joint: JointFunctions) -> tuple[str, ...]:
 def _print_film_function(joint: JointFunctions, render: Render, n_states: int) -> PrintedFunction:
     """Return the function of a joint's film: its text from a template, and its stores in order.
 
-    render: prints a template. n_states: the number of inner states of laws that each joint has.
+    render: prints a template. n_states: the number of internal states of laws that each joint has.
     """
     calls, label = _list_film_calls(joint, "double"), joint.clearance.label
     substitutions: dict[str, Any] = {
@@ -183,7 +183,7 @@ def _print_film_function(joint: JointFunctions, render: Render, n_states: int) -
 def _print_result_store(clearance: Clearance, n_states: int) -> str:
     """Return the C code that stores a joint's force, motion and torques in *out.
 
-    Rates of inner states and the position at a guide's wall are added if the joint has them.
+    Rates of internal states and the position at a guide's wall are added if the joint has them.
     """
     rates = print_state_rates("F.state_rate", clearance, n_states)
     position = _AT_WALL if clearance.wall else _JOURNAL
@@ -193,7 +193,7 @@ def _print_result_store(clearance: Clearance, n_states: int) -> str:
 
 
 def print_state_rates(array_name: str, clearance: Clearance, n_states: int, fill_value: str = "0.0") -> str:
-    """Return the initializer in C of the `n_states` rates of a joint's inner states; "" if no law has states.
+    """Return the initializer in C of the `n_states` rates of a joint's internal states; "" if no law has states.
 
     array_name: the array with the joint's rates, "" for none. fill_value: the rate of states that the joint does not
     have.

@@ -43,13 +43,16 @@ _COMMENT = re.compile(r"^ *(?:/\*.*?\*/|//[^\n]*)\n|(?<=\S) // [^\n]*$", re.DOTA
 def print_equations_script(program: Program) -> str:
     """Return the JavaScript that declares `gudgeonEquations`: the functions and the description that a page needs.
 
-    The functions of clearance.c are included, of `dynamics` the lines up to the right-hand side of each row. `joints`
-    contains the locals of `play` with the motion of each joint, `called` the joints in which each function acts.
+    The functions of clearance.c are included, of `dynamics` the lines up to the right-hand side of each row. Members:
 
-    `functions` of t, q, v, p, as far as `given` names them, return their locals and arrays by name; `numbers` are
-    indices in a run's p by the name of the member of p; `bodies` stand in the order of q, `closing` are the indices of
-    the results of `closures` in the argument of `reduced_project`; `rows` are the indices of the scene's rows in the
-    closed linkage's, `names` their names. Raises ValueError for curves.
+    - functions: return their locals and arrays by name; argumentNames: their arguments by function
+    - parameterIndices: indices in a run's p by the name of the member of p; tableRanges: first and end index of tables
+    - rowIndices: indices of the scene's rows among those of the closed linkage; rowNames: their names
+    - motionLocals: the locals of `play` with the motion of each joint; jointsByFunction: joints that call a function
+    - nLawStates: number of internal states of laws per joint; bodies: names in the order of q
+    - closureIndices: indices of the results of `closures` in the argument of `reduced_project`
+
+    Raises ValueError for curves.
     """
     model, dynamics = program.model, program.dynamics
     kernels = [*closed_linkage.make_row_kernels(model), *([make_play_kernel(model)] if model.clearances else [])]
@@ -67,20 +70,20 @@ def print_equations_script(program: Program) -> str:
     members = map(model.parameter_table.find_field_name, model.parameter_table.list_symbols())
     row_index = {row.name: k for k, row in enumerate(model.all_rows)}
     description = {
-        "numbers": {member: k for k, member in enumerate(members) if member in members_read},
-        "rows": [row_index[row.name] for row in model.rows],
-        "names": [row.name for row in model.rows],
-        "given": {kernel.name: list_arguments(kernel) for kernel in kernels},
-        "joints": {clearance.label: _name_motion_locals(model, i) for i, clearance in enumerate(model.clearances)},
-        "called": _map_functions_to_joints(program),
-        "states": model.law_states,
+        "parameterIndices": {member: k for k, member in enumerate(members) if member in members_read},
+        "rowIndices": [row_index[row.name] for row in model.rows],
+        "rowNames": [row.name for row in model.rows],
+        "argumentNames": {kernel.name: list_arguments(kernel) for kernel in kernels},
+        "motionLocals": {joint.label: _name_motion_locals(model, i) for i, joint in enumerate(model.clearances)},
+        "jointsByFunction": _map_functions_to_joints(program),
+        "nLawStates": model.law_states,
         "bodies": [body.name for body in model.bodies],
-        "closing": _find_closure_indices(program),
+        "closureIndices": _find_closure_indices(program),
     }
     if model.parameter_table.tables:
         member_index = {symbol: k for k, symbol in enumerate(model.parameter_table.list_symbols())}
         first_index = {name: member_index[symbols[0]] for name, symbols in model.parameter_table.tables.items()}
-        description["tables"] = {
+        description["tableRanges"] = {
             name: [first_index[name], first_index[name] + len(symbols)]
             for name, symbols in model.parameter_table.tables.items()
         }
@@ -172,20 +175,28 @@ def make_play_kernel(model: Model) -> Kernel:
     return builder.build_kernel((*STATE, PARAMETERS))
 
 
-_TEXT = re.compile(r"""("(?:[^"\\]|\\.)*"|'(?:[^'\\]|\\.)*')""")  # strings within a line of JavaScript
-_SPACED = re.compile(r" ?(=>|[!=]==|\?\?=?|&&|\|\||[=,?:;(){}]) ?")
+# strings within a line of JavaScript, template strings included
+_TEXT = re.compile(r"""("(?:[^"\\]|\\.)*"|'(?:[^'\\]|\\.)*'|`[^`]*`)""")
+_SPACED = re.compile(
+    r" ?(=>|[!=]==|\?\?=?|&&|\|\||[=,?:;(){}]) ?"
+    r"|(?<![-+]) ([-+*/%<>]|[<>]=|>>) (?![-+])"  # not in a - -b
+)
 
 
 def compress_script(text: str) -> str:
     """Return a JavaScript file without comments, indents and spaces around punctuation, for embedding in a page.
 
-    Lines are kept, since they end statements. Lines with or within template strings keep their spaces.
+    Lines are kept, since they end statements. Lines keep their spaces within template strings over several lines, and
+    if template strings are nested.
     """
     lines, in_template_string = [], False
     for line in re.sub(r"(?m)^ +|^\n", "", _COMMENT.sub("", text)).split("\n"):
-        parts = _TEXT.split(line)
-        if not in_template_string and "`" not in line:
-            parts[::2] = (_SPACED.sub(r"\1", part) for part in parts[::2])
-        lines.append("".join(parts))
-        in_template_string ^= line.count("`") % 2 == 1
+        ends_template_string = line.count("`") % 2 == 1
+        if in_template_string or ends_template_string or re.search(r"\${[^}]*`", line):
+            lines.append(line)
+        else:
+            parts = _TEXT.split(line)
+            parts[::2] = (_SPACED.sub(lambda match: match[1] or match[2], part) for part in parts[::2])
+            lines.append("".join(parts))
+        in_template_string ^= ends_template_string
     return "\n".join(lines)

@@ -20,17 +20,17 @@ from gudgeon.generator.targets.javascript.printer import JavaScriptPrinter, Line
 MOTION = (contact.e_x, contact.e_y, contact.de_x, contact.de_y, contact.omega_i, contact.omega_j)
 BLENDED = ("n", "t", "M_i", "M_j")  # members of a force that film and dry contact share
 _NOTHING = "{n: 0, t: 0, M_i: 0, M_j: 0}"
-_DRY = ("delta", "deltadot", "de_t", "omega_i", "omega_j", "contact", "p", "of")
+_DRY = ("delta", "deltadot", "de_t", "omega_i", "omega_j", "contact", "p", "stored")
 _OF_CONTOUR = ("e", "steep", "worn_slope")
-_FILM = ("e", "deltadot", "de_t", "omega_i", "omega_j", "p", "of")
+_FILM = ("e", "deltadot", "de_t", "omega_i", "omega_j", "p", "stored")
 
 
 def print_joint_functions(joint: JointFunctions, members_read: set[str]) -> list[str]:
     """Return the JavaScript methods `dry_A`, `film_A` and `clearance_A` of joint A.
 
     The first two exist only if the joint has them.
-    members_read: a set that gets the read members of p. The methods store their values in `of` by the function's
-    name: `of.dry_A.a_i`; the force in ground axes goes to `of.force`.
+    members_read: a set that gets the read members of p. The methods store their values in the argument `stored` by the
+    function's name: `stored.dry_A_.a_i`; the force in ground axes is `stored.force`.
     """
     label, methods = joint.clearance.label, []
     if joint.clearance.normal is not None:
@@ -39,7 +39,7 @@ def print_joint_functions(joint: JointFunctions, members_read: set[str]) -> list
         )
     if joint.clearance.film is not None:
         methods.append(_print_method(f"film_{label}_", _FILM, _print_film(joint, members_read)))
-    arguments = (*map(str, list_motion_symbols(joint.clearance)), "contact", "p", "of")
+    arguments = (*map(str, list_motion_symbols(joint.clearance)), "contact", "p", "stored")
     return [*methods, _print_method(f"clearance_{label}_", arguments, _print_joint_force(joint, members_read))]
 
 
@@ -129,14 +129,14 @@ def _print_joint_force(joint: JointFunctions, members_read: set[str]) -> list[st
         return [*body, _print_return_in_ground_axes(film)]
     share_locals = ", ".join(blend.locals)
     blend_lines = (
-        f'own["F.{component}"] = F.{component} += (1 - share) * (film.{component} - F.{component});'
+        f'values["F.{component}"] = F.{component} += (1 - share) * (film.{component} - F.{component});'
         for component in BLENDED
     )
     return [
         *body,
         f"if (!(delta > 0)) {_print_return_in_ground_axes(film)}",
         *blend.text,
-        f"const F = {dry}, own = Object.assign(of.clearance_{label}_, {{{share_locals}}});",
+        f"const F = {dry}, values = Object.assign(stored.clearance_{label}_, {{{share_locals}}});",
         "if (share < 1) {",
         f"    const film = {film};",
         *(f"    {line}" for line in blend_lines),
@@ -147,7 +147,7 @@ def _print_joint_force(joint: JointFunctions, members_read: set[str]) -> list[st
 
 def _print_return_in_ground_axes(force: str) -> str:
     """Return the line that returns a force in ground axes."""
-    return f"return turned({force}, n_x, n_y, of);"
+    return f"return in_ground_axes({force}, n_x, n_y, stored);"
 
 
 class _PrintedStatements:
@@ -161,7 +161,7 @@ class _PrintedStatements:
 def _print_law_call(
     call: SharedFunctionCall, arguments: Iterable[str], local_names: Sequence[str], members_read: set[str]
 ) -> list[str]:
-    """Return the lines that call a law, store its results in `of` by its name, and name the first results.
+    """Return the lines that call a law, store its results in `stored` by its name, and name the first results.
 
     local_names: the locals for the first results. members_read: a set that gets the read members of p.
     """
@@ -173,12 +173,12 @@ def _print_law_call(
         f"{result}: {name}" for result, name in zip(list_results(call.kernel), local_names, strict=False)
     )
     call_text = f"functions.{function}({', '.join([*arguments, *parameters])})"
-    return [f"const {{{destructured}}} = of.{function} = {call_text};"]
+    return [f"const {{{destructured}}} = stored.{function} = {call_text};"]
 
 
 def _print_store(function: str, names: Iterable[str]) -> str:
-    """Return the line that stores locals in `of` by a function's name."""
-    return f"of.{function} = {{{', '.join(dict.fromkeys(names))}}};"
+    """Return the line that stores locals in `stored` by a function's name."""
+    return f"stored.{function} = {{{', '.join(dict.fromkeys(names))}}};"
 
 
 def _print_return_force(normal_component: str, part: str) -> str:

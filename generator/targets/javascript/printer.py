@@ -41,26 +41,27 @@ const {{{", ".join(name for name in IN_SYMPY if name == IN_SYMPY[name].in_c)}, s
 const max_of = (x, y) => (x < y ? y : x), min_of = (x, y) => (x > y ? y : x), INFINITY = Infinity;
 const sign_of = (x) => (x > 0 ? 1 : x < 0 ? -1 : x);
 const just_ahead = (x) => x + 1e-9 * (1 + fabs(x)), just_behind = (x) => x - 1e-9 * (1 + fabs(x));
-const finite_slope = (slope, ahead, behind, way) => (isFinite(slope) ? slope : (ahead - behind) / way);
+const finite_slope = (derivative, value_after, value_before, distance) =>
+    (isFinite(derivative) ? derivative : (value_after - value_before) / distance);
 const mod_of = (a, b) => {
-    const rest = a % b;
-    return rest !== 0 && rest < 0 !== b < 0 ? rest + b : rest;
+    const remainder = a % b;
+    return remainder !== 0 && remainder < 0 !== b < 0 ? remainder + b : remainder;
 };
 const mod_on = (a, b) => mod_of(a, b), isfinite = isFinite;
-const turned = ({n, t, M_i, M_j}, n_x, n_y, of) => Object.assign(of, {
+const in_ground_axes = ({n, t, M_i, M_j}, n_x, n_y, stored) => Object.assign(stored, {
     force: {Fx: n * n_x - t * n_y, Fy: n * n_y + t * n_x, F_n: n, F_t: t, moment_first: M_i, moment_second: M_j},
 });
 const mod_switching_function = (a, b) => sin(PI * a / b);
 """
 )
 CONTOUR = """\
-const contour = (depth, order, angle) => {
-    const count = depth.length, turns = angle / (2 * PI), x = count * (turns - Math.floor(turns));
-    const k = Math.min(Math.floor(x), count - 1), s = x - k, per = count / (2 * PI);
-    const [a, b, c, d] = [-1, 0, 1, 2].map((i) => depth[(k + i + count) % count]);
-    const slope = 0.5 * (c - a), bend = (a - b) + (c - b), rest = 3 * (c - b) + (a - d);
-    if (order === 0) return b + s * (slope + s * (0.5 * bend + s * rest * (1.5 + s * (s - 2.5))));
-    return per * (slope + s * (bend + s * rest * (4.5 + s * (5 * s - 10))));
+const evaluate_contour = (depths, order, angle) => {
+    const count = depths.length, turns = angle / (2 * PI), position = count * (turns - Math.floor(turns));
+    const piece = Math.min(Math.floor(position), count - 1), s = position - piece, per_angle = count / (2 * PI);
+    const [a, b, c, d] = [-1, 0, 1, 2].map((i) => depths[(piece + i + count) % count]);
+    const slope = 0.5 * (c - a), bend = (a - b) + (c - b), jump = 3 * (c - b) + (a - d);
+    if (order === 0) return b + s * (slope + s * (0.5 * bend + s * jump * (1.5 + s * (s - 2.5))));
+    return per_angle * (slope + s * (bend + s * jump * (4.5 + s * (5 * s - 10))));
 };
 """
 _BRANCH_PLACES = tuple(Place(argument.name) for argument in BRANCHES)
@@ -94,7 +95,7 @@ class JavaScriptPrinter(CPrinter):
 
     def _print_ContourOf(self, expr: ContourOf) -> str:
         """Print the depth of a contour or its derivative (symbols/curves.py); its depths are an array of p."""
-        return f"contour(p.{expr.table}, {expr.order}, {self._print(expr.args[3])})"
+        return f"evaluate_contour(p.{expr.table}, {expr.order}, {self._print(expr.args[3])})"
 
 
 def print_method(kernel: Kernel, members_read: set[str], local_names: Collection[str] | None = None) -> str:

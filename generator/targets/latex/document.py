@@ -1,8 +1,8 @@
 """Represents a document of equations before its layout: sections of paragraphs, equations, tables and sketches.
 
 Every formula has a LaTeX and a plain text form; HTML converts the LaTeX to MathML. `of` are the tokens of a block
-(trace.py); blocks that share a token are highlighted together (light.js). `value` is the value that a running page
-shows next to the block (live.js); both are for HTML only.
+(trace.py); blocks that share a token are highlighted together (highlighting.js). `value` is the value that a running
+page shows next to the block (current_values.js); both are for HTML only.
 """
 
 from __future__ import annotations
@@ -189,7 +189,7 @@ def make_tables(
 
 
 def make_row_token(number: int) -> str:
-    """Return the token of a constraint equation, counted from 1; it also stands for its entries of Φ_q (light.js)."""
+    """Return the token of a constraint equation, counted from 1; it also stands for its entries of Φ_q."""
     return f"row-{number}"
 
 

@@ -31,7 +31,7 @@ from gudgeon.generator.targets.latex.letters import (
     make_word_name,
 )
 from gudgeon.generator.targets.latex.notation import Notation
-from gudgeon.generator.targets.latex.play import describe_inner_states, format_option
+from gudgeon.generator.targets.latex.play import describe_internal_states, format_option
 from gudgeon.generator.targets.latex.play_letters import (
     LAW_SYMBOL_NAMES,
     NAMES,
@@ -172,7 +172,7 @@ def _make_document(law: Law, name: str) -> Document:
 
 
 def _describe_equations(law: Law, default_form: Form, other_forms: Sequence[Form]) -> Iterator[Block]:
-    """Yield the blocks on a law's default form: its symbols, inner states, constants and steps.
+    """Yield the blocks on a law's default form: its symbols, internal states, constants and steps.
 
     other_forms: forms of other choices, whose symbols are listed, too.
     """
@@ -181,7 +181,7 @@ def _describe_equations(law: Law, default_form: Form, other_forms: Sequence[Form
     }
     rows = [make_row(letters[name], *_MEANINGS[name]) for name in _MEANINGS if name in letters]
     yield from make_tables(make_row("letter", "meaning", "unit"), rows)
-    yield from describe_inner_states(law)
+    yield from describe_internal_states(law)
     if default_form.constants:
         yield make_paragraph("Once a run:")
         yield from default_form.constants

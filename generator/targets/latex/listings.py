@@ -27,7 +27,7 @@ def make_listing_sections(model: Model, highlights: HighlightIndex) -> list[Sect
     The file is left out if it is missing or has changed.
     """
     blocks: list[Block] = []
-    hint = make_paragraph("Select any equation, entry, line or part: everything that has to do with it is lit.")
+    hint = make_paragraph("Select any equation, entry, line or part: everything related to it is highlighted.")
     if (text := _read_mechanism_file(model)) is not None:
         name = Path(model.scene.mechanism.file).name
         blocks.append(Listing(name, tuple(text.splitlines()), list_yaml_tokens(model, highlights)))
@@ -51,7 +51,7 @@ def _read_mechanism_file(model: Model) -> str | None:
 
 
 def _print_c_listing(highlights: HighlightIndex) -> str:
-    """Return the HTML of the C listing, compressed in a script element that light.js unfolds.
+    """Return the HTML of the C listing, compressed in a script element that highlighting.js unfolds.
 
     The files in SHOWN are included while they fit into MOST_C characters; all others are only named.
     """
@@ -86,8 +86,8 @@ def _print_c_listing(highlights: HighlightIndex) -> str:
     )
     note = f" Not listed here: {', '.join(unlisted_files)}." if unlisted_files else ""
     return (
-        f"<p>The emitted C; what of it computes what was selected is shown at the foot of the page.{note}</p>\n"
-        "<noscript><p>It is listed by the page's own script; <code>gudgeon emit</code> writes the same files.</p>"
+        f"<p>The emitted C. The foot of the page shows the lines that compute the selected part.{note}</p>\n"
+        "<noscript><p>A script of the page lists it; <code>gudgeon emit</code> writes the same files.</p>"
         f'</noscript>\n<div id="{_CARRIED}-files"></div>\n'
         f'<script type="text/plain" id="{_CARRIED}">{packed}</script>'
     )
@@ -104,7 +104,7 @@ def _list_line_texts(text: str, text_by_line: Mapping[int, str]) -> list[str]:
 def _shorten_value_names(text: str, values: Mapping[int, str]) -> dict[int, str]:
     """Return {line: name of its value}; a name's last part is left out where the line of `text` itself shows it.
 
-    values: {line number from 1: full name}. light.js completes the names.
+    values: {line number from 1: full name}. highlighting.js completes the names.
     """
     lines, shortened = text.split("\n"), dict[int, str]()
     for line_number, value in values.items():
@@ -130,4 +130,4 @@ def _print_equations_script(highlights: HighlightIndex) -> str:
 
 def print_scripts() -> str:
     """Return the scripts of a page: cross-highlighting and values."""
-    return f'<script>\n"use strict";\n{_load_script("light.js")}{_load_script("live.js")}</script>\n'
+    return f'<script>\n"use strict";\n{_load_script("highlighting.js")}{_load_script("current_values.js")}</script>\n'

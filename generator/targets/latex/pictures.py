@@ -214,7 +214,7 @@ def _print_tree_svg(
     parts = []
     for link in reduction_log.tree:
         (x0, y0), (x1, y1) = centres[link.parent], centres[link.body]
-        line_class = "rule" if link.joint else "rule loose"
+        line_class = "rule" if link.joint else "rule dashed"
         parts.append(f'<path class="{line_class}" d="M{x0} {y0:g}C{x0 + 60} {y0:g} {x1 - 60} {y1:g} {x1} {y1:g}"/>')
         if link.joint:
             name = html.escape(link.joint)

@@ -115,8 +115,8 @@ def describe_onset(joint: JointWithPlay, approach_speed: Name) -> Block:
     )
 
 
-def describe_inner_states(law: Law) -> Iterator[Block]:
-    """Yield a paragraph for each inner state of a law: its symbol, its meaning, and where it is integrated."""
+def describe_internal_states(law: Law) -> Iterator[Block]:
+    """Yield a paragraph for each internal state of a law: its symbol, its meaning, and where it is integrated."""
     for state in law.states:
         message = f" is the {state.meaning}, 0 at each onset, and integrated with the motion while in contact."
         yield make_paragraph(make_symbol_name(state.name), message)
@@ -319,7 +319,7 @@ def _describe_mixed_lubrication(joint: JointWithPlay) -> list[Block]:
 
 
 def _describe_law(joint: JointWithPlay, role: str) -> list[Block]:
-    """Return a law's source, validity, options and inner states, then its equations and, in a page, its plot.
+    """Return a law's source, validity, options and internal states, then its equations and, in a page, its plot.
 
     role: "normal", "friction", "film" or "mixed"; the joint must have a law of it.
     """
@@ -337,7 +337,7 @@ def _describe_law(joint: JointWithPlay, role: str) -> list[Block]:
         if (value := equations.options.get(option.name)) is not None  # one may say nothing beside a number
         and not (joint.clearance.wall and option is GEOMETRY)  # R_i → ∞
     ]
-    blocks += describe_inner_states(law)
+    blocks += describe_internal_states(law)
     plot = plot_law(joint.functions, joint.alike, role, law) if isinstance(joint.functions, HighlightIndex) else []
     return [*blocks, *joint.make_equations(joint.list_law_assignments(equations)), *plot]
 

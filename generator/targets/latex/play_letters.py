@@ -228,7 +228,7 @@ def get_result_symbol(equations: LawEquations, name: str) -> sp.Symbol:
 
 
 def name_law_variable(law: Law, name: str) -> Name:
-    """Return the name of an abbreviation or result of a law; the rate of an inner state has a dot."""
+    """Return the name of an abbreviation or result of a law; the rate of an internal state has a dot."""
     name = name.removesuffix("__")  # of a user-defined law
     rate_names = {f"{state.name}_rate": make_symbol_name(state.name, dots=1) for state in law.states}
     of_law = LAW_SPECIFIC_NAMES.get((law.name, name))

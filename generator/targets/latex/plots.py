@@ -52,8 +52,8 @@ class Plot:
 def plot_law(functions: Functions, joint_labels: Sequence[str], role: str, law: Law) -> list[Block]:
     """Return the plot of a law, with a mark for the state of each joint that has it.
 
-    role: "normal", "friction", "film" or "mixed". [] is returned for rigid contacts and laws with inner states, and if
-    the law is missing or cannot be evaluated to finite values.
+    role: "normal", "friction", "film" or "mixed". [] is returned for rigid contacts and laws with internal states, and
+    if the law is missing or cannot be evaluated to finite values.
     """
     pin_indices = {joint.clearance.label: k for k, joint in enumerate(functions.program.joints)}
     joint = functions.program.joints[pin_indices[joint_labels[0]]]
@@ -239,10 +239,10 @@ def _print_label(text: str) -> str:
 
 
 def _print_state_mark(name: str, value_name: str, x_min: float, x_max: float, n_curves: int) -> str:
-    """Return the SVG of a line at the joint's present state with a dot per curve, hidden until live.js moves it."""
+    """Return the SVG of a line at the joint's state with a dot per curve, hidden until current_values.js moves it."""
     dots = '<circle r="3"/>' * n_curves
     return (
-        f'<g class="now" data-value="tmp.law.{value_name}" data-range="{x_min!r} {x_max!r} {LEFT} {RIGHT}"'
+        f'<g class="state-marker" data-value="tmp.law.{value_name}" data-range="{x_min!r} {x_max!r} {LEFT} {RIGHT}"'
         f' visibility="hidden"><path d="M0 {TOP}V{BOTTOM}"/>{dots}'
         f'<text class="middle" y="{TOP - 2}">{html.escape(name)}</text></g>'
     )

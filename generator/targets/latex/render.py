@@ -197,6 +197,7 @@ def _get_template_environment() -> jinja2.Environment:
         attributes=to_html.print_attributes,
         output=to_html.print_value_element,
         listing=to_html.print_listing,
+        compress_css=to_html.compress_style_sheet,
         plain_line=_print_plain_line,
         plain_paragraph=_print_plain_paragraph,
         plain_equation=_print_plain_equation,

@@ -1,7 +1,7 @@
 """Links equations, joints, bodies and laws in a page to their lines of C and YAML, for highlighting.
 
-Selecting anything on a page highlights whatever shares a token with it (light.js). The lines of C that compute a row
-are determined from the functions themselves (generator/ir/dependence.py), not from their text.
+Selecting an element of a page highlights all elements that share a token with it (highlighting.js). The lines of C that
+compute a row are determined from the functions themselves (generator/ir/dependence.py), not from their text.
 """
 
 from __future__ import annotations

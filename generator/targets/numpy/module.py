@@ -213,21 +213,21 @@ class NumPyModel(ClosedLinkage):
         `latches` (joints with play,): rate (m/s) with which a contact closed, NaN while it is open; none given: all
         are open; the force of a closed one whose surfaces do not give is NaN, for only a run finds it. `modes`
         (frictions,): 0 stick, ±1 slip with that sign; a scene with friction that may stick must be given them, for
-        only a run finds out which it is. `states` (joints with play, most states of a law): the laws' inner states, m,
-        whose rates are `clearance[i].state_rate`. `status` is 0, or the number of the pivot that vanished. Raises
+        only a run finds out which it is. `states` (joints with play, most states of a law): the laws' internal states,
+        m, whose rates are `clearance[i].state_rate`. `status` is 0, or the number of the pivot that vanished. Raises
         ArrayError for another number of latches or modes.
         """
         model = self.model
         approach_speeds = _order_numbers_by_name(
             "latches", latches, [c.name for c in model.clearances], [np.nan] * len(model.clearances)
         )
-        inner_states = np.broadcast_to(
+        internal_states = np.broadcast_to(
             np.asarray(states, dtype=float), (len(model.clearances), model.law_states)
         ).tolist()
         memory = SimpleNamespace(
             contact=[
                 SimpleNamespace(closed=bool(x == x), deltadot_minus=float(x), force=np.nan, state=z)
-                for x, z in zip(approach_speeds, inner_states, strict=True)
+                for x, z in zip(approach_speeds, internal_states, strict=True)
             ],
             mode=_order_numbers_by_name("modes", modes, [friction.name for friction in model.frictions]),
         )

@@ -131,12 +131,12 @@ def _find_contact_states(
             x = _round_to_digits(q + distance * rng.normal(0.0, 1.0, len(q)), 7)
             velocities = 10.0 ** rng.uniform(SLOWEST, FASTEST) * rng.normal(0.0, 0.3, len(q))
             onset = np.nan if is_free else float(f"{10.0 ** rng.uniform(-3.0, 0.0):.4g}")
-        inner_state = float(f"{10.0 ** rng.uniform(-7.0, -4.0):.4g}")
+        internal_state = float(f"{10.0 ** rng.uniform(-7.0, -4.0):.4g}")
         state = (
             t,
             x,
             _round_to_digits(velocities if n % 2 else -velocities, 4),
-            ([onset] * len(latches), modes, inner_state),
+            ([onset] * len(latches), modes, internal_state),
         )
         try:
             result = numpy_model.dynamics(*state[:3], p, *state[3])
@@ -223,7 +223,7 @@ def _evaluate_functions(
 
     compute_outputs: the compiled function `outputs`, called with (t, q, v, p, multipliers) and arrays that it fills:
     reactions, torques of drives, series of force elements, energies. p: parameters (SI). discrete_states: approach
-    speeds, friction modes, inner states. None is returned where a pivot vanishes or C has an infinity.
+    speeds, friction modes, internal states. None is returned where a pivot vanishes or C has an infinity.
     """
     t, q, v = state
     try:

@@ -33,7 +33,7 @@ STYLE = """
   .g-report .g-words :is(td, th):first-child { min-width: 2.5rem; }
   .g-report .g-words :is(td, th):last-child { min-width: 14rem; } }
 .g-report .g-pairs td { white-space: normal; }
-.g-report .g-beside > div { min-width: 0; max-width: 100%; }
+.g-report .g-side-by-side > div { min-width: 0; max-width: 100%; }
 .g-report th { font-weight: 600; border-bottom: 1px solid var(--line); }
 .g-report tbody tr + tr td { border-top: 1px solid var(--line); }
 .g-report .g-quiet { color: var(--quiet); }
@@ -42,7 +42,7 @@ STYLE = """
 .g-report .g-warning { border-left: 3px solid var(--second); padding-left: .7rem; }
 .g-report figure { margin: .6rem 0; break-inside: avoid; }
 .g-report figcaption { color: var(--quiet); font-size: .9em; }
-.g-report .g-beside { display: flex; flex-wrap: wrap; gap: .5rem 2rem; align-items: flex-start; }
+.g-report .g-side-by-side { display: flex; flex-wrap: wrap; gap: .5rem 2rem; align-items: flex-start; }
 .g-report .g-figures { display: grid; gap: 1rem;
   grid-template-columns: repeat(auto-fit, minmax(min(27rem, 100%), 1fr)); }
 .g-report svg { max-width: 100%; height: auto; }

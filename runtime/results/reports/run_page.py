@@ -40,7 +40,7 @@ def build_sections(run: Result, report: Mapping[str, Any]) -> Iterator[Section]:
         content = (
             f"{orbit_element}<div>{build_table(('', ''), build_joint_rows(joint, report['trust']['asked']))}</div>"
         )
-        yield f"{'Corner' if '.' in name else 'Joint'} {name}", f"<div class='g-beside'>{content}</div>"
+        yield f"{'Corner' if '.' in name else 'Joint'} {name}", f"<div class='g-side-by-side'>{content}</div>"
     yield "Energy", build_table(("", ""), build_energy_rows(report))
     trust = report["trust"]
     yield (

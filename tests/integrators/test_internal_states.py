@@ -1,4 +1,4 @@
-"""Inner states of laws: Dahl's bristles in a joint with play."""
+"""Internal states of laws: Dahl's bristles in a joint with play."""
 
 from __future__ import annotations
 
@@ -160,7 +160,7 @@ def test_batches_and_files_hold_them(press: Press, tmp_path: Path) -> None:
 
 def test_peers_do_not_integrate_them(two: Simulation) -> None:
     fitting = "rk4, dop853, dopri5, rodas5p, radau5 and radau9 fit it"
-    with pytest.raises(BadValueError, match=rf"an inner state \(A\.z\).*{fitting}"):
+    with pytest.raises(BadValueError, match=rf"an internal state \(A\.z\).*{fitting}"):
         two.simulate(0.01, method="scipy:Radau")
 
 
@@ -234,7 +234,7 @@ scenes: {m: {play: {A: {bearing: p, contact: c}}}}
 
 
 def test_rk4_bends_from_the_moment_of_the_onset(tmp_path: Path) -> None:
-    """As exact at a contact as without inner states; parameters may be called as they are."""
+    """As exact at a contact as without internal states; parameters may be called as they are."""
     journal = loader(tmp_path)(JOURNAL, "m")
     exact = journal.simulate(0.0046, output=4, method="dop853", rtol=1e-13)
     assert len(exact.impacts) == 1 and exact["A.z"][-1] == 0.0  # free again: nothing is bent
@@ -275,7 +275,7 @@ def test_a_state_by_hand_says_how_far_it_is_bent(press: Press) -> None:
     final = press().simulate(0.01, output=20).final
     memory = final.memory.copy()
     memory[2] = np.inf
-    with pytest.raises(BadValueError, match=r"the inner state A\.z, is inf: expected a length"):
+    with pytest.raises(BadValueError, match=r"the internal state A\.z, is inf: expected a length"):
         press().simulate(0.011, start=replace(final, memory=memory))
 
 
