@@ -109,7 +109,7 @@ def build_json_element(name: str, json_text: str) -> str:
 @cache
 def read_script(name: str) -> str:
     """Return a JavaScript file of this folder in the form for pages."""
-    from gudgeon.generator.targets.javascript.module import compress_script
+    from gudgeon.generator.targets.javascript.compression import compress_script
 
     return compress_script(read_file(name))
 

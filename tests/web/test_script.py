@@ -9,7 +9,7 @@ import pytest
 
 import gudgeon.generator.targets.latex
 import gudgeon.web
-from gudgeon.generator.targets.javascript.module import compress_script
+from gudgeon.generator.targets.javascript.compression import compress_script
 from gudgeon.web.page import SIMULATOR_FILES, read_file
 
 FOLDERS = (gudgeon.web, gudgeon.generator.targets.latex)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import re
 from collections import defaultdict
 from contextlib import suppress
 
@@ -36,8 +35,6 @@ _OF_STATES = (
     RATES,
     THIRD,
 )
-# as we write them: alone on their lines, or behind code with a space on either side
-_COMMENT = re.compile(r"^ *(?:/\*.*?\*/|//[^\n]*)\n|(?<=\S) // [^\n]*$", re.DOTALL | re.MULTILINE)
 
 
 def print_equations_script(program: Program) -> str:
@@ -173,30 +170,3 @@ def make_play_kernel(model: Model) -> Kernel:
         for name, value in zip(_name_motion_locals(model, i), values, strict=True):
             builder.append_line(Statement(name, sp.sympify(value)))
     return builder.build_kernel((*STATE, PARAMETERS))
-
-
-# strings within a line of JavaScript, template strings included
-_TEXT = re.compile(r"""("(?:[^"\\]|\\.)*"|'(?:[^'\\]|\\.)*'|`[^`]*`)""")
-_SPACED = re.compile(
-    r" ?(=>|[!=]==|\?\?=?|&&|\|\||[=,?:;(){}]) ?"
-    r"|(?<![-+]) ([-+*/%<>]|[<>]=|>>) (?![-+])"  # not in a - -b
-)
-
-
-def compress_script(text: str) -> str:
-    """Return a JavaScript file without comments, indents and spaces around punctuation, for embedding in a page.
-
-    Lines are kept, since they end statements. Lines keep their spaces within template strings over several lines, and
-    if template strings are nested.
-    """
-    lines, in_template_string = [], False
-    for line in re.sub(r"(?m)^ +|^\n", "", _COMMENT.sub("", text)).split("\n"):
-        ends_template_string = line.count("`") % 2 == 1
-        if in_template_string or ends_template_string or re.search(r"\${[^}]*`", line):
-            lines.append(line)
-        else:
-            parts = _TEXT.split(line)
-            parts[::2] = (_SPACED.sub(lambda match: match[1] or match[2], part) for part in parts[::2])
-            lines.append("".join(parts))
-        in_template_string ^= ends_template_string
-    return "\n".join(lines)

@@ -11,7 +11,8 @@ from functools import cache
 from pathlib import Path
 
 from gudgeon.generator.equations.model import Model
-from gudgeon.generator.targets.javascript.module import compress_script, print_equations_script
+from gudgeon.generator.targets.javascript.compression import compress_script
+from gudgeon.generator.targets.javascript.module import print_equations_script
 from gudgeon.generator.targets.latex.document import Block, EmbeddedHtml, Listing, Section, make_paragraph
 from gudgeon.generator.targets.latex.trace import HighlightIndex, list_yaml_tokens
 

@@ -13,6 +13,7 @@ from importlib import resources
 
 import jinja2
 
+from gudgeon.generator.targets.javascript.compression import compress_style_sheet
 from gudgeon.generator.targets.latex import to_html
 from gudgeon.generator.targets.latex.document import Document, Equation, Paragraph, Picture, Sketch, Table, Text
 from gudgeon.generator.targets.latex.letters import GREEK, Name, get_greek_command
@@ -197,7 +198,7 @@ def _get_template_environment() -> jinja2.Environment:
         attributes=to_html.print_attributes,
         output=to_html.print_value_element,
         listing=to_html.print_listing,
-        compress_css=to_html.compress_style_sheet,
+        compress_css=compress_style_sheet,
         plain_line=_print_plain_line,
         plain_paragraph=_print_plain_paragraph,
         plain_equation=_print_plain_equation,

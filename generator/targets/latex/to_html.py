@@ -6,7 +6,6 @@
 from __future__ import annotations
 
 import html
-import re
 from collections.abc import Callable, Collection, Iterator
 from itertools import pairwise
 from xml.etree.ElementTree import Element, tostring
@@ -32,12 +31,6 @@ def print_attributes(tokens: Collection[str], selection_token: str = "", is_focu
         return ""
     pick_attribute = f' data-pick="{html.escape(selection_token)}"' if selection_token else ""
     return f' data-of="{html.escape(" ".join(tokens))}"{pick_attribute}' + ' tabindex="0"' * is_focusable
-
-
-def compress_style_sheet(text: str) -> str:
-    """Return CSS without comments, and without spaces around punctuation, for embedding in a page."""
-    without_comments = re.sub(r"/\*.*?\*/", "", text, flags=re.DOTALL)
-    return re.sub(r"\s*([{};,>])\s*|(?<=:) ", r"\1", without_comments).replace(";}", "}").strip()
 
 
 def print_value_element(value_name: str) -> str:
