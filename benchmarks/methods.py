@@ -76,7 +76,7 @@ def list_scenes(patterns: Iterable[str]) -> Iterator[tuple[str, Simulation]]:
                 if simulation.source.methods[0] != "kinematic":
                     yield name, simulation
     with tempfile.TemporaryDirectory() as folder:
-        texts = {f"chain_{n}/ideal": chains.written(n) for n in CHAINS}
+        texts = {f"chain_{n}/ideal": chains.written(n, tuple(chains.starts(n)[:n, 0].tolist())) for n in CHAINS}
         texts |= {f"joints_{n}/dry": write_journals(n) for n in JOINTS}
         for name, text in texts.items():
             if any(fnmatch(name, pattern) for pattern in patterns):

@@ -5,7 +5,7 @@
  * Number of runs under way. If runs may use different methods, several runs share a lane, so that most lanes contain a
  * run that needs the most frequent method.
  */
-#if TAYLOR
+#if LANE_SERIES
 enum { MAX_GROUP_RUNS = LANES };
 #else
 enum { MAX_GROUP_RUNS = 4 * LANES };
@@ -28,7 +28,7 @@ typedef struct {
     LaneStep step;
 } LaneGroup;
 /* Number of bytes of a LaneGroup that are zero at the beginning. */
-#if TAYLOR
+#if LANE_SERIES
 #define CLEARED_BYTES (offsetof(LaneGroup, integrator) + offsetof(LaneIntegrator, series.terms))
 #else
 #define CLEARED_BYTES offsetof(LaneGroup, step)
@@ -53,7 +53,7 @@ static void load_lane_parameters(LaneGroup *group, int k, int i)
     group->loaded_run[k] = i;
 }
 
-#if IMPLICIT_STAGES && !TAYLOR
+#if IMPLICIT_STAGES && !LANE_SERIES
 /*
  * Load what methods with iterated stages need of a run into lane k: its iteration history, from which first guesses of
  * the stages follow, and the scales of film forces.
@@ -97,10 +97,11 @@ static void gather_state(LaneGroup *group, int k)
         lanes->y[j][k] = run->y[j];
         lanes->norm.weight[j][k] = run->norm.weight[j];
     }
-#if TAYLOR
+#if LANE_SERIES
     for (int j = 0; j < N_Y; j++)
         lanes->series.lost[j][k] = run->series.lost[j];
     lanes->series.order = run->series.order;
+    lanes->series.strictness = run->series.strictness;
     lanes->series.defect_weight = run->series.defect_weight;
     lanes->control.fixed = run->control.fixed;
 #else
@@ -194,7 +195,7 @@ static void scatter_step(const LaneGroup *group, int k, Step *step)
     scatter_rhs(&lane_step->rhs, k, &step->rhs);
 }
 
-#if TAYLOR
+#if LANE_SERIES
 /*
  * Copy the counts and the series of a trial step in lane k to its run; the terms stay in the lane. `method` is not
  * used.
@@ -249,7 +250,7 @@ static void scatter_result(const LaneGroup *group, int k, int method)
     step->error = group->step.error[k];
     step->dense_ready = 0;
     scatter_trial(group, k, method, run);
-#if TAYLOR
+#if LANE_SERIES
     const int counts_end = 1;
 #else
     const int counts_end = group->step.is_accepted[k] || method == BY_DOPRI5; /* its error needs the rates at the end */

@@ -50,7 +50,7 @@ static int needs_method(const LaneGroup *group, int i, int method) { return grou
 
 /*
  * Count, for each method, the lanes that have a run whose next step is by that method (count, LANE_KINDS of them). Run
- * i belongs to lane i % LANES.
+ * i belongs to lane i % LANES. Methods that this library lacks count 0: runs make their steps themselves.
  */
 static void count_lanes_of_methods(const LaneGroup *group, int *count)
 {
@@ -59,7 +59,7 @@ static void count_lanes_of_methods(const LaneGroup *group, int *count)
         has_lane[group->next_method[i] < 0 ? LANE_KINDS : group->next_method[i]][i % LANES] = 1;
     for (int method = 0; method < LANE_KINDS; method++) {
         count[method] = 0;
-        for (int k = 0; k < LANES; k++)
+        for (int k = 0; k < LANES && (method == BY_TAYLOR) == LANE_SERIES; k++)
             count[method] += has_lane[method][k];
     }
 }
@@ -86,7 +86,7 @@ static int load_run_into_lane(LaneGroup *group, int k, int method)
 static int passes_event(const LaneGroup *group, int k)
 {
     int has_event = 0;
-#if !TAYLOR
+#if !LANE_SERIES
     Lanes event_functions[AT_LEAST_ONE(N_EVENT_FUNCTIONS)];
     if (!(group->run[group->loaded_run[k]]->control.fixed > 0.0))
         return 0;

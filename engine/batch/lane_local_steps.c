@@ -4,7 +4,7 @@
  * Such a step is called lane-local: it changes the vectors of its lane and not yet its run. Steps of different lanes
  * have different lengths in any case.
  */
-#define LANE_LOCAL_STEPS (TAYLOR && !N_LOOPS && !N_USER_EVENTS && !N_WATCHED && !N_PULSES && !DRIVE_IMPULSES)
+#define LANE_LOCAL_STEPS (LANE_SERIES && !N_LOOPS && !N_USER_EVENTS && !N_WATCHED && !N_PULSES && !DRIVE_IMPULSES)
 
 #if LANE_LOCAL_STEPS
 #include "../scalar_simd/error_weights.h"
@@ -30,10 +30,11 @@ static void load_lane_local_steps(
     local_steps->next_sample[k] = t[batch->done[i]];
     local_steps->t_end[k] = get_end_time(batch, i);
     local_steps->steps[k] = 0;
-    local_steps->max_local_steps[k] = run->control.fixed > 0.0 || run->control.attempt.again ? 0
-        : single->max_local_steps(run);
+    local_steps->max_local_steps[k] = run->control.fixed > 0.0 || run->control.attempt.again
+        || run->control.attempt.lane != BY_TAYLOR ? 0 : single->max_local_steps(run);
     local_steps->may_accept[k] = -(local_steps->max_local_steps[k] > 0);
     local_steps->has_state[k] = 1;
+    lanes->choice.mean_length[k] = run->choice.mean_length[0];
     lanes->norm.energy_scale[k] = run->norm.energy_scale;
     lanes->norm.work_scale[k] = run->norm.work_scale;
     for (int kind = 0; kind < 2; kind++) {
@@ -63,7 +64,7 @@ static LaneBits accept_lane_local_steps(
     const Lanes t = lanes->t + step->h;
     const LaneBits accepted = local_steps->may_accept & step->is_accepted & (step->error <= lanes->control.accept)
         & (t < local_steps->next_sample) & (step->h < local_steps->t_end - lanes->t)
-        & (step->h >= SHORT_STEP_FRACTION * compute_time_scale(local_steps, lanes))
+        & ~(lanes->choice.h_rho > 0.0) & (step->h >= SHORT_STEP_FRACTION * compute_time_scale(local_steps, lanes))
         & ~find_nonfinite_lanes(step->y, step->dy, N_Y);
     update_energy_scale(lanes, accepted, step->y);
     for (int j = 0; j < N_Y; j++) {
@@ -74,6 +75,9 @@ static LaneBits accept_lane_local_steps(
     for (int j = 0; j < N_WORK; j++)
         lanes->rhs.power[j] = select_value(accepted, step->rhs.power[j], lanes->rhs.power[j]);
     lanes->t = select_value(accepted, t, lanes->t);
+    const Lanes mean = lanes->choice.mean_length;
+    const Lanes updated = select_value(mean > 0.0, LENGTH_MEMORY * mean + (1.0 - LENGTH_MEMORY) * step->h, step->h);
+    lanes->choice.mean_length = select_value(accepted, updated, mean);
     update_speeds(lanes);
     update_error_weights(lanes);
     local_steps->max_step = select_value(accepted, lanes->series.max_step, local_steps->max_step);
@@ -118,6 +122,7 @@ static void flush_lane_local_steps(
         run->series.ready = 0;
     run->discrete.is_frozen = 1;
     run->choice.h_rho = 0.0;
+    run->choice.mean_length[0] = lanes->choice.mean_length[k];
     run->series.max_step = local_steps->max_step[k];
     run->control.h = TAYLOR_AHEAD * run->series.max_step;
     run->control.attempt = (Attempt){.h = h, .longest = h, .left = local_steps->t_end[k] - run->t,

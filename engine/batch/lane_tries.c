@@ -27,7 +27,7 @@ static void discard_stages(LaneStep *step)
  */
 static int is_step_rejected(LaneIntegrator *run, LaneStep *step)
 {
-#if IMPLICIT_STAGES && !TAYLOR
+#if IMPLICIT_STAGES && !LANE_SERIES
     step->has_no_stages = run->newton.has_no_stages;
 #else
     step->has_no_stages = (LaneBits){0};
@@ -39,7 +39,7 @@ static int is_step_rejected(LaneIntegrator *run, LaneStep *step)
 }
 
 /* Rounding errors (N_Y) of the state at the end of a tried step; NULL: not known. */
-#if TAYLOR
+#if LANE_SERIES
 #define END_ROUNDING(run) ((run)->series.next_lost)
 #else
 #define END_ROUNDING(run) NULL
@@ -63,7 +63,7 @@ static int finish_step(LaneIntegrator *run, LaneStep *step, const LaneParameters
     return 0;
 }
 
-#if TAYLOR
+#if LANE_SERIES
 #include "lane_series.c"
 #else
 /*
@@ -253,7 +253,7 @@ static int try_method(LaneIntegrator *run, int method, Lanes h, const LaneParame
 }
 #endif
 
-#if !TAYLOR
+#if !LANE_SERIES
 /*
  * Return the number of accepting lanes in which an event may end the step: an event function is negative at a stage or
  * the end.
@@ -301,7 +301,7 @@ static void try_lanes(LaneIntegrator *run, int method, Lanes h, const LaneParame
     try_method(run, method, h, p, step);
     step->is_failed |= run->discrete.rare & step->is_accepted;
     step->is_accepted &= ~step->is_failed;
-#if !TAYLOR
+#if !LANE_SERIES
     if (method == BY_DOP853)
         compute_dense_output(run, p, step);
 #if IMPLICIT_STAGES

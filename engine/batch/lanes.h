@@ -13,6 +13,11 @@
 #include <string.h>
 #include <time.h>
 
+/* Whether this library makes its steps by Taylor series; another one of the same scene has the other methods. */
+#ifndef LANE_SERIES
+#define LANE_SERIES 0
+#endif
+
 #if defined(__AVX512F__)
 enum { LANES = 8 };
 #elif defined(__AVX__)
@@ -206,7 +211,7 @@ typedef struct {
 /* ErrorNorm of several runs. */
 typedef struct {
     Lanes weight[N_Y], min_size[2];
-#if TAYLOR
+#if LANE_SERIES
     Lanes energy_scale, work_scale, speed[2], speed_floor[2], inverse_scale[2 * N_X];
 #endif
 } LaneNorm;
@@ -215,7 +220,7 @@ typedef struct {
 typedef struct {
     Lanes t, y[N_Y], dy[N_Y];
     struct {
-        Lanes h_rho;
+        Lanes h_rho, mean_length; /* the latter of explicit steps */
     } choice;
     LaneNorm norm;
     struct {
@@ -224,11 +229,11 @@ typedef struct {
     } control;
     LaneDiscreteState discrete;
     LaneRhsOutputs rhs;
-#if TAYLOR
+#if LANE_SERIES
     struct {
-        int order; /* the same in all lanes: a batch has one tolerance; so has defect_weight */
-        double defect_weight;
-        Lanes max_step, lost[N_Y], next_lost[N_Y];
+        int order; /* the same in all lanes: a batch has one tolerance; so have the next two */
+        double strictness, defect_weight;
+        Lanes max_step, growth, lost[N_Y], next_lost[N_Y];
         Lanes terms[TAYLOR_ORDERS + 1][TAYLOR_Y]; /* last member: it is large and filled by each trial */
     } series;
 #else

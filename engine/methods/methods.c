@@ -47,7 +47,7 @@ static const Method *const METHODS[] = {
     &taylor,
 #endif
 };
-#define EXPLICIT (&dop853)  /* the explicit method of the automatic choice; run->choice.implicit is the stiff one */
+#define EXPLICIT (&dop853)  /* the explicit method of the automatic choice where a run begins with the stiff one */
 
 /*
  * Return whether the method of a run stabilises the constraints by Baumgarte's terms instead of projecting its steps.
@@ -61,6 +61,15 @@ int gudgeon_method(const char *name)
         if (!strcmp(METHODS[i]->name, name))
             return i;
     return -1;
+}
+
+/*
+ * Return the method of the same name in this library; NULL if `method` is NULL. A run may have begun in another library
+ * of the same code, whose pointers are other ones.
+ */
+static const Method *find_method_in_library(const Method *method)
+{
+    return method ? METHODS[gudgeon_method(method->name)] : NULL;
 }
 
 /* Copy n states of one lane, stored with a stride of `lanes` numbers, into `target`. */

@@ -41,7 +41,7 @@ enum { PATIENCE = 8, MAX_PATIENCE = 4096,
 #define FILM_ERROR_RATIO 0.7   /* largest ratio of the film errors of a shorter and a longer step without rounding */
 #define MIN_TRANSIENT_FRACTION 1e-9     /* of the times: in shorter steps no transients are searched */
 #define STIFF_COST 1.3             /* times a step of the explicit method: processor time of a stiff step */
-#define LENGTH_MEMORY 0.8          /* weight of the mean length of the steps before the last one */
+#define MAX_CONTRARY_GROWTH 2.0    /* with films: ratio of step lengths up to which the stiff method is left */
 #define STIFF_LENGTH_RATIO 0.8     /* of the stiff step length: an explicit step must be longer to be cheaper */
 #define WORK_TOL 10.0    /* times rtol: allowed error of the works of a step relative to the energy throughput */
 #define SEPARATION_MARGIN 1.05    /* of the estimated time to a separation: length of a step that ends after it */
@@ -50,19 +50,11 @@ enum { PATIENCE = 8, MAX_PATIENCE = 4096,
 #define MAX_ORDER_SEEN 30.0 /* largest order of error growth inferred from two steps */
 #define ORDER_DECAY 0.95    /* factor on that order after each step */
 
-/*
- * Return the method of the same name in this library; NULL if `method` is NULL. A run may have begun in another library
- * of the same code, whose pointers are other ones.
- */
-static const Method *find_method_in_library(const Method *method)
-{
-    return method ? METHODS[gudgeon_method(method->name)] : NULL;
-}
-
 /* Replace the methods that a run stores by those of this library, when a call continues the run. */
 static void relink_methods(Integrator *run)
 {
     run->choice.method = find_method_in_library(run->choice.method);
+    run->choice.explicit = find_method_in_library(run->choice.explicit);
     run->choice.implicit = find_method_in_library(run->choice.implicit);
 }
 
@@ -73,6 +65,7 @@ static void relink_methods(Integrator *run)
 static void set_method_choice(Integrator *run, int method, int stiff_method)
 {
     run->choice.method = METHODS[method];
+    run->choice.explicit = METHODS[method]->stiff ? EXPLICIT : METHODS[method];
     run->choice.automatic = stiff_method > 0;
     run->choice.implicit = METHODS[stiff_method];
     run->choice.max_contrary_steps = MAX_CONTRARY_STEPS;
@@ -103,7 +96,9 @@ static void change_method(Integrator *run)
         run->choice.patience = run->choice.since > LASTING_STEPS ? PATIENCE
             : run->choice.patience < MAX_PATIENCE ? 2 * run->choice.patience : run->choice.patience;
     run->control.h_stiff = stiff ? run->control.h : 0.0;
-    run->choice.method = stiff ? EXPLICIT : run->choice.implicit;
+    if (run->choice.method->controls_length)
+        set_next_step_length(run, run->step.h); /* not the much larger limit of the next attempt */
+    run->choice.method = stiff ? run->choice.explicit : run->choice.implicit;
     if (!stiff)
         run->choice.mean_length[1] = 0.0;
     run->choice.n_contrary_steps = 0;
@@ -175,11 +170,18 @@ static void choose_method(Integrator *run, const Parameters *p)
     const int against = stiff ? stability < MAX_EXPLICIT_STABILITY : stability > run->choice.method->bounded || slower;
     run->choice.n_contrary_steps = against ? run->choice.n_contrary_steps + 1 : 0;
     run->choice.since++;
+    if (run->choice.n_contrary_steps == 1)
+        run->choice.contrary_length = run->step.h;
     const int n_needed = stiff ? run->choice.patience : run->choice.max_contrary_steps;
     if (!run->choice.automatic || run->choice.n_contrary_steps < n_needed)
         return;
-    const double rate = stiff ? estimate_largest_rate(run, p) : 0.0;
-    if (rate * run->control.h < MAX_EXPLICIT_STABILITY)
+    if (stiff && has_films() && run->control.h > MAX_CONTRARY_GROWTH * run->choice.contrary_length) {
+        run->choice.n_contrary_steps = 0; /* its steps still grow, as after the start: their stiffness will show */
+        return;
+    }
+    const int is_estimated = stiff || run->choice.method->controls_length;
+    const double rate = is_estimated ? estimate_largest_rate(run, p) : 0.0;
+    if (stiff ? rate * run->control.h < MAX_EXPLICIT_STABILITY : is_limited_by_stability(run, rate))
         change_method(run);
     else
         run->choice.n_contrary_steps = -RECONSIDER_STEPS;

@@ -6,6 +6,7 @@
  */
 #if TAYLOR
 #define TAYLOR_EFFORT 0.7 /* orders per factor e of the tolerance */
+#define TAYLOR_STRICTNESS 10.0 /* of `auto`: its tolerance by that of the series, for dop853's errors */
 #define TAYLOR_ROUNDING 1e-14 /* of velocities: a smaller defect at the end of a step may be rounding */
 enum { TAYLOR_DEFECT = 5 /* log2 of the largest defect at the end of a step, in tolerances; less at low orders */ };
 enum { MIN_TAYLOR_ORDER = 4 };
@@ -109,9 +110,10 @@ static const Method taylor = {.name = "taylor",
     .try = taylor_try_step,
     .dense = taylor_compute_dense_output,
     .interpolate = taylor_interpolate,
+    .lane = BY_TAYLOR,
     .power = 1.0 / TAYLOR_ORDERS,
     .unstable = INFINITY,
-    .bounded = INFINITY,
+    .bounded = 1.0, /* taylor_estimate_stiffness() stores larger values only */
     .degree = TAYLOR_ORDERS,
     .error_nodes = taylor_error_nodes,
     .n_error_nodes = COUNT_OF(taylor_error_nodes),
@@ -119,17 +121,22 @@ static const Method taylor = {.name = "taylor",
 
 /*
  * Set the order of the series of a run, and the allowed defect at the end of a step, from the relative tolerance of the
- * steps: 2^5 tolerances or TAYLOR_ROUNDING, less at low orders.
+ * steps: 2^5 tolerances or TAYLOR_ROUNDING, less at low orders. With `auto`, it is TAYLOR_STRICTNESS times smaller.
  */
 static void set_series_order(Integrator *run, double tolerance)
 {
+    run->series.strictness = run->choice.automatic ? TAYLOR_STRICTNESS : 1.0;
+    tolerance /= run->series.strictness;
     run->series.order = choose_taylor_order(tolerance);
     const int log2_defect = run->series.order - 4 < TAYLOR_DEFECT ? run->series.order - 4 : TAYLOR_DEFECT;
-    run->series.defect_weight = min_of(1.0, tolerance / TAYLOR_ROUNDING) / (1 << log2_defect);
+    run->series.defect_weight = run->series.strictness * min_of(1.0, tolerance / TAYLOR_ROUNDING) / (1 << log2_defect);
 }
 
-/* Return the rounding errors (N_Y) of the state at the end of the tried step. */
-static double *get_end_rounding(Integrator *run) { return run->series.next_lost; }
+/* Return the rounding errors (N_Y) of the state at the end of the tried step; NULL unless Taylor's method is chosen. */
+static double *get_end_rounding(Integrator *run)
+{
+    return run->choice.method == &taylor ? run->series.next_lost : NULL;
+}
 
 /*
  * Discard the stored series of a run, because its state changes. is_whole: whether the new state is the end of a whole
@@ -139,7 +146,13 @@ static void discard_series(Integrator *run, int is_whole)
 {
     run->series.ready = 0;
     for (int i = 0; i < N_Y; i++)
-        run->series.lost[i] = is_whole ? run->series.next_lost[i] : 0.0;
+        run->series.lost[i] = is_whole && run->choice.method == &taylor ? run->series.next_lost[i] : 0.0;
+}
+
+/* Return whether rho (1/s) of the motion confirms that stability limits the steps of the chosen method. */
+static int is_limited_by_stability(const Integrator *run, double rho)
+{
+    return run->choice.method != &taylor || rho * run->step.h > TAYLOR_STABILITY * run->series.order;
 }
 
 /*
@@ -155,6 +168,9 @@ static inline void set_series_order(Integrator *run, double tolerance) { (void)r
 
 /* Do nothing: the library has no Taylor method. */
 static inline void discard_series(Integrator *run, int is_whole) { (void)run, (void)is_whole; }
+
+/* Return 1: the estimate of other methods needs no confirmation. */
+static inline int is_limited_by_stability(const Integrator *run, double rho) { return (void)run, (void)rho, 1; }
 
 /* Return infinity: the library has no Taylor method. */
 static inline double get_max_attempt_length(const Integrator *run) { return (void)run, INFINITY; }

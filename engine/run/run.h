@@ -51,6 +51,7 @@ enum {
     BY_DOP853 = 0,
     BY_RK4,
     BY_DOPRI5,
+    BY_TAYLOR, /* in a library of lanes of its own */
     BY_RODAS5P,
     BY_RADAU5,
     BY_RADAU9,
@@ -66,6 +67,8 @@ enum {
 #define MIN_STEP_FRACTION (16.0 * DBL_EPSILON)
 /* Ratio of two step lengths above which they count as equal. */
 #define EQUAL_LENGTH_RATIO (1.0 - 1e-9)
+/* Weight of the mean length of the steps of a method before the last one. */
+#define LENGTH_MEMORY 0.8
 /* Relative step length below which a step counts as too short to advance. */
 #define SHORT_STEP_FRACTION (256.0 * MIN_STEP_FRACTION)
 
@@ -220,10 +223,11 @@ typedef struct {
  * batch/lane_local_steps.c.
  */
 typedef struct {
-    const Method *method, *implicit; /* method of the next step; the stiff method of `auto` */
+    const Method *method, *explicit, *implicit; /* method of the next step; explicit and stiff method of `auto` */
     double h_rho; /* h rho of the last tried step: its length times the largest rate of the motion */
     double rate; /* rho, 1/s, where `auto` returned to the explicit method */
     double mean_length[2]; /* s: of recent steps of the explicit and of the stiff method; 0: none */
+    double contrary_length; /* s: of the first of the successive steps against the method */
     int automatic, n_contrary_steps, patience, since;
     int max_contrary_steps; /* steps against the explicit method until the change */
 } MethodChoice;
@@ -297,11 +301,12 @@ typedef struct {
  */
 typedef struct {
     int order, ready;   /* ready: where the series is stored, as in NewtonIteration */
-    double defect_weight; /* 1 / (the allowed defect at the end of a step, in tolerances) */
+    double strictness, defect_weight; /* 1 / (the allowed last terms; the allowed defect at the end), in tolerances */
     const double *lane; /* IN_LANE: its terms, with a stride of `lanes` numbers */
     int lanes;
     /* longest step of the series, s; rounding errors of the sums y, at the beginning and at the end of a step */
     double max_step, lost[N_Y], next_lost[N_Y];
+    double growth; /* 1/s: order times ratio of the last two terms; the largest rate of stiff motion */
     double terms[TAYLOR_ORDERS + 1][TAYLOR_Y];
 } Series;
 #endif

@@ -5,13 +5,14 @@
 enum { SERIES_PART = sizeof(SeriesPart) / sizeof(Real) };
 
 #define TAYLOR_DECAY 2.0 /* log2 of the factor by which a term may exceed the tolerance per lower order */
+#define TAYLOR_STABILITY 0.3 /* h rho per order of the series: from there on stability limits the steps */
 #define TAYLOR_AHEAD 8.0 /* times the last step: first limit of the next one */
 
 /*
  * Return the longest step in s for which the last two terms of the series do not exceed the tolerance. Symmetry may
- * make these terms small or zero; the defect at the end of the step shows that.
+ * make these terms small or zero; the defect at the end of the step shows that. Also store the growth of these terms.
  */
-static Real taylor_compute_max_length(const IntegratorOf *run)
+static Real taylor_compute_max_length(IntegratorOf *run)
 {
     const int n = run->series.order;
     const Real *last = run->series.terms[n], *before = run->series.terms[n - 1];
@@ -20,7 +21,20 @@ static Real taylor_compute_max_length(const IntegratorOf *run)
         largest = real_max(largest, real_abs(last[i]) * run->norm.weight[i]);
         largest_before = real_max(largest_before, real_abs(before[i]) * run->norm.weight[i]);
     }
+    run->series.growth = select_value(largest_before > 0.0, n * largest / largest_before, make_real(0.0));
+    largest *= run->series.strictness, largest_before *= run->series.strictness;
     return real_exp2(-real_max(real_log2(largest) / n, real_log2(largest_before) / (n - 1)));
+}
+
+/*
+ * Store h rho of a step of length h (s) if stability may limit it, else 0. In stiff motion, the last terms of the
+ * series are those of the fastest mode, c_n / c_(n-1) = rho / n, and steps end where they grow.
+ */
+static void taylor_estimate_stiffness(IntegratorOf *run, Real h)
+{
+    const Real h_rho = h * run->series.growth;
+    const Mask is_limited = h_rho > TAYLOR_STABILITY * run->series.order;
+    store_stiffness_estimate(run, select_value(is_limited, h_rho, make_real(0.0)));
 }
 
 /*
@@ -34,6 +48,7 @@ static Real taylor_compute_max_length_by_all_terms(const IntegratorOf *run)
         Real largest = make_real(0.0);
         for (int i = 0; i < N_Y; i++)
             largest = real_max(largest, real_abs(run->series.terms[k][i]) * run->norm.weight[i]);
+        largest *= run->series.strictness;
         steepest = real_max(steepest, (real_log2(largest) - TAYLOR_DECAY * (run->series.order - k)) / k);
     }
     return real_exp2(-steepest);
@@ -119,7 +134,6 @@ static int taylor_try_series_step(IntegratorOf *run, Real h, const ParametersOf 
         h = real_min(h, run->series.max_step);
     step->t = run->t, step->dense_ready = 0;
     discard_stages(step);
-    store_stiffness_estimate(run, make_real(0.0));
     for (int is_repeated = 0;; is_repeated = 1) {
         step->h = h;
         taylor_evaluate_change_and_rate(run, h, change, rate);
@@ -143,6 +157,7 @@ static int taylor_try_series_step(IntegratorOf *run, Real h, const ParametersOf 
         h = real_min(h, run->series.max_step);
         uncount_end_evaluation(run);
     }
+    taylor_estimate_stiffness(run, step->h);
     step->error = real_max(step->error, defect);
     reject_step_by_defect(run, step);
     return status;

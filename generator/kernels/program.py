@@ -32,7 +32,7 @@ from gudgeon.generator.kernels.projection import make_constraint_correction_kern
 from gudgeon.generator.kernels.reduced import has_singular_fallback, make_conversion_kernels, make_reduced_kernels
 from gudgeon.generator.kernels.shared import SharedFunctionCall, SharedFunctions
 from gudgeon.generator.kernels.taylor import NAME as TAYLOR
-from gudgeon.generator.kernels.taylor import make_taylor_series
+from gudgeon.generator.kernels.taylor import choose_taylor_series, make_taylor_series
 from gudgeon.generator.reduction.driven_loops import DrivenLoops
 from gudgeon.generator.reduction.reduction import TreeSystem, reduce_model
 from gudgeon.generator.solvers.kkt import KKT
@@ -151,6 +151,7 @@ class Program:
     methods: Methods | None
     kinematics: KinematicFunctions | None
     series: Series | None = None  # of Taylor's method
+    taylor_below: float = 0.0  # tolerance below which `auto` integrates by the series; 0: never
 
     @cached_property
     def prepare(self) -> Kernel:
@@ -206,7 +207,8 @@ def make_program(model: Model, formulation: str = "reduced") -> Program:
 
     Starts and outputs are in absolute coordinates in all of them. STAGES is the reduced one with the functions of
     methods that solve their stages together; scenes with a film and the full formulation have them anyway. TAYLOR is
-    the reduced one with the Taylor series of the motion; it raises BadValueError where the motion is not smooth.
+    the reduced one with the Taylor series of the motion; it raises BadValueError where the motion is not smooth. Where
+    `auto` integrates by the series, every reduced one has it.
     """
     model, full, staged = model.copy_mutable(), formulation == "full", formulation == STAGES
     integrates = bool(model.degrees_of_freedom or model.clearances or model.frictions)
@@ -241,8 +243,10 @@ def make_program(model: Model, formulation: str = "reduced") -> Program:
         methods=_derive_methods(model, integrated, staged or not integrated.reduced) if integrates else None,
         kinematics=None if integrates else _derive_kinematic_functions(model, kkt, integrated),
     )
+    series, tolerance = choose_taylor_series(program)
     if formulation == TAYLOR:
-        program = replace(program, series=make_taylor_series(program))
+        series = series or make_taylor_series(program)
+    program = replace(program, series=series, taylor_below=tolerance)
     for model_ in (model, integrated.system.model):
         model_.freeze()
     return program

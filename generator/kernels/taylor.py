@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
@@ -25,6 +26,16 @@ if TYPE_CHECKING:
     from gudgeon.generator.kernels.program import Program
 
 NAME = "taylor"
+# Costs in operations of the series. They are fitted by eye to times in eight SIMD lanes: those of the race for 2 and 6
+# links, and those of the pendulum. dop853 gains more there than in single runs; both have the same method and bits.
+DOP853_STEP, DOP853_RHS = 7700.0, 4.3  # of a step, rejected ones included; per operation of the right-hand side
+SERIES_STEP, SERIES_ROW = 2900.0, 1500.0  # of a step without its series; per closure equation
+# Length of a step of the series by that of dop853, at the tolerance 10^-LOOSE; exponent of its growth. The length
+# of a step of the series does not depend on the tolerance.
+LENGTH_RATIO, LENGTH_GROWTH = 0.4, 0.1
+LOOSE, TIGHT = 3, 12  # -log10 of the loosest and of the tightest tolerance that are compared
+MAX_RHS_OPERATIONS = 200  # of larger right-hand sides the series costs more, and it is not derived
+TAYLOR_EFFORT, TAYLOR_STRICTNESS = 0.7, 10.0  # as in engine/methods/taylor.c
 
 
 def make_taylor_series(program: Program) -> Series:
@@ -36,6 +47,47 @@ def make_taylor_series(program: Program) -> Series:
         return _derive_series(_get_smooth_system(program))
     except NoTaylorSeries as why:
         raise BadValueError(f"method 'taylor' is for smooth motion: {why}", hint="use auto") from None
+
+
+def choose_taylor_series(program: Program) -> tuple[Series | None, float]:
+    """Return the Taylor series with which `auto` integrates a program, and the tolerance below which it does.
+
+    Return (None, 0.0) if `auto` uses dop853: the motion is not smooth, terms of time may act within a step only, or
+    the series costs more, in SIMD lanes as well.
+    """
+    try:
+        system = _get_smooth_system(program)
+        if program.time_terms.pulses or _count_rhs_operations(program) > MAX_RHS_OPERATIONS:
+            return None, 0.0
+        series = _derive_series(system)
+    except NoTaylorSeries:
+        return None, 0.0
+    tolerance = _predict_tolerance(program, series)
+    return (series, tolerance) if tolerance else (None, 0.0)
+
+
+def _count_rhs_operations(program: Program) -> int:
+    """Return the number of operations of the right-hand side in tree coordinates."""
+    assert program.tree
+    return next(kernel.n_operations for kernel in program.tree.unpaired_kernels if kernel.name == DYNAMICS)
+
+
+def _predict_tolerance(program: Program, series: Series) -> float:
+    """Return the tolerance below which the series takes less time than dop853, 0 for none.
+
+    The comparison is made at powers of ten. The result lies between two of them.
+    """
+    n_rhs, n_rows, cheaper = _count_rhs_operations(program), len(program.integrated.system.rows), 0.0
+    for exponent in range(LOOSE, TIGHT + 1):
+        rtol = 10.0**-exponent
+        order = math.ceil(1.0 - TAYLOR_EFFORT * math.log(rtol / TAYLOR_STRICTNESS))
+        series_cost = (
+            SERIES_STEP + SERIES_ROW * n_rows + order * (series.terms.n_operations + order * len(series.products))
+        )
+        length_ratio = LENGTH_RATIO * (rtol / 10.0**-LOOSE) ** -LENGTH_GROWTH
+        is_cheaper = series_cost < length_ratio * (DOP853_STEP + DOP853_RHS * n_rhs)
+        cheaper = (cheaper or 10.0 ** (0.5 - exponent)) if is_cheaper else 0.0
+    return cheaper
 
 
 def _get_smooth_system(program: Program) -> TreeSystem:

@@ -200,6 +200,7 @@ class KernelSource:
     # parts in which `main` is compiled in parallel, as PART in C counts them; (): as a whole
     units: tuple[int, ...] = ()
     taylor: str = ""  # file with the Taylor series of the motion; "": the library has none
+    taylor_below: float = 0.0  # tolerance below which `auto` integrates by the Taylor series; 0: never
     stages: bool = False  # whether the library has the matrices of methods with coupled stages
     lanes: str = ""  # file to compile for lanes; "": there is none
     cdef: str = ""  # what `main` declares where it is compiled alone; "": with the engine, by the engine's calls

@@ -36,6 +36,7 @@ ON_DEMAND = (*SMOOTH, *STAGED)  # methods for which a scene may have to be deriv
 # adaptive methods for any motion
 CHOOSING = tuple(method.name for method in METHODS if not method.fixed and not method.smooth)
 EXPLICIT, STIFF = "dop853", "rodas5p"  # methods between which `auto` switches; with films, the stiff one is from STAGED
+TAYLOR = "taylor"  # method of `auto` instead of EXPLICIT where the motion is smooth and cheap to expand
 FINE = 3e-7  # tolerance below which `auto` uses the second of STAGED
 ADAPTIVE = "adaptive"  # internal name of the method that switches
 KINEMATIC = "kinematic"  # method for linkages without degrees of freedom

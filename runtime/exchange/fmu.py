@@ -174,9 +174,9 @@ def _format_header(simulation: Simulation) -> str:
     """
     source, compiled = simulation.source, simulation.compiled
     start = simulation.start()
+    fine = source.taylor_below or FINE
     methods = {
-        rtol: (select_first_method(source, rtol), select_stiff_method(source, rtol))
-        for rtol in (2.0 * FINE, 0.5 * FINE)
+        rtol: (select_first_method(source, rtol), select_stiff_method(source, rtol)) for rtol in (fine, 0.5 * fine)
     }
     (first_method_name, stiff_method_name), (first_method_fine, stiff_method_fine) = methods.values()
     gains = [source.slot_index[name] for name in GAINS if name in source.slot_index]
@@ -193,7 +193,7 @@ def _format_header(simulation: Simulation) -> str:
         "FMU_SIZES": len(sizes),
         "FMU_PLAYS": len(clearance_indices),
         "FMU_RTOL": repr(RTOL),
-        "FMU_FINE": repr(FINE),
+        "FMU_FINE": repr(fine),
         "FMU_FILM": int(any(joint.film for joint in source.clearances)),
         "FMU_FELT": repr(FELT_BY_FILMS),
         "FMU_BEYOND": int(bool(compiled.has_mod_in_drives)),

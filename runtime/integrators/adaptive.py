@@ -9,8 +9,10 @@ engine/scalar_simd/runge_kutta.h).
 - `radau5`, `radau9`: Radau IIA of orders 5 and 9, L-stable, exact Jacobian, dense output of order 4
   (engine/scalar_simd/radau.h).
 - `auto`: an explicit and a stiff method. It is explicit until h ρ(J) reaches the stability bound in some steps, and
-  stiff until h ρ(J) is so small that the explicit method needs no more steps. The stiff method is `rodas5p`. In a scene
-  with films it is `radau5`, below the tolerance FINE `radau9`, because a film's force is strongly non-linear.
+  stiff until h ρ(J) is so small that the explicit method needs no more steps. The explicit method is `dop853`, or
+  `taylor` where the motion is smooth and the series is cheap (`select_explicit_method`). The stiff method is
+  `rodas5p`. In a scene with films it is `radau5`, below the tolerance FINE `radau9`, because a film's force is strongly
+  non-linear.
 
 The error of a step is controlled component by component: lengths to rtol · L, angles to rtol · L/S. Velocities are
 controlled to rtol times the largest speed of their kind so far. S is the mechanism's size. L is the smallest radial
@@ -33,7 +35,7 @@ from numpy.typing import NDArray
 
 from gudgeon.assembly.linkage import find_angles
 from gudgeon.contract.kernel_source import KernelSource, RuntimeParameter
-from gudgeon.contract.methods import ADAPTIVE, CHOOSING, EXPLICIT, FINE, KINEMATIC, SMOOTH, STAGED, STIFF
+from gudgeon.contract.methods import ADAPTIVE, CHOOSING, EXPLICIT, FINE, KINEMATIC, SMOOTH, STAGED, STIFF, TAYLOR
 from gudgeon.errors import BadValueError, InputError
 from gudgeon.model.cached_values import cache_by_values
 from gudgeon.model.compiled import Array, CompiledModel
@@ -94,7 +96,21 @@ def select_first_method(source: KernelSource, rtol: float = RTOL) -> str:
     """
     if KINEMATIC in source.methods:
         return KINEMATIC
-    return select_stiff_method(source, rtol) if _has_film(source) and not source.is_explicit else EXPLICIT
+    has_stiff_film = _has_film(source) and not source.is_explicit
+    return select_stiff_method(source, rtol) if has_stiff_film else select_explicit_method(source, rtol)
+
+
+def select_explicit_method(source: KernelSource, rtol: float) -> str:
+    """Return the name of the explicit method of `auto`: Taylor's below the tolerance from which it takes less time.
+
+    The generator predicts this tolerance from the numbers of operations (generator/kernels/taylor.py).
+    """
+    return TAYLOR if rtol < source.taylor_below else EXPLICIT
+
+
+def uses_series(source: KernelSource, method: str, rtol: float) -> bool:
+    """Return whether a run by a method, as select_method returns it, makes its steps by Taylor series."""
+    return (select_first_method(source, rtol) if method == ADAPTIVE else method) == TAYLOR
 
 
 @cache_by_values

@@ -88,7 +88,8 @@ class Runs(StoredRuns):
         has_lanes = side_by_side and is_in_c and lanes.may_use_lanes(compiled, method, n)
         if has_lanes:
             compiled.lib.wait_for_optimized_library()  # whose functions are called from within lanes, for all runs
-        self.lane_provider = LaneProvider(compiled) if has_lanes else None
+        has_series = adaptive.uses_series(compiled.source, method, rtol)
+        self.lane_provider = LaneProvider(compiled, has_series) if has_lanes else None
         self.n_lanes = self.lane_provider.count if self.lane_provider else 1
         if self.lane_provider and has_shared_rows:
             self.n_lanes = min(self.n_lanes, max(lanes.ALWAYS, MAX_UNSTORED_SAMPLES // N))

@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gudgeon.contract.boundary import ALL_OVER, LISTS, NEW, NOT_CLOSED, OVER
-from gudgeon.contract.methods import IN_LANES, KINEMATIC, SMOOTH
+from gudgeon.contract.methods import IN_LANES, KINEMATIC
 from gudgeon.loading.compiler import has_compiler
 from gudgeon.model.arrays import find_memory_address, make_pointer
 from gudgeon.model.compiled import CompiledModel
@@ -39,17 +39,23 @@ MIN_REMAINING_S = 6.0  # s: expected remaining time of a batch from which on its
 _later: ContextVar[int] = ContextVar("runs of the same scene that are to come in other batches", default=0)
 
 
-_made: WeakKeyDictionary[CompiledModel, Lanes] = WeakKeyDictionary()  # libraries of lanes by scene
+# libraries of lanes by scene, and by whether they have the Taylor series
+_made: WeakKeyDictionary[CompiledModel, dict[bool, Lanes]] = WeakKeyDictionary()
 _making = Lock()
+SERIES_MAIN = "lane_series.c"  # main file of the library with the Taylor series
+_SERIES_TEXT = '/* The lanes with the Taylor series of the motion. */\n#define LANE_SERIES 1\n#include "lanes.c"\n'
 
 
 class Lanes:
-    """Hold the library that integrates `count` runs of a scene side by side."""
+    """Hold the library that integrates `count` runs of a scene side by side.
 
-    def __init__(self, compiled: CompiledModel) -> None:
+    `has_series`: by Taylor series instead of the other methods.
+    """
+
+    def __init__(self, compiled: CompiledModel, has_series: bool = False) -> None:
         from gudgeon.loading.build import compile_kernels
 
-        library = compile_kernels(_build_lane_source(compiled), portable=compiled.portable)
+        library = compile_kernels(_build_lane_source(compiled, has_series), portable=compiled.portable)
         self.lib, self.ffi = library.lib, library.ffi
         self.count = int(self.lib.gudgeon_lane_count())
         single = compiled.ffi.cast("uintptr_t", compiled.lib.gudgeon_single_run_functions())
@@ -121,11 +127,11 @@ class Lanes:
 class LaneProvider:
     """Provide the lanes of a batch, as soon as compiling their library is worth the time."""
 
-    def __init__(self, compiled: CompiledModel) -> None:
-        self.compiled, self.count, self.later = compiled, MAX_LANES, _later.get()
-        self.lanes = _made.get(compiled)
-        if self.lanes is None and (not MIN_REMAINING_S or _is_compiled(compiled)):
-            self.lanes = _load_lanes(compiled)
+    def __init__(self, compiled: CompiledModel, has_series: bool = False) -> None:
+        self.compiled, self.has_series, self.count, self.later = compiled, has_series, MAX_LANES, _later.get()
+        self.lanes = self._find_made_lanes()
+        if self.lanes is None and (not MIN_REMAINING_S or _is_compiled(compiled, has_series)):
+            self.lanes = _load_lanes(compiled, has_series)
         self.began = time.perf_counter()
 
     def get_lanes(self, runs: Runs) -> Lanes | None:
@@ -134,16 +140,20 @@ class LaneProvider:
         The first thread that finds this compiles their library while the others continue. None is returned if the batch
         is stopped meanwhile.
         """
-        self.lanes = self.lanes or _made.get(self.compiled)  # another batch may have made them
+        self.lanes = self.lanes or self._find_made_lanes()  # another batch may have made them
         if self.lanes is None and self._is_worth_compiling(runs) and _making.acquire(blocking=False):
             try:
                 with set_cancellation_check(lambda: runs.is_stopping):
-                    self.lanes = self.lanes or _load_lanes(self.compiled)
+                    self.lanes = self.lanes or _load_lanes(self.compiled, self.has_series)
             except KeyboardInterrupt:  # the batch is ending: who waits for it has taken Ctrl-C
                 return None
             finally:
                 _making.release()
         return self.lanes
+
+    def _find_made_lanes(self) -> Lanes | None:
+        """Return the lanes if a batch has loaded them, else None."""
+        return _made.get(self.compiled, {}).get(self.has_series)
 
     def _is_worth_compiling(self, runs: Runs) -> bool:
         """Return whether the remaining runs are expected to take longer than MIN_REMAINING_S.
@@ -164,9 +174,10 @@ def announce_later_runs(n_runs: int) -> Iterator[None]:
         _later.reset(token)
 
 
-def _load_lanes(compiled: CompiledModel) -> Lanes:
-    """Return the library of lanes of a scene, compiled or loaded at the first call and cached for all its batches."""
-    return _made.setdefault(compiled, _made.get(compiled) or Lanes(compiled))
+def _load_lanes(compiled: CompiledModel, has_series: bool) -> Lanes:
+    """Return a library of lanes of a scene, compiled or loaded at the first call and cached for all its batches."""
+    made = _made.setdefault(compiled, {})
+    return made.setdefault(has_series, made.get(has_series) or Lanes(compiled, has_series))
 
 
 def yield_waiting_runs(runs: Runs, portions: deque[range | list[int]]) -> Iterator[int]:
@@ -182,18 +193,21 @@ def yield_waiting_runs(runs: Runs, portions: deque[range | list[int]]) -> Iterat
         yield from (i for i in portion if runs.arrays["phase"][i] == NEW)
 
 
-def _build_lane_source(compiled: CompiledModel) -> KernelSource:
-    """Return the kernel source of a scene with main file and declarations replaced by those of its library of lanes."""
+def _build_lane_source(compiled: CompiledModel, has_series: bool) -> KernelSource:
+    """Return the kernel source of a scene with main file and declarations replaced by those of a library of lanes."""
     from gudgeon.loading.engine import list_lane_declarations
 
-    return replace(compiled.source, main=compiled.source.lanes, cdef=list_lane_declarations())
+    main, files = compiled.source.lanes, compiled.source.files
+    if has_series:
+        main, files = SERIES_MAIN, {**files, SERIES_MAIN: _SERIES_TEXT}
+    return replace(compiled.source, main=main, files=files, cdef=list_lane_declarations())
 
 
-def _is_compiled(compiled: CompiledModel) -> bool:
-    """Return whether the library of lanes is in the cache."""
+def _is_compiled(compiled: CompiledModel, has_series: bool) -> bool:
+    """Return whether a library of lanes is in the cache."""
     from gudgeon.loading.build import is_compiled
 
-    return is_compiled(_build_lane_source(compiled), portable=compiled.portable)
+    return is_compiled(_build_lane_source(compiled, has_series), portable=compiled.portable)
 
 
 def _fetch_results(runs: Runs, i: int, run: Any, step_log: StepLog | None = None) -> None:
@@ -212,9 +226,6 @@ def _fetch_results(runs: Runs, i: int, run: Any, step_log: StepLog | None = None
 
 
 def may_use_lanes(compiled: CompiledModel, method: str, n_runs: int) -> bool:
-    """Return whether the runs of a batch may share vectors: enough runs, a method that the lanes have, and a compiler.
-
-    Scenes derived for Taylor's method have lanes for it only.
-    """
-    has_lanes = bool(compiled.source.lanes) and (method in SMOOTH) == bool(compiled.source.taylor)
-    return n_runs >= MIN_RUNS and method in (*IN_LANES, KINEMATIC) and has_lanes and has_compiler()
+    """Return whether the runs of a batch may share vectors: enough runs, a method of the lanes, and a compiler."""
+    has_lanes = bool(compiled.source.lanes) and method in (*IN_LANES, KINEMATIC)
+    return n_runs >= MIN_RUNS and has_lanes and has_compiler()

@@ -18,9 +18,9 @@ from gudgeon.contract.audit import Finding
 from gudgeon.contract.boundary import PEAK_F, PEAK_e_max, PEAK_t
 from gudgeon.contract.clearance_info import ClearanceInfo
 from gudgeon.contract.kernel_source import KernelSource
-from gudgeon.contract.methods import ADAPTIVE, EXPLICIT
+from gudgeon.contract.methods import ADAPTIVE
 from gudgeon.errors import SolverError
-from gudgeon.integrators.adaptive import select_stiff_method
+from gudgeon.integrators.adaptive import select_explicit_method, select_stiff_method
 from gudgeon.integrators.failure import build_audit_error, build_audit_notes
 from gudgeon.integrators.times import compute_last_step
 from gudgeon.integrators.trajectory import Counts, Envelope, Problem, Trajectory
@@ -65,7 +65,7 @@ def _build_diagnostics(problem: Problem, trajectory: Trajectory, checked: Checke
         step = max(last, min(step, duration))
     simulated = float(x.t[-1] - x.t[0]) if len(x.t) else 0.0
     if method == ADAPTIVE:
-        methods = EXPLICIT, select_stiff_method(compiled.source, problem.rtol)
+        methods = [select(compiled.source, problem.rtol) for select in (select_explicit_method, select_stiff_method)]
         method = "+".join(methods) if 0 < counts.stiff_steps < counts.steps else methods[counts.stiff_steps > 0]
     return Diagnostics(
         method=method,

@@ -14,7 +14,7 @@ from gudgeon.assembly.linkage import compute_mechanism_size
 from gudgeon.assembly.rank import OPEN, list_redundant_equations
 from gudgeon.assembly.start import assemble_start
 from gudgeon.contract.kernel_source import KernelSource, PointInfo, RuntimeParameter
-from gudgeon.contract.methods import KINEMATIC
+from gudgeon.contract.methods import EXPLICIT, KINEMATIC, TAYLOR
 from gudgeon.integrators.adaptive import (
     FELT_BY_FILMS,
     RTOL,
@@ -62,7 +62,7 @@ def build_description(compiled: CompiledModel, drift_step: float | None = None) 
         "divides": sorted(DIVIDING),
         "gains": [parameter_indices[name] for name in GAINS if name in parameter_indices],
         "methods": _list_page_methods(source),
-        "begins": select_first_method(source),
+        "begins": _select_first_page_method(source),
         "stiff": select_stiff_method(source, RTOL),
         "automatic": not source.is_explicit,
         "pivots": source.motion_pivots,
@@ -97,6 +97,12 @@ def build_description(compiled: CompiledModel, drift_step: float | None = None) 
         "notes": [HIDDEN_JUMPS_NOTE] if may_jump(source) else [],
     }
     return json.dumps(values, ensure_ascii=False, separators=(",", ":"), allow_nan=False)
+
+
+def _select_first_page_method(source: KernelSource) -> str:
+    """Return the name of the method with which `auto` begins on a page, which has no Taylor series."""
+    first_method = select_first_method(source)
+    return EXPLICIT if first_method == TAYLOR else first_method
 
 
 def _list_page_methods(source: KernelSource) -> list[str]:

@@ -342,3 +342,14 @@ def test_auto_leaves_stiff_steps_that_do_not_pay() -> None:
     )
     assert auto.steps < 1.2 * explicit.steps
     assert 0 < auto.stiff_steps < 0.3 * auto.steps
+
+
+@needs_compiler
+def test_a_film_keeps_the_stiff_method_while_its_steps_grow() -> None:
+    """After the start, steps at 1e-12 are so short that stability would not limit dop853; later it needs 8,000."""
+    run, exact = (
+        scene_of("nine_bar_press", "lubricated").simulate(0.1, output=20, method=method, rtol=rtol)
+        for method, rtol in (("auto", 1e-12), ("radau9", 1e-13))
+    )
+    assert run.diagnostics.method == "radau9" and run.diagnostics.steps < 200
+    assert abs(run.q - exact.q).max() < 1e-12

@@ -247,7 +247,7 @@ def test_the_library_is_made_where_it_is_worth_it(monkeypatch: pytest.MonkeyPatc
         plain(own, *arguments, **options)
 
     monkeypatch.setattr(lanes.Lanes, "__init__", init)
-    monkeypatch.setattr(lanes, "_is_compiled", lambda _: False)
+    monkeypatch.setattr(lanes, "_is_compiled", lambda *_: False)
     press = gudgeon.load("nine_bar_press", "lubricated")
     sets = {"c": np.linspace(3e-4, 8e-4, 4 * COUNT)}
     monkeypatch.setattr(lanes, "MIN_REMAINING_S", 1e9)

@@ -269,7 +269,7 @@ def test_what_a_batch_compiles_meanwhile_ends_with_it(monkeypatch: pytest.Monkey
     """The compiler of runs side by side, in a thread of its own, is killed; what is over is kept."""
     press, begun = gudgeon.load("nine_bar_press", scene="dry"), list[Any]()
 
-    def compiled(_: Any) -> lanes.Lanes:
+    def compiled(*_: Any) -> lanes.Lanes:
         with Programs() as programs:
             begun.append(programs.start([sys.executable, "-c", "import time; time.sleep(60)"], None, dict(os.environ)))
             programs.wait(begun[0])
@@ -281,7 +281,7 @@ def test_what_a_batch_compiles_meanwhile_ends_with_it(monkeypatch: pytest.Monkey
 
     monkeypatch.setattr(lanes, "MIN_REMAINING_S", 1e-9)
     monkeypatch.setattr(lanes, "_made", WeakKeyDictionary())
-    monkeypatch.setattr(lanes, "_is_compiled", lambda _: False)
+    monkeypatch.setattr(lanes, "_is_compiled", lambda *_: False)
     monkeypatch.setattr(lanes, "_load_lanes", compiled)
     batch = press.simulate_many({"c": np.full(40, 3e-4)}, 0.01, output=2, rtol=1e-4, threads=1, progress=progress)
     assert batch.interrupted and begun[0].returncode == -signal.SIGKILL

@@ -45,6 +45,7 @@
 #define GUESSED_POINTS 0      /* some of them are those of points */
 #define N_SET 2               /* those that it sets */
 #define N_RATES 1             /* velocities that it sets */
+#define TAYLOR 6              /* products of the Taylor series of the motion */
 
 /* Thresholds of pivots: a constraint equation is dependent if less than this fraction of its pivot is left: */
 #define SINGULAR 1e-13                        /* where it depends on others */

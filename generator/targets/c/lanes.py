@@ -35,8 +35,8 @@ Render = Callable[..., str]  # template name, substitutions -> text
 def print_lanes_files(program: Program, render: Render) -> dict[str, str]:
     """Return {"lanes.c": text}: the kernels of single runs in the reduced formulation, printed for vectors of runs.
 
-    With a Taylor series the file has Taylor's method, else the linearized equations and Newton's matrix. It includes
-    the file's curves if the text calls one.
+    The file has the linearized equations and Newton's matrix. With a Taylor series, a library compiled with LANE_SERIES
+    has the series instead. The file includes the file's curves if the text calls one.
     """
     assert program.tree
     model = program.model
@@ -51,17 +51,16 @@ def print_lanes_files(program: Program, render: Render) -> dict[str, str]:
     kernels = (*program.tree.unpaired_kernels, program.methods.unpaired_correction_kernel)
     kernels_in_lanes = [kernel for kernel in kernels if kernel.name in _KERNELS]
     text = "\n".join([*joint_functions, *map(lanes_printer.print_motion_kernel, kernels_in_lanes)])
-    if program.series:
-        methods = taylor.print_taylor_lanes(program.series)
-    else:
-        methods = _print_linearized_equations(program.joints, program.methods, render, model.law_states)
-    curves = bool(print_curve_tables(model.scene.mechanism.curves, (text, methods)))
+    methods = _print_linearized_equations(program.joints, program.methods, render, model.law_states)
+    series = taylor.print_taylor_lanes(program.series) if program.series else ""
+    curves = bool(print_curve_tables(model.scene.mechanism.curves, (text, methods, series)))
     return {
         MAIN: render(
             "lanes.c.jinja",
             parameters=parameters,
             kernels=text,
             methods=methods,
+            series=series,
             curves=curves,
             integrates=True,
             engine_includes=_print_includes("batch/lane_tries.c", "batch/lane_flow.c"),
@@ -88,6 +87,7 @@ def _print_kinematic_file(program: Program, render: Render, parameters: Sequence
         parameters=parameters,
         kernels=text,
         methods="",
+        series="",
         curves=bool(print_curve_tables(program.model.scene.mechanism.curves, (text,))),
         integrates=False,
         engine_includes=_print_includes("kinematic/lane_runs.c"),

@@ -1,0 +1,132 @@
+"""`auto` integrates smooth motion of small linkages by Taylor series: which, how exactly, and when it leaves them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import gudgeon
+from gudgeon.contract.methods import EXPLICIT, STIFF, TAYLOR
+from gudgeon.exchange.fmu import _format_header
+from gudgeon.integrators.adaptive import select_first_method
+from gudgeon.simulation.simulation import Simulation
+from gudgeon.web.description import build_description
+from tests.integrators.test_methods import scene_of
+from tests.integrators.test_side_by_side import COUNT, Seen, assert_same_batches, both
+from tests.integrators.test_taylor import at_once  # noqa: F401
+from tests.programs import needs_compiler
+from tests.simulation.test_many import assert_same
+
+HERE = Path(__file__).parent.parent
+DOUBLE = HERE / "mechanisms" / "valid" / "double_pendulum.yaml"
+DAMPED = """\
+format: gudgeon/1
+name: damped
+gravity: [0, -9.81]
+parameters: {d: 0.1 N*m*s/rad}
+ground: {O: [0, 0]}
+bodies:
+  L0: {length: 1 m, mass: 1 kg, inertia: 0.1 kg*m^2}
+joints:
+  J0: {revolute: [ground.O, L0.tail]}
+forces:
+  s: {rotational_spring_damper: [ground, L0], stiffness: 20 N*m/rad, damping: d}
+start: {set: {L0.theta: 1 rad}, rates: {L0.omega: 0}}
+"""
+pytestmark = needs_compiler
+
+
+@pytest.fixture(scope="module")
+def damped(tmp_path_factory: pytest.TempPathFactory) -> Simulation:
+    """Return a link with a torsion spring and a damper, whose coefficient `d` can make it stiff."""
+    file = tmp_path_factory.mktemp("damped") / "damped.yaml"
+    file.write_text(DAMPED, encoding="utf-8")
+    return gudgeon.load(file)
+
+
+def load_double_pendulum() -> Simulation:
+    return gudgeon.load(DOUBLE, scene="ideal")
+
+
+@pytest.mark.parametrize("rtol", [1e-4, 1e-6, 1e-9, 1e-12])
+@pytest.mark.parametrize("load", [load_double_pendulum, lambda: scene_of("pendulum")], ids=["double", "pendulum"])
+def test_no_less_accurate_than_dop853(load: Callable[[], Simulation], rtol: float) -> None:
+    """Against series of twenty-five orders and more at 1e-15."""
+    simulation = load()
+    exact = simulation.simulate(3.0, output=30, method="taylor", rtol=1e-15)
+    runs = [simulation.simulate(3.0, output=30, method=method, rtol=rtol) for method in ("auto", "dop853")]
+    by_auto, by_dop853 = (max(abs(run.q - exact.q).max(), abs(run.v - exact.v).max()) for run in runs)
+    assert by_auto <= by_dop853
+    assert runs[0].diagnostics.method == (TAYLOR if rtol < 1e-5 else EXPLICIT)
+
+
+def test_the_method_follows_from_scene_and_tolerance() -> None:
+    """Of loops, contacts, films and larger linkages none has the series; the other formulation has none either."""
+    double = load_double_pendulum()
+    assert [select_first_method(double.source, rtol) for rtol in (1e-3, 1e-8)] == [EXPLICIT, TAYLOR]
+    others = [("andrews_squeezer", "ideal"), ("slider_crank", "dry"), ("belt_block", "ideal"), ("car_axis", "ideal")]
+    for name, scene in others:
+        source = scene_of(name, scene).source
+        assert not source.taylor and select_first_method(source, 1e-12) == EXPLICIT
+    assert select_first_method(double.full.source, 1e-12) == EXPLICIT
+    assert double.of_method("taylor") is double
+
+
+def test_a_stiff_motion_is_left_to_the_stiff_method(damped: Simulation) -> None:
+    """Overdamped: theta decays with k/d, and omega with d/J, in far less time."""
+    run = damped.simulate(3.0, output=30, parameters={"d": 1e4})
+    exact = damped.simulate(3.0, output=30, method="radau9", rtol=1e-12, parameters={"d": 1e4})
+    assert run.diagnostics.method == f"{TAYLOR}+{STIFF}" and run.diagnostics.steps < 100
+    assert abs(run.q - exact.q).max() < 1e-9
+    gentle = damped.simulate(3.0, output=30)
+    assert gentle.diagnostics.method == TAYLOR and gentle.diagnostics.stiff_steps == 0
+
+
+@pytest.mark.parametrize("rtol", [1e-6, 1e-10])
+def test_lanes_with_and_without_stiffness(damped: Simulation, at_once: Seen, rtol: float) -> None:  # noqa: F811
+    """Runs that become stiff leave the lanes of the series; the bits are those of single runs."""
+    sets: dict[str, Any] = {"d": np.geomspace(0.1, 1e4, COUNT)}
+    batch, singly = both(damped, sets, 2.0, rtol=rtol)
+    assert_same_batches(batch, singly)
+    for name in ("steps", "stiff_steps", "right_hand_sides", "rejected"):
+        assert (batch.diagnostics[name] == singly.diagnostics[name]).all(), name
+    assert batch.diagnostics["stiff_steps"][0] == 0 < batch.diagnostics["stiff_steps"][-1]
+    assert_same(batch[COUNT - 1], damped.simulate(2.0, output=7, rtol=rtol, parameters={"d": sets["d"][-1]}))
+
+
+def test_every_method_of_a_scene_with_the_series_has_lanes(damped: Simulation, at_once: Seen) -> None:  # noqa: F811
+    for method in ("auto", "taylor", "dop853", "rodas5p"):
+        batch, singly = both(damped, {"d": np.linspace(0.1, 0.2, COUNT)}, 0.5, method=method)
+        assert_same_batches(batch, singly)
+    assert len(at_once.used) >= 4 * COUNT
+
+
+def test_prepared_calls_and_steps_of_a_controller(damped: Simulation) -> None:
+    prepared = damped.prepare("d", ["L0.theta"], t_end=1.0, output=4)
+    run = damped.simulate(1.0, output=4, parameters={"d": 0.3})
+    assert prepared([0.3])[0].tobytes() == run["L0.theta"].tobytes()
+    stepper = damped.stepper("d", ["L0.theta"])
+    stepper.reset([0.3])
+    state = None
+    for k in range(1, 4):
+        run = damped.simulate(0.1 * k, output=1, parameters={"d": 0.3}, start=state)
+        state = run.final
+        assert stepper.step(0.1 * k - stepper.t) == pytest.approx(run["L0.theta"][-1:], abs=1e-14)
+
+
+def test_a_page_has_no_series_and_an_fmu_has(damped: Simulation) -> None:
+    assert f'"begins": "{EXPLICIT}"' in build_description(damped.compiled).replace('":"', '": "')
+    header = _format_header(damped)
+    assert f'#define FMU_BEGINS_FINE "{TAYLOR}"' in header and f'#define FMU_BEGINS "{EXPLICIT}"' in header
+
+
+def test_an_unoptimized_library_has_the_same_bits(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("GUDGEON_CACHE", str(tmp_path / "cache"))
+    file = tmp_path / "damped.yaml"
+    file.write_text(DAMPED, encoding="utf-8")
+    quick, optimized = (gudgeon.load(file, quick=quick).simulate(1.0, output=9) for quick in (True, False))
+    assert quick.diagnostics.method == TAYLOR and quick.q.tobytes() == optimized.q.tobytes()
