@@ -74,6 +74,9 @@ enum FrictionMode { MODE_HELD = 2 };
 /* Number of events, and of contacts, at which the lists of a run count as full. */
 enum Capacity { MAX_LISTED = 256 };
 
+/* Largest number of series of the motion that kinematic runs of a batch store. */
+enum MotionCapacity { MAX_MOTION_SERIES = 64 };
+
 /*
  * Columns of the report of a run: counts, residuals with restitution ratios, and three values of each joint with play.
  */

@@ -30,6 +30,7 @@ from gudgeon.contract.kernel_source import (
     RuntimeParameter,
 )
 from gudgeon.integrators.trajectory import IMPACT_DTYPE
+from gudgeon.model.evaluation import MotionSeries
 from gudgeon.results.diagnostics import Diagnostics, Peak
 from gudgeon.results.results import Result
 from tests import quick
@@ -154,6 +155,17 @@ class FakeCompiled:
     source: KernelSource
     calls: list[int] = field(default_factory=list)
     may_drive_acceleration_jump: bool = False
+
+    def evaluate_motion_series(self, series: MotionSeries, counts: Any, columns: Any, p: Any) -> Any:
+        x, y = (sign * p[k] if k >= 0 else 0.0 for k, sign in ((series.x, series.sign_x), (series.y, series.sign_y)))
+        arms: tuple[Any, Any, Any] = (complex(x, y), 0.0, 0.0)
+        origins = [column[:, 0] + 1j * column[:, 1] for column in columns] or [np.zeros(sum(counts))]
+        if columns:
+            theta, omega, alpha = (*(column[:, 2] for column in columns), 0.0, 0.0)[:3]
+            arm = complex(x, y) * np.exp(1j * theta)
+            arms = arm, 1j * omega * arm, (1j * alpha - omega**2) * arm
+        place = origins[-1] + arms[series.order]
+        return place.imag if series.axis else place.real
 
     def evaluate(self, t: Any, q: Any, v: Any, memory: Any, p: Any) -> FakeEvaluation:
         self.calls.append(len(t))

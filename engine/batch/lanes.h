@@ -132,6 +132,16 @@ static inline Lanes real_sqrt(Lanes x) { return lanes_sqrt(x); }
 static inline Lanes real_exp2(Lanes x) { return lanes_approx_exp2(x); }
 /* Return log2 x of each lane to 1e-4. */
 static inline Lanes real_log2(Lanes x) { return lanes_approx_log2(x); }
+/* Compute sine and cosine of the angle (rad) of each lane; those of large angles are computed by the C library. */
+static inline void compute_direction(Lanes angle, Lanes *sine, Lanes *cosine)
+{
+    LaneBits is_large = {0};
+    compute_sines_and_cosines(angle, sine, cosine, &is_large);
+    for (int k = 0; any_of(is_large) && k < LANES; k++) {
+        (*sine)[k] = is_large[k] ? sin(angle[k]) : (*sine)[k];
+        (*cosine)[k] = is_large[k] ? cos(angle[k]) : (*cosine)[k];
+    }
+}
 
 /* ContactState of several runs. */
 typedef struct {

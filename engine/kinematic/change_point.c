@@ -93,6 +93,7 @@ static void interpolate_position(const Position *node, double t, const Parameter
         position->a[k] = interpolate_at_middle(node, PASS_NODES, &node->a[k]);
     }
 #if POSITIONS_IN_TREE
+    position->interval = 0.0;
     for (int k = 0; k < N_X; k++) {
         position->s[k] = interpolate_at_middle(node, PASS_NODES, &node->s[k]);
         position->s_rate[k] = interpolate_at_middle(node, PASS_NODES, &node->s_rate[k]);

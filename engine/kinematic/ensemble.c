@@ -17,13 +17,25 @@ static int is_batch_ending(void *caller)
 /* Return the row of present works in the samples of a run, J: that of the next sample. */
 static double *get_present_works(const RunSamples *samples) { return samples->y + samples->done * N_S + 2 * N_Q; }
 
-/* Return the largest |a| of sample k. */
-static double find_largest_acceleration(const RunSamples *samples, long k)
+/* Return the largest |a|, of N_Q accelerations. */
+static double find_largest_acceleration(const double *a)
 {
     double largest = 0.0;
     for (int j = 0; j < N_Q; j++)
-        largest = max_of(fabs(samples->a[k * N_Q + j]), largest);
+        largest = max_of(fabs(a[j]), largest);
     return largest;
+}
+
+/* Store the requested series of sample k, with the position q, v, a (N_Q each). */
+static void store_series(const KinematicRun *run, long k, const double *q, const double *v, const double *a)
+{
+    const KinematicBatch *batch = run->samples.batch;
+    const long one = 1, place = run->samples.index * batch->samples + k;
+    for (long j = 0; j < batch->n_series; j++) {
+        const long body = batch->series[j].body < 0 ? 0 : batch->series[j].body;
+        gudgeon_motion_series(&batch->series[j], 1, &one, q + body, v + body, a + body, (const double *)run->p,
+            batch->numbers, batch->values[j] + place);
+    }
 }
 
 /*
@@ -39,8 +51,9 @@ static void store_sample(KinematicRun *run, const double *q, const double *v)
     memcpy(y, q, N_Q * sizeof *q);
     memcpy(y + N_Q, v, N_Q * sizeof *v);
     memcpy(a, run->motion.a, N_Q * sizeof *a);
+    store_series(run, k, y, y + N_Q, a);
     samples->are_finite = samples->are_finite && all_finite(y, N_S) && all_finite(a, N_Q);
-    const double largest = find_largest_acceleration(samples, k);
+    const double largest = samples->largest[k] = find_largest_acceleration(a);
     samples->largest_a = max_of(samples->largest_a, largest);
     samples->smallest_a = min_of(samples->smallest_a, largest);
     if (samples->done == samples->n)
@@ -70,8 +83,9 @@ static int begin_run(const KinematicBatch *batch, long i, KinematicRun *run)
         (void *)batch, ENDING_POLL_INTERVAL_S);
     run->p = (const Parameters *)(batch->p + i * batch->numbers);
     run->samples = (RunSamples){
-        .n = batch->n_requested[i], .t = t, .y = batch->y + row * N_S, .a = batch->a + row * N_Q,
-        .smallest_a = INFINITY, .are_finite = 1, .began = read_clock()
+        .batch = batch, .index = i, .n = batch->n_requested[i], .t = t, .y = batch->y + row * N_S,
+        .a = batch->a + row * N_Q, .largest = batch->largest_a + row, .smallest_a = INFINITY, .are_finite = 1,
+        .began = read_clock()
     };
     int status = compute_run_start(batch, i, t[0], &run->cancellation);
     batch->started[i] = !status;
@@ -100,13 +114,13 @@ static int accept_step(KinematicRun *run)
     return status;
 }
 
-/* Make one step of a run towards its next sample, and add its works. Return 0 or a status. */
+/* Make one step of a run towards its next sample, and add its works if they are requested. Return 0 or a status. */
 static int advance_run(KinematicRun *run)
 {
     const Position before = run->motion;
     const double t1 = run->samples.t[run->samples.done];
     int status = make_step(run, &run->samples.stride, t1, &run->motion);
-    if (!status)
+    if (!status && run->samples.batch->has_works)
         status = integrate_work_of_step(run, &before, &run->motion, get_present_works(&run->samples));
     return status ? status : accept_step(run);
 }
@@ -118,7 +132,7 @@ static int has_steep_sample(const RunSamples *samples)
     if (samples->largest_a <= STEEP_RATIO * samples->smallest_a)
         return 0;
     for (long k = 0; k < samples->n; k++)
-        n_small += STEEP_RATIO * find_largest_acceleration(samples, k) <= samples->largest_a;
+        n_small += STEEP_RATIO * samples->largest[k] <= samples->largest_a;
     return 2 * n_small >= samples->n;
 }
 
@@ -185,7 +199,8 @@ void gudgeon_kinematic_ensemble(const void *batch_data, void *integrator, long n
 /* Return the functions of a single run that a library of lanes calls. */
 const void *gudgeon_single_run_functions(void)
 {
-    static const KinematicRunFunctions single = {begin_run, advance_run, accept_step, end_run, has_hidden_transient};
+    static const KinematicRunFunctions single = {begin_run, advance_run, end_run, has_stalled,
+        count_steps_before_check, has_hidden_transient};
     return &single;
 }
 #endif

@@ -7,13 +7,16 @@
 #include "../scene/calls.h"
 #include "../run/cancellation.h"
 
+enum { N_HIGHER = 3 }; /* terms of the third to fifth order */
 enum { MAX_NEWTON = 12, MAX_HALVINGS = 40, MAX_SPLITS = 400, PULSE_HALVINGS = 30 };
 #define MAX_SECOND_RATE_MOVE 0.05 /* rad, or fraction of the size: largest effect of second rates on a first guess */
+#define MAX_HIGHER_MOVE 1e-3      /* the same: largest effect of terms of higher order */
 #define MIN_PASS_CORRECTION 1e3   /* ulp of a coordinate: smallest last correction near a change point */
 #define MAX_STEP_ERROR 0.002      /* of the largest correction: largest difference from the trapezoidal rule */
 #define HARMLESS_STEP_ERROR 0.1   /* of the largest error: smaller ones let halved steps grow again */
 #define NEWTON_ROUNDING 4e-15     /* rad, or fraction of the size: corrections that are rounding */
 #define NEWTON_CLOSED 1e-9        /* the same: largest correction before the last one */
+#define NEWTON_NEARLY_CLOSED 1e-8 /* the same: after such a correction, the next one is probably rounding */
 #define MIN_VELOCITY_JUMP 1e-12   /* rad/s: smallest jump of velocities within a step */
 #define VELOCITY_ROUNDING 1e-9    /* of the speed: smaller changes are not jumps */
 #define MIN_JUMP_RATIO 1e-6       /* of the integral of the accelerations: the same */
@@ -30,6 +33,7 @@ typedef struct {
     int interpolated;       /* at or near a change point (change_point.c) */
 #if POSITIONS_IN_TREE
     double s[N_X + 1], s_rate[N_X + 1], s_second[N_X + 1]; /* the same in tree coordinates */
+    double interval, s_higher[N_X + 1][N_HIGHER]; /* s since the position before, 0: none; terms (extrapolation.h) */
 #endif
 } Position;
 
@@ -40,13 +44,14 @@ typedef struct {
 } StepLength;
 
 /*
- * The samples of a run of a batch: n times (s), states (q, v, works), accelerations; `done` of them are stored. Steps
- * lead from sample to sample. largest_a and smallest_a: of the largest |a| of each sample.
+ * The samples of run `index` of a batch: n times (s), states (q, v, works), accelerations, and the largest |a| of each
+ * sample with the extremes of these; `done` samples are stored. Steps lead from sample to sample.
  */
 typedef struct {
-    long n, done, steps;
+    const KinematicBatch *batch;
+    long index, n, done, steps;
     const double *t;
-    double *y, *a, largest_a, smallest_a;
+    double *y, *a, *largest, largest_a, smallest_a;
     int are_finite;
     StepLength stride;
     double phi_max, phi_dot_max, began; /* largest residuals; time of the clock, s */
@@ -76,8 +81,9 @@ typedef struct {
 typedef struct {
     int (*begin)(const KinematicBatch *batch, long i, KinematicRun *run); /* start and first sample; returns a status */
     int (*advance)(KinematicRun *run);       /* one step; returns a status */
-    int (*accept)(KinematicRun *run); /* a step made in a lane; returns a status */
     void (*end)(const KinematicBatch *batch, long i, KinematicRun *run, int status);
+    int (*has_stalled)(ProgressMonitor *monitor, double t, double t_end);
+    long (*count_steps_before_check)(const ProgressMonitor *monitor);
     int (*has_transient)(double t0, double t1, const Parameters *p); /* whether the step t0 to t1 hides a transient */
 } KinematicRunFunctions;
 

@@ -1,188 +1,54 @@
 /*
- * Kinematic runs of a batch in SIMD lanes, one run per lane, each with its own steps. Lane by lane the operations are
- * those of a single run (tree.c, kinematic.c, works.c) in the same order. A step that is not regular is made again by
- * its run alone: where Newton's method fails, a change point is near, or a velocity jumps.
+ * Kinematic runs of a batch in SIMD lanes, one run per lane, each with its own steps (lane_positions.c). A step that is
+ * not regular is made again by its run alone.
  */
-#include "kinematic.h"
+#include "lane_positions.c"
 #include "../batch/lane_calls.h"
+#include "../scalar_simd/motion_series.h"
 
-/* Position of several runs; no lane is interpolated. */
-typedef struct {
-    Lanes t, q[N_Q], v[N_Q], a[N_Q], phi, phi_dot, last_correction, s[N_X + 1], s_rate[N_X + 1], s_second[N_X + 1];
-} LanePosition;
+enum { BLOCK_ROWS = 16 };
 
-/* The runs in the lanes, -1: none. Works are those of the next sample, J; t1: its time, s; h: length of the step. */
+/*
+ * The runs in the lanes, -1: none; has_run: their mask. t1: time of the next sample, s; h: length of the step. Works
+ * are those of the next sample, J. next_state: next sample whose state is stored; unmonitored: steps until the next
+ * check of progress. Maxima and extremes are those of the samples so far (RunSamples). `positions` are the present one
+ * and memory for the next one.
+ *
+ * Steps in which all runs reach their next samples are `uniform`: n_uniform of them, limit at most, are not yet counted
+ * in the runs. Their series, after the largest |a|, are the columns of `block`.
+ */
 typedef struct {
     const KinematicBatch *batch;
     const KinematicRunFunctions *single;
     KinematicRun *run[LANES];
-    long index[LANES];
+    long index[LANES], next_state[LANES], unmonitored[LANES], n_uniform, limit;
     LaneParameters p;
-    LanePosition position;
-    Lanes h, t1, extent, work[N_WORK];
+    LanePosition positions[2], *position, *next;
+    LaneBits has_run, are_finite;
+    Lanes h, t1, extent, work[N_WORK], phi_max, phi_dot_max, largest_a, smallest_a;
+    Lanes block[MAX_MOTION_SERIES + 1][BLOCK_ROWS];
 } RunLanes;
 
-/* Return the larger number of each lane; NaN if `value` is NaN. */
-static inline Lanes get_larger_or_nan(Lanes largest, Lanes value)
+/* Return the first sample from k on, of n, whose state is stored: each one, or one of the audit or the last one. */
+static long find_next_state(const KinematicBatch *batch, long n, long k)
 {
-    return select_value((value > largest) | (value != value), value, largest);
-}
-
-/* Return the maximum norm of a change or rate of q (N_Q) as an angle, as compute_angle_norm() of a single run. */
-static Lanes compute_angle_norm(const Lanes *change, Lanes extent)
-{
-    Lanes largest = broadcast(0.0);
-    for (int k = 0; k < N_Q; k++)
-        largest = get_larger_or_nan(largest, k % 3 == 2 ? lanes_fabs(change[k]) : lanes_fabs(change[k]) / extent);
-    return largest;
-}
-
-/* Return the size of a change of tree coordinate k, rad or fraction of the mechanism's size. */
-static inline Lanes compute_coordinate_size(Lanes change, int k, Lanes extent)
-{
-    return is_angle[k] ? lanes_fabs(change) : lanes_fabs(change) / extent;
-}
-
-/* Return the time at which the drives are evaluated: just after t if their rates may jump. */
-static inline Lanes get_lane_time_after_jump(Lanes t)
-{
-    return RATE_JUMPS ? t + lanes_max_of(32.0 * DBL_EPSILON * lanes_fabs(t), broadcast(1e-100)) : t;
-}
-
-/*
- * Solve the closures at times t by Newton's method from the guess in `position`, and compute the rates there. Return
- * the lanes in which it failed. correction: incremented by the corrections, in rad or fractions of the size.
- */
-static LaneBits solve_lane_equations(const LaneParameters *p, Lanes extent, Lanes t, LanePosition *position,
-    Lanes *correction)
-{
-    LaneBits is_active = ~(LaneBits){0}, is_failed = {0};
-    Lanes before = broadcast(INFINITY), step[N_X + 1], rates[N_X + 1], phi;
-    position->last_correction = broadcast(0.0);
-    for (int i = 0; i < MAX_NEWTON && any_of(is_active); i++) {
-        LaneBits rare = {0};
-        Lanes size = broadcast(0.0);
-        close_step(t, position->s, p, step, rates, &phi, &rare);
-        for (int k = 0; k < N_X; k++) {
-            size = get_larger_or_nan(size, compute_coordinate_size(step[k], k, extent));
-            position->s_rate[k] = select_value(is_active, rates[k], position->s_rate[k]);
-        }
-        position->phi = select_value(is_active, phi, position->phi);
-        position->last_correction = select_value(is_active, size, position->last_correction);
-        is_failed |= is_active & (rare | (size != size));
-        is_active &= ~(is_failed | (size < NEWTON_ROUNDING) | ((size < NEWTON_CLOSED) & (size >= 0.5 * before)));
-        for (int k = 0; k < N_X; k++)
-            position->s[k] = select_value(is_active, position->s[k] - step[k], position->s[k]);
-        *correction = select_value(is_active, *correction + size, *correction);
-        before = select_value(is_active, size, before);
+    long next = n - 1;
+    if (batch->has_states || n <= batch->n_drawn)
+        return k;
+    for (long j = 0; j < batch->n_drawn; j++) {
+        const long drawn = (long)((double)n * batch->drawn[j]);
+        next = drawn >= k && drawn < next ? drawn : next;
     }
-    return is_failed | (is_active & ~(before < NEWTON_CLOSED));
+    return next;
 }
 
-/*
- * Solve the whole positions at times t from the near positions `start`. Return the lanes in which that failed.
- * correction: set to the corrections of the first guesses.
- */
-static LaneBits solve_lane_positions(const LaneParameters *p, Lanes extent, Lanes t, const LanePosition *start,
-    LanePosition *position, Lanes *correction)
-{
-    const Lanes h = t - start->t;
-    Lanes largest = broadcast(0.0);
-    LaneBits rare = {0};
-    for (int k = 0; k < N_X; k++)
-        largest = get_larger_or_nan(largest, compute_coordinate_size(0.5 * h * h * start->s_second[k], k, extent));
-    const Lanes half_h = select_value(largest <= MAX_SECOND_RATE_MOVE, 0.5 * h, broadcast(0.0));
-    *correction = broadcast(0.0);
-    position->t = t;
-    for (int k = 0; k < N_X; k++) {
-        const Lanes by_second_rate = select_value(half_h != 0.0, half_h * start->s_second[k], broadcast(0.0));
-        position->s[k] = start->s[k] + h * (start->s_rate[k] + by_second_rate);
-    }
-    const Lanes t_after_jump = get_lane_time_after_jump(t);
-    const LaneBits is_failed = solve_lane_equations(p, extent, t_after_jump, position, correction);
-    compute_body_motion(t_after_jump, position->s, position->s_rate, p, position->s_second, position->q, position->v,
-        position->a, &position->phi_dot, &rare);
-    return is_failed | rare;
-}
-
-/* Return the largest difference of positions b from a plus the trapezoidal rule, as in a single run, rad. */
-static Lanes compute_trapezoidal_error(const LanePosition *a, const LanePosition *b, Lanes extent)
-{
-    const Lanes half = 0.5 * (b->t - a->t), fraction = 1.0 / extent;
-    Lanes largest[2] = {broadcast(0.0), broadcast(0.0)}; /* lengths, angles */
-    for (int k = 0; k < N_Q; k++)
-        largest[k % 3 == 2] = get_larger_or_nan(largest[k % 3 == 2],
-            lanes_fabs(b->q[k] - a->q[k] - half * (a->v[k] + b->v[k])));
-    return get_larger_or_nan(largest[1], largest[0] * fraction);
-}
-
-/* Return the lanes in which the last correction of Newton's method is larger than rounding of the coordinates. */
-static LaneBits find_ill_conditioned_lanes(const LanePosition *position)
-{
-    Lanes size = broadcast(1.0);
-    for (int k = 2; k < N_Q; k += 3)
-        size = get_larger_or_nan(size, lanes_fabs(position->q[k]));
-    return ~(position->last_correction <= MIN_PASS_CORRECTION * DBL_EPSILON * size);
-}
-
-/*
- * Add the works between positions a and b, one step apart, to `work`, J, in the lanes of `is_accepted`. Return the
- * lanes in which that failed, a power is not finite, or velocities jump.
- */
-static LaneBits integrate_lane_works(const LaneParameters *p, Lanes extent, const LanePosition *a,
-    const LanePosition *b, LaneBits is_accepted, Lanes *work)
-{
-    const Lanes half = 0.5 * (b->t - a->t);
-    const Lanes speed = get_larger_or_nan(compute_angle_norm(a->v, extent), compute_angle_norm(b->v, extent));
-    Lanes velocity_defect[N_Q], interval_work[N_WORK], scale = broadcast(0.0);
-    LaneBits is_irregular = {0};
-    for (int k = 0; k < N_Q; k++)
-        velocity_defect[k] = b->v[k] - a->v[k];
-    for (int k = 0; k < N_WORK; k++)
-        interval_work[k] = broadcast(0.0);
-    for (int i = 0; i < N_WORK_NODES; i++) {
-        LanePosition node;
-        LaneDiscreteState discrete = {.least = broadcast(0.0)};
-        LaneRhsOutputs rhs;
-        Lanes correction, acceleration[N_X + 1];
-        is_irregular |=
-            solve_lane_positions(p, extent, a->t + half * (1.0 + work_node[i]), a, &node, &correction);
-        reduced_dynamics(get_lane_time_after_jump(node.t), node.s, node.s_rate, &discrete, p, acceleration, &rhs,
-            &discrete.rare);
-        is_irregular |= discrete.rare;
-        for (int k = 0; k < N_WORK; k++) {
-            is_irregular |= ~(lanes_fabs(rhs.power[k]) <= DBL_MAX);
-            interval_work[k] += half * work_weight[i] * rhs.power[k];
-        }
-        for (int k = 0; k < N_Q; k++)
-            velocity_defect[k] -= half * work_weight[i] * node.a[k];
-        scale = get_larger_or_nan(scale, half * compute_angle_norm(node.a, extent));
-    }
-    const Lanes jump = compute_angle_norm(velocity_defect, extent);
-    const Lanes min_jump = MIN_VELOCITY_JUMP + VELOCITY_ROUNDING * speed;
-    is_irregular |= ~(scale <= DBL_MAX) | ((jump > min_jump) & (jump > MIN_JUMP_RATIO * scale));
-    is_irregular |= ~(lanes_fabs(interval_work[0]) <= DBL_MAX);
-    for (int k = 0; k < N_WORK; k++)
-        work[k] = select_value(is_accepted & ~is_irregular, work[k] + interval_work[k], work[k]);
-    return is_irregular;
-}
-
-/* Copy to lane k the time and works of the next sample of its run, and the length of the step. */
-static void load_next_sample(RunLanes *lanes, int k)
-{
-    const RunSamples *samples = &lanes->run[k]->samples;
-    const double *work = samples->y + samples->done * N_S + 2 * N_Q;
-    lanes->h[k] = samples->stride.h;
-    lanes->t1[k] = samples->t[samples->done];
-    for (int j = 0; j < N_WORK; j++)
-        lanes->work[j][k] = work[j];
-}
-
-/* Copy the position of run k to its lane, and what its next sample needs. */
+/* Copy the position of run k to its lane, the extremes of its samples, and what its next sample needs. */
 static void load_lane(RunLanes *lanes, int k)
 {
-    const Position *from = &lanes->run[k]->motion;
-    LanePosition *to = &lanes->position;
+    const KinematicRun *run = lanes->run[k];
+    const RunSamples *samples = &run->samples;
+    const Position *from = &run->motion;
+    LanePosition *to = lanes->position;
     for (int j = 0; j < N_Q; j++) {
         to->q[j][k] = from->q[j];
         to->v[j][k] = from->v[j];
@@ -191,44 +57,182 @@ static void load_lane(RunLanes *lanes, int k)
         to->s[j][k] = from->s[j];
         to->s_rate[j][k] = from->s_rate[j];
         to->s_second[j][k] = from->s_second[j];
+        for (int order = 0; order < N_HIGHER; order++)
+            to->s_higher[j][order][k] = from->s_higher[j][order];
     }
     to->t[k] = from->t;
-    load_next_sample(lanes, k);
+    to->interval[k] = from->interval;
+    lanes->h[k] = samples->stride.h;
+    lanes->t1[k] = samples->t[samples->done];
+    for (int j = 0; j < N_WORK; j++)
+        lanes->work[j][k] = samples->y[samples->done * N_S + 2 * N_Q + j];
+    lanes->phi_max[k] = samples->phi_max;
+    lanes->phi_dot_max[k] = samples->phi_dot_max;
+    lanes->largest_a[k] = samples->largest_a;
+    lanes->smallest_a[k] = samples->smallest_a;
+    lanes->are_finite[k] = samples->are_finite ? -1 : 0;
+    lanes->next_state[k] = find_next_state(lanes->batch, samples->n, samples->done);
+    lanes->unmonitored[k] = lanes->single->count_steps_before_check(&run->monitor);
 }
 
-/* Copy from lane k to its run what a sample has: the motion of all bodies, its time, and the works. */
-static void store_lane_sample(const RunLanes *lanes, int k)
+/* Copy the extremes of the samples from lane k to its run. */
+static void store_lane_extremes(const RunLanes *lanes, int k)
+{
+    RunSamples *samples = &lanes->run[k]->samples;
+    samples->phi_max = lanes->phi_max[k];
+    samples->phi_dot_max = lanes->phi_dot_max[k];
+    samples->largest_a = lanes->largest_a[k];
+    samples->smallest_a = lanes->smallest_a[k];
+    samples->are_finite = lanes->are_finite[k] != 0;
+}
+
+/* Copy the whole position of lane k and the extremes of the samples to its run, which goes on alone. */
+static void store_lane(const RunLanes *lanes, int k)
 {
     KinematicRun *run = lanes->run[k];
     Position *to = &run->motion;
-    const LanePosition *from = &lanes->position;
-    double *work = run->samples.y + run->samples.done * N_S + 2 * N_Q;
+    const LanePosition *from = lanes->position;
     to->t = from->t[k];
     to->interpolated = 0;
     to->phi = from->phi[k];
     to->phi_dot = from->phi_dot[k];
+    to->last_correction = from->last_correction[k];
     for (int j = 0; j < N_Q; j++) {
         to->q[j] = from->q[j][k];
         to->v[j] = from->v[j][k];
         to->a[j] = from->a[j][k];
     }
-    for (int j = 0; j < N_WORK; j++)
-        work[j] = lanes->work[j][k];
-}
-
-/* Copy the whole position of lane k to its run, which goes on alone. */
-static void store_lane(const RunLanes *lanes, int k)
-{
-    Position *to = &lanes->run[k]->motion;
-    const LanePosition *from = &lanes->position;
-    store_lane_sample(lanes, k);
-    to->last_correction = from->last_correction[k];
     for (int j = 0; j < N_X; j++) {
         to->s[j] = from->s[j][k];
         to->s_rate[j] = from->s_rate[j][k];
         to->s_second[j] = from->s_second[j][k];
+        for (int order = 0; order < N_HIGHER; order++)
+            to->s_higher[j][order] = from->s_higher[j][order][k];
     }
-    lanes->run[k]->samples.stride.h = lanes->h[k];
+    to->interval = from->interval[k];
+    for (int j = 0; j < N_WORK; j++)
+        run->samples.y[run->samples.done * N_S + 2 * N_Q + j] = lanes->work[j][k];
+    run->samples.stride.h = lanes->h[k];
+    store_lane_extremes(lanes, k);
+}
+
+/* Store the position in lane k as the next sample of its run, if the state of that sample is stored. */
+static void store_lane_state(RunLanes *lanes, int k)
+{
+    const RunSamples *samples = &lanes->run[k]->samples;
+    const LanePosition *from = lanes->position;
+    const long sample = samples->done;
+    double *y = samples->y + sample * N_S, *a = samples->a + sample * N_Q;
+    if (sample < lanes->next_state[k])
+        return;
+    for (int j = 0; j < N_Q; j++) {
+        y[j] = from->q[j][k];
+        y[N_Q + j] = from->v[j][k];
+        a[j] = from->a[j][k];
+    }
+    for (int j = 0; j < N_WORK; j++)
+        y[2 * N_Q + j] = lanes->work[j][k];
+    lanes->next_state[k] = find_next_state(lanes->batch, samples->n, sample + 1);
+}
+
+/*
+ * Write the requested series of the position and the largest |a| to a row of the block, and update the extremes of the
+ * samples of the runs in the lanes of `is_sample`. Accepted positions and velocities are finite.
+ */
+static void add_lane_samples(RunLanes *lanes, LaneBits is_sample, long row)
+{
+    const KinematicBatch *batch = lanes->batch;
+    const LanePosition *at = lanes->position;
+    Lanes largest = broadcast(0.0), zero = broadcast(0.0);
+    DirectionOf direction = {.body = -1};
+    for (long j = 0; j < batch->n_series; j++) {
+        const MotionSeries *series = &batch->series[j];
+        const long body = series->body < 0 ? 0 : series->body;
+        lanes->block[j + 1][row] =
+            evaluate_motion_series(series, at->q + body, at->v + body, at->a + body, &lanes->p, &direction);
+    }
+    for (int j = 0; j < N_Q; j++) {
+        largest = lanes_max_of(lanes_fabs(at->a[j]), largest);
+        zero += 0.0 * at->a[j];
+    }
+    for (int j = 0; j < N_WORK; j++)
+        zero += 0.0 * lanes->work[j];
+    lanes->block[0][row] = largest;
+    lanes->are_finite &= (zero == 0.0) | ~is_sample;
+    lanes->phi_max = select_value(is_sample, lanes_max_of(at->phi, lanes->phi_max), lanes->phi_max);
+    lanes->phi_dot_max = select_value(is_sample, lanes_max_of(at->phi_dot, lanes->phi_dot_max), lanes->phi_dot_max);
+    lanes->largest_a = select_value(is_sample, lanes_max_of(lanes->largest_a, largest), lanes->largest_a);
+    lanes->smallest_a = select_value(is_sample, lanes_min_of(lanes->smallest_a, largest), lanes->smallest_a);
+}
+
+/* Copy n rows of lane k in a column of the block to `values`. */
+static inline void copy_lane_column(const Lanes *column, int k, long n, double *values)
+{
+    if (n == BLOCK_ROWS)
+        for (int row = 0; row < BLOCK_ROWS; row++)
+            values[row] = column[row][k];
+    else
+        for (long row = 0; row < n; row++)
+            values[row] = column[row][k];
+}
+
+/* Copy n rows of the block to the next samples of the run in lane k. */
+static void copy_lane_samples(const RunLanes *lanes, int k, long n)
+{
+    const KinematicBatch *batch = lanes->batch;
+    const RunSamples *samples = &lanes->run[k]->samples;
+    const long place = samples->index * batch->samples + samples->done;
+    copy_lane_column(lanes->block[0], k, n, samples->largest + samples->done);
+    for (long j = 0; j < batch->n_series; j++)
+        copy_lane_column(lanes->block[j + 1], k, n, batch->values[j] + place);
+}
+
+/* Count the uniform steps in the runs, and copy their samples. */
+static void count_uniform_steps(RunLanes *lanes)
+{
+    const long n = lanes->n_uniform;
+    lanes->n_uniform = 0;
+    for (int k = 0; k < LANES && n; k++) {
+        if (lanes->index[k] < 0)
+            continue;
+        copy_lane_samples(lanes, k, n);
+        lanes->run[k]->samples.done += n;
+        lanes->run[k]->samples.steps += n;
+        lanes->run[k]->monitor.steps += n;
+        lanes->unmonitored[k] -= n;
+    }
+}
+
+/*
+ * Return how many uniform steps may be made before the runs must be treated one by one: at a stored state, a check of
+ * progress, the last sample, or with halved steps.
+ */
+static long find_uniform_limit(const RunLanes *lanes)
+{
+    long limit = BLOCK_ROWS;
+    for (int k = 0; k < LANES; k++) {
+        if (lanes->index[k] < 0)
+            continue;
+        const RunSamples *samples = &lanes->run[k]->samples;
+        const long to_state = lanes->next_state[k] - samples->done, to_end = samples->n - 1 - samples->done;
+        limit = to_state < limit ? to_state : limit;
+        limit = to_end < limit ? to_end : limit;
+        limit = lanes->unmonitored[k] < limit ? lanes->unmonitored[k] : limit;
+        limit = samples->stride.halvings ? 0 : limit;
+    }
+    return limit;
+}
+
+/* Return the times of the samples after the next ones; at the end of a run, that of its last sample. */
+static Lanes get_following_times(const RunLanes *lanes)
+{
+    Lanes t = lanes->t1;
+    for (int k = 0; k < LANES; k++) {
+        const RunSamples *samples = &lanes->run[k]->samples;
+        const long following = samples->done + lanes->n_uniform + 1;
+        t[k] = lanes->index[k] < 0 ? t[k] : samples->t[following < samples->n ? following : samples->n - 1];
+    }
+    return t;
 }
 
 /* End the run in lane k with this status, and let the lane be free. */
@@ -236,6 +240,7 @@ static void end_lane(RunLanes *lanes, int k, int status)
 {
     lanes->single->end(lanes->batch, lanes->index[k], lanes->run[k], status);
     lanes->index[k] = -1;
+    lanes->has_run[k] = 0;
 }
 
 /* Return whether the run in lane k has stored all its samples. */
@@ -253,6 +258,7 @@ static void fill_lane(RunLanes *lanes, int k, long n, const long *indices, long 
         if (batch->phase[i] != NEW)
             continue;
         lanes->index[k] = i;
+        lanes->has_run[k] = -1;
         for (long j = 0; j < batch->numbers; j++)
             ((Lanes *)&lanes->p)[j][k] = batch->p[i * batch->numbers + j];
         lanes->extent[k] = batch->size[i];
@@ -265,14 +271,44 @@ static void fill_lane(RunLanes *lanes, int k, long n, const long *indices, long 
 }
 
 /*
+ * Count the accepted step of lane k, and store its end as a sample if it is one: the first row of the block. Return 0
+ * or a status.
+ */
+static int accept_lane_step(RunLanes *lanes, int k)
+{
+    KinematicRun *run = lanes->run[k];
+    RunSamples *samples = &run->samples;
+    const double t = lanes->position->t[k];
+    samples->steps++;
+    if (lanes->unmonitored[k] > 0) {
+        lanes->unmonitored[k]--;
+        run->monitor.steps++;
+    } else if (lanes->single->has_stalled(&run->monitor, t, run->t_end)) {
+        return STALLED;
+    } else {
+        lanes->unmonitored[k] = lanes->single->count_steps_before_check(&run->monitor);
+    }
+    if (t < lanes->t1[k])
+        return 0;
+    store_lane_state(lanes, k);
+    copy_lane_samples(lanes, k, 1);
+    samples->done++;
+    if (samples->done < samples->n) {
+        lanes->t1[k] = samples->t[samples->done];
+        lanes->h[k] = lanes->t1[k] - t;
+        samples->stride.halvings = 0;
+    }
+    return 0;
+}
+
+/*
  * Complete the step of lane k, of which `outcome` is what the lanes found: ACCEPTED, REJECTED (it is halved), or
  * IRREGULAR (the run makes it). is_harmless: its error is so small that a halved length may grow again.
  */
 enum Outcome { ACCEPTED, REJECTED, IRREGULAR };
 static void complete_lane_step(RunLanes *lanes, int k, enum Outcome outcome, int is_harmless)
 {
-    KinematicRun *run = lanes->run[k];
-    StepLength *stride = &run->samples.stride;
+    StepLength *stride = &lanes->run[k]->samples.stride;
     if (outcome == REJECTED && stride->halvings < MAX_HALVINGS) {
         stride->halvings++;
         lanes->h[k] *= 0.5;
@@ -282,21 +318,40 @@ static void complete_lane_step(RunLanes *lanes, int k, enum Outcome outcome, int
         lanes->h[k] *= 2.0;
         stride->halvings--;
     }
-    if (outcome == ACCEPTED && lanes->position.t[k] < lanes->t1[k])
-        run->motion.t = lanes->position.t[k];
-    else if (outcome == ACCEPTED)
-        store_lane_sample(lanes, k);
-    else
+    if (outcome != ACCEPTED)
         store_lane(lanes, k);
-    const long n_done = run->samples.done;
-    const int status = outcome == ACCEPTED ? lanes->single->accept(run)
-        : lanes->single->advance(run);
-    if (status || is_complete(lanes, k))
+    const int status = outcome == ACCEPTED ? accept_lane_step(lanes, k) : lanes->single->advance(lanes->run[k]);
+    const int is_over = status || is_complete(lanes, k);
+    if (is_over && outcome == ACCEPTED)
+        store_lane_extremes(lanes, k);
+    if (is_over)
         end_lane(lanes, k, status);
     else if (outcome != ACCEPTED)
         load_lane(lanes, k);
-    else if (run->samples.done > n_done)
-        load_next_sample(lanes, k);
+}
+
+/* Make the next position the present one, in the lanes of the mask. */
+static void move_to_next_position(RunLanes *lanes, LaneBits is_accepted)
+{
+    LanePosition *const next = lanes->next;
+    for (long j = 0; j < (long)(sizeof *next / sizeof(Lanes)) && any_of(~is_accepted); j++)
+        ((Lanes *)next)[j] = select_value(is_accepted, ((Lanes *)next)[j], ((Lanes *)lanes->position)[j]);
+    lanes->next = lanes->position;
+    lanes->position = next;
+}
+
+/* Complete a step that is not uniform: count it, and store the samples, in one run after the other. */
+static void complete_lane_steps(RunLanes *lanes, LaneBits is_accepted, LaneBits is_irregular, LaneBits is_sample,
+    LaneBits is_harmless)
+{
+    count_uniform_steps(lanes);
+    move_to_next_position(lanes, is_accepted);
+    if (any_of(is_sample))
+        add_lane_samples(lanes, is_sample, 0);
+    for (int k = 0; k < LANES; k++)
+        if (lanes->index[k] >= 0)
+            complete_lane_step(lanes, k, is_irregular[k] ? IRREGULAR : is_accepted[k] ? ACCEPTED : REJECTED,
+                is_harmless[k] != 0);
 }
 
 /* Try one step in all lanes, and complete it for each run. */
@@ -304,34 +359,37 @@ static void advance_lanes(RunLanes *lanes)
 {
     const KinematicBatch *batch = lanes->batch;
     const double max_correction = batch->max_correction, max_error = MAX_STEP_ERROR * max_correction;
-    const LanePosition *const position = &lanes->position;
-    LanePosition next_position;
+    const LanePosition *const position = lanes->position;
+    LanePosition *const next = lanes->next;
+    if (!lanes->n_uniform)
+        lanes->limit = find_uniform_limit(lanes);
+    const Lanes sum = position->t + lanes->h, t = select_value(sum < lanes->t1, sum, lanes->t1);
+    const Lanes following = get_following_times(lanes);
     Lanes correction;
-    const Lanes sum = position->t + lanes->h, next = select_value(sum < lanes->t1, sum, lanes->t1);
-    LaneBits is_irregular = ~(next > position->t)
-        | solve_lane_positions(&lanes->p, lanes->extent, next, position, &next_position, &correction);
-    is_irregular |= (next == lanes->t1) & find_ill_conditioned_lanes(&next_position);
-    const Lanes error = compute_trapezoidal_error(position, &next_position, lanes->extent);
+    LaneBits is_irregular =
+        ~(t > position->t) | solve_lane_positions(&lanes->p, lanes->extent, t, position, next, &correction);
+    is_irregular |= (t == lanes->t1) & find_ill_conditioned_lanes(next);
+    const Lanes error = compute_trapezoidal_error(position, next, lanes->extent);
     LaneBits is_accepted = ~is_irregular & (correction <= max_correction) & (error <= max_error);
     for (int k = 0; N_PULSES && k < LANES; k++)
         if (lanes->index[k] >= 0 && is_accepted[k] && lanes->run[k]->samples.stride.halvings <= PULSE_HALVINGS
-            && lanes->single->has_transient(position->t[k], next[k], lanes->run[k]->p))
+            && lanes->single->has_transient(position->t[k], t[k], lanes->run[k]->p))
             is_accepted[k] = 0;
-    if (any_of(is_accepted))
+    if (batch->has_works && any_of(is_accepted))
         is_irregular |= is_accepted
-            & integrate_lane_works(&lanes->p, lanes->extent, position, &next_position, is_accepted, lanes->work);
+            & integrate_lane_works(&lanes->p, lanes->extent, position, next, is_accepted, lanes->work);
     is_accepted &= ~is_irregular;
-    if (any_of(~is_accepted)) {
-        for (long j = 0; j < (long)(sizeof next_position / sizeof(Lanes)); j++)
-            ((Lanes *)&lanes->position)[j] =
-                select_value(is_accepted, ((Lanes *)&next_position)[j], ((Lanes *)&lanes->position)[j]);
-    } else {
-        lanes->position = next_position;
+    const LaneBits is_sample = is_accepted & ~(t < lanes->t1) & lanes->has_run;
+    if (lanes->n_uniform >= lanes->limit || any_of(lanes->has_run & ~is_sample)) {
+        complete_lane_steps(lanes, is_accepted, is_irregular, is_sample, error < HARMLESS_STEP_ERROR * max_error);
+        return;
     }
-    for (int k = 0; k < LANES; k++)
-        if (lanes->index[k] >= 0)
-            complete_lane_step(lanes, k, is_irregular[k] ? IRREGULAR : is_accepted[k] ? ACCEPTED : REJECTED,
-                error[k] < HARMLESS_STEP_ERROR * max_error);
+    move_to_next_position(lanes, is_accepted);
+    add_lane_samples(lanes, is_sample, lanes->n_uniform++);
+    lanes->t1 = following;
+    lanes->h = following - t;
+    if (lanes->n_uniform == lanes->limit)
+        count_uniform_steps(lanes);
 }
 
 /* Return the number of lanes with a run. */
@@ -357,6 +415,7 @@ void gudgeon_kinematic_lanes(const void *batch, const void *single, void *const 
     memset(&lanes, 0, sizeof lanes);
     lanes.batch = batch, lanes.single = single;
     lanes.extent = broadcast(1.0);
+    lanes.position = &lanes.positions[0], lanes.next = &lanes.positions[1];
     long next = 0;
     for (int k = 0; k < LANES; k++) {
         lanes.run[k] = run[k];
@@ -368,6 +427,7 @@ void gudgeon_kinematic_lanes(const void *batch, const void *single, void *const 
         if (count_runs(&lanes) > 1 && !*lanes.batch->ending)
             advance_lanes(&lanes);
     } while ((count_runs(&lanes) > 1 || next < n) && !*lanes.batch->ending);
+    count_uniform_steps(&lanes);
     for (int k = 0; k < LANES; k++) {
         int status = 0;
         if (lanes.index[k] < 0)

@@ -1,4 +1,6 @@
 /* Positions, velocities and accelerations in tree coordinates of a linkage that drives determine. */
+#include "../scalar_simd/scalar.h"
+#include "../scalar_simd/extrapolation.h"
 
 /*
  * Compute tree accelerations a and powers at a position by the reduced equations of motion. Return 0 or a status. A
@@ -54,23 +56,55 @@ static int has_large_second_rates(const Position *start, double h, double extent
 }
 
 /*
+ * Compute the terms of higher order of a first guess over a time h (s). They are zero without an earlier position, or
+ * where one is larger than MAX_HIGHER_MOVE.
+ */
+static void compute_higher_moves(const Position *start, double h, double extent, double *move)
+{
+    double largest = 0.0;
+    for (int k = 0; k < N_X; k++) {
+        move[k] = sum_higher_terms(h / start->interval, start->s_higher[k]);
+        largest = get_larger_or_nan(largest, fabs(move[k]) / (is_angle[k] ? 1.0 : extent));
+    }
+    for (int k = 0; k < N_X && !(largest <= MAX_HIGHER_MOVE); k++)
+        move[k] = 0.0;
+}
+
+/* Compute the terms of higher order of a position from the one before, `start`. */
+static void store_higher_terms(const Position *start, Position *position)
+{
+    position->interval = position->t - start->t;
+    for (int k = 0; k < N_X; k++)
+        compute_higher_terms(position->interval,
+            (CoordinateOf){start->s[k], start->s_rate[k], start->s_second[k]},
+            (CoordinateOf){position->s[k], position->s_rate[k], position->s_second[k]}, position->s_higher[k]);
+}
+
+/*
  * Solve the whole position at time t from the near position `start`. Return 0 or a status. The first guess is s + h s'
- * + h^2 s''/2, or s + h s' if s'' is too large. correction: set to the correction of the guess.
+ * + h^2 s''/2 and terms of higher order, or s + h s' if s'' is too large. correction: set to the correction of the
+ * guess.
  */
 static int solve_position_at(const KinematicRun *run, double t, const Position *start, Position *position,
     double *correction)
 {
     const double h = t - start->t, half_h = has_large_second_rates(start, h, run->extent) ? 0.0 : 0.5 * h;
+    double move[N_X + 1];
     *correction = 0.0;
     position->t = t;
     position->interpolated = 0;
-    for (int k = 0; k < N_X; k++)
-        position->s[k] = start->s[k] + h * (start->s_rate[k] + (half_h != 0.0 ? half_h * start->s_second[k] : 0.0));
+    compute_higher_moves(start, h, run->extent, move);
+    for (int k = 0; k < N_X; k++) {
+        const double by_second_rate = half_h != 0.0 ? half_h * start->s_second[k] : 0.0;
+        position->s[k] = start->s[k] + h * (start->s_rate[k] + by_second_rate) + (half_h != 0.0 ? move[k] : 0.0);
+    }
     const double t_after_jump = get_time_after_jump(t);
-    const int status = solve_position_equations(run, t_after_jump, position, correction);
-    return status ? status
-        : compute_body_motion(t_after_jump, position->s, position->s_rate, run->p, position->s_second, position->q,
-            position->v, position->a, &position->phi_dot);
+    int status = solve_position_equations(run, t_after_jump, position, correction);
+    if (!status)
+        status = compute_body_motion(t_after_jump, position->s, position->s_rate, run->p, position->s_second,
+            position->q, position->v, position->a, &position->phi_dot);
+    store_higher_terms(start, position);
+    return status;
 }
 
 /* Do nothing: a position in tree coordinates is complete. */
@@ -85,8 +119,9 @@ static int set_position(KinematicRun *run, double t, const double *q, const doub
     const Parameters *p = run->p;
     double step[N_X + 1], rates[N_X + 1];
     position->t = t;
-    position->last_correction = 0.0;
+    position->last_correction = position->interval = 0.0;
     position->interpolated = 0;
+    memset(position->s_higher, 0, sizeof position->s_higher);
     reduce_state(t, q, v, p, position->s, position->s_rate);
     if (!close_step(get_time_after_jump(t), position->s, p, step, rates, &position->phi)
         && !compute_body_motion(get_time_after_jump(t), position->s, position->s_rate, p, position->s_second,

@@ -278,3 +278,33 @@ int gudgeon_evaluate_runs(long n_runs, const long *counts, const double *t, cons
     return 0;
 #undef FROM
 }
+
+#include "../scalar_simd/scalar.h"
+
+/* Compute sine and cosine of an angle (rad) by the operations of vectors of angles. */
+static void compute_direction(double angle, double *sine, double *cosine)
+{
+    const Four angles = {angle, angle, angle, angle};
+    Four sines, cosines;
+    compute_sines_and_cosines(&angles, &sines, &cosines);
+    *sine = sines[0];
+    *cosine = cosines[0];
+}
+
+#include "../scalar_simd/motion_series.h"
+
+/*
+ * Compute a series at samples of several runs, stored one after the other, into `values`: counts[i] samples of run i,
+ * with its row of n_parameters parameters. q, v, a: rows of x, y and angle of the series' body, with their first and
+ * second time derivatives; NULL where the series does not need them.
+ */
+void gudgeon_motion_series(const MotionSeries *series, long n_runs, const long *counts, const double *q,
+    const double *v, const double *a, const double *parameters, long n_parameters, double *values)
+{
+    for (long i = 0, k = 0; i < n_runs; i++)
+        for (const long end = k + counts[i]; k < end; k++) {
+            DirectionOf direction = {.body = -1};
+            values[k] = evaluate_motion_series(series, q ? q + 3 * k : NULL, v ? v + 3 * k : NULL,
+                a ? a + 3 * k : NULL, (const Parameters *)(parameters + i * n_parameters), &direction);
+        }
+}

@@ -28,6 +28,20 @@ int gudgeon_evaluate_runs(long runs, const long *counts, const double *t, const 
     const double *discrete, const double *parameters, long numbers, double *a, double *lambda, double *reactions,
     double *torques, double *clearance, double *series, double *friction, double *energy, double *power, double *drift,
     long *failed);
+
+/*
+ * A series of the motion: a coordinate of a body's centre of mass or of a point, or its first or second time
+ * derivative. body: index of the body's x in q, -1: ground. x, y: parameters with the point's components in the frame
+ * of its body, times the signs; -1: 0.
+ */
+typedef struct {
+    int order, axis;                      /* time derivative, 0 to 2; 0: x, 1: y, 2: angle of a body */
+    long body, x, y;
+    double sign_x, sign_y;
+} MotionSeries;
+
+void gudgeon_motion_series(const MotionSeries *series, long runs, const long *counts, const double *q, const double *v,
+    const double *a, const double *parameters, long numbers, double *values);
 #if TREE
 void gudgeon_expand(double t, const double *q, const double *v, const double *p, double *all_q, double *all_v);
 void gudgeon_reduce(double t, const double *all_q, const double *all_v, const double *p, double *q, double *v);
@@ -147,6 +161,11 @@ typedef struct {
     int must_be_short;                    /* whether a run ends as STOPPED at the first poll, after 0.02 s */
     long n_drawn;
     double drawn[8], limit[4];
+    long n_series;                        /* series that are stored: values[k][i * samples + j] of sample j of run i */
+    const MotionSeries *series;
+    double *const *values;
+    int has_states, has_works;            /* states: 0: only of audited samples and the last; works: 0: not computed */
+    double *largest_a;                    /* largest |a| of each sample, in rows as y */
     const volatile int *ending;           /* nonzero: all runs end at once */
 } KinematicBatch;
 

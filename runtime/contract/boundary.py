@@ -78,6 +78,9 @@ MODE_HELD: Final = 2
 # enum Capacity
 MAX_LISTED: Final = 256
 
+# enum MotionCapacity
+MAX_MOTION_SERIES: Final = 64
+
 # enum Count
 COUNT_steps: Final = 0
 COUNT_right_hand_sides: Final = 1

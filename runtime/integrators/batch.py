@@ -301,12 +301,31 @@ class Runs(StoredRuns):
         """
         assert self.kinematic
         self.kinematic.compute_runs(indices, storages, lanes)
-        x, status = self.arrays, self.arrays["status"][indices]
-        failed = [i for i in np.array(indices)[~np.isin(status, (0, NOT_CLOSED, STOPPED))].tolist()]
+        failed = self._repeat_failed_runs_in_python(indices)
+        self.store_finished_runs([i for i in indices if i not in failed])
+
+    def _repeat_failed_runs_in_python(self, indices: Sequence[int]) -> list[int]:
+        """Compute those of the runs that failed in C again in Python, store them, and return their indices."""
+        x, status = self.arrays, self.arrays["status"]
+        ended = [int(i) for i in np.array(indices, np.intp)[status[indices] != 0]]
+        failed = [i for i in ended if status[i] not in (NOT_CLOSED, STOPPED)]
         for i in failed:
             x["phase"][i], x["status"][i], x["done"][i], x["a"][x["sample_block"][i]] = NEW, 0, 0, np.nan
             self.integrate_run_in_python(i)
-        self.store_finished_runs([i for i in indices if i not in failed])
+        return failed
+
+    def complete_runs(self, indices: Sequence[int]) -> list[int]:
+        """Compute kinematic runs again with all states and works, unless C has stored them, before Python checks them.
+
+        Return the indices of the runs to check. Those that fail now are stored already; interrupted ones are dropped.
+        """
+        x, again = self.arrays, [i for i in indices if i not in self.python_lists]
+        if not again or not self.kinematic or self.kinematic.is_complete:
+            return list(indices)
+        x["phase"][again], x["status"][again], x["done"][again] = NEW, 0, 0
+        self.kinematic.compute_runs(again, self.kinematic.allocate_storages(), is_complete=True)
+        failed = self._repeat_failed_runs_in_python(again)
+        return [i for i in indices if x["phase"][i] == OVER and i not in failed]
 
     def integrate_run_to_end(self, i: int, storage: NDArray[np.uint8], step_log: StepLog | None = None) -> None:
         """Integrate run i in C, alone in this thread, from its present state to its end, and store its results.
@@ -322,8 +341,11 @@ class Runs(StoredRuns):
         Runs whose start C could not assemble are skipped. Their rows of samples may be reused after that.
         """
         x = self.arrays
-        finished = [i for i in runs if self.store_results and x["phase"][i] == OVER and x["status"][i] != NOT_CLOSED]
-        if self.store_results and finished:
+        if not self.store_results or not len(runs):
+            return
+        indices = np.array(runs, np.intp)
+        finished = indices[(x["phase"][indices] == OVER) & (x["status"][indices] != NOT_CLOSED)].tolist()
+        if finished:
             self.store_results(finished)
 
     def integrate_runs_sequentially(

@@ -18,6 +18,7 @@ from gudgeon.integrators.times import Times
 from gudgeon.integrators.trajectory import Problem
 from gudgeon.model.arrays import find_memory_address
 from gudgeon.model.compiled import Array, CompiledModel
+from gudgeon.model.evaluation import MotionSeries
 from gudgeon.model.sizes import compute_mechanism_sizes
 
 if TYPE_CHECKING:
@@ -28,7 +29,7 @@ C_TYPES = {"B": "unsigned char *", "i": "int *", "l": "long *", "d": "double *"}
 # arrays of the batch that C fills, by their names in the struct KinematicBatch
 FILLED = ("start", "started", "phase", "y", "a", "done", "status", "t_last", "seconds", "counts", "residuals")
 OWN = ("n_interpolated", "t_interpolated", "is_suspect")
-MAX_RUNS, MAX_SAMPLES = 64, 8192  # of one call of C, as long as the samples of the lanes are no more
+MAX_RUNS, MAX_SAMPLES = 64, 24_576  # of one call of C, as long as the samples of the lanes are no more
 SHORT = 2_000  # samples: a single run of no more is computed without polls for cancellation
 
 
@@ -56,6 +57,7 @@ class KinematicEnsemble:
         self.compiled, self._arrays, n = compiled, arrays, len(arrays["p"])
         arrays["is_suspect"] = np.ones(n, np.uint8)
         arrays["n_interpolated"], arrays["t_interpolated"] = np.zeros(n, np.int_), np.full(n, np.nan)
+        self._largest_a = np.empty(arrays["a"].shape[:2])
         self._inputs = {
             "t": np.ascontiguousarray(times.t),
             "n_requested": np.ascontiguousarray(times.count, np.int_),
@@ -65,13 +67,37 @@ class KinematicEnsemble:
         }
         self._struct = struct = compiled.ffi.new("KinematicBatch *")
         struct.samples, struct.time_stride, struct.numbers = times.max_count, times.stride, arrays["p"].shape[1]
-        struct.max_correction = REACH
+        struct.max_correction, struct.has_states, struct.has_works = REACH, True, True
+        struct.largest_a = compiled.pointer(self._largest_a, is_written=True)
         for name, array in self._inputs.items():
             setattr(struct, name, compiled.pointer(array, C_TYPES[array.dtype.char]))
         for name in (*FILLED, *OWN):
             array = arrays[name]
             setattr(struct, name, compiled.pointer(array, C_TYPES[array.dtype.char], is_written=True))
         struct.ending = compiled.pointer(arrays["ending"], "int *")
+        self._series: Any = ()  # what the struct points to: series and their arrays
+        self._complete_struct = struct
+
+    def set_series(
+        self, series: Sequence[MotionSeries], arrays: Sequence[Array], *, has_states: bool, has_works: bool
+    ) -> None:
+        """Let C store series of the motion in `arrays` (n, N). Call it after `set_sample_audit`, before runs begin.
+
+        Without `has_states`, C stores only the states at audited samples and at the last one. Without `has_works`, it
+        computes no works. `is_complete` in `compute_runs` selects both.
+        """
+        ffi, struct = self.compiled.ffi, self.compiled.ffi.new("KinematicBatch *", self._struct[0])
+        pointers = [self.compiled.pointer(array, is_written=True) for array in arrays]
+        c_series, values = ffi.new("MotionSeries[]", series), ffi.new("double *[]", pointers)
+        self._series = c_series, values, arrays
+        struct.n_series, struct.series, struct.values = len(series), c_series, values
+        struct.has_states, struct.has_works = has_states, has_works
+        self._struct = struct
+
+    @property
+    def is_complete(self) -> bool:
+        """Return whether C stores all states and computes works."""
+        return bool(self._struct.has_states and self._struct.has_works)
 
     def set_sample_audit(self, positions: Array, limits: Array) -> None:
         """Set the audit of samples: positions in a run, 0 to 1, of the checked ones, and the limits of C's checks.
@@ -86,21 +112,29 @@ class KinematicEnsemble:
         """Return the memory of C, a row for each of `count` runs under way."""
         return np.zeros((count, self.compiled.lib.gudgeon_kinematic_size()), dtype=np.uint8)
 
-    def compute_runs(self, indices: Sequence[int], storages: NDArray[np.uint8], lanes: Lanes | None = None) -> None:
+    def compute_runs(
+        self,
+        indices: Sequence[int],
+        storages: NDArray[np.uint8],
+        lanes: Lanes | None = None,
+        is_complete: bool = False,
+    ) -> None:
         """Compute the runs with these indices in the calling thread, without Python's global lock.
 
         In `lanes`, several runs are computed at once, each in a row of `storages`; otherwise the first row is used.
-        Runs that are over are skipped. No run begins once the batch is ending.
+        Runs that are over are skipped. No run begins once the batch is ending. `is_complete`: with all states and
+        works, and without the series of `set_series`.
         """
+        struct = self._complete_struct if is_complete else self._struct
         self.compiled.lib.switch_library_if_ready()
         numbers, ffi = np.array(indices, np.int_), self.compiled.ffi
         if lanes and len(numbers) > 1:
             rows = [find_memory_address(ffi, row) for row in storages]
-            lanes.compute_kinematic_runs(int(ffi.cast("uintptr_t", self._struct)), rows, numbers)
+            lanes.compute_kinematic_runs(int(ffi.cast("uintptr_t", struct)), rows, numbers)
             return
         storage = self.compiled.pointer(storages[0], "void *", True)
         numbers_pointer = self.compiled.pointer(numbers, "long *")
-        self.compiled.lib.gudgeon_kinematic_ensemble(self._struct, storage, len(numbers), numbers_pointer)
+        self.compiled.lib.gudgeon_kinematic_ensemble(struct, storage, len(numbers), numbers_pointer)
 
     def compute_short_run(self, problem: Problem) -> bool:
         """Compute the only run of the batch and return whether it is complete.

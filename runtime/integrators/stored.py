@@ -285,12 +285,12 @@ class StoredRuns:
         events, lost = split_undefined_events(self.compiled, np.concatenate(self.events[i]))
         if x["status"][i] not in (0, ENDED, STOPPED) or not x["done"][i]:
             return events, lost
-        t_last = self._get_reached_times(i)[-1] + compute_time_resolution(times)
+        t_last = self.get_reached_times(i)[-1] + compute_time_resolution(times)
         return events[events["t"] <= t_last], lost[lost["t"] <= t_last]
 
     def is_complete(self, i: int) -> bool:
         """Return whether run i has a sample at the last of its output times and was not interrupted."""
-        reached = self._get_reached_times(i)
+        reached = self.get_reached_times(i)
         return self.arrays["status"][i] != STOPPED and len(reached) > 0 and reached[-1] >= self.times.get_times(i)[-1]
 
     def get_counts(self, i: int) -> Counts:
@@ -307,7 +307,7 @@ class StoredRuns:
 
     def _get_samples(self, i: int, arrays: dict[str, NDArray[Any]]) -> Samples:
         """Return what `get_samples` does, as views of the samples in `arrays`."""
-        compiled, k, t = self.compiled, self.arrays["sample_block"].item(i), self._get_reached_times(i)
+        compiled, k, t = self.compiled, self.arrays["sample_block"].item(i), self.get_reached_times(i)
         N, joints = len(t), len(compiled.source.clearances)
         memory, state = arrays["latched"][k, :N, : compiled.n_memory], arrays["state"][k, :N, :joints]
         return t, arrays["y"][k, :N], memory, state
@@ -317,7 +317,7 @@ class StoredRuns:
         a: Array | None = self.arrays.get("a")
         return None if a is None else a[self.arrays["sample_block"][i], : self.arrays["done"][i]]
 
-    def _get_reached_times(self, i: int) -> Array:
+    def get_reached_times(self, i: int) -> Array:
         """Return the times (s) of the samples of run i that were reached; where it ended early, the last is its end."""
         done = self.arrays["done"].item(i)
         t = self.times.get_times(i)[:done].copy()

@@ -20,7 +20,15 @@ from gudgeon.errors import SingularError
 from gudgeon.language.argument_checks import check_number, check_time
 from gudgeon.model.arrays import FLAG, as_c_array, make_pointer
 from gudgeon.model.choices import fill_in_chosen_values, find_choices
-from gudgeon.model.evaluation import FIELD_NAMES, Evaluation, compute_sample_bytes, evaluate, find_field_shapes
+from gudgeon.model.evaluation import (
+    FIELD_NAMES,
+    Evaluation,
+    MotionSeries,
+    compute_sample_bytes,
+    evaluate,
+    evaluate_motion_series,
+    find_field_shapes,
+)
 
 if TYPE_CHECKING:
     from gudgeon.loading.library import Library
@@ -316,6 +324,12 @@ class CompiledModel:
         if status < 0:
             names = (*s.coordinates, *(row.name for row in s.rows), *s.frictions, *s.states)
             self.check_pivot(-status, t, names)
+
+    def evaluate_motion_series(
+        self, series: MotionSeries, sample_counts: Sequence[int], columns: Sequence[Array], p: Array
+    ) -> Array:
+        """Return a series (N,) of the motion at samples of runs that follow each other: evaluation.py."""
+        return evaluate_motion_series(self, series, sample_counts, columns, p)
 
     def evaluate(
         self,

@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, fields
 from time import perf_counter
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -50,6 +50,18 @@ class Evaluation:
     energy: Array  # (N, 2) kinetic, potential
     power: Array  # (N, 3) of drives, of force elements (but what they store), of joints with play (W)
     drift: Array  # (N, 2) largest |Φ| (m, rad) and |Φ̇| (m/s, rad/s) of the rows
+
+
+class MotionSeries(NamedTuple):
+    """Describe a coordinate of a body's centre of mass or of a point, or its time derivative, as C does."""
+
+    order: int  # 0: position, 1: velocity, 2: acceleration
+    axis: int  # 0: x, 1: y, 2: angle of a body
+    body: int  # index of the body's x in q; -1: ground
+    x: int = -1  # parameters with the point's components in the body's frame, times the signs; -1: 0
+    y: int = -1
+    sign_x: float = 1.0
+    sign_y: float = 1.0
 
 
 FIELD_NAMES = frozenset(field.name for field in fields(Evaluation))  # names of the fields of an Evaluation
@@ -139,6 +151,30 @@ def evaluate_runs(
     compiled.check_pivot(status, math.nan)
     _mark_indeterminate_forces(compiled, evaluation)
     return evaluation
+
+
+def evaluate_motion_series(
+    compiled: CompiledModel, series: MotionSeries, sample_counts: Sequence[int], columns: Sequence[Array], p: Array
+) -> Array:
+    """Return a series (N,) of the motion at samples of several runs that follow each other: sample_counts[i] of run i.
+
+    `columns`: position, velocity and acceleration of the series' body, (N, 3) each, as far as its order needs them;
+    none for the ground. p (n_runs, n_p), or (n_p,) for one run. Raises ArrayError.
+    """
+    N, null = sum(sample_counts), compiled.ffi.NULL
+    pointers = [compiled.pointer(as_c_array(values, "columns", (N, 3))) for values in columns]
+    pointers += [null] * (3 - len(pointers))
+    parameters, values = as_c_array(np.atleast_2d(p), "p", (len(sample_counts), compiled.n_p)), np.empty(N)
+    compiled.lib.gudgeon_motion_series(
+        compiled.ffi.new("MotionSeries *", series),
+        len(sample_counts),
+        compiled.ffi.new("long[]", sample_counts),
+        *pointers,
+        compiled.pointer(parameters),
+        compiled.n_p,
+        compiled.pointer(values, is_written=True),
+    )
+    return values
 
 
 def view_evaluation(compiled: CompiledModel, block: Array, n_samples: int) -> Evaluation:

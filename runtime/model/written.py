@@ -40,6 +40,7 @@ if TYPE_CHECKING:
 
 _REACH = tuple(10.0**k for k in range(-13, -8))  # s, or of the time: how far after a state a reason is searched
 MAX_SWITCHING_POINTS = 64  # largest number of switching points of a where that are examined
+DEFINED_EVERYWHERE = ("force", "torque", "rotational_spring_damper")  # force elements with finite values
 Values = Callable[[str], float]  # function that returns the value of a name
 _SHORT = (1e-8, 1e-10, 1e-12)  # distances over which a rise is measured, for a size of 1
 _STEEPER, _ROUNDING = 3.0, 1e-13  # smallest growth of the slope per shorter distance; largest rise that is rounding
@@ -91,6 +92,17 @@ def evaluate_at_times(source: KernelSource, p: Array, tree: Expr, t: Array) -> A
 def read_expression_trees(source: KernelSource, kinds: Iterable[str]) -> list[tuple[WrittenInfo, Expr]]:
     """Return the file's expressions of t and motion in some sections (drives, forces, events), with their trees."""
     return [(info, from_json(json.loads(info.tree))) for info in source.written if info.address.split(".")[0] in kinds]
+
+
+def may_powers_be_undefined(source: KernelSource) -> bool:
+    """Return whether a drive or force of a scene, and thus its power, may be undefined at some time or position.
+
+    That is so for an expression with other functions than those of every number, and for an element along a line
+    between two points, whose direction is undefined where both coincide.
+    """
+    trees = [tree for _, tree in read_expression_trees(source, ("drives", "forces"))]
+    has_line = any(part.section == "forces" and part.kind not in DEFINED_EVERYWHERE for part in source.parts)
+    return has_line or any(x.tree for x in source.slots) or not all(map(is_total_expression, trees))
 
 
 def explain_undefined_value_after(

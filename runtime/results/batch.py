@@ -181,9 +181,11 @@ class Batch:
     @overload
     def __getitem__(self, key: int) -> Result: ...
     def __getitem__(self, key: int | str) -> Result | Array:
-        """Return a series of all runs, (n, N), for a name, or the full Result of a run for its number."""
+        """Return a series of all runs, (n, N), read-only, for a name, or the full Result of a run for its number."""
         if isinstance(key, str):
-            return collect_series(self, [key])[key]
+            values = collect_series(self, [key])[key][:]
+            values.flags.writeable = False
+            return values
         if not is_integer(key):
             raise_bad_value("a run of a batch", key, "its number, or the name of a series")
         if not -len(self) <= key < len(self):
@@ -386,13 +388,13 @@ def collect_given_columns(batch: Batch) -> dict[str, Array]:
 def collect_series(batch: Batch, names: Sequence[str]) -> dict[str, Array]:
     """Return the named series of all runs, (n, N) each, by name; NaN where a run has no sample.
 
-    Stored columns are copied, other series are evaluated in threads. Raises UnknownNameError, GudgeonError for a series
-    that was not stored, SingularError.
+    Series that the batch stores are its own arrays, columns of states are copied, and other series are evaluated in
+    threads. Raises UnknownNameError, GudgeonError for a series that was not stored, SingularError.
     """
     names = check_series_names(batch.source, names)
     check_series_stored(batch, names)
     values_by_series = {
-        name: stored_values for name in names if (stored_values := _copy_stored_series(batch, name)) is not None
+        name: stored_values for name in names if (stored_values := _find_stored_series(batch, name)) is not None
     }
     evaluated_names = [name for name in names if name not in values_by_series]
     values_by_series |= {name: np.full((len(batch), batch.t.shape[-1]), np.nan) for name in evaluated_names}
@@ -402,13 +404,13 @@ def collect_series(batch: Batch, names: Sequence[str]) -> dict[str, Array]:
     return {name: values_by_series[name] for name in names}
 
 
-def _copy_stored_series(batch: Batch, name: str) -> Array | None:
-    """Return a copy of a series that is a column of the stored arrays, (n, N); None if it must be evaluated.
+def _find_stored_series(batch: Batch, name: str) -> Array | None:
+    """Return a stored series (n, N), or a copy of a column of stored states; None if it must be evaluated.
 
     Contact states are NaN after the last sample of a run.
     """
     if name in batch.kept:
-        return batch.kept[name].copy()
+        return batch.kept[name]
     array_and_column = None if name == "t" else get_catalogue(batch.source)[name].stored
     if array_and_column is None or array_and_column[0] not in ("q", "v", "work", "state"):
         return None

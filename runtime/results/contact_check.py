@@ -20,7 +20,6 @@ from gudgeon.contract.clearance_info import ClearanceInfo
 from gudgeon.errors import SolverError
 from gudgeon.model.compiled import Array
 from gudgeon.model.contours import compute_corner_approach, find_contour, interpolate_depth
-from gudgeon.results.series import compute_point_motion
 
 if TYPE_CHECKING:
     from gudgeon.results.results import Result
@@ -246,7 +245,6 @@ def _get_body_angle(run: Result, body: int) -> Array:
 
 def _compute_point_positions(run: Result, name: str) -> Array:
     """Return the positions of a point at all samples in ground axes, (N, 2), in m; the origin for an unknown name."""
-    point = next((candidate for candidate in run.source.points if candidate.name == name), None)
-    if point is None:
+    if f"{name}.x" not in run:
         return np.zeros((len(run.t), 2))
-    return np.stack([compute_point_motion(run, point, axis, 0) for axis in (0, 1)], axis=1)
+    return np.stack([run[f"{name}.x"], run[f"{name}.y"]], axis=1)

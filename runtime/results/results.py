@@ -379,6 +379,11 @@ class Result(NotebookDisplay):
         except KeyError:
             raise self.make_unknown_name_error(name) from None
 
+    @property
+    def sample_counts(self) -> tuple[int, ...]:
+        """Number of samples of each run whose samples follow each other: of one run."""
+        return (len(self.t),)
+
     def make_unknown_name_error(self, name: str) -> UnknownNameError:
         """Return, without raising it, the error for a name that this result does not have, with the nearest name."""
         from gudgeon.results.series import list_parameter_names, make_unknown_series_error
@@ -395,9 +400,18 @@ def read(path: str | os.PathLike[str]) -> Result:
 
 @dataclass(eq=False)
 class EvaluatedSamples(Result):
-    """A Result whose series are computed from `parts` of an Evaluation only; it has no diagnostics."""
+    """A Result whose series are computed from `parts` of an Evaluation only; it has no diagnostics.
+
+    Samples of several runs may follow each other: `joined_counts` of them, with parameter values p (n_runs, n_p).
+    """
 
     parts: frozenset[str] = FIELD_NAMES
+    joined_counts: tuple[int, ...] = ()
+
+    @property
+    def sample_counts(self) -> tuple[int, ...]:
+        """Number of samples of each run whose samples follow each other."""
+        return self.joined_counts or super().sample_counts
 
     @cached_property
     def evaluation(self) -> Evaluation:

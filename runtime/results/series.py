@@ -27,12 +27,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gudgeon.contract.clearance_info import ClearanceInfo
-from gudgeon.contract.kernel_source import JointInfo, KernelSource, PointInfo
-from gudgeon.errors import BadValueError, UnknownNameError
+from gudgeon.contract.kernel_source import JointInfo, KernelSource
+from gudgeon.errors import BadValueError, GudgeonError, UnknownNameError
 from gudgeon.language import tree as expression_tree
 from gudgeon.language.argument_checks import check_integer, check_text, raise_bad_value, shorten_value
 from gudgeon.language.names import find_near_names
 from gudgeon.language.output_units import derive_unit
+from gudgeon.model.evaluation import MotionSeries
 from gudgeon.results.state import Array
 
 if TYPE_CHECKING:
@@ -86,7 +87,8 @@ class Series:
     parts: frozenset[str] = frozenset()  # of an Evaluation, all that it needs
     stored: tuple[str, int] | None = None  # the array of a run, and its column, that it is
     evaluated: tuple[str, tuple[int, ...]] | None = None  # the part of an Evaluation, and its column
-    is_by_sample: bool = False  # computed sample by sample, so that parameters may be columns of values (N,)
+    is_by_sample: bool = False  # computed sample by sample, so that samples of several runs may follow each other
+    motion: MotionSeries | None = None  # what it is of the motion
 
 
 _catalogues: dict[int, tuple[Any, Mapping[str, Series]]] = {}  # by the id of a source; a callback would lose a Ctrl-C
@@ -158,7 +160,9 @@ _AXES = ("x", "y", "angle")
 def _make_stored_series(unit: str, meaning: str, array: str, column: int) -> Series:
     """Return the series that is a column of a stored or, for accelerations, evaluated array, such as q or a."""
     parts = frozenset({"a"} if array == "a" else ())
-    return Series(unit, meaning, partial(_get_stored_column, array=array, column=column), parts, (array, column))
+    compute, is_motion = partial(_get_stored_column, array=array, column=column), array in ("q", "v", "a")
+    motion = MotionSeries("qva".index(array), column % 3, column - column % 3) if is_motion else None
+    return Series(unit, meaning, compute, parts, (array, column), motion=motion)
 
 
 def _make_evaluated_series(unit: str, meaning: str, part: str, *index: int) -> Series:
@@ -179,29 +183,25 @@ def _iterate_point_series(source: KernelSource) -> Iterator[tuple[str, Series]]:
         for order in range(3 if point.body >= 0 else 1):  # a point of the ground rests
             for axis in range(2):
                 meaning = f"point {point.name}, {MOTION_WORDS[order]}{_AXES[axis]} in ground axes"
-                compute = partial(compute_point_motion, point=point, axis=axis, order=order)
-                parts = frozenset({"a"} if order == 2 else ())
+                body = source.bodies[point.body].index if point.body >= 0 else -1
+                motion = MotionSeries(order, axis, body, point.x, point.y, point.sign_x, point.sign_y)
+                compute, parts = partial(_compute_point_motion, motion=motion), frozenset({"a"} if order == 2 else ())
                 name, unit = f"{point.name}.{MOTION[axis][order]}", MOTION_UNITS[axis][order]
-                yield name, Series(unit, meaning, compute, parts, is_by_sample=True)
+                yield name, Series(unit, meaning, compute, parts, is_by_sample=True, motion=motion)
 
 
-def compute_point_motion(run: Result, point: PointInfo, axis: int, order: int) -> Array:
-    """Return a coordinate of a point, or its first or second time derivative (order 0, 1, 2), (N,), SI. r_P = r + A(θ)
-    s with s = (x, y) in the body's frame; axis 0 is x, 1 is y in ground axes. A point of the ground is constant.
+def _compute_point_motion(run: Result, motion: MotionSeries) -> Array:
+    """Return a coordinate of a point, or its first or second time derivative, (N,), SI. C computes it.
+
+    Raises GudgeonError for a result that was read from a file.
     """
-    x = point.sign_x * run.p[point.x] if point.x >= 0 else 0.0
-    y = point.sign_y * run.p[point.y] if point.y >= 0 else 0.0
-    if point.body < 0:
-        return np.full(run.t.shape, (x, y)[axis])
-    index = run.source.bodies[point.body].index
-    sin, cos = np.sin(run.q[:, index + 2]), np.cos(run.q[:, index + 2])
-    lever = (cos * x - sin * y, sin * x + cos * y)
-    arm_derivative = (-lever[1], lever[0])[axis]  # d arm / dθ
-    if order == 0:
-        return run.q[:, index + axis] + lever[axis]
-    if order == 1:
-        return run.v[:, index + axis] + run.v[:, index + 2] * arm_derivative
-    return run.a[:, index + axis] + run.a[:, index + 2] * arm_derivative - run.v[:, index + 2] ** 2 * lever[axis]
+    if not len(run.t):
+        return np.zeros(0)
+    if run.compiled is None:
+        raise GudgeonError("this result was read from a file that lacks the series; run the scene again")
+    states = [getattr(run, array) for array in "qva"[: motion.order + 1]] if motion.body >= 0 else []
+    columns = [array[:, motion.body : motion.body + 3] for array in states]
+    return run.compiled.evaluate_motion_series(motion, run.sample_counts, columns, run.p)
 
 
 def _iterate_joint_series(source: KernelSource) -> Iterator[tuple[str, Series]]:

@@ -202,7 +202,7 @@ def find_runs_off_start(source: KernelSource, p: Array, start: Array, size: Arra
     Whole turns count as differences here. Shapes: parameter values p (n, …), mechanism sizes (n,) in m.
     """
     off = np.zeros(len(p))
-    for k, given in _list_given_coordinates(source):
+    for k, given in list_given_coordinates(source):
         off = np.maximum(off, np.abs(start[:, k] - p[:, given]) * (size if k % 3 == 2 else 1.0))
     return np.asarray(off > START * size)
 
@@ -246,7 +246,7 @@ def _compute_distance_from_given_start(source: KernelSource, p: Array, q: Array,
     Angles are multiplied by `size` (m).
     """
     off = 0.0
-    for k, given in _list_given_coordinates(source):
+    for k, given in list_given_coordinates(source):
         miss = abs(float(q[k] - p[given]))
         turns = round(miss / math.tau) * math.tau if k % 3 == 2 else 0.0
         off = max(off, abs(miss - turns) * (size if k % 3 == 2 else 1.0))
@@ -254,7 +254,7 @@ def _compute_distance_from_given_start(source: KernelSource, p: Array, q: Array,
 
 
 @cache_by_values
-def _list_given_coordinates(source: KernelSource) -> tuple[tuple[int, int], ...]:
+def list_given_coordinates(source: KernelSource) -> tuple[tuple[int, int], ...]:
     """Return the indices of the coordinates that the file's `start.set` gives, each with that of its parameter."""
     indices = ((k, source.slot_index.get(f"start.set.{name}")) for k, name in enumerate(source.coordinates))
     return tuple((k, i) for k, i in indices if i is not None and source.coordinates[k] in source.start_set)

@@ -300,8 +300,10 @@ class _Results:
     def integrate_runs(self, progress: Progress | None) -> None:
         """Integrate all runs. Finished runs are processed at once where series are stored or Python must check them.
 
-        `progress` None: nothing is reported.
+        C stores series of the motion of kinematic runs. `progress` None: nothing is reported.
         """
+        if self.stored_series and self.runs.kinematic and not (self.runs.observers or self._suspects.checks_all):
+            self.stored_series.compute_in_c(self.runs.kinematic)
         self.runs.store_results = (
             self._process_finished_runs
             if self.stored_series or self.runs.python_loop or list_redundant_equations(self.runs.compiled)
@@ -318,11 +320,11 @@ class _Results:
         runs = self.runs
         if runs.python_loop:
             suspects = self._suspects.select_runs(finished_runs)
-            for i in suspects:
+            for i in runs.complete_runs(suspects):
                 result = self._build_checked_result(i)
                 if self.stored_series:
                     self.stored_series.store_run(runs, i, result)
-            finished_runs = [i for i in finished_runs if i not in suspects]
+            finished_runs = [i for i in finished_runs if i not in suspects] if suspects else finished_runs
         else:
             self._check_redundant_constraints(finished_runs)
         if self.stored_series:
@@ -419,8 +421,12 @@ def _build_batch(results: _Results, times: Times) -> Batch:
     """
     runs, source, stored_series = results.runs, results.simulation.source, results.stored_series
     x, n, joints = runs.arrays, results.simulation.compiled.n, len(source.clearances)
+    if stored_series:
+        stored_series.complete(runs)
     without_samples = np.flatnonzero((x["done"] == 1) & (times.n_skipped == 1))  # the start is all that they have
-    for rows in stored_series.arrays.values() if stored_series else (x["y"], x["state"]):
+    for rows in (
+        (stored_series.arrays.values() if stored_series else (x["y"], x["state"])) if len(without_samples) else ()
+    ):
         rows[without_samples, 1:2] = rows[without_samples, :1]
     states = None
     if stored_series:

@@ -3,22 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from gudgeon.contract.boundary import MAX_MOTION_SERIES
 from gudgeon.errors import SolverError
 from gudgeon.integrators.times import Times
 from gudgeon.model.evaluation import evaluate_runs
 from gudgeon.model.left_limit import find_evaluation_times
-from gudgeon.results.batch import STATES, check_series_names, find_evaluation_parts
+from gudgeon.model.written import may_powers_be_undefined
+from gudgeon.results.batch import STATES, check_series_names, depends_on_works, find_evaluation_parts
 from gudgeon.results.results import EvaluatedSamples, Result, make_evaluated_samples
 from gudgeon.results.series import get_catalogue
 
 if TYPE_CHECKING:
     from gudgeon.contract.kernel_source import KernelSource
     from gudgeon.integrators.batch import Runs
-    from gudgeon.model.compiled import Array
+    from gudgeon.integrators.kinematic_ensemble import KinematicEnsemble
 
 MAX_JOINED_SAMPLES = 2048  # of runs whose series are computed at once: more would need memory without being faster
 
@@ -34,51 +36,94 @@ def select_stored_series(source: KernelSource, keep: str | Iterable[str]) -> tup
 
 
 class StoredSeries:
-    """Store requested series as arrays (n, N) by name, and "t"; NaN where a run has no sample."""
+    """Store requested series as arrays (n, N) by name, and "t" when all runs are over.
+
+    Some are stored from the samples of finished runs. C stores the others during the runs (`compute_in_c`).
+    """
 
     def __init__(self, source: KernelSource, names: tuple[str, ...], n: int, times: Times) -> None:
-        self.names, self.parts = ("t", *names), find_evaluation_parts(source, names)
-        self.arrays = {name: np.full((n, times.max_count), np.nan) for name in self.names}
+        self.names, self.parts = names, find_evaluation_parts(source, names)
+        # one block, whose memory the system provides in larger pages than that of many arrays
+        self.arrays = dict(zip(names, np.empty((len(names), n, times.max_count)), strict=True))
+        self._source, self._names_in_python = source, names
         series = [get_catalogue(source)[name] for name in names]
         self.may_join_runs = all(one.stored or one.evaluated or one.is_by_sample for one in series)
+
+    def compute_in_c(self, kinematic: KinematicEnsemble) -> None:
+        """Let C store series of the motion during the runs, without what no series needs: states, works."""
+        motions = {name: get_catalogue(self._source)[name].motion for name in self._names_in_python}
+        in_c = dict([(name, motion) for name, motion in motions.items() if motion][:MAX_MOTION_SERIES])
+        self._names_in_python = tuple(name for name in self._names_in_python if name not in in_c)
+        self.parts = find_evaluation_parts(self._source, self._names_in_python)
+        needs_works = any(depends_on_works(self._source, name) for name in self._names_in_python)
+        kinematic.set_series(
+            list(in_c.values()),
+            [self.arrays[name] for name in in_c],
+            has_states=bool(self._names_in_python),
+            has_works=needs_works or may_powers_be_undefined(self._source),
+        )
+
+    def complete(self, runs: Runs) -> None:
+        """Store "t", the times of all samples, and set all series to NaN where a run has no sample.
+
+        Called once, when all runs are over. "t" is read-only if all runs have the same times.
+        """
+        times, n_samples = runs.times, runs.arrays["done"]
+        if times.t.ndim == 1 and (n_samples == times.max_count).all() and not runs.arrays["status"].any():
+            self.arrays["t"] = np.broadcast_to(times.t, (runs.n, times.max_count))
+            return
+        self.arrays["t"] = np.full((runs.n, times.max_count), np.nan)
+        for i in range(runs.n):
+            self.arrays["t"][i, : n_samples[i]] = runs.get_reached_times(i)
+        for i in np.flatnonzero(n_samples < times.max_count).tolist():
+            for name in self.names:
+                self.arrays[name][i, n_samples[i] :] = np.nan
 
     def store_finished_runs(self, runs: Runs, finished_runs: Sequence[int]) -> None:
         """Store the series of finished runs, given by index, several at once where their equations allow it.
 
         Runs without samples are skipped. A run whose series cannot be computed is recorded as failed.
         """
-        with_samples = [i for i in finished_runs if runs.arrays["done"][i]]
+        indices = np.array(finished_runs, np.intp)
+        with_samples = indices[runs.arrays["done"][indices] > 0].tolist()
         n_joined = max(1, MAX_JOINED_SAMPLES // runs.times.max_count) if self.may_join_runs else 1
-        for k in range(0, len(with_samples), n_joined):
+        for k in range(0, len(with_samples) if self._names_in_python else 0, n_joined):
             self._store_joined_runs(runs, with_samples[k : k + n_joined])
 
     def _store_joined_runs(self, runs: Runs, indices: Sequence[int]) -> None:
         """Store the series of runs with samples, at once if there are several and none of them fails."""
         if len(indices) > 1:
             try:
-                self._copy_samples(indices, *_concatenate_samples(runs, indices, self.parts))
+                joined = _concatenate_samples(runs, indices, self.parts)
+                self._copy_samples(self._names_in_python, indices, joined.sample_counts, joined)
                 return
             except SolverError:  # of one of them: alone it says which
                 pass
         for i in indices:
             if run := build_samples(runs, i, self.parts):
-                self.store_run(runs, i, run)
+                self._store_run(self._names_in_python, runs, i, run)
 
     def store_run(self, runs: Runs, i: int, run: Result) -> None:
-        """Store the series of run i from its Result. An error of their evaluation is recorded as the run's failure."""
+        """Store all series of run i from its Result. An error of their evaluation is recorded as the run's failure."""
+        self._store_run(self.names, runs, i, run)
+
+    def _store_run(self, names: Sequence[str], runs: Runs, i: int, run: Result) -> None:
+        """Store series of run i from its Result; an error is recorded as the run's failure, and the series are NaN."""
         try:
-            self._copy_samples([i], [len(run.t)], run, int(run.start_row is not None))
+            self._copy_samples(names, [i], [len(run.t)], run, int(run.start_row is not None))
         except SolverError as error:
             runs.failures.setdefault(i, error)
+            for name in self.names:
+                self.arrays[name][i] = np.nan
 
     def _copy_samples(
-        self, indices: Sequence[int], counts: Sequence[int], result: Result, first_column: int = 0
+        self, names: Sequence[str], indices: Sequence[int], counts: Sequence[int], result: Result, first_column: int = 0
     ) -> None:
-        """Copy samples of several runs, concatenated in `result`, into the rows of the stored arrays.
+        """Copy series at samples of several runs, concatenated in `result`, into the rows of the stored arrays.
 
         counts[k] samples belong to run indices[k]. `first_column`: first column that is filled.
         """
-        columns, first = [(self.arrays[name], result[name]) for name in self.names], 0
+        columns, first = [(self.arrays[name], result[name]) for name in names], 0
         for i, count in zip(indices, counts, strict=True):
             for kept, column in columns:
                 kept[i, first_column : first_column + count] = column[first : first + count]
@@ -101,21 +146,8 @@ def build_samples(runs: Runs, i: int, parts: frozenset[str]) -> EvaluatedSamples
     return result
 
 
-class _ParameterColumns:
-    """Hold the parameter values (n, n_p) of several runs; each parameter is a column (N,) with a value per sample."""
-
-    def __init__(self, values: Array, counts: Sequence[int]) -> None:
-        self._values, self._counts = values, counts
-
-    def __getitem__(self, k: int) -> Array:
-        """Return the values of parameter k, repeated for the samples of each run."""
-        return np.repeat(self._values[:, k], self._counts)
-
-
-def _concatenate_samples(
-    runs: Runs, indices: Sequence[int], parts: frozenset[str]
-) -> tuple[list[int], EvaluatedSamples]:
-    """Return the sample counts of the runs `indices`, and all their samples concatenated in one result.
+def _concatenate_samples(runs: Runs, indices: Sequence[int], parts: frozenset[str]) -> EvaluatedSamples:
+    """Return all samples of the runs `indices` concatenated in one result.
 
     If `parts` is not empty, these quantities are evaluated with each run's parameter values. Accelerations are those of
     the method, if it stores them.
@@ -125,10 +157,10 @@ def _concatenate_samples(
     t, y, discrete_states, state = (np.concatenate(arrays) for arrays in zip(*samples_of_runs, strict=True))
     q, v = y[:, :n], y[:, n : 2 * n]
     numbers = runs.arrays["p"][indices]
-    parameters = cast("Array", _ParameterColumns(numbers, counts))
     result = make_evaluated_samples(
-        compiled.source, compiled, parameters, t, q, v, y[:, 2 * n :], discrete_states, state, parts
+        compiled.source, compiled, numbers, t, q, v, y[:, 2 * n :], discrete_states, state, parts
     )
+    result.joined_counts = tuple(counts)
     accelerations = [a for i in indices if (a := runs.get_accelerations(i)) is not None]
     if accelerations:
         result.accelerations, parts = np.concatenate(accelerations), parts - {"a"}
@@ -139,4 +171,4 @@ def _concatenate_samples(
                 [find_evaluation_times(compiled, t, y[:, :n], y[:, n : 2 * n], p) for (t, y, *_), p in last]
             )
         result.evaluation = evaluate_runs(compiled, counts, t, q, v, discrete_states, numbers, parts)
-    return counts, result
+    return result

@@ -15,19 +15,25 @@ from gudgeon.integrators.batch import Runs
 from gudgeon.model.left_limit import find_evaluation_times
 from gudgeon.model.seams import list_periodic_drives
 from gudgeon.model.sizes import compute_mechanism_sizes
-from gudgeon.simulation.audit import LIMITS, SHORT_RUN_POSITIONS, find_runs_off_start, list_checks_left_out
+from gudgeon.simulation.audit import (
+    LIMITS,
+    SHORT_RUN_POSITIONS,
+    find_runs_off_start,
+    list_checks_left_out,
+    list_given_coordinates,
+)
 
 
 class SuspectRuns:
     """Select the runs to be checked in Python; without a kinematic ensemble these are all runs.
 
-    `is_resumed`: the runs begin at given states, whose violations Python notes.
+    `is_resumed`: the runs begin at given states, whose violations Python notes. `checks_all`: all runs are selected.
     """
 
     def __init__(self, runs: Runs, is_resumed: bool) -> None:
         self._runs = runs
         compiled, source = runs.compiled, runs.compiled.source
-        self._checks_all = (
+        self.checks_all = (
             runs.kinematic is None
             or runs.audit > 1
             or is_resumed
@@ -40,12 +46,12 @@ class SuspectRuns:
 
     def select_runs(self, finished_runs: Sequence[int]) -> list[int]:
         """Return the indices of those of the finished runs that Python must check."""
-        if self._checks_all:
+        if self.checks_all:
             return list(finished_runs)
         x, indices, compiled = self._runs.arrays, np.array(finished_runs, np.intp), self._runs.compiled
-        p = x["p"][indices]
         is_suspect = x["is_suspect"][indices] > 0
-        if self._runs.audit:
+        if self._runs.audit and list_given_coordinates(compiled.source):
+            p = x["p"][indices]
             size = compute_mechanism_sizes(compiled.source, p)
             is_suspect |= find_runs_off_start(compiled.source, p, x["start"][indices], size)
         if compiled.may_drive_acceleration_jump:

@@ -36,6 +36,7 @@ start: {guess: {b.theta: 20 deg, c.theta: 80 deg}}
 outputs: {between: c.theta - b.theta}
 """
 STATES = ("q", "v", "work")
+MOTION = ("c.theta", "b.x", "c.omega", "c.alpha", "b.head.x", "b.head.vy", "b.head.ax", "c.head.ay", "ground.P.x")
 SERIES = ("c.theta", "c.alpha", "B.F", "turn.torque", "work.drives", "energy.residual", "between", "Phi.max")
 
 
@@ -101,6 +102,80 @@ def test_stored_series_are_those_of_runs(linkage: Simulation) -> None:
             assert run is not None
             assert kept[name][i, :n].tobytes() == run[name].tobytes(), name
         assert np.isnan(kept["c.theta"][i, n:]).all()
+
+
+@pytest.mark.parametrize("n", [12, 40])
+def test_series_of_motion_are_those_of_runs(linkage: Simulation, n: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    """C stores them, without works and states; few runs are computed alone, and others in lanes."""
+    monkeypatch.setattr(lanes, "MIN_REMAINING_S", 0.0)
+    parameters = draw_lengths(n, 0.5)
+    for samples, threads in ((3, 1), (30, 2)):
+        kept = linkage.simulate_many(parameters, 1.0, output=samples, keep=MOTION, threads=threads)
+        whole = linkage.simulate_many(parameters, 1.0, output=samples)
+        assert kept.failures == whole.failures and kept.failures
+        assert kept.result.notes() == whole.result.notes()
+        for name, values in kept.diagnostics.items():
+            assert name == "seconds" or values.tobytes() == whole.diagnostics[name].tobytes(), name
+        for name in ("t", *MOTION):
+            for i in range(n):
+                run = whole.partial(i)
+                assert run is not None or np.isnan(kept[name][i]).all()
+                found = kept[name][i, : int(kept.samples[i])]
+                assert run is None or found.tobytes() == run[name].tobytes(), (name, i)
+                assert np.isnan(kept[name][i, int(kept.samples[i]) :]).all()
+
+
+def test_runs_that_python_checks_have_their_works(linkage: Simulation, monkeypatch: pytest.MonkeyPatch) -> None:
+    """C computes a run with a finding of the audit again, with states and works, before Python evaluates it."""
+    from gudgeon.simulation import audit, suspect_runs
+
+    tight = {check: 2e-17 for check in audit.LIMITS}
+    for module in (audit, suspect_runs):
+        monkeypatch.setattr(module, "LIMITS", tight)
+    parameters = draw_lengths(24, 0.05)
+    kept = linkage.simulate_many(parameters, 1.0, output=30, keep=["c.theta", "b.head.ay"])
+    whole = linkage.simulate_many(parameters, 1.0, output=30)
+    assert len(kept.failures) > 5
+    assert kept.failures == whole.failures
+    assert kept["b.head.ay"].tobytes() == whole["b.head.ay"].tobytes()
+
+
+def test_a_power_that_is_undefined_between_samples_fails(tmp_path: Path) -> None:
+    """Series of the motion do not need the power of a force, but the run fails as it does alone."""
+    push = "forces: {push: {force: b.head, value: [1 N * sqrt(0.5 + t/(1 s) - where(t < 0.52 s, 0, 9)), 0]}}\n"
+    linkage = loader(tmp_path)(LINKAGE.replace("outputs:", push + "outputs:"))
+    batch = linkage.simulate_many({"w": [3.0, 4.0]}, 1.0, output=2, keep=["c.theta"])
+    with pytest.raises(SolverError) as caught:
+        linkage.simulate(1.0, output=2, parameters={"w": 3.0})
+    assert [failure.run for failure in batch.failures] == [0, 1]
+    assert str(batch.failures[0].error) == str(caught.value)
+
+
+@pytest.mark.parametrize("first", ["20 deg", "20 deg + 2e5 rad"])
+def test_points_follow_their_bodies(tmp_path: Path, first: str) -> None:
+    """r = r_C + A(theta) s and its time derivatives, by NumPy; sines of large angles are those of the C library."""
+    linkage = loader(tmp_path)(LINKAGE.replace("20 deg + w", f"{first} + w"))
+    run = linkage.simulate(1.0, output=40)
+    theta, omega, alpha = (run[f"a.{name}"] for name in ("theta", "omega", "alpha"))
+    arm = 0.5 * 0.15 * np.exp(1j * theta)
+    for axis, part in (("x", np.real), ("y", np.imag)):
+        velocity, acceleration = 1j * omega * arm, (1j * alpha - omega**2) * arm
+        for name, points in ((axis, arm), (f"v{axis}", velocity), (f"a{axis}", acceleration)):
+            found, expected = run[f"a.head.{name}"], run[f"a.{name}"] + part(points)
+            np.testing.assert_allclose(found, expected, rtol=0.0, atol=1e-14 * np.abs(points).max())
+    assert (run["ground.P.x"] == 0.45).all()
+
+
+def test_more_series_than_c_stores(linkage: Simulation, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Series beyond the capacity of C are stored from states."""
+    from gudgeon.simulation import stored_series
+
+    parameters = draw_lengths(20, 0.05)
+    all_in_c = linkage.simulate_many(parameters, 1.0, output=10, keep=MOTION)
+    monkeypatch.setattr(stored_series, "MAX_MOTION_SERIES", 4)
+    some_in_c = linkage.simulate_many(parameters, 1.0, output=10, keep=MOTION)
+    for name in MOTION:
+        assert all_in_c[name].tobytes() == some_in_c[name].tobytes()
 
 
 def test_threads_and_order_change_nothing(linkage: Simulation) -> None:

@@ -106,25 +106,20 @@ def evaluate_loads(source: KernelSource, p: Array, q: Array, v: Array) -> dict[s
 
     A force has its components in ground axes (N), a torque its value and 0 (N·m). Used for scenes that have no run.
     """
-    from gudgeon.results.results import make_evaluated_samples
+    from gudgeon.language.tree import evaluate, from_json
+    from gudgeon.model.written import make_value_function
 
-    no_works = np.zeros((1, 0))
-    contact_states = np.zeros((1, len(source.clearances)), np.int8)
-    sample = make_evaluated_samples(
-        source, None, p, np.zeros(1), q[None], v[None], no_works, no_works, contact_states, frozenset()
-    )
     expressions = {entry.address: entry.tree for entry in source.written}
     parameters = {parameter.address: float(x) for parameter, x in zip(source.slots, p, strict=False)}
+    get_value = make_value_function(source, p, 0.0, q, v)
 
     def evaluate_address(address: str) -> float:
         """Return the value of an address of the file at the state, from its expression or its parameter; 0 if it has
         neither.
         """
-        from gudgeon.language.tree import evaluate, from_json
-
         if address not in expressions:
             return parameters.get(address, 0.0)
-        return float(np.ravel(evaluate(from_json(json.loads(expressions[address])), sample.value_of))[0])
+        return float(evaluate(from_json(json.loads(expressions[address])), get_value))
 
     loads = {}
     for part in source.parts:
@@ -133,9 +128,7 @@ def evaluate_loads(source: KernelSource, p: Array, q: Array, v: Array) -> dict[s
         elif part.kind == "force":
             x, y = (evaluate_address(f"forces.{part.name}.value.{axis}") for axis in "xy")
             axes_body = part.options["axes"] == "body" and part.ends[0].partition(".")[0]
-            angle = (
-                float(sample[f"{axes_body}.theta"][0]) if axes_body in {body.name for body in source.bodies} else 0.0
-            )
+            angle = get_value(f"{axes_body}.theta") if axes_body in {body.name for body in source.bodies} else 0.0
             c, s = np.cos(angle), np.sin(angle)
             loads[part.name] = float(c * x - s * y), float(s * x + c * y)
     return loads

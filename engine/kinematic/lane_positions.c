@@ -1,0 +1,189 @@
+/*
+ * Positions of kinematic runs in SIMD lanes: Newton's method, checks of a step, and works. Lane by lane the operations
+ * are those of a single run (tree.c, kinematic.c, works.c) in the same order. A step that is not regular is made again
+ * by its run alone: where Newton's method fails, a change point is near, or a velocity jumps.
+ */
+#include "kinematic.h"
+#include "../scalar_simd/extrapolation.h"
+
+/* Position of several runs; no lane is interpolated. */
+typedef struct {
+    Lanes t, q[N_Q], v[N_Q], a[N_Q], phi, phi_dot, last_correction, s[N_X + 1], s_rate[N_X + 1], s_second[N_X + 1];
+    Lanes interval, s_higher[N_X + 1][N_HIGHER];
+} LanePosition;
+
+/* Return the larger number of each lane; NaN if `value` is NaN. */
+static inline Lanes get_larger_or_nan(Lanes largest, Lanes value)
+{
+    return select_value((value > largest) | (value != value), value, largest);
+}
+
+/* Return the maximum norm of a change or rate of q (N_Q) as an angle, as compute_angle_norm() of a single run. */
+static Lanes compute_angle_norm(const Lanes *change, Lanes extent)
+{
+    Lanes largest = broadcast(0.0);
+    for (int k = 0; k < N_Q; k++)
+        largest = get_larger_or_nan(largest, k % 3 == 2 ? lanes_fabs(change[k]) : lanes_fabs(change[k]) / extent);
+    return largest;
+}
+
+/* Return the size of a change of tree coordinate k, rad or fraction of the mechanism's size. */
+static inline Lanes compute_coordinate_size(Lanes change, int k, Lanes extent)
+{
+    return is_angle[k] ? lanes_fabs(change) : lanes_fabs(change) / extent;
+}
+
+/* Return the time at which the drives are evaluated: just after t if their rates may jump. */
+static inline Lanes get_lane_time_after_jump(Lanes t)
+{
+    return RATE_JUMPS ? t + lanes_max_of(32.0 * DBL_EPSILON * lanes_fabs(t), broadcast(1e-100)) : t;
+}
+
+/*
+ * Compute Newton's step of the closures at times t (s), largest |Phi| and rates, and the motion of all bodies. Inlined,
+ * both functions share sines and factors. Lanes in which a pivot vanishes are added to the mask `rare`.
+ */
+__attribute__((flatten)) static void evaluate_position(const LaneParameters *p, Lanes t, LanePosition *position,
+    Lanes *step, LaneBits *rare)
+{
+    close_step(t, position->s, p, step, position->s_rate, &position->phi, rare);
+    compute_body_motion(t, position->s, position->s_rate, p, position->s_second, position->q, position->v, position->a,
+        &position->phi_dot, rare);
+}
+
+/*
+ * Solve the closures at times t by Newton's method from the guess in `position`, and compute the motion there. Return
+ * the lanes in which it failed. Lanes that are solved are evaluated again with the others, with the same result. The
+ * motion of all bodies is evaluated where Newton's step is expected to be the last. correction: incremented by the
+ * corrections, in rad or fractions of the size.
+ */
+static LaneBits solve_lane_equations(const LaneParameters *p, Lanes extent, Lanes t, LanePosition *position,
+    Lanes *correction)
+{
+    LaneBits is_active = ~(LaneBits){0}, is_failed = {0}, rare = {0};
+    Lanes before = broadcast(INFINITY), step[N_X + 1];
+    int has_motion = 0;
+    for (int i = 0; i < MAX_NEWTON && any_of(is_active); i++) {
+        Lanes size = broadcast(0.0);
+        has_motion = !any_of(is_active & ~(before < NEWTON_NEARLY_CLOSED));
+        if (has_motion)
+            evaluate_position(p, t, position, step, &rare);
+        else
+            close_step(t, position->s, p, step, position->s_rate, &position->phi, &rare);
+        for (int k = 0; k < N_X; k++)
+            size = get_larger_or_nan(size, compute_coordinate_size(step[k], k, extent));
+        position->last_correction = size;
+        is_failed |= is_active & (rare | (size != size));
+        is_active &= ~(is_failed | (size < NEWTON_ROUNDING) | ((size < NEWTON_CLOSED) & (size >= 0.5 * before)));
+        for (int k = 0; k < N_X; k++)
+            position->s[k] = select_value(is_active, position->s[k] - step[k], position->s[k]);
+        *correction = select_value(is_active, *correction + size, *correction);
+        before = select_value(is_active, size, before);
+    }
+    if (!has_motion || any_of(is_active))
+        evaluate_position(p, t, position, step, &rare);
+    return is_failed | rare | is_active;
+}
+
+/*
+ * Compute the first guess of the coordinates at times t from the positions `start`, as in a single run: s + h s' + h^2
+ * s''/2 and terms of higher order, or s + h s' if s'' is too large.
+ */
+static void guess_lane_positions(Lanes extent, Lanes t, const LanePosition *start, LanePosition *position)
+{
+    const Lanes h = t - start->t, r = h / start->interval;
+    Lanes largest = broadcast(0.0), largest_move = broadcast(0.0), move[N_X + 1];
+    for (int k = 0; k < N_X; k++) {
+        move[k] = sum_higher_terms(r, start->s_higher[k]);
+        largest = get_larger_or_nan(largest, compute_coordinate_size(0.5 * h * h * start->s_second[k], k, extent));
+        largest_move = get_larger_or_nan(largest_move, compute_coordinate_size(move[k], k, extent));
+    }
+    const Lanes half_h = select_value(largest <= MAX_SECOND_RATE_MOVE, 0.5 * h, broadcast(0.0));
+    const LaneBits has_second = half_h != 0.0, has_higher = has_second & (largest_move <= MAX_HIGHER_MOVE);
+    for (int k = 0; k < N_X; k++) {
+        const Lanes by_second_rate = select_value(has_second, half_h * start->s_second[k], broadcast(0.0));
+        position->s[k] = start->s[k] + h * (start->s_rate[k] + by_second_rate)
+            + select_value(has_higher, move[k], broadcast(0.0));
+    }
+}
+
+/*
+ * Solve the whole positions at times t from the near positions `start`. Return the lanes in which that failed.
+ * correction: set to the corrections of the first guesses.
+ */
+static LaneBits solve_lane_positions(const LaneParameters *p, Lanes extent, Lanes t, const LanePosition *start,
+    LanePosition *position, Lanes *correction)
+{
+    *correction = broadcast(0.0);
+    position->t = t;
+    guess_lane_positions(extent, t, start, position);
+    const LaneBits is_failed = solve_lane_equations(p, extent, get_lane_time_after_jump(t), position, correction);
+    position->interval = t - start->t;
+    for (int k = 0; k < N_X; k++)
+        compute_higher_terms(position->interval,
+            (CoordinateOf){start->s[k], start->s_rate[k], start->s_second[k]},
+            (CoordinateOf){position->s[k], position->s_rate[k], position->s_second[k]}, position->s_higher[k]);
+    return is_failed;
+}
+
+/* Return the largest difference of positions b from a plus the trapezoidal rule, as in a single run, rad. */
+static Lanes compute_trapezoidal_error(const LanePosition *a, const LanePosition *b, Lanes extent)
+{
+    const Lanes half = 0.5 * (b->t - a->t), fraction = 1.0 / extent;
+    Lanes largest[2] = {broadcast(0.0), broadcast(0.0)}; /* lengths, angles */
+    for (int k = 0; k < N_Q; k++)
+        largest[k % 3 == 2] = get_larger_or_nan(largest[k % 3 == 2],
+            lanes_fabs(b->q[k] - a->q[k] - half * (a->v[k] + b->v[k])));
+    return get_larger_or_nan(largest[1], largest[0] * fraction);
+}
+
+/* Return the lanes in which the last correction of Newton's method is larger than rounding of the coordinates. */
+static LaneBits find_ill_conditioned_lanes(const LanePosition *position)
+{
+    Lanes size = broadcast(1.0);
+    for (int k = 2; k < N_Q; k += 3)
+        size = get_larger_or_nan(size, lanes_fabs(position->q[k]));
+    return ~(position->last_correction <= MIN_PASS_CORRECTION * DBL_EPSILON * size);
+}
+
+/*
+ * Add the works between positions a and b, one step apart, to `work`, J, in the lanes of `is_accepted`. Return the
+ * lanes in which that failed, a power is not finite, or velocities jump.
+ */
+static LaneBits integrate_lane_works(const LaneParameters *p, Lanes extent, const LanePosition *a,
+    const LanePosition *b, LaneBits is_accepted, Lanes *work)
+{
+    const Lanes half = 0.5 * (b->t - a->t);
+    const Lanes speed = get_larger_or_nan(compute_angle_norm(a->v, extent), compute_angle_norm(b->v, extent));
+    Lanes velocity_defect[N_Q], interval_work[N_WORK], scale = broadcast(0.0);
+    LaneBits is_irregular = {0};
+    for (int k = 0; k < N_Q; k++)
+        velocity_defect[k] = b->v[k] - a->v[k];
+    for (int k = 0; k < N_WORK; k++)
+        interval_work[k] = broadcast(0.0);
+    for (int i = 0; i < N_WORK_NODES; i++) {
+        LanePosition node;
+        LaneDiscreteState discrete = {.least = broadcast(0.0)};
+        LaneRhsOutputs rhs;
+        Lanes correction, acceleration[N_X + 1];
+        is_irregular |=
+            solve_lane_positions(p, extent, a->t + half * (1.0 + work_node[i]), a, &node, &correction);
+        reduced_dynamics(get_lane_time_after_jump(node.t), node.s, node.s_rate, &discrete, p, acceleration, &rhs,
+            &discrete.rare);
+        is_irregular |= discrete.rare;
+        for (int k = 0; k < N_WORK; k++) {
+            is_irregular |= ~(lanes_fabs(rhs.power[k]) <= DBL_MAX);
+            interval_work[k] += half * work_weight[i] * rhs.power[k];
+        }
+        for (int k = 0; k < N_Q; k++)
+            velocity_defect[k] -= half * work_weight[i] * node.a[k];
+        scale = get_larger_or_nan(scale, half * compute_angle_norm(node.a, extent));
+    }
+    const Lanes jump = compute_angle_norm(velocity_defect, extent);
+    const Lanes min_jump = MIN_VELOCITY_JUMP + VELOCITY_ROUNDING * speed;
+    is_irregular |= ~(scale <= DBL_MAX) | ((jump > min_jump) & (jump > MIN_JUMP_RATIO * scale));
+    is_irregular |= ~(lanes_fabs(interval_work[0]) <= DBL_MAX);
+    for (int k = 0; k < N_WORK; k++)
+        work[k] = select_value(is_accepted & ~is_irregular, work[k] + interval_work[k], work[k]);
+    return is_irregular;
+}
