@@ -11,6 +11,8 @@
 #include <stdlib.h>
 #include "../boundary.h"
 
+/* Number of a parameter of a run: Parameters has numbers only. */
+#define PARAMETER_INDEX(name) ((int)(offsetof(Parameters, name) / sizeof(double)))
 #define AT_LEAST_ONE(n) ((n) > 0 ? (n) : 1) /* length of an array, which may not be 0 in C */
 
 enum {

@@ -10,26 +10,38 @@ read names which only such lines know. Before that, statements are moved near th
 all substitutions: in a long one each value has left the registers and the nearest cache before it is read. Here a
 result or a test of a pivot is preceded by what it needs, and what can be computed from the values at hand is computed
 then. Each statement stays as it is and follows what it reads: the numbers are the same, bit for bit.
+Where statements repeat, as those of equal bars of a chain do, parts are cut so that they repeat as well (repeats.py).
+A target may then print equal parts once.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import groupby
 
 from gudgeon.generator.ir.kernels import Kernel, Section
-from gudgeon.generator.ir.signatures import Access, Number, make_input_argument, make_output_argument
+from gudgeon.generator.ir.repeats import divide_into_repeats, find_line_shape
+from gudgeon.generator.ir.signatures import (
+    PARAMETERS,
+    Access,
+    Argument,
+    Number,
+    make_input_argument,
+    make_output_argument,
+)
 from gudgeon.generator.ir.statements import (
     AssignStatus,
     Call,
     Declare,
+    DeclareParameters,
     Guard,
     Jump,
     Line,
     Return,
     ReturnIfFailed,
     Sines,
+    SolveDependentRows,
     Statement,
 )
 from gudgeon.generator.symbols.storage import Place
@@ -84,6 +96,7 @@ def order_statements_near_readers(read_names: Sequence[frozenset[str]], defined_
 
 
 _MAX_LINES, _MAX_PART_LINES, _MIN_PART_LINES = 850, 250, 60
+_MAX_REPEATED_LINES, _MIN_REPEATED_LINES = 60, 12  # of a part that is cut because it repeats
 
 
 @dataclass(frozen=True)
@@ -110,15 +123,14 @@ def split_kernel(kernel: Kernel) -> tuple[Kernel, ...]:
     if sum(len(section.statements) for section in kernel.sections) <= _MAX_LINES:
         return (kernel,)
     items, copies = _list_lines(kernel)
-    pieces = _divide_lines(items)
+    pieces = _divide_lines(items, {name: item.line for name, item in copies.items()})
     if not any(map(_is_part, pieces)):
         return (kernel,)
-    added_arguments = tuple(make_input_argument(name, kind) for name, kind in _find_sine_arrays(kernel).items())
+    added_arguments = (*_list_constant_locals(kernel), *_list_local_arrays(kernel))
     array_name = _find_unused_name("passed", items)
     index_of_passed = _number_passed_locals(pieces)
-    splitter = _Splitter(
-        replace(kernel, arguments=(*kernel.arguments, *added_arguments)), index_of_passed, array_name, copies
-    )
+    splitter = _Splitter(kernel, index_of_passed, array_name, copies, added_arguments)
+    pieces, functions = _move_dependent_rows(pieces, splitter)
     title = "values that pass between the parts"
     main_items = [
         TitledLine(title, Declare(Number.REAL, array_name, (max(len(index_of_passed), 1),)), frozenset(), False)
@@ -143,7 +155,7 @@ def split_kernel(kernel: Kernel) -> tuple[Kernel, ...]:
         main_items += splitter.make_call_lines(name, piece, later_read_names)
         available |= defined & later_read_names & index_of_passed.keys()
         stored_names |= defined & index_of_passed.keys()
-    return (*parts, replace(kernel, sections=_group_sections(_insert_argument_copies(main_items, copies))))
+    return (*parts, *functions, replace(kernel, sections=_group_sections(_insert_argument_copies(main_items, copies))))
 
 
 def _find_names_read_later(pieces: Sequence[Sequence[TitledLine]]) -> list[frozenset[str]]:
@@ -166,10 +178,9 @@ def _list_lines(kernel: Kernel) -> tuple[list[TitledLine], dict[str, TitledLine]
     """
     titled_lines = [(section.title, line) for section in kernel.sections for line in section.statements]
     constant = {argument.name for argument in kernel.arguments if argument.access in (Access.CONSTANT, Access.READ)}
-    constant |= set(_find_sine_arrays(kernel))
-    known_names = (
-        {line.declared_local for _, line in titled_lines} | {argument.name for argument in kernel.arguments} | constant
-    )
+    constant |= {argument.name for argument in _list_constant_locals(kernel)}
+    known_names = {line.declared_local for _, line in titled_lines} | constant
+    known_names |= {argument.name for argument in (*kernel.arguments, *_list_local_arrays(kernel))}
     unmovable_names = {
         name for _, line in titled_lines if not _is_movable_line(line) for name in line.reads | line.writes
     } - known_names
@@ -201,27 +212,49 @@ def _find_copied_argument(line: Line) -> str:
     )
 
 
-def _find_sine_arrays(kernel: Kernel) -> dict[str, str]:
-    """Return the arrays of sines and cosines that a loop of the function fills: the type of their elements by name."""
+def _list_constant_locals(kernel: Kernel) -> list[Argument]:
+    """Return what a function declares once and its parts get as arguments from which they copy.
+
+    These are the arrays of sines and cosines that a loop fills, and the parameters if the function reads their address.
+    """
     lines = [line for section in kernel.sections for line in section.statements]
-    return {name: "Four" for line in lines if isinstance(line, Sines) and line.count for name in line.arrays}
+    loops = [line for line in lines if isinstance(line, Sines) and line.count]
+    parameters = [PARAMETERS for line in lines if isinstance(line, DeclareParameters)]
+    return [*(make_input_argument(name, "Four") for line in loops for name in line.arrays), *parameters]
 
 
-def _divide_lines(items: Sequence[TitledLine]) -> list[list[TitledLine]]:
-    """Return the lines in pieces: each run of movable lines in pieces of equal length, other lines between them.
+def _list_local_arrays(kernel: Kernel) -> list[Argument]:
+    """Return the local arrays of real numbers with one index, which parts get as arguments."""
+    lines = (line for section in kernel.sections for line in section.statements if isinstance(line, Declare))
+    return [make_output_argument(line.name) for line in lines if line.type is Number.REAL and len(line.sizes) == 1]
 
-    A piece of movable lines becomes a part and has at most _MAX_PART_LINES lines. A run shorter than _MIN_PART_LINES
-    becomes unmovable and stays in the calling function.
+
+def _divide_lines(items: Sequence[TitledLine], copies: Mapping[str, Line]) -> list[list[TitledLine]]:
+    """Return the lines in pieces: each run of movable lines in parts, other lines between them.
+
+    A part has at most _MAX_PART_LINES lines. A run shorter than _MIN_PART_LINES becomes unmovable and stays in the
+    calling function. `copies`: the lines that copy arguments, by the name of their local.
     """
     pieces = []
     for movable, group in groupby(items, key=lambda item: item.movable):
         lines = _order_lines(list(group))
         if movable and len(lines) >= _MIN_PART_LINES:
-            n_pieces = -(-len(lines) // _MAX_PART_LINES)
-            size = -(-len(lines) // n_pieces)
-            pieces += [lines[k : k + size] for k in range(0, len(lines), size)]
+            pieces += _divide_movable_lines(lines, copies)
         else:
             pieces.append([replace(item, movable=False) for item in lines])
+    return pieces
+
+
+def _divide_movable_lines(lines: Sequence[TitledLine], copies: Mapping[str, Line]) -> list[list[TitledLine]]:
+    """Return movable lines in parts: groups of lines that repeat, and what is between them in parts of equal length."""
+    pieces = []
+    first = 0
+    shapes = [find_line_shape(item.line, copies) for item in lines]
+    for length, repeats in divide_into_repeats(shapes, _MAX_REPEATED_LINES, _MIN_REPEATED_LINES):
+        n_pieces = 1 if repeats else -(-length // _MAX_PART_LINES)
+        size = -(-length // n_pieces)
+        pieces += [list(lines[k : min(k + size, first + length)]) for k in range(first, first + length, size)]
+        first += length
     return pieces
 
 
@@ -246,6 +279,41 @@ def _number_passed_locals(pieces: Sequence[Sequence[TitledLine]]) -> dict[str, i
         and (_is_part(piece) or _is_part(pieces[piece_of_local[name]]))
     }
     return {name: index for index, name in enumerate(name for name in piece_of_local if name in passed_names)}
+
+
+def _move_dependent_rows(
+    pieces: Sequence[Sequence[TitledLine]], splitter: _Splitter
+) -> tuple[list[list[TitledLine]], list[Kernel]]:
+    """Return the pieces with the forces and right-hand sides for a vanished pivot computed by a function, and it.
+
+    In the calling function each of them would be a local that is alive over the calls of all parts, from any of which
+    the code may be reached. Nothing is moved if one reads more than arguments and results of parts.
+    """
+    available = {name for piece in pieces if _is_part(piece) for name in (item.defines for item in piece)}
+    available &= splitter.index_of_passed.keys()
+    available |= splitter.argument_copies.keys() | {argument.name for argument in splitter.kernel.arguments}
+    functions: list[Kernel] = []
+
+    def move(item: TitledLine) -> TitledLine:
+        """Return a line with a call in place of the expressions that the new function computes."""
+        line = item.line
+        if not (isinstance(line, SolveDependentRows) and line.force):
+            return item
+        arrays = {name: make_output_argument(name) for name in ("force", "gamma_stab")}
+        values = zip(arrays.values(), (line.force, line.rhs), strict=True)
+        stores = [Statement(array[k], value) for array, expressions in values for k, value in enumerate(expressions)]
+        if not all(store.reads <= available for store in stores):
+            return item
+        name = f"{splitter.kernel.name}_dependent"
+        kernel = replace(splitter.kernel, arguments=(*splitter.kernel.arguments, *arrays.values()))
+        lines = [TitledLine("", store, store.reads | store.writes, True) for store in stores]
+        new = replace(splitter, kernel=kernel)
+        functions.append(new.make_part(name, lines))
+        call = Call(name, tuple(Place(a.name) for a in new.list_arguments(lines)), (Place(splitter.array_name),))
+        new_line = replace(line, force=(), rhs=(), call=call)
+        return replace(item, line=new_line, reads=new_line.reads)
+
+    return [[move(item) for item in piece] for piece in pieces], functions
 
 
 def _find_unused_name(name: str, items: Sequence[TitledLine]) -> str:
@@ -299,12 +367,19 @@ def _find_filled_arrays(line: Line) -> set[str]:
 
 @dataclass(frozen=True)
 class _Splitter:
-    """A kernel with the arguments of its parts, the array of passed values, and the copies of arguments."""
+    """A kernel with the array of passed values, the copies of arguments, and further arguments of its parts."""
 
     kernel: Kernel
     index_of_passed: dict[str, int]
     array_name: str
     argument_copies: dict[str, TitledLine]
+    added_arguments: tuple[Argument, ...]
+
+    def list_arguments(self, piece: Sequence[TitledLine]) -> tuple[Argument, ...]:
+        """Return the arguments of a part without the array of passed values: of the added ones those that it reads."""
+        names = frozenset[str]().union(*(item.reads for item in piece))
+        names = names.union(*(self.argument_copies[name].reads for name in names & self.argument_copies.keys()))
+        return (*self.kernel.arguments, *(argument for argument in self.added_arguments if argument.name in names))
 
     def make_store_line(self, name: str) -> TitledLine:
         """Return the line that stores the local `name` in its element of the array of passed values."""
@@ -340,7 +415,7 @@ class _Splitter:
         return Kernel(
             name,
             (f"A part of `{self.kernel.name}`, which calls it.",),
-            (*self.kernel.arguments, make_output_argument(self.array_name)),
+            (*self.list_arguments(piece), make_output_argument(self.array_name)),
             _group_sections([*lines, *end_lines]),
             has_test,
             attribute="noinline",
@@ -353,7 +428,7 @@ class _Splitter:
         Read are those in `later_read_names`, the names that later lines of the calling function read. If the part tests
         pivots, a status other than 0 ends the function or jumps to the code for a vanishing pivot.
         """
-        arguments = tuple(Place(argument.name) for argument in self.kernel.arguments)
+        arguments = tuple(Place(argument.name) for argument in self.list_arguments(piece))
         call = Call(name, arguments, (Place(self.array_name),))
         tests = [item.line for item in piece if isinstance(item.line, Guard)]
         loaded = {item.defines for item in piece} & later_read_names & self.index_of_passed.keys()

@@ -203,6 +203,7 @@ class SolveDependentRows(Line):
 
     force: tuple[sp.Basic, ...] = ()
     rhs: tuple[sp.Basic, ...] = ()
+    call: Call | None = None  # the function that computes the forces and right-hand sides, if they are not here
 
     @property
     def expressions(self) -> tuple[sp.Basic, ...]:

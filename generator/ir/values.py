@@ -113,6 +113,20 @@ class Sum:
 
 
 @dataclass(frozen=True)
+class ContinuedSum:
+    """A sum whose first terms are in a local: from left to right `first`, then the terms of `more` in their order."""
+
+    first: sp.Symbol
+    more: sp.Basic
+    names: ClassVar[Names] = NO_NAMES
+
+    @property
+    def expressions(self) -> tuple[sp.Basic, ...]:
+        """Return the local and the terms that are added to it."""
+        return (self.first, self.more)
+
+
+@dataclass(frozen=True)
 class ParameterOrDefault:
     """Parameter k as it is given, or else its default."""
 
@@ -126,4 +140,4 @@ class ParameterOrDefault:
         return (self.default,)
 
 
-Value: TypeAlias = sp.Basic | Place | Conditional | Sum | ParameterOrDefault
+Value: TypeAlias = sp.Basic | Place | Conditional | Sum | ContinuedSum | ParameterOrDefault

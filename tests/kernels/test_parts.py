@@ -108,21 +108,23 @@ def test_what_declares_calls_or_jumps_stays(monkeypatch: pytest.MonkeyPatch) -> 
     shorten(monkeypatch)
     a, b = [sp.Symbol(f"a{k}", real=True) for k in range(40)], [PlaceSymbol(Place("b")[k]) for k in range(2)]
     first = Statement("a0", Place("x")[0])
+    front: tuple[Line, ...] = (Declare(Number.INTEGER, "b", (2,)), Call("fill", (), (Place("b"),)))
     plain = [first, *(Statement(f"a{k}", a[k - 1] + b[k % 2]) for k in range(1, 40))]
-    front: tuple[Line, ...] = (Declare(Number.REAL, "b", (2,)), Call("fill", (), (Place("b"),)))
     last = Statement(Place("y")[0], a[39] + a[3])
     kernel = Kernel(
         "f", (), (make_input_argument("x"), make_output_argument("y")), (Section("", (*front, *plain, last)),)
     )
     # every statement but the first reads b, which only the call knows: nothing may move
     assert parts.split_kernel(kernel) == (kernel,)
-    free = [first, *(Statement(f"a{k}", a[k - 1] + 1) for k in range(1, 40))]
+    front = (Declare(Number.REAL, "c", (2,)), Call("fill", (), (Place("c"),)))
+    c = [PlaceSymbol(Place("c")[k]) for k in range(2)]
+    free = [first, *(Statement(f"a{k}", a[k - 1] * (k + 1) + c[k % 2]) for k in range(1, 40))]
     *pieces, main = parts.split_kernel(Kernel("f", (), kernel.arguments, (Section("", (*front, *free, last)),)))
     assert [piece.name for piece in pieces] == ["f_part_1", "f_part_2", "f_part_3"]
     kept = [line for section in main.sections for line in section.statements if not isinstance(line, Statement)]
     assert [functions.LinePrinter(printer.CPrinter()).print_line(line).strip() for line in kept] == [
         "double passed[3];",
-        "double b[2];",
-        "fill(b);",
-        *(f"f_part_{k}(x, y, passed);" for k in (1, 2, 3)),
+        "double c[2];",
+        "fill(c);",
+        *(f"f_part_{k}(x, y, c, passed);" for k in (1, 2, 3)),
     ]

@@ -25,6 +25,7 @@ from gudgeon.generator.targets.c import lanes as lanes_code
 from gudgeon.generator.targets.c.curves import NAME as CURVES
 from gudgeon.generator.targets.c.curves import print_curve_tables
 from gudgeon.generator.targets.c.describe import describe_scene
+from gudgeon.generator.targets.c.equal_parts import PARAMETER_INDEX
 from gudgeon.generator.targets.c.model_header import list_joint_parameters, make_bounds_kernel, make_header_values
 from gudgeon.generator.targets.c.newton import print_newton_functions, print_tangent_functions
 from gudgeon.generator.targets.c.play import print_clearances_file
@@ -33,6 +34,7 @@ from gudgeon.generator.targets.c.reduced_summary import describe_reduced_file
 
 CLEARANCES = "clearance.c"
 NOT_AT_START = ("acceleration_rhs", "outputs")  # functions of the closed linkage that a start does not call
+MAX_COMPARED = 500  # parameters that are compared in one expression; more are compared in a loop
 ABSOLUTE, REDUCED, METHODS = 1, 2, 3  # the parts of MAIN, as PART in C counts them
 PartCallback = Callable[[int, Mapping[str, str]], None]
 FilePrinters = dict[str, Callable[[], str]]  # file -> function that prints it, called when needed
@@ -288,13 +290,21 @@ def print_start_comparison(kernels: Iterable[Kernel]) -> str:
     lines = [line for kernel in kernels for section in kernel.sections for line in section.statements]
     parameters_read = [name for line in lines for name in _list_parameters_read(line)]
     members = [*dict.fromkeys(parameters_read)]
-    tests = "\n        && ".join(f"is_same_number(p->{name}, other->{name})" for name in members)
     is_comparable = all(name.isidentifier() for name in members)
-    function_body = (
-        f"    return {tests};\n"
-        if is_comparable and tests
-        else f"    (void)p, (void)other;\n    return {int(is_comparable)};\n"
-    )
+    if not (is_comparable and members):
+        function_body = f"    (void)p, (void)other;\n    return {int(is_comparable)};\n"
+    elif len(members) <= MAX_COMPARED:
+        tests = "\n        && ".join(f"is_same_number(p->{name}, other->{name})" for name in members)
+        function_body = f"    return {tests};\n"
+    else:
+        indices = "\n".join(f"        {PARAMETER_INDEX}({name})," for name in members)
+        function_body = (
+            f"    static const int indices[] = {{\n{indices}\n    }};\n"
+            "    for (size_t i = 0; i < sizeof indices / sizeof *indices; i++)\n"
+            "        if (!is_same_number(((const double *)p)[indices[i]], ((const double *)other)[indices[i]]))\n"
+            "            return 0;\n"
+            "    return 1;\n"
+        )
     return (
         "\n/* Whether a start with these numbers is that with the others: what closing the linkage reads. */\n"
         f"int has_equal_start_parameters(const Parameters *p, const Parameters *other)\n{{\n{function_body}}}\n"

@@ -37,6 +37,8 @@ from gudgeon.generator.ir.values import NO_NAMES
 from gudgeon.generator.kernels.shared import FIRST_SWITCH, SharedFunctionCall
 from gudgeon.generator.symbols.derivatives import find_symbols
 from gudgeon.generator.symbols.storage import Place, find_key
+from gudgeon.generator.targets.c.equal_parts import PrintedPart, join_equal_parts, redirect_calls
+from gudgeon.generator.targets.c.long_sums import divide_long_sums
 from gudgeon.generator.targets.c.printer import (
     WIDTH,
     CPrinter,
@@ -232,7 +234,7 @@ class LinePrinter(ValuePrinter):
         With forces in `solution`, the code solves redundant constraint equations by their rank. Without forces, it
         calls solve_by_absolute_equations() of the engine. At the label `powers` the function continues in all cases.
         """
-        if not solution.force:
+        if not (solution.force or solution.call):
             return ["dependent:", "pivot = solve_by_absolute_equations(t, q, v, discrete, p, a, rhs);", "powers:"]
         arrays = (("force", solution.force), ("gamma_stab", solution.rhs))
         stores = (f"{name}[{k}] = {self.print_expression(x)};" for name, values in arrays for k, x in enumerate(values))
@@ -240,6 +242,7 @@ class LinePrinter(ValuePrinter):
             "dependent: {",
             "    double force[N_Q], gamma_stab[N_ROWS];",
             *("\n".join(break_code(f"        {code}"))[4:] for code in stores),
+            *([f"    {self._print_call(solution.call)};"] if solution.call else []),
             "    pivot = solve_dependent_equations(t, q, p, force, gamma_stab, a, rhs->lambda, pivot, discrete);",
             "}",
             "powers:",
@@ -418,22 +421,30 @@ def print_function_lines(
     yield "}", None
 
 
-def print_kernel_parts(kernel: Kernel) -> Iterator[tuple[Kernel, Readable, list[tuple[str, Line | None]]]]:
+def print_kernel_parts(kernel: Kernel) -> Iterator[PrintedPart]:
     """Yield (kernel, its readable lines, [(text, line or None)]) of each part into which a kernel is split.
 
-    A short kernel is its only part. Parts come before the functions that call them.
+    A short kernel is its only part. Parts come before the functions that call them; equal parts are printed once.
     """
-    for part in split_kernel(kernel):
-        readable_lines = make_readable(part)
-        yield (
-            part,
-            readable_lines,
-            list(
-                print_function_lines(
-                    part,
-                    LinePrinter(CPrinter(readable_lines)),
-                    readable_lines,
-                    is_called_by_engine=part.name in CALLED_BY_ENGINE,
-                )
-            ),
-        )
+    *parts, main = split_kernel(divide_long_sums(kernel))
+    printed, calls = join_equal_parts([_print_part(part) for part in parts], _print_head)
+    yield from printed
+    yield _print_part(redirect_calls(main, calls))
+
+
+def _print_part(part: Kernel) -> PrintedPart:
+    """Return (kernel, its readable lines, [(text, line or None)]) of a kernel that is not split."""
+    readable_lines = make_readable(part)
+    return part, readable_lines, list(_print_part_lines(part, readable_lines))
+
+
+def _print_head(part: Kernel, readable_lines: Readable) -> str:
+    """Return the comment and the signature of a part."""
+    return next(iter(_print_part_lines(part, readable_lines)))[0]
+
+
+def _print_part_lines(part: Kernel, readable_lines: Readable) -> Iterator[tuple[str, Line | None]]:
+    """Yield (text, line or None) of a kernel that is not split."""
+    line_printer = LinePrinter(CPrinter(readable_lines))
+    is_called_by_engine = part.name in CALLED_BY_ENGINE
+    return print_function_lines(part, line_printer, readable_lines, is_called_by_engine=is_called_by_engine)

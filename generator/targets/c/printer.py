@@ -11,7 +11,7 @@ import sympy as sp
 from sympy.printing.c import C99CodePrinter
 
 from gudgeon.generator.ir.readable import Readable, convert_to_fraction_of_pi
-from gudgeon.generator.ir.values import Conditional, ParameterOrDefault, Sum, Test, Threshold, Value
+from gudgeon.generator.ir.values import Conditional, ContinuedSum, ParameterOrDefault, Sum, Test, Threshold, Value
 from gudgeon.generator.symbols.curves import ContourOf, CurveOf, CurveOn, KnotsOf, make_curve_name
 from gudgeon.generator.symbols.from_expressions import CLASSES
 from gudgeon.generator.symbols.storage import PARAMETERS, Key, Place, Result, find_key
@@ -273,6 +273,10 @@ class ValuePrinter:
                 return f"{self.print_test(value.test)} ? {then} : {otherwise}"
             case Sum():
                 return " + ".join(map(self.printer.get_name, value.places))
+            case ContinuedSum():
+                more = self.print_expression(value.more)
+                sign, term = ("-", more[1:]) if more.startswith("-") else ("+", more)
+                return f"{self.print_expression(value.first)} {sign} {term}"
             case ParameterOrDefault():
                 return f"is_given[{value.k}] ? given[{value.k}] : {self.print_expression(value.default)}"
             case _:
