@@ -1,10 +1,10 @@
-"""Compresses JavaScript and CSS that people wrote, for embedding in a page."""
+"""Compress the JavaScript and CSS of this package for embedding in a page."""
 
 from __future__ import annotations
 
 import re
 
-# as we write them: alone on their lines, or behind code with a space on either side
+# comments alone on their lines, or after code with a space on either side
 _COMMENT = re.compile(r"^ *(?:/\*.*?\*/|//[^\n]*)\n|(?<=\S) // [^\n]*$", re.DOTALL | re.MULTILINE)
 # strings within a line of JavaScript, template strings included
 _TEXT = re.compile(r"""("(?:[^"\\]|\\.)*"|'(?:[^'\\]|\\.)*'|`[^`]*`)""")
