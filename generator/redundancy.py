@@ -100,7 +100,8 @@ def check_mass_matrix(model: Model, source: KernelSource) -> None:
         inertia = bodies[name].inertia
         location = inertia.where if inertia is not None else bodies[name].where
         raise BadValueError(
-            f"body {name} has no moment of inertia, and nothing else resists its turning: its motion is not determined",
+            f"body {name} has no moment of inertia, and no other part resists its rotation: the motion is not "
+            "determined",
             location,
             f"expected bodies.{name}.inertia > 0, or its centre of mass (com) away from the joint about which it"
             " turns, or a drive that turns it",

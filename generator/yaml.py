@@ -105,8 +105,8 @@ def _count_open_parentheses(text: str) -> int:
     return text.count("(") - text.count(")")
 
 
-NO_MERGE = "merge keys ('<<') are no part of the format"
-MERGE_HINT = "write the keys out; a contact, or a scene, takes those of another one by extends: NAME"
+NO_MERGE = "merge keys ('<<') are not part of the format"
+MERGE_HINT = "write the keys out; a contact or a scene inherits the keys of another one by extends: NAME"
 MAX_DEPTH = 24
 MAX_NODES = 100_000  # aliases count as the nodes that they stand for
 MAX_TAG = 10_000  # characters: the time that ruamel takes for one grows with their square
@@ -208,7 +208,7 @@ def parse_yaml(
     except YAMLError as error:
         raise _translate_error(error, text, file) from None
     except _OF_RUAMEL:
-        hint = "look at what stands behind % and behind backslashes in double quotes"
+        hint = "check the characters after % and after backslashes in double quotes"
         raise NotYamlError("not YAML: a directive or an escape cannot be read", Location(file, 1, 1), hint) from None
     duplicates = composer.duplicates[:MAX_DUPLICATES]
     if duplicate_errors is not None:
@@ -219,7 +219,7 @@ def parse_yaml(
     if root is None or isinstance(root, Text) and root.is_null:
         raise NotYamlError("the file is empty", Location(file, 1, 1), hint)
     if not isinstance(root, Map):
-        raise NotYamlError(f"the file holds {describe_node(root)}", root.where, hint)
+        raise NotYamlError(f"the file contains {describe_node(root)}", root.where, hint)
     return root
 
 
@@ -244,7 +244,7 @@ def _decode_file(data: bytes, file: str) -> str:
     except UnicodeDecodeError as error:
         location = _find_location_after(data[: error.start].decode("utf-8"), file)
         raise NotYamlError(
-            f"byte 0x{data[error.start]:02x} is no UTF-8", location, "expected a UTF-8 text file"
+            f"byte 0x{data[error.start]:02x} is not UTF-8", location, "expected a UTF-8 text file"
         ) from None
 
 
@@ -268,7 +268,7 @@ def _translate_error(error: YAMLError, text: str, file: str) -> NotYamlError:
     location = Location(file, mark.line + 1, mark.column + 1) if mark else Location(file, 1, 1)
     problem = str(error.problem or error.context or "")
     if "'\\t'" in problem:
-        return NotYamlError("a tab where YAML wants spaces", location, "indent with spaces")
+        return NotYamlError("a tab where YAML expects spaces", location, "indent with spaces")
     context = f" ({error.context})" if error.context and error.problem else ""
     if context and error.context_mark and error.context_mark.line != (mark.line if mark else -1):
         context_location = Location(file, error.context_mark.line + 1, error.context_mark.column + 1)
@@ -276,7 +276,7 @@ def _translate_error(error: YAMLError, text: str, file: str) -> NotYamlError:
     return NotYamlError(
         f"not YAML: {problem}{context}"[:500],
         location,
-        "a text that holds ': ', ' #' or begins with @ % ` needs quotes",
+        "a text that contains ': ', ' #' or begins with @ % ` needs quotes",
     )
 
 
@@ -300,7 +300,9 @@ class _Composer:
                 documents += 1
                 if documents > 1:
                     raise NotYamlError(
-                        "a second document begins", self.find_location(event), "expected one document a file"
+                        "the file contains a second document",
+                        self.find_location(event),
+                        "expected one document per file",
                     )
             elif isinstance(event, (ScalarEvent, SequenceStartEvent, MappingStartEvent, AliasEvent)):
                 root = self.compose_node(event, 0)
@@ -319,7 +321,9 @@ class _Composer:
         self.nodes += n_nodes
         if self.nodes > MAX_NODES:
             message = (
-                "the file is too large once its aliases are expanded" if n_nodes > 1 else "the file holds too much"
+                "the file is too large once its aliases are expanded"
+                if n_nodes > 1
+                else "the file contains too many values"
             )
             raise LimitError(message, self.find_location(event), f"expected at most {MAX_NODES} values")
 
@@ -359,7 +363,7 @@ class _Composer:
         Raises NotYamlError without an anchor before it.
         """
         if event.anchor not in self.anchors:
-            hint = "expected its anchor before it, and not around it"
+            hint = "expected the anchor before the alias, and not around it"
             raise NotYamlError(f"the alias *{event.anchor[:60]} has no anchor", self.find_location(event), hint)
         node = self.anchors[event.anchor]
         self.count_nodes(self.sizes[id(node)], event)

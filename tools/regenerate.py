@@ -16,7 +16,7 @@ README = f"""# The C of the shipped mechanisms
 
 `make generated` writes this folder; nothing in it is edited by hand. Each scene of a mechanism has a folder with the
 files that a person reads. Read `model.h` first, for the names, then `dynamics.c`, which solves the equations of motion
-as they are taught, and `reduced.c` or `positions.c`, which is what runs. `gudgeon emit NAME` writes all files of a
+as they are taught, and `reduced.c` or `positions.c`, which a run evaluates. `gudgeon emit NAME` writes all files of a
 mechanism's scenes and a `README.md` that describes each file.
 
 `{ARCHIVE}` holds what only the compiler and the runtime read: derivatives for stiff methods (`newton.c`), the

@@ -279,8 +279,8 @@ class Model:
         ValueError for any other name.
         """
         if target not in self.targets:
-            known_targets = ", ".join(self.targets) or "none: it was not derived by the pipeline, which knows them"
-            raise ValueError(f"no target {target!r} of a model: there is {known_targets}")
+            known_targets = ", ".join(self.targets) or "none, because the pipeline did not derive the model"
+            raise ValueError(f"a model has no target {target!r}; its targets: {known_targets}")
         if target not in self._targets_cache:
             self._targets_cache[target] = self.targets[target](self)
         return self._targets_cache[target]

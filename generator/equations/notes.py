@@ -19,37 +19,45 @@ def write_scene_notes(model: Model) -> tuple[str, ...]:
     notes = []
     if model.redundancy.dropped:
         notes.append(
-            f"redundant rows left out: {', '.join(model.redundancy.dropped)}; reactions not determined by"
+            f"redundant constraint equations left out: {', '.join(model.redundancy.dropped)}; reactions not "
+            "determined by"
             f" rigid bodies: {', '.join(model.redundancy.indeterminate)}"
         )
     if massless := [body.name for body in model.scene.mechanism.bodies.values() if body.missing_keys]:
         notes.append(
-            f"no mass or no inertia of {', '.join(massless)}: no forces, torques and energies that follow from it"
+            f"no mass or no inertia of {', '.join(massless)}: forces, torques and energies that depend on it "
+            "are left out"
         )
     if model.degrees_of_freedom < 0:
         notes.append(
-            f"{-model.degrees_of_freedom} more rows than coordinates: nothing can move, and unless lengths and points"
-            " fit exactly it cannot be assembled"
+            f"{-model.degrees_of_freedom} more constraint equations than coordinates: no body can move, and "
+            "unless lengths and points"
+            " fit exactly the mechanism cannot be assembled"
         )
     if not model.clearances:
         notes.append("no joint has play: no contact code, no film")
         if model.degrees_of_freedom == 0:
-            notes.append("no degree of freedom: positions by Newton, nothing is integrated")
+            notes.append("no degree of freedom: positions by Newton's method, without integration")
     elif not any(c.film for c in model.clearances):
         notes.append("no film: dry contact only")
     options = {c.joint.name: c.normal.options for c in model.clearances if c.wall and c.normal}
     for joint in (name for name, law_options in options.items() if law_options.get("geometry") == "internal"):
-        notes.append(f"geometry: internal says nothing in {joint}: its wall is flat, K is by the corner's radius")
+        notes.append(f"geometry: internal has no effect in {joint}: the wall is flat, K depends on the corner's radius")
     if states := [f"{c.name}.{state.name}" for c in model.clearances for state in c.states]:
-        notes.append(f"internal states of laws, {', '.join(states)}: integrated with the motion, which peers do not do")
+        notes.append(
+            f"internal states of laws, {', '.join(states)}: integrated with the motion, without reference solvers"
+        )
     if model.rigid:
-        notes.append(f"impacts by Newton's restitution in {', '.join(model.rigid)}: no slopes, so no rodas5p, no peers")
+        notes.append(
+            f"impacts by Newton's restitution in {', '.join(model.rigid)}: no derivatives, so no rodas5p and no "
+            "reference solvers"
+        )
     if all(component == 0 for component in model.gravity):
         notes.append("no gravity: no weight terms")
     jumps = find_drives_with_jumps(model)
     if jumps:
         notes.append(
-            f"the rate of {', '.join(jumps)} may jump: the linkage follows by an impulse; smooth_step has no jump"
+            f"the rate of {', '.join(jumps)} may jump: a jump causes an impulse in the linkage; smooth_step has no jump"
         )
     return tuple(notes)
 
@@ -102,7 +110,7 @@ def find_missing_masses(mechanism: Mechanism, reason: str) -> Iterator[MissingKe
         owner = bodies[0].name if len(bodies) == 1 else "each"
         hint = (
             f"expected {' and '.join(f'{key}:' for key in missing_keys)} of {owner}, or a shape: with a density;"
-            " only where drives determine every motion, without play, none is needed"
+            " neither is needed if drives determine every motion and no joint has play"
         )
         names = ", ".join([bodies[0].name, *(f"{body.name} (line {body.where.line})" for body in bodies[1:])])
         subject = f"body {names} has" if len(bodies) == 1 else f"bodies {names} have"

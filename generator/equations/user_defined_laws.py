@@ -62,7 +62,7 @@ def read_force_expression(
     value = convert_quantity_to_sympy(force, find_symbol)
     if not value.has(delta):
         hint = "expected an expression such as 1e8 N/m * delta: its terms cancel"
-        raise BadValueError(f"{force.address} does not follow delta, the penetration", force.where, hint)
+        raise BadValueError(f"{force.address} does not depend on delta, the penetration", force.where, hint)
     _check_force(force, max_penetration, parameter_table)
     _check_slope(force, value, delta, parameter_table)
     if value.subs(delta, 0) != 0:
@@ -102,7 +102,7 @@ def _check_slope(force: Quantity, value: sp.Expr, delta: sp.Symbol, parameter_ta
     defaults = {entry.symbol: sp.Float(entry.default, 17) for entry in parameter_table.entries.values()}
     slope = sp.diff(value, delta).xreplace(defaults).subs(delta, 0)
     if slope.has(sp.zoo, sp.nan, sp.oo, -sp.oo):
-        hint = "expected a slope that is a number there: delta**n has one for n >= 1"
+        hint = "expected a finite slope there: delta**n has one for n >= 1"
         raise BadValueError(f"{force.address} has no slope at delta = 0", force.where, hint)
 
 
@@ -161,7 +161,7 @@ def check_units(law: Law, law_use: LawUse) -> None:
             and isinstance(dimension_found, Dimension)
             and dimension_found != expected_dimension
         ):
-            hint = "a number with a unit is one of its fields: number(name, meaning, DIMENSION, default=…)"
+            hint = "declare a number with a unit as a field of the law: number(name, meaning, DIMENSION, default=…)"
             raise LawError(
                 f"{dimension_finder.message_prefix}{name} is {describe_dimension(dimension_found)}, expected "
                 f"{describe_dimension(expected_dimension)}",
@@ -240,7 +240,7 @@ class _DimensionFinder:
             raise LawError(
                 f"{self.message_prefix}{name} {operation} {describe_dimension(known_dimensions[0])} and "
                 f"{unlike_text}: {text}",
-                hint="a number with a unit is one of the law's fields",
+                hint="declare a number with a unit as a field of the law",
             )
         return known_dimensions[0] if known_dimensions else _ANY_UNIT if _ANY_UNIT in dimensions else _PLAIN_NUMBER
 
@@ -266,9 +266,7 @@ class _DimensionFinder:
                 f"{name} has {description} of {describe_dimension(dimension)}, expected "
                 f"{describe_dimension(DIMENSIONLESS)}"
             )
-            raise LawError(
-                f"{self.message_prefix}{message}", hint="divide by a number of that unit: one of the law's fields"
-            )
+            raise LawError(f"{self.message_prefix}{message}", hint="divide by a field of the law with that unit")
 
     @staticmethod
     def _multiply_dimensions(dimensions: list[_DimensionOrFlexible]) -> _DimensionOrFlexible:
@@ -347,9 +345,11 @@ class _LawNames:
             except LawError as error:
                 raise LawError(f"{_format_law_prefix(self.law)}{error.message}", hint=error.hint) from None
             if name in fixed_names or all_names.count(name) > 1:
-                hint = "call the number, state or abbreviation otherwise; a number's `symbol` may be any letter"
+                hint = (
+                    "choose another name for the number, state or abbreviation; a number's `symbol` may be any letter"
+                )
                 raise LawError(
-                    f"{_format_law_prefix(self.law)}{name!r} is given to the law for something else", hint=hint
+                    f"{_format_law_prefix(self.law)}{name!r} already has another meaning in the law", hint=hint
                 )
 
 
@@ -361,9 +361,10 @@ def _check_common_names(dry_laws: Sequence[_LawNames]) -> None:
     """
     for first_law, other_law in itertools.permutations(dry_laws, 2):
         if common_names := {*first_law.local_names} & {*other_law.local_names, *other_law.parameter_names}:
-            message = f"{min(common_names)!r} names something in the contact's other law, {other_law.law.name}, too"
+            message = f"{min(common_names)!r} is also a name in the contact's other law, {other_law.law.name}"
             raise LawError(
-                f"{_format_law_prefix(first_law.law)}{message}", hint="call the abbreviation of your own law otherwise"
+                f"{_format_law_prefix(first_law.law)}{message}",
+                hint="choose another name for the abbreviation in the user-defined law",
             )
 
 
@@ -405,10 +406,14 @@ def check_sampled_values(
                     for symbol, x in zip(variables, state, strict=True)
                 )
                 message = f"{_format_law_prefix(law)}{name} is {values[-1]:g} at {state_text}"
-                raise LawError(f"{message}, with the file's numbers", hint="expected a finite real number there")
+                raise LawError(
+                    f"{message}, with the file's parameter values", hint="expected a finite real number there"
+                )
             if name == "share" and not (0.0 <= values[-1] <= 1.0 and (state[0] > 0.0 or values[-1] == 0.0)):
                 message = f"{_format_law_prefix(law)}share is {values[-1]:g} at δ = {state[0]:g} m"
-                raise LawError(message, hint="expected a number between 0 and 1, and 0 at δ = 0, where film alone ends")
+                raise LawError(
+                    message, hint="expected a number between 0 and 1, and 0 at δ = 0, where the film stops acting alone"
+                )
 
 
 def _find_parameters(steps: Mapping[str, sp.Expr], parameter_table: ParameterTable) -> set[sp.Symbol]:

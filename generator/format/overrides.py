@@ -95,11 +95,11 @@ def _replace_text(node: Any, keys: list[str], text: Text, address: _Address, fie
         return text
     first_key, other_keys = keys[0], keys[1:]
     if field is not None and field.kind == POINTS:
-        message = f"{address.text} is a number of a curve, which is a part of the compiled scene"
-        raise BadValueError(message, None, "scale the curve by a parameter, or write another one into the file")
+        message = f"{address.text} is a number of a curve, and the compiled scene contains its curves"
+        raise BadValueError(message, None, "scale the curve by a parameter, or change the curve in the file")
     if field is not None and field.kind == DEPTHS:
-        message = f"{address.text} is a depth of a contour: it is no part of the file's structure"
-        raise BadValueError(message, None, "give it to the run: contour={joint: depths} of simulate")
+        message = f"{address.text} is a depth of a contour: overrides of the structure cannot change depths"
+        raise BadValueError(message, None, "pass the depths to the run: contour={joint: depths} of simulate")
     if isinstance(node, Items):
         if first_key not in _AXES or _AXES[first_key] >= len(node):
             raise address.make_error()

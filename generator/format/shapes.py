@@ -100,7 +100,7 @@ def check_format(root: Map) -> None:
         raise MissingKeyError("no format", root.where, f"expected the key format: {FORMAT}")
     if file_format != FORMAT:
         is_study = isinstance(file_format, Text) and file_format.startswith(STUDIES)
-        remark = "; this file is a study, whose runs `gudgeon study FILE` makes" if is_study else ""
+        remark = "; this file is a study: run it with `gudgeon study FILE`" if is_study else ""
         raise BadValueError(f"format is {describe_node(file_format)}", file_format.where, f"expected {FORMAT}{remark}")
 
 
@@ -132,7 +132,7 @@ def _find_errors(field: Field, node: Any, path: Path) -> Iterator[_Finding]:
         yield from _find_errors_in_points(node, path)
     elif field.kind == DEPTHS:
         if not all(isinstance(item, Text) for item in (node if isinstance(node, Items) else [node])):
-            yield _Finding(path, "depths at equal angles: [0 mm, 0.1 mm, …], or how many of them there are")
+            yield _Finding(path, "depths at equal angles: [0 mm, 0.1 mm, …], or the number of depths")
     elif field.kind == RESULTS:
         if not all(isinstance(item, Text) for item in (node if isinstance(node, Items) else [node])):
             yield _Finding(path, "a list of names of results: [S9.ay, A.F]")
@@ -260,7 +260,7 @@ def _make_hint_for_foreign_key(parent_path: Path, key: str) -> str:
     if not parent_path and key in _SECTIONS:
         return f"{key!r} is called {_SECTIONS[key]} here"
     if parent_path and parent_path[-1] == "simulate" and key in _OPTIONS:
-        return f"a file has no {key}: it is an option of gudgeon run, --{key}, and an argument of simulate"
+        return f"{key!r} is an option of gudgeon run, --{key}, and an argument of simulate, not a key of a file"
     return ""
 
 

@@ -115,7 +115,7 @@ class _ComplexConverter:
                 return [replace(line, function=f"{line.function}{SUFFIX}")]
             case _ if not self._is_complex(line):
                 return [line]
-        raise ValueError(f"a line of a kernel that has no complex counterpart: {line}")
+        raise ValueError(f"a line of a kernel has no complex counterpart: {line}")
 
     def _is_complex(self, line: Line) -> bool:
         """Return whether any expression of a line contains a symbol with an imaginary part."""
@@ -151,7 +151,7 @@ class _ComplexConverter:
                 return parts[0], parts[1]
             case sp.Basic():
                 return self.split_expression(value)
-        raise ValueError(f"a value of a kernel that has no complex counterpart: {value}")
+        raise ValueError(f"a value of a kernel has no complex counterpart: {value}")
 
     def _find_part_places(self, place: Key) -> tuple[Place, Place] | None:
         """Return the places 2k and 2k + 1 of the real and imaginary part of element k of a complex array.

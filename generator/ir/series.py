@@ -115,11 +115,11 @@ LEFT, RIGHT = "left", "right"  # arguments: the factors of each product
 FindPlace = Callable[[Place], Place | None]  # place of a result; None: it is not requested
 _SKIPPED_LINES = (Status, ReturnIfOnlyJoints, Jump, SolveDependentRows)
 _DOC_VALUES = (
-    "Accelerations a and powers at a state, order 0 of their series, and what higher orders read of it.",
+    "Accelerations a and powers at a state, order 0 of their series, and the values that higher orders need.",
     "Returns 0, or the number of the pivot that vanished.",
 )
 _DOC_TERMS = (
-    "Order k > 0 of the same: t, q, v are coefficients of order k, `at` has those of order 0, `sum` what lower orders",
+    "The same for order k > 0: t, q, v are coefficients of order k, `at` has those of order 0, `sum` what lower orders",
     "add to each product; share = 1/k, next = 1/(k + 1). Results: coefficients of order k + 1 of a and power (those of",
     "q are v next), and the factors of the sums of higher orders.",
 )
@@ -235,7 +235,7 @@ class _SeriesBuilder(Rules):
             case Return():
                 pass
             case _:
-                raise NoTaylorSeries(f"a {type(line).__name__.lower()} of the right-hand side is no expression")
+                raise NoTaylorSeries(f"a {type(line).__name__.lower()} of the right-hand side is not an expression")
 
     def _add_input_line(self, line: Statement, place: Place) -> None:
         """Append a line that reads time, state or a parameter at the storage place `place` to both functions.
@@ -243,7 +243,7 @@ class _SeriesBuilder(Rules):
         The local is recorded as a parameter or as varying. Raise NoTaylorSeries for other places.
         """
         if not line.declared_local or place.base not in ("t", "q", "v", "p"):
-            raise NoTaylorSeries(f"{place} is no function of time and state")
+            raise NoTaylorSeries(f"{place} is not a function of time and state")
         self._values.append((self._title, line))
         self._terms.append((self._title, line))
         (self.parameters if place.base == "p" else self.varying).add(line.declared_local)

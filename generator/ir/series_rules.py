@@ -215,7 +215,7 @@ class Rules(ABC):
         symbol of c. Raise NoTaylorSeries if the exponent varies with time.
         """
         if not self.is_constant(value.exp):
-            raise NoTaylorSeries("a power has an exponent that moves")
+            raise NoTaylorSeries("a power has an exponent that varies")
         a, n = self.define_value(value.base), value.exp
         if n.is_Integer and n < -1:
             a, n = self.define_value(value.base**-n), sp.Integer(-1)
@@ -240,7 +240,7 @@ class Rules(ABC):
         """
         derivative = CLASSES[type(value)].derivative if type(value) in CLASSES else ""
         if not derivative and not isinstance(value, sp.atan2):
-            raise NoTaylorSeries(f"{type(value).__name__.lower()}() has corners, or its series is not known")
+            raise NoTaylorSeries(f"{type(value).__name__.lower()}() has switching points, or its series is not known")
         u = [self.define_series(x) for x in value.args]
         order_k = (
             _expand_by_derivative(self, derivative, u[0], symbol_of_value)

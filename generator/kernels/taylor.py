@@ -46,7 +46,7 @@ def make_taylor_series(program: Program) -> Series:
     try:
         return _derive_series(_get_smooth_system(program))
     except NoTaylorSeries as why:
-        raise BadValueError(f"method 'taylor' is for smooth motion: {why}", hint="use auto") from None
+        raise BadValueError(f"method 'taylor' needs smooth motion: {why}", hint="use auto") from None
 
 
 def choose_taylor_series(program: Program) -> tuple[Series | None, float]:
@@ -98,15 +98,15 @@ def _get_smooth_system(program: Program) -> TreeSystem:
     """
     model, tree = program.model, program.tree
     if tree is None or not program.integrates:
-        raise NoTaylorSeries("nothing is integrated in coordinates of a tree")
+        raise NoTaylorSeries("the scene integrates no coordinates of a tree")
     if model.clearances:
-        raise NoTaylorSeries(f"joint {model.clearances[0].name} has play, whose contacts come and go")
+        raise NoTaylorSeries(f"joint {model.clearances[0].name} has play, whose contacts begin and end")
     if model.frictions:
         raise NoTaylorSeries(f"the friction of {model.frictions[0].name} may stick")
     if tree.chains:
-        raise NoTaylorSeries("drives lead a chain of bodies through a loop of its own")
+        raise NoTaylorSeries("drives determine the coordinates of a loop")
     if model.symbols.switches.count or program.integrated.system.model.symbols.switches.count:
-        raise NoTaylorSeries("an expression has corners (where, abs, min, max, sign, mod, ramp)")
+        raise NoTaylorSeries("an expression has switching points (where, abs, min, max, sign, mod, ramp)")
     if find_drives_with_jumps(model):
         raise NoTaylorSeries("the rate of a drive may jump")
     return tree.system

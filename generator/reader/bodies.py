@@ -37,7 +37,7 @@ def read_bodies(reader: Reader, root: Map, materials: Materials) -> dict[str, Bo
     An error is collected if the section is empty; errors of single values are collected as well.
     """
     if not root["bodies"] and not reader.removed_names:
-        reader.errors.append(BadValueError("bodies is empty", root.where, "expected one body at least"))
+        reader.errors.append(BadValueError("bodies is empty", root.where, "expected at least one body"))
     return {str(name): _read_body(reader, name, body, materials) for name, body in root["bodies"].list_entries()}
 
 
@@ -106,8 +106,8 @@ def read_start(reader: Reader, root: Map, point_names: PointNames) -> Start:
     )
     for key, _ in node.get_mapping("set").list_entries():
         if key in guesses:
-            hint = f"it is guessed at {guesses[key].where}; expected one of the two"
-            reader.errors.append(BadValueError(f"{str(key)} is set and guessed", key.where, hint))
+            hint = f"the guess is at {guesses[key].where}; expected one of the two"
+            reader.errors.append(BadValueError(f"{str(key)} is both set and guessed", key.where, hint))
     return Start(guesses, fixed, rates, _read_play_starts(reader, root))
 
 
@@ -133,7 +133,7 @@ def _read_play_starts(reader: Reader, root: Map) -> dict[str, JournalStart]:
                 hint = (
                     f"expected one of: {', '.join(joints_with_play)}"
                     if joints_with_play
-                    else "expected scenes with play: no joint has any"
+                    else "expected a scene with play: no joint has play"
                 )
                 raise BadValueError(f"start.play.{joint}: no scene gives {joint} play", joint.where, hint)
             address = f"start.play.{joint}"
@@ -211,7 +211,11 @@ def _read_guessed_point(
     """
     point = point_names.resolve_point(key, key.where)
     if point.body == GROUND:
-        raise BadValueError(f"{key} rests", key.where, "expected a point of a body: those of the ground need no guess")
+        raise BadValueError(
+            f"{key} is a point of the ground",
+            key.where,
+            "expected a point of a body: points of the ground need no guess",
+        )
     x, y = read_vector(reader, node, key, POINT, address)
     return {
         f"{key}.{axis}": reader.register_quantity(replace(quantity, is_always_parameter=True))
@@ -228,7 +232,7 @@ def _make_hints_for_other_parts(key: Text, node: object, field_of_part: Field) -
     value = str(node)[:60] if isinstance(node, Text) else "…"
     return {
         coordinate: f"{phrase} under {other_part.name}: start: {{{other_part.name}: {{{body}.{coordinate}: {value}}}}}"
-        for other_part, phrase in ((START.fields[2], "velocities stand"), (START.fields[1], "coordinates stand"))
+        for other_part, phrase in ((START.fields[2], "velocities belong"), (START.fields[1], "coordinates belong"))
         if other_part.keys != field_of_part.keys
         for coordinate in other_part.keys or {}
     }
@@ -247,7 +251,7 @@ def _read_coordinates(reader: Reader, section: Map, field: Field, point_names: P
                 coordinates |= _read_guessed_point(reader, key, node, f"start.{field.name}.{key}", point_names)
                 continue
             if field.entry and field.entry.kind == PLACE and _is_point_of_body(key, point_names):
-                raise BadValueError(f"{key} is a point", node.where, "expected where it is about: [x, y]")
+                raise BadValueError(f"{key} is a point", node.where, "expected an approximate position: [x, y]")
             dimension = find_coordinate_dimension(
                 key, field.keys or {}, point_names, key.where, _make_hints_for_other_parts(key, node, field)
             )

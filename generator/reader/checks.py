@@ -17,10 +17,10 @@ from gudgeon.language.units import find_si_unit
 
 EXPRESSIONS = "expressions."  # how the addresses of expressions by name begin
 FINITE = (
-    "expected finite numbers: is there a division by zero, a root of a negative number, or a curve beyond its ends?"
+    "expected finite numbers: check for a division by zero, a root of a negative number, or a curve outside its range"
 )
 MASSLESS = (
-    ", for the equations divide by it; a massless rod with a load is one body: the load's mass, com: where the load is,"
+    ", because the equations divide by it; a massless rod with a load is one body: mass of the load, com: at the load,"
     " inertia: 0"
 )
 
@@ -40,7 +40,7 @@ def check_values(reader: Reader, parameters: Mapping[str, Quantity], scenes: Map
     )
     for name in {duration.path for duration in durations if isinstance(duration, Name)}.intersection(parameters):
         reader.add_condition(
-            parameters[name], ">", 0.0, "a ramp or smooth_step takes that long"
+            parameters[name], ">", 0.0, "the duration of a ramp or smooth_step is positive"
         )  # also for run-time overrides
 
 
@@ -173,15 +173,15 @@ def _find_invalid_part(quantity: Quantity, parameter_numbers: Mapping[str, float
     if undefined_part is not None:
         return f"has a part that is {undefined_part}", FINITE
     if (underflow := _find_underflow(quantity.value, parameter_numbers)) is not None:
-        hint = "expected products and powers from 2.3e-308: (0.01*x)**161, not 0.01**161 * x**161"
-        return f"has a part that is {underflow:g}, too small for its digits", hint
+        hint = "expected products and powers of at least 2.3e-308: (0.01*x)**161, not 0.01**161 * x**161"
+        return f"has a part that is {underflow:g}, which loses digits by underflow", hint
     for call in _find_ramp_calls(quantity):
         duration = call.arguments[2]
         if all(name.path in parameter_numbers for name in iterate_names(duration)):
             duration_s = float(evaluate(duration, parameter_numbers.__getitem__))
             if duration_s < 0.0:
-                message = f"has a {call.function} that lasts {duration_s:.6g}: it would end before it begins"
-                return message, f"expected {call.function}(t, start, duration), its duration above zero"
+                message = f"has a {call.function} with the negative duration {duration_s:.6g}"
+                return message, f"expected {call.function}(t, start, duration) with a duration above zero"
     return "", ""
 
 

@@ -245,9 +245,7 @@ class Reader:
         if text.is_null:
             raise BadValueError(f"{address} has no value", text.where, "expected a number or an expression")
         if not text.one_line:
-            raise ExpressionError(
-                f"{address} stands on several lines", text.where, "expected an expression on one line"
-            )
+            raise ExpressionError(f"{address} is on several lines", text.where, "expected an expression on one line")
         return parse(text, text.where, _NumberNames(self, address, constant), self.curves)
 
     def find_name_dimensions(self, expr: Expr, location: Location, name_scope: str = "") -> dict[str, Dimension | None]:
@@ -290,10 +288,10 @@ class Reader:
         if result_dimension is not None:
             return result_dimension(name, location)
         if "." in name.path:
-            hint = "expected parameters" + (" and t" if allows_time else "") + ", which have no parts"
-            raise ExpressionError(f"{name.path!r} cannot stand here", location, hint)
+            hint = "expected parameters" + (" and t" if allows_time else "") + ", whose names have no dot"
+            raise ExpressionError(f"{name.path!r} is not allowed here", location, hint)
         if name.path.lower() in ("time", "t"):
-            raise ExpressionError(f"{name.path!r} is no name here", location, "time is written t")
+            raise ExpressionError(f"{name.path!r} is not a name here", location, "the time is written t")
         raise make_unknown_name_error(
             "name", name.path, (*self.parameters, *(self.expressions if name_scope else ())), location
         )
@@ -308,16 +306,16 @@ class Reader:
         """
         if not allows_time and result_dimension is None:
             hint = (
-                "expected parameters: an expression by name may hold t and motion, and can stand in drives, forces,"
+                "expected parameters: a named expression may depend on t and motion; it is allowed in drives, forces,"
                 " events and outputs only"
             )
-            raise ExpressionError(f"{name!r} is an expression, and this number is constant", location, hint)
+            raise ExpressionError(f"{name!r} is a named expression, and this number must be constant", location, hint)
         for dependency in self._iterate_dependencies(name):
             if dependency in self.parameters or dependency == "t" and allows_time:
                 continue
             if dependency == "t" or result_dimension is None:
                 hint = f"expected {'t and parameters' if allows_time else 'parameters'}"
-                raise ExpressionError(f"{name!r} reads {dependency}, which cannot stand here", location, hint)
+                raise ExpressionError(f"{name!r} depends on {dependency}, which is not allowed here", location, hint)
             result_dimension(Name(dependency), location)
 
     def _iterate_dependencies(self, name: str) -> Iterator[str]:
@@ -384,11 +382,11 @@ def _find_dimension_of_time(location: Location, is_allowed: bool, is_contact_for
     """
     if is_allowed:
         return TIME
-    hint = "time can stand in drives and outputs only"
+    hint = "time is allowed in drives, forces, events and outputs only"
     if is_contact_force:
-        message = "'t' is time, and this force follows the penetration alone"
+        message = "'t' is time, and this force depends on the penetration only"
         raise ExpressionError(message, location, f"expected delta and parameters; {hint}")
-    raise ExpressionError("'t' is time, and this number is constant", location, f"expected parameters; {hint}")
+    raise ExpressionError("'t' is time, and this number must be constant", location, f"expected parameters; {hint}")
 
 
 def _is_located_in(error: InputError, text: Text) -> bool:
@@ -417,13 +415,13 @@ def check_curve_call(call: CurveCall, location: Location, may_vary: bool) -> Non
     """
     (argument,), curve = call.arguments, call.curve
     if not may_vary:
-        hint = "expected parameters; a curve can stand in drives, forces, events and outputs only"
-        raise ExpressionError(f"{call.function!r} is a curve, and this number is constant", location, hint)
+        hint = "expected parameters; a curve is allowed in drives, forces, events and outputs only"
+        raise ExpressionError(f"{call.function!r} is a curve, and this number must be constant", location, hint)
     if not any(True for _ in iterate_names(argument)) and not curve.is_within(
         x := float(evaluate(argument, lambda _: 0.0))
     ):
         message = f"curve {call.function} is called {curve.describe_out_of_range(x)}"
-        raise BadValueError(message, location, "expected an argument in it")
+        raise BadValueError(message, location, "expected an argument within the range")
 
 
 def make_unreadable_number(text: str) -> Number:

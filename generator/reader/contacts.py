@@ -45,8 +45,8 @@ def order_by_inheritance(
             if current in path:
                 cycle = [*path[path.index(current) :], current]
                 location = entry["extends"].where if "extends" in entry else by_name[current][0].where
-                message = f"{kind}s that extend each other: {' → '.join(cycle)}"
-                reader.errors.append(CycleError(message, location, "expected one of them to extend none"))
+                message = f"{kind}s extend each other: {' → '.join(cycle)}"
+                reader.errors.append(CycleError(message, location, "expected at least one of them without extends"))
                 refused.update(path)
                 break
             path.append(current)
@@ -180,11 +180,16 @@ def _read_contact(reader: Reader, name: Text, node: Map) -> Contact:
                 law_uses[role] = _read_law(reader, f"{address}.{role}", role, node[role])
     _check_contact_keys(name, node)
     if law_uses["normal"] and law_uses["friction"] and law_uses["normal"].options.get("pulls") is True:
-        hint = "expected one: friction of a force that pulls would drive the slip"
+        hint = "expected one of the two: friction of a force that pulls would drive the slip"
         raise BadValueError(f"contact {name} has friction, and a normal law that pulls", node["friction"].where, hint)
     if law_uses["mixed"] and law_uses["film"] and law_uses["film"].options.get("as_printed") is True:
-        hint = "expected one: a film as printed drives what it should damp, and goes with the paper's transition alone"
-        raise BadValueError(f"contact {name} has a film as printed, and mixed lubrication", node["mixed"].where, hint)
+        hint = (
+            "expected one of the two: as_printed drives motion that a film damps, and is for the paper's "
+            "transition only"
+        )
+        raise BadValueError(
+            f"contact {name} has a film with as_printed, and mixed lubrication", node["mixed"].where, hint
+        )
     values = read_fields(reader, node, CONTACT.fields, FieldContext(address))
     clip = values.options.get("clip_ratio", False) is True
     transition, floor = values.quantities.get("transition"), values.quantities.get("velocity_floor")
@@ -215,12 +220,12 @@ def _check_contact_keys(name: Text, node: Map) -> None:
     if "normal" in node and isinstance(law := node["normal"].get("law"), Text) and law in _find_rigid_laws():
         _check_rigid_contact(name, law, node)
     if "transition" in node and "mixed" in node:
-        hint = "expected one: a length over which the film hands over, or a law by which film and contact share"
+        hint = "expected one of the two: a length of the transition from film to contact, or a law of mixed lubrication"
         raise BadValueError(f"contact {name} has both transition and mixed", node.find_key("mixed").where, hint)
     if "normal" in node and "film" in node and not ("transition" in node or "mixed" in node):
         hint = (
-            "expected the key 'transition': the length over which the film hands over to the dry contact, such as 5 um;"
-            " or 'mixed': a law of mixed lubrication"
+            "expected the key 'transition', the length of the transition from film to dry contact, such as 5 um;"
+            " or 'mixed', a law of mixed lubrication"
         )
         raise MissingKeyError(f"contact {name} has no transition", name.where, hint)
     for part, phrase in (("transition", "a transition"), ("mixed", "mixed lubrication")):
@@ -237,7 +242,7 @@ def _check_rigid_contact(name: Text, law: Text, node: Map) -> None:
     """
     for part in ("film", "mixed", "velocity_floor", "clip_ratio"):
         if part in node:
-            hint = "expected nothing but friction beside it: its surfaces do not give"
+            hint = "expected only friction in addition to this law: its surfaces are rigid"
             raise BadValueError(f"contact {name} has {law} and {part}", node.find_key(part).where, hint)
     friction = node["friction"].get("law") if "friction" in node else None
     friction_law = find_laws_of_role("friction").get(friction) if isinstance(friction, Text) else None
@@ -252,9 +257,9 @@ def _check_rigid_contact(name: Text, law: Text, node: Map) -> None:
             if not friction_law_type.states and friction_law_type.name not in USER_LAWS
         )
         reason = (
-            "a blow has no time in which bristles bend"
+            "an impact is too short for bristles to bend"
             if friction_law.states
-            else "blows need F_n times what the slip says"
+            else "an impact needs F_n times a function of the slip"
         )
         hint = f"expected one of {', '.join(allowed_laws)}: {reason}"
         raise BadValueError(f"contact {name} has {law} and friction by {friction_law.name}", friction.where, hint)
@@ -274,7 +279,7 @@ def _check_penetration_force(reader: Reader, force: Quantity) -> None:
         return  # reported already
     if "delta" not in locations:
         hint = "expected an expression such as 1e8 N/m * delta"
-        raise ExpressionError(f"{force.address} does not follow delta, the penetration", force.where, hint)
+        raise ExpressionError(f"{force.address} does not depend on delta, the penetration", force.where, hint)
     force_at_onset = reader.register_quantity(make_onset_value(force))
     for relation, bound in ((">=", -ZERO_FORCE_TOL), ("<=", ZERO_FORCE_TOL)):
         reader.add_condition(
@@ -302,7 +307,7 @@ def _read_law(reader: Reader, address: str, role: str, node: Map) -> LawUse:
         if other_role is not None:
             raise BadValueError(f"{text} is a {other_role} law", text.where, format_name_hint(text, laws_of_role))
         hint = format_name_hint(text, laws_of_role)
-        hint += "\n  a law of your own is made known by --laws FILE.py, or gudgeon.register"
+        hint += "\n  register a user-defined law with --laws FILE.py or gudgeon.register"
         raise UnknownNameError(f"unknown {role} law {str(text)[:200]!r}", text.where, hint)
     law, fields = laws_of_role[text], laws_of_role[text].list_fields_of_name(text)
     if law.name in USER_LAWS:
@@ -317,7 +322,7 @@ def _read_law(reader: Reader, address: str, role: str, node: Map) -> LawUse:
     for option, number_name in law.instead.items():
         if number_name in values.quantities:
             if option in node:
-                hint = f"expected one: {option} says something where {number_name} is left out"
+                hint = f"expected one of the two: {option} has an effect only without {number_name}"
                 raise BadValueError(f"{address} has both {number_name} and {option}", node.find_key(option).where, hint)
             values.options.pop(option, None)
     return LawUse(law.name, values.quantities, {**values.options, **law.also.get(text, {})})
@@ -331,20 +336,22 @@ def check_contact_in_guide(joint: str, guide: Guide, contact: Contact, play_node
     """
     location = play_node["contact"].where
     if "contour" in play_node:
-        message = f"the contour of {joint} is one of a guide: contours are those of bearings"
+        message = f"{joint} has a contour and a guide: only bearings can have contours"
         raise BadValueError(message, play_node.find_key("contour").where, "expected no contour")
     if contact.film is not None:
-        message = f"contact {contact.name} of {joint} has a film, whose laws are those of a journal in its bearing"
-        raise BadValueError(message, location, "expected a contact without a film: guides have dry contact alone")
+        message = f"contact {contact.name} of {joint} has a film: laws of films describe a journal in its bearing"
+        raise BadValueError(message, location, "expected a contact without a film: guides have dry contact only")
     normal = contact.normal
     if normal is None:
         return
     if find_all_laws()[normal.law].in_hole:
         allowed_laws = sorted(name for name, law in find_laws_of_role("normal").items() if not law.in_hole)
         message = f"contact {contact.name} of {joint} has {normal.law}, a law of a pin in a hole"
-        raise BadValueError(message, location, f"expected one of a corner on a wall: {', '.join(allowed_laws)}")
+        raise BadValueError(
+            message, location, f"expected a law of a corner on a wall, one of: {', '.join(allowed_laws)}"
+        )
     if "geometry" in normal.options and guide.corner_radius is None:
-        message = f"guide {guide.name} of {joint} has no corner_radius, from which {normal.law} takes its stiffness"
+        message = f"guide {guide.name} of {joint} has no corner_radius, from which {normal.law} computes its stiffness"
         has_stiffness = any(declaration.name == "stiffness" for declaration in find_all_laws()[normal.law].fields)
         alternative = (
             "stiffness"

@@ -63,7 +63,7 @@ def read_table(data: bytes, file: str, is_number: Callable[[str], bool]) -> list
         if wrong_columns and not (is_first_row and len(wrong_columns) == 2 and is_header_row(row.cells)):
             hint = "expected a decimal number such as -0.5: with a point, '-' as its sign, and no quotes or brackets"
             raise BadValueError(
-                f"{row.cells[wrong_columns[0]][:40]!r} is no number", row.locations[wrong_columns[0]], hint
+                f"{row.cells[wrong_columns[0]][:40]!r} is not a number", row.locations[wrong_columns[0]], hint
             )
         rows += [] if wrong_columns else [row]
         is_first_row = False
@@ -95,7 +95,7 @@ def _decode_table(data: bytes, file: str) -> str:
         before = data[: error.start]
         location = Location(file, before.count(b"\n") + 1, len(before.rpartition(b"\n")[2]) + 1)
         hint = "expected a UTF-8 text file"
-        raise BadValueError(f"byte 0x{data[error.start]:02x} is no UTF-8", location, hint) from None
+        raise BadValueError(f"byte 0x{data[error.start]:02x} is not UTF-8", location, hint) from None
 
 
 def _split_row(line: str, separator: str, file: str, line_number: int) -> Row:
@@ -106,7 +106,7 @@ def _split_row(line: str, separator: str, file: str, line_number: int) -> Row:
     cells = line.split(separator)
     if len(cells) != 2:
         columns = f"{len(cells)} column{'s' * (len(cells) != 1)}"
-        hint = f"expected two, x and y, with {separator!r} between them, and numbers with a decimal point"
+        hint = f"expected two columns, x and y, separated by {separator!r}, and numbers with a decimal point"
         raise BadValueError(f"{columns} in a table", Location(file, line_number, 1), hint)
     starts = (0, len(cells[0]) + 1)
     columns_of_cells = [start + len(cell) - len(cell.lstrip()) + 1 for start, cell in zip(starts, cells, strict=True)]
@@ -158,7 +158,9 @@ def _read_curve(reader: Reader, name: Text, node: Map) -> Curve | None:
     end_condition, extrapolate = str(options["ends"]), str(options["extrapolate"])
     if end_condition == PERIODIC and extrapolate != STOP:
         location = node["extrapolate"].where
-        raise BadValueError(f"{address} is periodic and goes on {extrapolate!r}", location, "leave extrapolate out")
+        raise BadValueError(
+            f"{address} is periodic and has extrapolate: {extrapolate}", location, "remove the key extrapolate"
+        )
     interpolation = str(options["interpolation"])
     if interpolation == MONOTONE and end_condition == NOT_A_KNOT:
         hint = "expected natural, clamped or periodic"
@@ -177,8 +179,8 @@ def _read_curve(reader: Reader, name: Text, node: Map) -> Curve | None:
     coefficients = compute_spline(x, y, end_condition, interpolation)
     knots, coefficients = make_even_pieces(x, coefficients) if end_condition == PERIODIC else (x, coefficients)
     if not np.isfinite(np.array(coefficients)).all():
-        hint = "expected points whose slopes are numbers: are two of them too close?"
-        raise BadValueError(f"{address} has a slope that is no number", name.where, hint)
+        hint = "expected finite slopes: check whether two points are too close"
+        raise BadValueError(f"{address} has a slope that is not finite", name.where, hint)
     return Curve(
         str(name),
         knots,
@@ -203,7 +205,7 @@ def _read_column_unit(node: Map, key: str, address: str) -> Unit | None:
     unit_and_length = parse_unit(str(text))
     if unit_and_length is None or unit_and_length[1] != len(text):
         raise UnitError(
-            f"{address}.{key} is {describe_node(text)}, which is no unit", text.where, "expected one such as deg"
+            f"{address}.{key} is {describe_node(text)}, which is not a unit", text.where, "expected a unit such as deg"
         )
     return unit_and_length[0]
 
@@ -293,7 +295,7 @@ def _convert_column_to_si(rows: Sequence[Row], column: int, unit: Unit | None) -
         fraction = _parse_decimal(text)
         if fraction is None:
             hint = "expected a decimal number, with its unit in x: or y:"
-            raise BadValueError(f"{text[:_MAX_DECIMAL_LENGTH]!r} is no number", location, hint)
+            raise BadValueError(f"{text[:_MAX_DECIMAL_LENGTH]!r} is not a number", location, hint)
         try:
             value = unit.to_si(fraction) if unit else float(fraction)
         except OverflowError:
@@ -317,8 +319,8 @@ def _check_points(
     for k in range(1, len(x)):
         if not x[k] > x[k - 1]:
             texts = rows[k].cells[0], rows[k - 1].cells[0]
-            hint = "expected rising x, each once"
-            raise BadValueError(f"{address}: x is {texts[0]} behind {texts[1]}", rows[k].locations[0], hint)
+            hint = "expected strictly rising x"
+            raise BadValueError(f"{address}: x is {texts[0]} after {texts[1]}", rows[k].locations[0], hint)
     if end_condition == PERIODIC and y[0] != y[-1]:
-        hint = f"expected {rows[0].cells[1]}, as in the first point, or other ends"
+        hint = f"expected {rows[0].cells[1]}, as in the first point, or another value of ends"
         raise BadValueError(f"{address} is periodic and ends at {rows[-1].cells[1]}", rows[-1].locations[1], hint)

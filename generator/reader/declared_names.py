@@ -80,7 +80,7 @@ def _check_expression_names(reader: Reader, root: Map) -> None:
                 reader.refused_names.remove(str(name))
                 if name in users_of_names:
                     message = f"{name!r} names this {kind} and {users_of_names[name]}"
-                    raise BadNameError(message, name.where, "expected a name of its own: both stand in expressions")
+                    raise BadNameError(message, name.where, "expected another name: expressions may contain both")
         users_of_names = dict.fromkeys(names, f"a{'n' * (kind == 'output')} {kind}") | users_of_names
 
 
@@ -98,8 +98,8 @@ def _check_result_names(reader: Reader, root: Map) -> Iterator[str]:
                 if name in users_of_names:
                     yield str(name)
                     other_kind, location = users_of_names[name]
-                    hint = "expected a name of its own: bodies, joints, drives, forces and outputs share one namespace"
-                    message = f"{name!r} names two things: this {kind}, and the {other_kind} at {location}"
+                    hint = "expected another name: bodies, joints, drives, forces and outputs share one namespace"
+                    message = f"{name!r} names this {kind} and the {other_kind} at {location}"
                     raise BadNameError(message, name.where, hint)
                 users_of_names[name] = kind, name.where
 
@@ -110,15 +110,15 @@ def _check_point_names(reader: Reader, root: Map) -> None:
     Reserved are coordinates, implied points, and on a body with `sides` the corners P, Q and R.
     """
     for body, node in root["bodies"].list_entries():
-        reasons = dict.fromkeys(CORNERS_OF_SIDES, "it is one of sides") if "sides" in node else {}
+        reasons = dict.fromkeys(CORNERS_OF_SIDES, "the key sides defines it") if "sides" in node else {}
         reasons |= {name: f"{body}.{name} is a coordinate" for name in _COORDINATES}
-        reasons |= dict.fromkeys(IMPLIED_POINTS, "every body has it")
+        reasons |= dict.fromkeys(IMPLIED_POINTS, "every body has a point of this name")
         for point in node.get_mapping("points").list_keys():
             with reader.collect_errors():
                 _check_point_name(point, reasons.get(point, ""), "expected another name")
     for point in root.get_mapping("ground").list_keys():
         with reader.collect_errors():
-            _check_point_name(point, "it names a coordinate" if point in _COORDINATES else "")
+            _check_point_name(point, "a coordinate has this name" if point in _COORDINATES else "")
 
 
 def _check_point_name(point: Text, reason: str, hint: str = "") -> None:

@@ -44,8 +44,10 @@ def read_drives(reader: Reader, root: Map, point_names: PointNames) -> dict[str,
             drive, key = drive_and_key
             if key in drives_by_target:
                 other_drive = drives_by_target[key]
-                message = f"drive {name} prescribes what drive {other_drive.name} at {other_drive.where} prescribes"
-                raise JoinError(message, name.where, "expected one drive for one thing")
+                message = (
+                    f"drive {name} prescribes the same quantity as drive {other_drive.name} at {other_drive.where}"
+                )
+                raise JoinError(message, name.where, "expected one drive per quantity")
             drives[str(name)] = drives_by_target[key] = drive
     return drives
 
@@ -71,7 +73,7 @@ def _read_drive(
         raise BadValueError(
             f"{address}.value jumps where the argument of sign changes its sign",
             value.where,
-            "a drive moves without jumps: abs, min, max, ramp, smooth_step and a where whose branches meet have none",
+            "expected a value without jumps: abs, min, max, ramp, smooth_step, or a where whose branches meet",
         )
     drive = Drive(
         str(name), str(kind), target.body, target.reference, value, name.where, target.coordinate, target.points
@@ -90,7 +92,7 @@ def _read_angle_target(reader: Reader, node: Map, kind: Text, point_names: Point
     if body == GROUND:
         raise JoinError("a drive cannot turn the ground", references[-1].where, hint)
     if body == reference:
-        raise JoinError(f"{body} cannot be driven against itself", references[-1].where, hint)
+        raise JoinError(f"{body} cannot be driven relative to itself", references[-1].where, hint)
     key = ("theta", frozenset((body, reference)))
     return _Target(body, None if reference == GROUND else reference, "theta", (), None, key)
 

@@ -86,8 +86,8 @@ def _check_expression_size(
     """
     parts, levels = _measure_tree(tree, sizes)
     if parts > MAX_PARTS or levels > MAX_LEVELS:
-        message = f"expressions.{name} has {parts} parts in {levels} levels with all names written out"
-        raise LimitError(message, location, f"expected at most {MAX_PARTS} in {MAX_LEVELS}")
+        message = f"expressions.{name} has {parts} parts in {levels} levels with all names replaced"
+        raise LimitError(message, location, f"expected at most {MAX_PARTS} parts in {MAX_LEVELS} levels")
     return parts, levels
 
 

@@ -163,7 +163,7 @@ def _format_joints_hint(kind: Text, points: Sequence[object]) -> str:
         f"{name}: {{{kind}: [{first_point}, {other_point}]}}"
         for name, other_point in zip("ABC", other_points, strict=False)
     )
-    return f"{len(points)} bodies on one pin are {len(points) - 1} joints: {lines}"
+    return f"write {len(points)} bodies on one pin as {len(points) - 1} joints: {lines}"
 
 
 def check_different_bodies(kind: str, references: Sequence[PointRef]) -> None:

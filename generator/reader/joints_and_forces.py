@@ -38,7 +38,7 @@ def _make_play_hints(joint: Text, node: Map, root: Map) -> Mapping[str, str]:
         next(iter(root.get_mapping(f"{section}s")), _PLAY[section]) for section in (dimensions_key, "contact")
     )
     example = f"scenes: {{worn: {{play: {{{joint}: {{{dimensions_key}: {dimensions_name}, contact: {contact}}}}}}}}}"
-    return dict.fromkeys(("play", "clearance", "bearing", "guide", "contact"), f"play stands in scenes: {example}")
+    return dict.fromkeys(("play", "clearance", "bearing", "guide", "contact"), f"play belongs in scenes: {example}")
 
 
 _PLAY = {"bearing": "pin", "guide": "way", "contact": "metal"}
@@ -65,7 +65,9 @@ def _read_joint(reader: Reader, name: Text, node: Map, point_names: PointNames, 
         if field.kind == BODY and values.options.get(field.name) in (first.body, second.body):
             body = values.options[field.name]
             location = node[field.name].where if field.name in node else kind.where
-            raise JoinError(f"{body} is one of the two bodies and their {field.name}", location, "expected a third one")
+            raise JoinError(
+                f"{body} is one of the two bodies and also their {field.name}", location, "expected a third body"
+            )
     return Joint(
         str(name), str(kind), first, second, values.quantities, values.vectors, values.format_options(), name.where
     )
@@ -85,14 +87,17 @@ def _check_cam_profile(reader: Reader, profile: Quantity) -> None:
     unknown = next((path for path in locations if path not in (OF_CAM_ANGLE, *reader.parameters)), None)
     if unknown is not None:
         hint = "expected phi, the cam's angle, parameters and curves"
-        raise ExpressionError(f"{unknown!r} cannot stand in the profile of a cam", profile.where, hint)
+        raise ExpressionError(f"{unknown!r} is not allowed in the profile of a cam", profile.where, hint)
     if OF_CAM_ANGLE not in locations:
         hint = "expected an expression such as 30 mm + lift(phi)"
-        raise ExpressionError(f"{profile.address} does not follow phi, the cam's angle", profile.where, hint)
+        raise ExpressionError(f"{profile.address} does not depend on phi, the cam's angle", profile.where, hint)
     if piecewise_functions := sorted(PIECEWISE.intersection(list_functions(profile.value))):
-        hint = "expected curves (extrapolate: none, or ends: periodic) and smooth functions: the slope is a speed"
+        hint = (
+            "expected curves (extrapolate: none, or ends: periodic) and smooth functions: a jump of the "
+            "slope is a jump of the speed"
+        )
         raise BadValueError(
-            f"{profile.address} has a slope that may jump, by {piecewise_functions[0]}", profile.where, hint
+            f"{profile.address} has a slope that may jump, because of {piecewise_functions[0]}", profile.where, hint
         )
 
 

@@ -93,7 +93,7 @@ class Materials:
         """
         if not self.by_name:
             raise UnknownNameError(
-                f"unknown material {str(material_name)[:200]!r}", material_name.where, f"write it: {EXAMPLE_SECTION}"
+                f"unknown material {str(material_name)[:200]!r}", material_name.where, f"add it: {EXAMPLE_SECTION}"
             )
         if material_name not in self.by_name:
             raise make_unknown_name_error("material", material_name, self.by_name, material_name.where)

@@ -74,7 +74,9 @@ def _find_parameter_dimension(
     dimension = check_dimension(tree, None, find_name_dimension, location)
     if dimension is not None and not dimension.has_halves_at_most:
         raise InputError(
-            f"the unit of parameter {name} has a broken exponent", location, "expected whole or half powers of m, kg, s"
+            f"the unit of parameter {name} has an exponent that is not a multiple of 1/2",
+            location,
+            "expected whole or half powers of m, kg, s",
         )
     return dimension
 
@@ -130,8 +132,12 @@ def _make_cycle_error(cycle: list[str], locations: Mapping[str, Location], secti
     path = [*cycle[first:], *cycle[:first]]
     if len(path) > MAX_REPORTED:
         path[MAX_REPORTED - 1 :] = [f"… ({len(path) - MAX_REPORTED + 1} more)"]
-    message = f"{section} defined through each other: {' → '.join([*path, cycle[first]])}"
-    return CycleError(message, locations[cycle[first]], "expected one of them to have a value of its own")
+    message = f"{section} depend on each other: {' → '.join([*path, cycle[first]])}"
+    return CycleError(
+        message,
+        locations[cycle[first]],
+        "expected at least one of them with a value that does not depend on the others",
+    )
 
 
 def evaluate_parameters(parameters: Mapping[str, Quantity]) -> dict[str, float]:

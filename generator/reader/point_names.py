@@ -54,7 +54,7 @@ class PointNames:
             with suppress(InputError, KeyError):
                 body = self.check_body(str(text), default_location)
                 hint = f"expected one of: {', '.join(f'{body}.{point_name}' for point_name in self.list_points(body))}"
-            raise BadValueError(f"{describe_node(text)} is no point", getattr(text, "where", default_location), hint)
+            raise BadValueError(f"{describe_node(text)} is not a point", getattr(text, "where", default_location), hint)
         body, _, point = text.partition(".")
         self.check_body(body, text.where)
         points = self.list_points(body)
@@ -70,7 +70,7 @@ class PointNames:
         """
         if not isinstance(text, Text):
             raise BadValueError(
-                f"{describe_node(text)} is no body", location, format_name_hint("", (*self.bodies, GROUND))
+                f"{describe_node(text)} is not a body", location, format_name_hint("", (*self.bodies, GROUND))
             )
         name = self.check_body(text, location)
         return PointRef(str(name), "" if name == GROUND else "com", location)
@@ -98,7 +98,7 @@ def find_coordinate_dimension(
         raise make_unknown_name_error("body", body, point_names.bodies, location)
     if not coordinate:
         hint = f"expected one of: {', '.join(f'{body}.{name}' for name in dimensions)}"
-        raise UnknownNameError(f"{body} is a body, no coordinate", location, hint)
+        raise UnknownNameError(f"{body} is a body, not a coordinate", location, hint)
     if coordinate not in dimensions:
         location_of_coordinate = Location(location.file, location.line, location.column + len(body) + 1)
         if coordinate in hints:

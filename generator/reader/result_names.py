@@ -126,7 +126,7 @@ class ResultNames:
                 if same_results
                 else "expected a result: L1.omega, A.F, drive.torque"
             )
-            raise UnknownNameError(f"{str(name)!r} is {self.number_kinds[name]}, no series", name.where, hint)
+            raise UnknownNameError(f"{str(name)!r} is {self.number_kinds[name]}, not a series", name.where, hint)
         results_of_owner = [path for path in self.iterate_names() if path.partition(".")[0] == name]
         raise make_unknown_name_error("series", name, results_of_owner or [*outputs, *self.iterate_names()], name.where)
 
@@ -140,14 +140,17 @@ class ResultNames:
         if joint in self.unreadable_owners:
             return
         if joint in self._joints and corner in CORNERS and joint not in play:
-            hint = f"expected one of: {', '.join(f'{joint}.{result}' for result in _JOINT)}; or give it play there"
+            hint = (
+                f"expected one of: {', '.join(f'{joint}.{result}' for result in _JOINT)}; or play of {joint} "
+                f"in scene {scene}"
+            )
             raise BadValueError(f"{name}: joint {joint} has no play in scene {scene}", name.where, hint)
         if owner not in self._joints or result in _ALWAYS:
             return
         if owner in play and result in _JOINT and f"{owner}.{next(iter(CORNERS))}" not in self.owners:
             raise BadValueError(f"{name}: joint {owner} has play in scene {scene}", name.where, _RESULTS_OF_PLAY)
         if owner not in play and result in _PLAY:
-            hint = f"expected one of: {', '.join(_JOINT)}; or give it play there"
+            hint = f"expected one of: {', '.join(_JOINT)}; or play of {joint} in scene {scene}"
             raise BadValueError(f"{name}: joint {owner} has no play in scene {scene}", name.where, hint)
 
     def iterate_names(self) -> Iterator[str]:
@@ -207,8 +210,8 @@ class PenetrationNames:
         if name.path == "delta":
             return LENGTH
         if "." in name.path or name.path in _PLAY:
-            hint = "expected delta, the penetration, and parameters; `dissipation` says what its rate does"
-            raise ExpressionError(f"{name.path!r} cannot stand in a force of the penetration", where, hint)
+            hint = "expected delta, the penetration, and parameters; `dissipation` sets the effect of its rate"
+            raise ExpressionError(f"{name.path!r} is not allowed in a force of the penetration", where, hint)
         raise make_unknown_name_error("name", name.path, ("delta", *self._parameters), where)
 
 
@@ -227,7 +230,7 @@ class CamAngleNames:
             return DIMENSIONLESS
         if "." in name.path:
             hint = "expected phi, the cam's angle, parameters and curves"
-            raise ExpressionError(f"{name.path!r} cannot stand in the profile of a cam", where, hint)
+            raise ExpressionError(f"{name.path!r} is not allowed in the profile of a cam", where, hint)
         raise make_unknown_name_error("name", name.path, (OF_CAM_ANGLE, *self._parameters), where)
 
 

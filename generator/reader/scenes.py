@@ -84,7 +84,7 @@ def read_scenes(reader: Reader, parts: SceneParts) -> dict[str, SceneSpec]:
         with reader.collect_errors():
             if name == IDEAL and any(scene.get(key) for key in ("play", "parameters", "materials", "extends")):
                 hint = "expected simulate: and events: only"
-                message = "the scene ideal has no play, and the file's parameters and materials"
+                message = "the scene ideal has the file's parameters and materials, and no play"
                 raise BadValueError(message, name.where, hint)
         events = read_events(reader, scene.get_mapping("events"), f"scenes.{name}.events")
         merged_scene = _merge_scene(
@@ -201,15 +201,15 @@ def _read_play(reader: Reader, joint: Text, play_node: Map, parts: SceneParts, a
         check_contact_in_guide(str(joint), bearing, law, play_node)
         return Play(bearing, law, joint.where)
     if contour and parts.contacts[contact].film is not None:
-        message = f"the contour of {joint} is one with a film: the film's laws are those of a circle"
+        message = f"{joint} has a contour and a film: laws of films describe circular bearings"
         raise BadValueError(
             message, play_node.find_key("contour").where, "expected a contact without a film, or no contour"
         )
     normal = parts.contacts[contact].normal
     if contour and normal and find_all_laws()[normal.law].rigid:
-        message = f"the contour of {joint} is one with {normal.law}: its blows are those of a circle"
+        message = f"{joint} has a contour and {normal.law}: its impacts are those of circular bearings"
         raise BadValueError(
-            message, play_node.find_key("contour").where, "expected a contact whose surfaces give, or no contour"
+            message, play_node.find_key("contour").where, "expected a contact with compliant surfaces, or no contour"
         )
     for depth in contour:
         reader.add_condition(depth, "<", bearing.radius, "a contour's depth is smaller than the radius")
@@ -227,14 +227,12 @@ def _find_dimensions_key(joint: Text, play_node: Map, parts: SceneParts) -> str:
         hint = (
             f"expected one of: {', '.join(joints_with_play)}"
             if joints_with_play
-            else "there are no joints here that can"
+            else "no joint of this file can have play"
         )
         raise BadValueError(f"joint {joint} is a {joint_type.title}: it cannot have play", joint.where, hint)
     for other_key in {"bearing", "guide"} - {joint_type.play}:
         if other_key in play_node:
-            message = (
-                f"joint {joint} is a {joint_type.title}: a {joint_type.play} says what play it has, no {other_key}"
-            )
+            message = f"joint {joint} is a {joint_type.title}: its play needs a {joint_type.play}, not a {other_key}"
             raise BadValueError(
                 message,
                 play_node.find_key(other_key).where,
@@ -253,7 +251,7 @@ def _read_contour(reader: Reader, play_node: Map, address: str) -> tuple[Quantit
     node, location = play_node["contour"], play_node.find_key("contour").where
     if isinstance(node, Text):
         count = int(node) if node.isdecimal() and node.isascii() and len(node) < 6 else 0
-        hint = f"expected a list of depths, or how many there are: {MIN_DEPTHS} to {MAX_DEPTHS}, 128 say"
+        hint = f"expected a list of depths, or the number of depths: {MIN_DEPTHS} to {MAX_DEPTHS}, such as 128"
     else:
         count, hint = len(node), f"expected {MIN_DEPTHS} to {MAX_DEPTHS} depths at equal angles"
     if not MIN_DEPTHS <= count <= MAX_DEPTHS:
@@ -292,7 +290,7 @@ def _check_contour_friction(scene: SceneSpec, play_section: Map) -> None:
     """
     with_contour = [joint for joint, play in scene.play.items() if play.contour]
     if with_contour and (states := sorted(_find_internal_states(scene))):
-        message = f"scene {scene.name} has a contour beside a law with an internal state ({states[0]})"
+        message = f"scene {scene.name} has a contour and a law with an internal state ({states[0]})"
         location = play_section[with_contour[0]].find_key("contour").where
         raise BadValueError(message, location, "expected friction without an internal state, or no contour")
 
@@ -355,7 +353,7 @@ def _read_event(reader: Reader, name: Text, node: Map, address: str) -> EventSpe
     options = {field.name: field.default_option for field in EVENT.fields if field.kind == WORD} | values.options
     if len(reader.errors) == errors_before and not _is_time_dependent(zero.value):
         hint = "expected an expression of t, or of coordinates and velocities: S9.y, L1.omega - 20 rad/s"
-        raise BadValueError(f"{address}.zero never changes: it crosses zero at no time", node["zero"].where, hint)
+        raise BadValueError(f"{address}.zero never changes, so that it has no zero crossing", node["zero"].where, hint)
     return EventSpec(str(name), zero, str(options["direction"]), str(options["action"]), name.where)
 
 

@@ -111,11 +111,11 @@ class MassProperties:
 
         Raises BadValueError if the body has no length, or a centre of mass that the file gives.
         """
-        address, hint = f"{self._address}.inertia", "expected a number, or a body with length: and mass: alone"
+        address, hint = f"{self._address}.inertia", "expected a number, or a body with length: and mass: only"
         if self.length is None:
-            raise BadValueError(f"{address} is auto, that of a slender bar, and there is no length", location, hint)
+            raise BadValueError(f"{address} is auto, that of a slender bar, and the body has no length", location, hint)
         if self.com is not None:
-            fault = f"{address} is auto, that of a slender bar about its middle, and com is elsewhere"
+            fault = f"{address} is auto, that of a slender bar about its middle, and the body has com"
             raise BadValueError(fault, location, "expected no com, or a number for inertia")
         self._set_inertia(_AUTO, {"l": self.length}, location)
 
@@ -194,7 +194,7 @@ class MassProperties:
             a, b = values.vectors["rectangle"]
         elif self.length is None:
             fault, hint = (
-                f"{self._address}.shape is a bar, and there is no length",
+                f"{self._address}.shape is a bar, and the body has no length",
                 "expected rectangle: [length, width]",
             )
             raise BadValueError(fault, kind.where, hint)
@@ -210,7 +210,7 @@ class MassProperties:
         Raises BadValueError if the body has a centre of mass already, UnknownNameError for an unknown corner.
         """
         if self.com is not None:
-            fault = f"{self._address} has com and a triangle, whose centre of mass is its own"
+            fault = f"{self._address} has com and a triangle, which determines the centre of mass"
             raise BadValueError(fault, kind.where, "expected one of the two")
         coordinates: dict[str, Quantity] = {}
         for letter, name in zip("pqr", node["triangle"], strict=True):

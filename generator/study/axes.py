@@ -109,7 +109,7 @@ def _read_zip_entry(reader: Reader, name: Text, group: Map) -> Axis:
     if len(set(lengths.values())) > 1 and 0 not in lengths.values():
         lengths_text = ", ".join(f"{key} has {length}" for key, length in lengths.items())
         raise BadValueError(
-            f"zip.{name}: lists of different lengths: {lengths_text}", name.where, "as many values in each"
+            f"zip.{name}: lists of different lengths: {lengths_text}", name.where, "expected lists of equal length"
         )
     if not columns:
         raise BadValueError(f"zip.{name} is empty", name.where, "expected numbers with lists: {c: […], omega: […]}")
@@ -189,7 +189,7 @@ def read_starts(reader: Reader, root: Map) -> Starts | None:
         )
         if has_ensembles and deviation_keys:
             message = f"starts has both ensembles and {deviation_keys[0]}"
-            raise UnknownKeyError(message, deviation_keys[0].where, "write it into an ensemble of its own")
+            raise UnknownKeyError(message, deviation_keys[0].where, "write it into a separate ensemble")
         ensembles = (
             _read_ensembles(reader, node)
             if has_ensembles
@@ -229,14 +229,16 @@ def _read_deviations(reader: Reader, node: Map, address: str, known_keys: tuple[
         if kind in node:
             for key, size in check_mapping(node[kind], f"{address}.{kind}", node.find_key(kind)).list_entries():
                 if key in deviations:
-                    message = f"{address}: the size of {key} is relative and absolute"
-                    raise BadValueError(message, key.where, "expected one of both")
+                    message = f"{address}: the size of {key} is both relative and absolute"
+                    raise BadValueError(message, key.where, "expected one of the two")
                 deviations[key] = Deviation(
                     kind == "relative", check_text(size, f"{address}.{kind}.{key}", key, "a size")
                 )
     if not deviations:
-        hint = "expected relative: {omega: 1e-6}, or absolute: {c: 1 um}: the size decides, so it is yours to say"
-        raise BadValueError(f"{address} does not say what is off, and by how much", node.where, hint)
+        hint = (
+            "expected relative: {omega: 1e-6}, or absolute: {c: 1 um}: results depend on the size, which has no default"
+        )
+        raise BadValueError(f"{address} has no deviations", node.where, hint)
     return deviations
 
 
@@ -249,10 +251,10 @@ def read_choices(reader: Reader, root: Map) -> list[Choice]:
     for key, node in _iterate_section_entries(reader, root, "choices"):
         with reader.collect_errors():
             if isinstance(node, (Text, Items)):
-                values = check_texts(node, f"choices.{key}", key, "a list of what may stand there")
+                values = check_texts(node, f"choices.{key}", key, "a list of alternative values")
                 choices.append(Choice(str(key), key.where, {str(value): {str(key): value} for value in values}))
                 if len(set(values)) < len(values):
-                    raise BadValueError(f"choices.{key} has a value twice", key.where, "expected each once")
+                    raise BadValueError(f"choices.{key} has a value twice", key.where, "expected each value once")
                 continue
             options = {}
             for name, value in check_mapping(node, f"choices.{key}", key).list_entries():

@@ -96,7 +96,11 @@ def _check_unique_names(reader: Reader, names: Sequence[Text]) -> None:
         if name in names[:k]:
             first_location = names[names.index(name)].where
             reader.errors.append(
-                BadNameError(f"claim {str(name)[:60]!r} is there twice", name.where, f"once: {first_location}")
+                BadNameError(
+                    f"claim {str(name)[:60]!r} is given twice",
+                    name.where,
+                    f"expected once; the first is at {first_location}",
+                )
             )
 
 
@@ -118,7 +122,7 @@ def _read_number_claim(reader: Reader, name: Text, node: Map) -> NumberClaim:
     )
     if value is not None and reference_claim is not None:
         raise BadValueError(
-            f"{address} has both value and beside", node.find_key("beside").where, "expected one of both"
+            f"{address} has both value and beside", node.find_key("beside").where, "expected one of the two"
         )
     figure, says, note, heading = (read_line(node, key, address) for key in ("figure", "says", "note", "heading"))
     return NumberClaim(
@@ -137,7 +141,9 @@ def _check_claim_references(reader: Reader, numbers: Sequence[NumberClaim]) -> N
             if reference_claim not in measures:
                 raise make_unknown_name_error("number", reference_claim, list(measures), reference_claim.where)
             if measures[reference_claim] != claim.measure:
-                message = f"{reference_claim} is about {measures[reference_claim]}, {claim.name} about {claim.measure}"
+                message = (
+                    f"{reference_claim} has the measure {measures[reference_claim]}, {claim.name} has {claim.measure}"
+                )
                 raise BadValueError(message, reference_claim.where, "expected a number of the same measure")
 
 
@@ -192,7 +198,7 @@ def _read_trend_claim(name: Text, node: Map) -> TrendClaim:
     if reason:
         if extra_keys := [key for key in statement_node.list_keys() if key != "not_computed"]:
             raise BadValueError(
-                f"{address} is not computed, and has {extra_keys[0]}", extra_keys[0].where, "expected one of both"
+                f"{address} has both not_computed and {extra_keys[0]}", extra_keys[0].where, "expected one of the two"
             )
         return TrendClaim(name, figure, says, (), reason, note, heading)
     return TrendClaim(

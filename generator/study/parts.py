@@ -60,9 +60,7 @@ def check_text(node: Any, address: str, key: Any, expected_text: str = "a number
     Raises BadValueError; `expected_text` says what was expected.
     """
     if not isinstance(node, Text) or node.is_null or not node.one_line:
-        message = (
-            "stands on several lines" if isinstance(node, Text) and not node.one_line else f"is {describe_node(node)}"
-        )
+        message = "is on several lines" if isinstance(node, Text) and not node.one_line else f"is {describe_node(node)}"
         raise BadValueError(f"{address} {message}", find_location(node, key), f"expected {expected_text}")
     return node
 
@@ -82,7 +80,9 @@ def check_paragraph(node: Any, address: str, key: Any) -> str:
     joined = " ".join(node.split())
     if len(joined) > MAX_TEXT_LENGTH or not joined.isprintable():
         raise BadValueError(
-            f"{address} has {len(joined)} characters", node.where, f"at most {MAX_TEXT_LENGTH}, visible"
+            f"{address} has {len(joined)} characters",
+            node.where,
+            f"expected at most {MAX_TEXT_LENGTH} visible characters",
         )
     return joined
 
@@ -147,8 +147,8 @@ def check_dimension_name(name: Text, kind: str) -> str:
     `kind` is the noun in the message; the name of a "parameter" may be any address.
     """
     if name in RESERVED:
-        hint = "take another name" if kind != "parameter" else f"write parameters.{name}"
-        raise BadNameError(f"{str(name)!r} is what the study's dataset calls something of its own", name.where, hint)
+        hint = "choose another name" if kind != "parameter" else f"write parameters.{name}"
+        raise BadNameError(f"{str(name)!r} is a reserved name of the study's dataset", name.where, hint)
     return check_label_of_entry(name, kind) if kind != "parameter" else str(name)
 
 
@@ -185,7 +185,7 @@ def read_titles(reader: Reader, root: Map, parts: Mapping[str, StudyFile | None]
                     raise make_unknown_name_error("name", name, known_names, name.where)
                 title = check_text(value, f"titles.{name}", name, "a line")
                 if len(title) > MAX_TITLE_LENGTH or not title.isprintable():
-                    hint = f"expected one line of at most {MAX_TITLE_LENGTH} characters that can be seen"
+                    hint = f"expected one line of at most {MAX_TITLE_LENGTH} visible characters"
                     raise BadValueError(f"titles.{name} has {len(title)} characters", title.where, hint)
                 titles[str(name)] = str(title)
     return titles

@@ -60,14 +60,14 @@ def check_dataset_names(reader: Reader, study: StudyFile, root: Map) -> None:
         parameter_name = remove_section_name(str(key))
         if parameter_name in first_keys:
             with reader.collect_errors():
-                message = f"{str(key)[:60]!r} is said twice"
+                message = f"{str(key)[:60]!r} is given twice"
                 raise BadNameError(
                     message, key.where, f"expected once; the first is at {first_keys[parameter_name].where}"
                 )
         first_keys.setdefault(parameter_name, key)
     refused_choices = set(_find_conflicting_choices(reader, study, first_keys))
     groups = [Text.make_text(axis.name, axis.where) for axis in study.axes if axis.grouped]
-    users_of_names = {str(key): ("a number of the runs", key) for key in parameter_keys}
+    users_of_names = {str(key): ("a parameter of the runs", key) for key in parameter_keys}
     for kind, key in _iterate_dataset_names(study, root, groups):
         is_reserved = key in RESERVED and not (key == "run" and key in groups)
         if (key in users_of_names or is_reserved) and key not in refused_choices:
@@ -77,18 +77,18 @@ def check_dataset_names(reader: Reader, study: StudyFile, root: Map) -> None:
                     if key in users_of_names
                     else ("", "")
                 )
-                message = f"the name {str(key)[:60]!r} is taken, by {user or 'the dataset itself'}"
-                raise BadNameError(message, key.where, f"take another one{location_text and ': '}{location_text}")
+                message = f"the name {str(key)[:60]!r} is already used, by {user or 'the dataset itself'}"
+                raise BadNameError(message, key.where, f"choose another name{location_text and ': '}{location_text}")
         users_of_names.setdefault(str(key), (kind, key))
 
 
 def _iterate_dataset_names(study: StudyFile, root: Map, zip_keys: list[Text]) -> Iterator[tuple[str, Text]]:
     """Yield (kind, name) for each name of the dataset that is not a parameter: zips, choices, measures, series."""
-    yield from (("numbers that go together", key) for key in zip_keys)
+    yield from (("parameters that vary together", key) for key in zip_keys)
     yield from (("a choice", Text.make_text(choice.name, choice.where)) for choice in study.choices)
     if isinstance(root.get("measures"), Map):
         yield from (("a measure", key) for key in root.get_mapping("measures").list_keys())
-    yield from (("a series that is kept", key) for key in study.keep)
+    yield from (("a stored series", key) for key in study.keep)
 
 
 def _find_conflicting_choices(reader: Reader, study: StudyFile, keys_of_parameters: dict[str, Text]) -> Iterator[str]:
@@ -114,9 +114,9 @@ def _find_conflicting_choices(reader: Reader, study: StudyFile, keys_of_paramete
                 if choice.name == shared_name
                 else f"choices: {choice.name}, by {shared_name},"
             )
-            message = f"{choice_phrase[:120]} varies what {setting_phrase[:120]} gives to all runs"
+            message = f"{choice_phrase[:120]} varies a parameter that {setting_phrase[:120]} sets for all runs"
             raise BadNameError(
-                message, choice.where, "leave one of the two out: what is set for all runs does not vary"
+                message, choice.where, "remove one of the two: a parameter that is set for all runs does not vary"
             )
 
 
@@ -232,7 +232,7 @@ def _check_format(root: Map, is_required: bool) -> None:
             raise MissingKeyError("no format", root.where, f"expected the key format: {FORMAT}")
     elif root["format"] != FORMAT:
         is_mechanism_file = root["format"] == MECHANISM
-        remark = "; this file is a mechanism, which `gudgeon run FILE` runs" if is_mechanism_file else ""
+        remark = "; this file is a mechanism: run it with `gudgeon run FILE`" if is_mechanism_file else ""
         message = f"format is {describe_node(root['format'])}"
         raise BadValueError(message, root.find_key("format").where, f"expected {FORMAT}{remark}")
 
@@ -251,12 +251,12 @@ def _read_part(reader: Reader, root: Map, file: str, settings: Mapping[str, str]
     is_single_scene, scenes = True, (*[Text.make_text("ideal", root.where)],)
     with reader.collect_errors():
         mechanism = check_text(
-            root["mechanism"], "mechanism", root.find_key("mechanism"), "a file beside this one, or a name"
+            root["mechanism"], "mechanism", root.find_key("mechanism"), "a file next to this one, or a name"
         )
     with reader.collect_errors():
         title = check_text(root["title"], "title", root.find_key("title"), "a line") if "title" in root else title
         if len(title) > MAX_TITLE or not title.isprintable():
-            hint = f"expected one line of at most {MAX_TITLE} characters that can be seen"
+            hint = f"expected one line of at most {MAX_TITLE} visible characters"
             raise BadValueError(f"the title has {len(title)} characters", title.where, hint)
     with reader.collect_errors():
         if "scenes" in root:
@@ -270,7 +270,7 @@ def _read_part(reader: Reader, root: Map, file: str, settings: Mapping[str, str]
     with reader.collect_errors():
         if not (root.get("measures") or root.get("keep")):
             hint = "expected measures: {peak: {peak: slider.ax}}, or keep: [slider.x]"
-            raise MissingKeyError(f"{part_name} measures nothing and keeps nothing", root.where, hint)
+            raise MissingKeyError(f"{part_name} has neither measures nor keep", root.where, hint)
     study = StudyFile(
         file,
         str(title),
@@ -311,7 +311,7 @@ def _check_unique_names(names: tuple[Text, ...], kind: str) -> tuple[Text, ...]:
     """
     for k, name in enumerate(names):
         if name in names[:k]:
-            raise BadNameError(f"the {kind} {str(name)[:60]!r} is given twice", name.where, "expected each once")
+            raise BadNameError(f"the {kind} {str(name)[:60]!r} is given twice", name.where, "expected each name once")
     return names
 
 
@@ -406,7 +406,7 @@ def _check_single_subtracted_scene(measures: Sequence[Measure]) -> None:
         if measure.origin is not None and measure.statistic not in WINDOW_STATISTICS
     ]
     if origins and origins[-1] != origins[0]:
-        message = f"over all steps runs go beside scene {origins[0]} and scene {origins[-1]}"
+        message = f"statistics of all steps subtract both scene {origins[0]} and scene {origins[-1]}"
         raise BadValueError(message, origins[-1].where, f"expected from: {origins[0]}, or a statistic of samples")
 
 
@@ -429,9 +429,11 @@ def _read_measure(name: Text, node: Map, windows: Mapping[str, Window], root: Ma
     if "window" in node:
         window_name = check_text(node["window"], f"{address}.window", node.find_key("window"), "the name of a window")
         if statistic not in WINDOW_STATISTICS:
-            hint = f"leave it out, or take one of: {', '.join(SAMPLES)}, of samples"
+            hint = f"remove window, or use a statistic of samples: {', '.join(SAMPLES)}"
             raise BadValueError(
-                f"{address}: {statistic} is of all steps of a run, and knows no window", window_name.where, hint
+                f"{address}: {statistic} is a statistic of all steps of a run, and has no window",
+                window_name.where,
+                hint,
             )
         if window_name not in root.get("windows", ()):
             raise make_unknown_name_error("window", window_name, windows, window_name.where)
@@ -456,8 +458,8 @@ def _read_subtracted_scene(name: Text, node: Map, statistic: Text) -> Text | Non
             raise make_missing_key_error("from", node.where, address)
         return None
     if statistic not in SERIES_STATISTICS:
-        hint = f"leave it out, or take one of: {', '.join(SERIES_STATISTICS)}"
-        raise BadValueError(f"{address}: {statistic} is of no series", node.find_key("from").where, hint)
+        hint = f"remove from, or use one of: {', '.join(SERIES_STATISTICS)}"
+        raise BadValueError(f"{address}: {statistic} is not a statistic of a series", node.find_key("from").where, hint)
     return check_text(node["from"], f"{address}.from", node.find_key("from"), "the name of a scene")
 
 

@@ -42,7 +42,7 @@ def make_schema() -> Json:
     names = {"anyOf": [_TEXT, {"type": "array", "items": _TEXT}]}
     part_properties = {
         "title": {"type": "string", "maxLength": MAX_TITLE},
-        "mechanism": _TEXT | {"description": "a file beside this one, or the name of a shipped mechanism"},
+        "mechanism": _TEXT | {"description": "a file next to this one, or the name of a shipped mechanism"},
         "scenes": names,
         "choices": _make_map_schema({"anyOf": [*_LIST["anyOf"], _make_map_schema(_make_map_schema(_NUMBER))]}),
         "parameters": _make_map_schema(values),

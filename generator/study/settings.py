@@ -26,7 +26,7 @@ def build_tree(value: Any, address: str = "", depth: int = 0) -> Any:
     if isinstance(value, Mapping):
         for key in value:
             if not isinstance(key, str):
-                raise BadValueError(f"{address or 'the study'}: its key {shorten_value(key)} is no text", location)
+                raise BadValueError(f"{address or 'the study'}: its key {shorten_value(key)} is not a text", location)
         addresses = {key: f"{address}.{key}" if address else key for key in value}
         pairs = (
             (Text.make_text(key, Location(f"value of {name}", 1, 1)), value[key]) for key, name in addresses.items()

@@ -299,7 +299,7 @@ class StudySet:
         """
         changed_settings = [name for name, value in (("count", count), ("seed", seed)) if value is not None]
         if changed_settings and not any(part.starts for part in self.parts.values()):
-            hint = "starts: in the file says which number is how far off"
+            hint = "expected starts: in the file, with the deviations of parameters"
             raise BadValueError(
                 f"no run has perturbed starts, whose {' and '.join(changed_settings)} is given", None, hint
             )

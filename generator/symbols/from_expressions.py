@@ -254,6 +254,9 @@ def convert_quantity_to_sympy(quantity: Quantity, find_symbol: Callable[[str], s
     """
     value = convert_to_sympy(quantity.value, find_symbol)
     if value.has(sp.zoo, sp.nan, sp.oo, -sp.oo, sp.I):
-        message, hint = f"{quantity.address} is finite for no motion", "expected a number: is there a division by zero?"
+        message, hint = (
+            f"{quantity.address} is not finite for any motion",
+            "expected a finite number: check for a division by zero",
+        )
         raise BadValueError(message, quantity.where, hint)
     return value

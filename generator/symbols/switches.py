@@ -242,7 +242,7 @@ class Switches(Freezable):
         """
         if (known_switch := self.find_switch(owner, g)) is not None:
             return known_switch
-        assert not self.frozen, f"{g}: a corner after the tables were frozen"
+        assert not self.frozen, f"{g}: a switching point after the tables were frozen"
         switch = Switch(self.unused_indices.pop(0) if self.unused_indices and not owner else self.count, owner, g)
         self.switch_by_key[owner, sp.expand(g)] = switch
         return switch, 1

@@ -67,7 +67,7 @@ def test_like_any_that_is_shipped(like: str, call: Gudgeon, tmp_path: Path) -> N
         ("engine.yml", "without .yaml"),
         ("true", "YAML takes it"),
         ("../x", "no identifier"),
-        ("a__x", "kept for emitted code"),
+        ("a__x", "reserved for emitted code"),
         ("crane --like double_rocke", "did you mean 'double_rocker'"),
         ("there", "is there already"),
         ("link", "is there already"),

@@ -160,5 +160,5 @@ def test_values_at_random_states(scene: str, tmp_path: Path) -> None:
 
 def test_written_equations_hold_them() -> None:
     text = render_equations_text(derive_scene(file(), "slider.yaml", "ideal"))
-    assert "corner: where it falls through zero the run ends:" in text
-    assert "z_reach = " in text and "lift: where it crosses zero the time is recorded:" in text
+    assert "corner: when this expression falls through zero, the run ends:" in text
+    assert "z_reach = " in text and "lift: when this expression crosses zero, the time is recorded:" in text

@@ -117,7 +117,7 @@ def test_slopes_are_those_of_the_force(law: str, more: str) -> None:
 WRONG = {
     "k1*delta + 5 N": ("at_0 is 5 N", "jump at every onset", 0),
     "k1*(d1 - delta)": ("at_0 is 50 N", "jump at every onset", 0),
-    "k1*delta + 0 N/s*t": ("'t' is time", "penetration alone", 17),
+    "k1*delta + 0 N/s*t": ("'t' is time", "penetration only", 17),
     "k1*deltadot*1 s": ("'deltadot' cannot stand", "dissipation", 3),
     "k1*delta*A.delta": ("'A.delta' cannot stand", "delta, the penetration", 9),
     "k9*delta": ("unknown name 'k9'", "k1", 0),

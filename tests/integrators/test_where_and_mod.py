@@ -194,8 +194,12 @@ def test_a_drive_must_not_jump(tmp_path: Path) -> None:
         ("mod(t) * 1 N/s", "mod takes 2 arguments, got 1", "each second"),
         ("F % 2", "unexpected character '%'", "mod(a, b)"),
         ("F * mod(t, 0 s) / 1 s", "has a part that is inf", "a division by zero"),
-        ("F * smooth_step(t, 0, -1 s)", "has a smooth_step that lasts -1: it would end before it begins", "above zero"),
-        ("F * (1 - 0.5 * ramp(t, 1 s, (1 - 3) * 1 s))", "has a ramp that lasts -2", "ramp(t, start, duration)"),
+        ("F * smooth_step(t, 0, -1 s)", "has a smooth_step with the negative duration -1", "above zero"),
+        (
+            "F * (1 - 0.5 * ramp(t, 1 s, (1 - 3) * 1 s))",
+            "has a ramp with the negative duration -2",
+            "ramp(t, start, duration)",
+        ),
         ("F * smooth_step(t, 0, 0 s)", "has a part that is inf", "a division by zero"),
     ],
 )
@@ -211,11 +215,15 @@ def test_how_long_a_step_lasts_is_a_number_of_the_run(tmp_path: Path) -> None:
     """Of one that is given later the condition holds too, alone and in batches; a scene's own is looked at as read."""
     text = SLUG % "F * smooth_step(t, 0, T)"
     simulation = loader(tmp_path)(text)
-    with pytest.raises(BadValueError, match=r"parameters.T is -1 s: a ramp or smooth_step takes that long; .* > 0"):
+    with pytest.raises(
+        BadValueError, match=r"parameters.T is -1 s: the duration of a ramp or smooth_step is positive; .* > 0"
+    ):
         simulation.simulate(0.1, parameters={"T": -1.0})
     batch = simulation.simulate_many({"T": [1.0, -1.0]}, t_end=0.1, output=1)
     assert [failure.run for failure in batch.failures] == [1]
-    with pytest.raises(InputError, match=r"forces.push.value.x has a smooth_step that lasts -2: .* in scene quick"):
+    with pytest.raises(
+        InputError, match=r"forces.push.value.x has a smooth_step with the negative duration -2: .* in scene quick"
+    ):
         loader(tmp_path)(text + "scenes: {quick: {parameters: {T: -2 s}}}\n", "quick")
 
 

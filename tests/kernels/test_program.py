@@ -91,7 +91,7 @@ def test_a_model_is_read_only() -> None:
         model.symbols.add_symbol("late")
     with pytest.raises(AssertionError, match="late"):
         model.parameter_table.derive_parameter("late", 1 / (model.masses[0] + 17))
-    with pytest.raises(AssertionError, match="a corner after the tables were frozen"):
+    with pytest.raises(AssertionError, match="a switching point after the tables were frozen"):
         model.symbols.switches.get_or_add_switch("", model.q[0] - 17)
 
 
@@ -120,5 +120,5 @@ def test_what_is_derived_too_late_is_told() -> None:
             model.symbols.add_symbol("late")
         with pytest.raises(AssertionError, match="late"):
             model.parameter_table.derive_parameter("late", 1 / (model.masses[0] + 17))
-        with pytest.raises(AssertionError, match="a corner after the tables were frozen"):
+        with pytest.raises(AssertionError, match="a switching point after the tables were frozen"):
             model.symbols.switches.get_or_add_switch("", model.q[0] - 17)

@@ -133,7 +133,7 @@ def test_what_vanishes_as_it_is_written_is_refused(tmp_path: Path, value: str) -
     joints: {{g: {{translational: [ground.o, a.origin], axis: [1, 0]}}}}
     forces: {{f: {{force: a.origin, value: ["1 N*({value})", 0]}}}}
     """
-    with pytest.raises((BadValueError, InputErrors), match="too small for its digits"):
+    with pytest.raises((BadValueError, InputErrors), match="which loses digits by underflow"):
         loader(tmp_path)(block)
 
 

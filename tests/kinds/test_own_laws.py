@@ -125,7 +125,7 @@ def test_a_number_without_a_symbol_is_called_by_its_name(disc: Path) -> None:
 WRONG = [
     ("return {", "raise SystemExit(0)\n    return {", r"law dashpot: build raised SystemExit: 0"),
     ("LAW = Law(", "class Odd(BaseException): pass\nraise Odd\nLAW = Law(", r"the law cannot be read: Odd"),
-    ("build=build,", "build=build, also=None,", r"law dashpot: its declaration is none: TypeError"),
+    ("build=build,", "build=build, also=None,", r"law dashpot: the declaration is invalid: TypeError"),
     ('"F_n": K', '"F_n": J', r"dashpot.py:8:1: law dashpot: build raised NameError: name 'J' is not defined"),
     ('s.parameters["damping"]', 's.parameters["dumping"]', r"(?s)build raised KeyError: 'dumping'.*stiffness, damping"),
     ("build=build,", "build=build, role_='x',", r"dashpot.py:11:1: the law cannot be read: TypeError: .*role_"),
@@ -134,12 +134,12 @@ WRONG = [
     ("LAW = Law(", "LAW = 3\nMINE = Law(", r"dashpot.py has a LAW of type int"),
     ("from gudgeon.language", "raise SystemExit\nfrom gudgeon.language", r"dashpot.py:3:1: .*SystemExit"),
     ('"normal"', '"tangential"', r"(?s)dashpot.py: law dashpot: unknown role 'tangential'.*normal, friction, film"),
-    ('name="dashpot"', 'name="hertz"', "law hertz: hertz is a law of gudgeon's"),
-    ('name="dashpot"', 'name="flores"', "flores is a law of gudgeon's"),
+    ('name="dashpot"', 'name="hertz"', "law hertz: hertz is the name of a law of gudgeon"),
+    ('name="dashpot"', 'name="flores"', "flores is the name of a law of gudgeon"),
     ('name="dashpot"', 'name="dash pot"', "'dash pot' cannot name this law: it is no identifier"),
     ('"stiffness", "force', '"damping", "force', "'damping' names two keys"),
     ('"stiffness", "force', '"law", "force', "'law' names two keys"),
-    ("bounds=POSITIVE)", "varies='t')", "stiffness is no key of a law"),
+    ("bounds=POSITIVE)", "varies='t')", "stiffness is not a key of a law"),
     (BUILD, "    return K * 3\n", r"(?s)build returns \w+, not forces by name.*expected \{'F_n'"),
     (BUILD, '    return {"F_t": K}\n', "build returns no F_n"),
     (BUILD, '    return {"F_n": "K"}\n', "F_n is of type str"),
@@ -161,7 +161,11 @@ WRONG = [
     ),
     (BUILD, '    return {"F_n": K * s.variables["ratio"] ** 0.5 * s.pair.c}\n', r"F_n is nan at .*ratio = -0.4"),
     (BUILD, '    return {"F_n": K * s.variables["deltadot"]}\n', r"F_n is a quantity .*expected a force \(N\)"),
-    (BUILD, '    return {"F_n": 1e6 * s.variables["delta"]}\n', r"(?s)F_n is a length .*a number with a unit is one"),
+    (
+        BUILD,
+        '    return {"F_n": 1e6 * s.variables["delta"]}\n',
+        r"(?s)F_n is a length .*declare a number with a unit as a field",
+    ),
     (
         BUILD,
         '    return {"F_n": K * s.variables["delta"] + D * s.variables["delta"]}\n',
@@ -170,7 +174,7 @@ WRONG = [
     (
         BUILD,
         '    return {"F_n": K * (s.variables["delta"] + 1)}\n',
-        r"(?s)F_n adds a length \(m\) and 1, a pure number: delta \+ 1.*one of the law's fields",
+        r"(?s)F_n adds a length \(m\) and 1, a pure number: delta \+ 1.*as a field of the law",
     ),
     (
         BUILD,
@@ -180,15 +184,15 @@ WRONG = [
     (BUILD, SP + '    return {"F_n": K * s.pair.c * sp.exp(s.variables["delta"])}\n', "has an exponent of a length"),
     (BUILD, SP + '    return {"F_n": K * s.pair.c * sp.sin(s.variables["delta"])}\n', "F_n has sin of a length"),
     ("STIFFNESS, symbol", "'N/m', symbol", "(?s)the dimension of stiffness is 'N/m'.*expected one of"),
-    ("required=True", "default=0.0", "the default of stiffness is 0.0, its bound > 0.0"),
+    ("required=True", "default=0.0", "the default of stiffness is 0.0, which violates its bound > 0.0"),
     ("required=True", "default='1 N/m'", "(?s)the default of stiffness is '1 N/m'.*expected a number in SI units"),
     ("required=True", "default=float('nan')", "the default of stiffness is nan"),
-    ("bounds=POSITIVE)", "bounds=3)", "the bounds of stiffness are none"),
-    ("bounds=POSITIVE)", "bounds=(Bound('>>', 0.0),))", "a bound of stiffness is none: '>>' 0.0"),
+    ("bounds=POSITIVE)", "bounds=3)", "the bounds of stiffness are not a tuple of Bound"),
+    ("bounds=POSITIVE)", "bounds=(Bound('>>', 0.0),))", "a bound of stiffness is invalid: '>>' 0.0"),
     ("fields=(", "fields=(word('mode', 'how', ('a', 'b'), 'c'),", "(?s)the default of mode is 'c'.*: a, b"),
     (BUILD, DERIVED, r"derive\('h', …\) uses the symbol delta"),
-    (BUILD, '    return {"damping": K, "F_n": K}\n', "build returns 'damping', which it is given"),
-    (BUILD, '    return {"delta": K, "F_n": K}\n', "build returns 'delta', which it is given"),
+    (BUILD, '    return {"damping": K, "F_n": K}\n', "build returns 'damping', which is an input"),
+    (BUILD, '    return {"delta": K, "F_n": K}\n', "build returns 'delta', which is an input"),
 ]
 
 
@@ -224,9 +228,9 @@ def test_names_of_two_laws(tmp_path: Path) -> None:
     gudgeon.register(law_file(tmp_path))
     assert registered.find_law_key("dashpot") == key
     for other in (law_file(tmp_path / "other"), first):
-        with pytest.raises(LawError, match="another law of this name is registered, that of .*dashpot.py"):
+        with pytest.raises(LawError, match="another law of this name is registered from .*dashpot.py"):
             gudgeon.register(other)
-    with pytest.raises(LawError, match="dashpot is another registered law's name"):
+    with pytest.raises(LawError, match="dashpot is the name of another registered law"):
         gudgeon.register(replace(first, name="second", also={"dashpot": {}}))
 
 
@@ -316,7 +320,7 @@ def test_two_laws_of_one_contact_keep_their_abbreviations_apart(disc: Path) -> N
     )
     gudgeon.register(disc.parent / "rubs.py")
     text = TEXT.replace("N*s/m}}", "N*s/m}, friction: {law: rubs, stiffness: 1 N/m, damping: 1 N*s/m}}")
-    with pytest.raises(LawError, match="law dashpot: 'a1' names something in the contact's other law, rubs, too"):
+    with pytest.raises(LawError, match="law dashpot: 'a1' is also a name in the contact's other law, rubs"):
         derive_scene(text.encode(), "disc.yaml", "wall")
 
 

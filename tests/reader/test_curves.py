@@ -59,18 +59,18 @@ REFUSED = [
     (PAIRS, "lift(2 s)", r"curve lift is called at 2, outside its range, from 0 to 1"),
     (f"{PAIRS}, x: mm", "lift(t)", r"curve lift is over a length \(m\), got"),
     (f"{PAIRS}, y: mm", "lift(t)", r"expected .*, got a length"),
-    (f"{PAIRS}, x: parsec", "lift(t)", r"'parsec', which is no unit"),
+    (f"{PAIRS}, x: parsec", "lift(t)", r"'parsec', which is not a unit"),
     (f"{PAIRS}, ends: smooth", "lift(t)", r"expected one of|natural"),
     (f"{PAIRS}, ends: not_a_knot", "lift(t)", r"has 2 points"),
     ("points: [[0, 1], [1, 2], [2, 3]], ends: periodic", "lift(t)", r"is periodic and ends at 3"),
-    ("points: [[0, 1], [1, 2], [2, 1]], ends: periodic, extrapolate: hold", "lift(t)", r"leave extrapolate out"),
+    ("points: [[0, 1], [1, 2], [2, 1]], ends: periodic, extrapolate: hold", "lift(t)", r"remove the key extrapolate"),
     ("points: [[0, 1]]", "lift(t)", r"has 1 point"),
     ("points: []", "lift(t)", r"has 0 points"),
-    ("points: [[0, 1], [0, 2]]", "lift(t)", r"x is 0 behind 0"),
-    ("points: [[1, 1], [0, 2]]", "lift(t)", r"x is 0 behind 1"),
-    ("points: [[0, 1], [1, r]]", "lift(t)", r"'r' is no number"),
-    ("points: [[0, 1], [1, 2 mm]]", "lift(t)", r"'2 mm' is no number"),
-    ("points: [[0, nan], [1, 2]]", "lift(t)", r"'nan' is no number"),
+    ("points: [[0, 1], [0, 2]]", "lift(t)", r"x is 0 after 0"),
+    ("points: [[1, 1], [0, 2]]", "lift(t)", r"x is 0 after 1"),
+    ("points: [[0, 1], [1, r]]", "lift(t)", r"'r' is not a number"),
+    ("points: [[0, 1], [1, 2 mm]]", "lift(t)", r"'2 mm' is not a number"),
+    ("points: [[0, nan], [1, 2]]", "lift(t)", r"'nan' is not a number"),
     ("points: [[0, 1e200], [1, 2]]", "lift(t)", r"out of range"),
     ("points: [[0, 1, 2], [1, 2]]", "lift(t)", r"components"),
     ("points: 3", "lift(t)", r"a list of points"),
@@ -88,7 +88,7 @@ def test_what_is_refused(tmp_path: Path, curve: str, value: str, message: str) -
 def test_a_curve_stands_where_numbers_vary_and_has_a_name_of_its_own(tmp_path: Path) -> None:
     text = TEXT.format(curve=PAIRS, value="lift(t)")
     for change, message in (
-        (("length: 1 m", "length: lift(0)"), "a curve can stand in drives"),
+        (("length: 1 m", "length: lift(0)"), "a curve is allowed in drives"),
         (("name: n\n", "name: n\nparameters: {lift: 3}\n"), "names this curve and a parameter"),
         (("lift:", "sin:"), "it is a function"),
         (("lift(t)", "lfit(t)"), "did you mean 'lift'"),
@@ -106,19 +106,19 @@ def test_points_cannot_be_overridden(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("data", "message"),
     [
-        (b"0,1\n1,two\n", r"lift\.csv:2:3: 'two' is no number"),
-        (b"x,y\nx,y\n0,1\n", r"lift\.csv:2:1: 'x' is no number"),
+        (b"0,1\n1,two\n", r"lift\.csv:2:3: 'two' is not a number"),
+        (b"x,y\nx,y\n0,1\n", r"lift\.csv:2:1: 'x' is not a number"),
         (b"0,1\n 1 , 2,3\n", r"lift\.csv:2:1: 3 columns"),
         (b"0,1\n1\n", r"lift\.csv:2:1: 1 column in"),
-        (b"0;1\n1;2,5\n", r"lift\.csv:2:3: '2,5' is no number"),
+        (b"0;1\n1;2,5\n", r"lift\.csv:2:3: '2,5' is not a number"),
         (b"0,1\n\xff,2\n", r"lift\.csv:2:1: byte 0xff"),
-        (b"0,1\n2,1\n1,1\n", r"lift\.csv:3:1: .* x is 1 behind 2"),
+        (b"0,1\n2,1\n1,1\n", r"lift\.csv:3:1: .* x is 1 after 2"),
         (b"", r"has 0 points"),
         (b"\x00\x00", r"1 column in"),
-        (b"0,1\n1," + b"9" * 5000 + b"\n", r"is no number"),
+        (b"0,1\n1," + b"9" * 5000 + b"\n", r"is not a number"),
         (b"0,1\n1,1e999\n", r"lift\.csv:2:3: .*out of range"),
         *(
-            (first + b"\n90,1\n200,2\n", r"lift\.csv:1:\d: '.*' is no number")
+            (first + b"\n90,1\n200,2\n", r"lift\.csv:1:\d: '.*' is not a number")
             for first in (
                 b"nan,nan",
                 b"inf,-inf",
@@ -137,7 +137,7 @@ def test_points_cannot_be_overridden(tmp_path: Path) -> None:
                 b",",
             )
         ),
-        (b"0,=1+1\n", r"is no number"),
+        (b"0,=1+1\n", r"is not a number"),
     ],
 )
 def test_what_is_wrong_in_a_table_is_told_at_its_place(tmp_path: Path, data: bytes, message: str) -> None:

@@ -115,7 +115,7 @@ def test_play_inside_a_joint_points_to_scenes(key: str) -> None:
     error = refused("[ground.O, crank.tail]}", f"[ground.O, crank.tail], ‸{key}: 0.2 mm}}")
     assert type(error) is UnknownKeyError
     line = "scenes: {worn: {play: {shaft: {bearing: bush, contact: dry}}}}"
-    assert error.hint == f"play stands in scenes: {line}"
+    assert error.hint == f"play belongs in scenes: {line}"
     read("scenes: {worn: {play: {wristpin: {bearing: bush, contact: dry}}}}", line)  # it can be written
 
 
@@ -123,7 +123,7 @@ def test_three_points_in_a_revolute_are_two_joints() -> None:
     error = refused("[crank.head, rod.tail]", "‸[crank.head, rod.tail, piston.origin]")
     assert type(error) is BadValueError and "revolute has 3 points" in error.message
     pairs = "A: {revolute: [crank.head, rod.tail]}, B: {revolute: [crank.head, piston.origin]}"
-    assert error.hint.endswith(f"3 bodies on one pin are 2 joints: {pairs}")
+    assert error.hint.endswith(f"write 3 bodies on one pin as 2 joints: {pairs}")
     read(
         "shaft: {revolute: [ground.O, crank.tail]}",
         "\n  ".join(["shaft: {revolute: [ground.O, crank.tail]}", *pairs.replace("}, B", "}|B").split("|")]),
@@ -133,9 +133,9 @@ def test_three_points_in_a_revolute_are_two_joints() -> None:
 @pytest.mark.parametrize(
     ("start", "hint"),
     [
-        ("set: {crank.‸omega: 3 rad/s}", "velocities stand under rates: start: {rates: {crank.omega: 3 rad/s}}"),
-        ("guess: {piston.‸vx: 1 m/s}", "velocities stand under rates: start: {rates: {piston.vx: 1 m/s}}"),
-        ("rates: {crank.‸theta: 30 deg}", "coordinates stand under set: start: {set: {crank.theta: 30 deg}}"),
+        ("set: {crank.‸omega: 3 rad/s}", "velocities belong under rates: start: {rates: {crank.omega: 3 rad/s}}"),
+        ("guess: {piston.‸vx: 1 m/s}", "velocities belong under rates: start: {rates: {piston.vx: 1 m/s}}"),
+        ("rates: {crank.‸theta: 30 deg}", "coordinates belong under set: start: {set: {crank.theta: 30 deg}}"),
     ],
 )
 def test_a_rate_under_set_points_to_rates(start: str, hint: str) -> None:
@@ -249,9 +249,9 @@ def test_none_is_no_law() -> None:
         ("name: plain", "name: ‸plain-one", BadNameError, "such as plain_one"),
         ("forces:\n", "‸springs:\n", UnknownKeyError, "'springs' is called forces here"),
         ("{guess: {piston.x: 160 mm}}", "{guess: {‸piston: 160 mm}}", UnknownNameError, "piston.x, piston.y"),
-        ("5 rad/s * t}", "5 rad/s * ‸time}", ExpressionError, "time is written t"),
+        ("5 rad/s * t}", "5 rad/s * ‸time}", ExpressionError, "the time is written t"),
         ("name: plain\n", "name: plain\nparameters: {‸é: 1}\n", BadNameError, "in ASCII"),
-        ("mass: 0.21 kg", "‸<<: {mass: 1 kg}", UnknownKeyError, "write the keys out; a contact, or a scene"),
+        ("mass: 0.21 kg", "‸<<: {mass: 1 kg}", UnknownKeyError, "write the keys out; a contact or a scene"),
         ("restitution: 0.8", "restitution: 80 ‸%", ExpressionError, "90 % as 0.9"),
         ("contact: dry}}}", "contact: dry}}, simulate: {‸method: rk4}}", UnknownKeyError, "gudgeon run, --method"),
     ],
@@ -284,5 +284,5 @@ def test_a_decimal_comma_and_an_equals_sign() -> None:
 def test_a_material_where_there_is_none() -> None:
     with pytest.raises(InputErrors) as caught:
         read("materials: {steel: {E: 207 GPa, nu: 0.3}}\n", "")
-    assert [str(e.hint) for e in caught.value.errors] == [f"write it: {EXAMPLE_SECTION}"] * 2
+    assert [str(e.hint) for e in caught.value.errors] == [f"add it: {EXAMPLE_SECTION}"] * 2
     read("materials: {steel: {E: 207 GPa, nu: 0.3}}", EXAMPLE_SECTION)

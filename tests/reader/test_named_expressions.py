@@ -105,9 +105,15 @@ def test_a_name_is_one_tree_wherever_it_stands() -> None:
 
 
 MISTAKES: list[tuple[str, str, type[InputError], str, str]] = [  # text, instead, error, what it tells, at which text
-    ("value: 2*lift", "value: h*error", ExpressionError, "'error' reads rod.theta", "error"),
-    ("mass: 1 kg, inertia: auto", "mass: lift*1 kg, inertia: auto", ExpressionError, "this number is constant", "lift"),
-    ("rate: reach*pace*cos(pace*t)", "rate: reach*cos(pace*t) + s", CycleError, "expressions defined through", ""),
+    ("value: 2*lift", "value: h*error", ExpressionError, "'error' depends on rod.theta", "error"),
+    (
+        "mass: 1 kg, inertia: auto",
+        "mass: lift*1 kg, inertia: auto",
+        ExpressionError,
+        "this number must be constant",
+        "lift",
+    ),
+    ("rate: reach*pace*cos(pace*t)", "rate: reach*cos(pace*t) + s", CycleError, "expressions depend on each other", ""),
     ("value: -K*s", "value: -K*rate*k", UnitError, "expected a torque", "-K*rate*k"),
     ("error: rod.theta - target", "error: rod.theta - 1 m", UnitError, "angle", "1 m"),
     ("error: rod.theta - target", "error: rod.thet - target", UnknownNameError, "theta", "thet - target"),
@@ -134,7 +140,13 @@ MISTAKES: list[tuple[str, str, type[InputError], str, str]] = [  # text, instead
         "expressions.lift is nan, and drives.up.value and 1 more use it",
         "h*ease",
     ),
-    ("k: 2 1/s", "k: 2 1/s + rate/(1 rad)", ExpressionError, "'rate' is an expression, and this number", "rate/(1"),
+    (
+        "k: 2 1/s",
+        "k: 2 1/s + rate/(1 rad)",
+        ExpressionError,
+        "'rate' is a named expression, and this number",
+        "rate/(1",
+    ),
     ("lift: h*ease(t/(2 s))", "lift:", BadValueError, "expressions.lift has no value", ""),
 ]
 
@@ -157,8 +169,8 @@ def test_every_cycle_is_told_and_a_long_one_is_cut() -> None:
     with pytest.raises(InputErrors) as raised:
         read_mechanism(LED.replace("  lift:", f"{ring}  b: 2*c\n  c: b + 1\n  lift:").encode(), "led.yaml")
     assert [(type(e), e.message) for e in raised.value.errors] == [
-        (CycleError, "expressions defined through each other: a0 → a1 → a2 → a3 → a4 → a5 → a6 → … (33 more) → a0"),
-        (CycleError, "expressions defined through each other: b → c → b"),
+        (CycleError, "expressions depend on each other: a0 → a1 → a2 → a3 → a4 → a5 → a6 → … (33 more) → a0"),
+        (CycleError, "expressions depend on each other: b → c → b"),
     ]
 
 
@@ -202,7 +214,7 @@ def chain(links: list[str]) -> str:
 
 def test_what_names_hold_together_is_bounded() -> None:
     read_mechanism(chain(["sin({0})"] * (MAX_LEVELS - 2)).encode(), "led.yaml")
-    with pytest.raises(LimitError, match=f"expected at most {MAX_PARTS} in {MAX_LEVELS}"):
+    with pytest.raises(LimitError, match=f"expected at most {MAX_PARTS} parts in {MAX_LEVELS} levels"):
         read_mechanism(chain(["sin({0})"] * (MAX_LEVELS - 1)).encode(), "led.yaml")
     with pytest.raises(LimitError, match=r"a10 has 4095 parts in 12 levels"):
         read_mechanism(chain(["{0}*{0}"] * 12 + ["{0} + {0}*1"]).encode(), "led.yaml")

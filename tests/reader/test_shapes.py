@@ -149,14 +149,14 @@ def test_sides_that_make_no_triangle(tmp_path: Path) -> None:
 
 
 WRONG: list[tuple[str, type[InputError], str]] = [
-    ("mass: 1, inertia: auto", BadValueError, "there is no length"),
-    ("mass: 1, length: s, com: [0, 0], inertia: auto", BadValueError, "com is elsewhere"),
+    ("mass: 1, inertia: auto", BadValueError, "the body has no length"),
+    ("mass: 1, length: s, com: [0, 0], inertia: auto", BadValueError, "the body has com"),
     ("mass: 1, shape: {disc: s, density: 1, thickness: h}", BadValueError, "has mass and a shape with density"),
     ("mass: 1, inertia: 1, shape: {disc: s}", BadValueError, "has inertia and a shape"),
     ("length: s, inertia: auto, mass: 1, shape: {bar: h}", BadValueError, "has inertia and a shape"),
     ("shape: {disc: s, density: 1}", MissingKeyError, "has no thickness"),
     ("shape: {disc: s, thickness: h}", MissingKeyError, "has no density"),
-    ("mass: 1, shape: {bar: h}", BadValueError, "there is no length"),
+    ("mass: 1, shape: {bar: h}", BadValueError, "the body has no length"),
     ("mass: 1, shape: {}", MissingKeyError, "has no kind"),
     ("mass: 1, shape: {disc: s, rectangle: [s, s]}", InputError, "is both"),
     ("mass: 1, shape: {triangle: [P, Q]}", BadValueError, "triangle"),
@@ -164,7 +164,7 @@ WRONG: list[tuple[str, type[InputError], str]] = [
     ("mass: 1, shape: {triangle: [P, Q, R]}", UnknownNameError, "unknown point of body 'P'"),
     ("mass: 1, shape: {triangle: [origin, com, origin]}", UnknownNameError, "unknown point of body 'com'"),
     (f"mass: 1, com: [0, 0], {SIDES}, shape: {{triangle: [P, Q, R]}}", BadValueError, "has com and a triangle"),
-    (f"mass: 1, inertia: 1, points: {{Q: [0, 1]}}, {SIDES}", InputError, "it is one of sides"),
+    (f"mass: 1, inertia: 1, points: {{Q: [0, 1]}}, {SIDES}", InputError, "the key sides defines it"),
     ("shape: {disc: 0 m, density: 1, thickness: h}", BadValueError, "a radius is positive"),
     ("shape: {disc: s, density: -1, thickness: h}", BadValueError, "a density is positive"),
     ("shape: {disc: s, density: 1, thickness: 0}", BadValueError, "a thickness is positive"),

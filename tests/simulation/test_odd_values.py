@@ -391,7 +391,7 @@ def test_what_is_told(pendulum: Simulation) -> None:
         (lambda: Result.load(os.devnull), f"cannot read {os.devnull}: it is a device, not a file"),
         (lambda: Result.load("."), "cannot read .: it is a folder, not a file"),
         (lambda: gudgeon.register("a\nb.py"), "cannot read the law a\\nb.py: No such file"),
-        (lambda: gudgeon.register(""), "a law's file has no name"),
+        (lambda: gudgeon.register(""), "the path of a law's file is empty"),
         (lambda: gudgeon.register("/dev/zero"), "cannot read the law /dev/zero: it is a device, not a file"),
         (lambda: pendulum.rhs(None, y), "t: 'None' is not one real number"),  # type: ignore[arg-type]
         (lambda: pendulum.rhs(10**400, y), "t: "),

@@ -284,7 +284,7 @@ def test_a_long_run_in_blocks(pendulum: Simulation) -> None:
 def test_a_parameter_is_no_series_and_a_time_is_a_float(cart: dict[str, Simulation], tmp_path: Path) -> None:
     """Suggestions were parameters, the name itself among them; t_min a number of NumPy's."""
     path = tmp_path / "cart.yaml"
-    wrong = {"k": "'k' is a parameter, no series", "puhs": "unknown series 'puhs'\n  did you mean 'push'"}
+    wrong = {"k": "'k' is a parameter, not a series", "puhs": "unknown series 'puhs'\n  did you mean 'push'"}
     for name, message in wrong.items():
         path.write_text(CART.replace("[cart.ax, motor.force]", f"[{name}]"), encoding="utf-8")
         with pytest.raises(UnknownNameError) as error:

@@ -180,12 +180,12 @@ def test_what_the_other_scene_cannot_run_is_a_row_with_its_reason() -> None:
         ("{deviation: slider.x}", "4:15", "has no from"),
         ("{deviation: slider.x, from: idael}", "4:43", "idael"),
         ("{deviation: wristpin.e, from: ideal}", "4:27", "scene ideal: "),
-        ("{impacts: wristpin, from: ideal}", "4:35", "is of no series"),
-        ("{deviation_of_steps: slider.x, from: ideal, window: late}", "4:67", "knows no window"),
+        ("{impacts: wristpin, from: ideal}", "4:35", "is not a statistic of a series"),
+        ("{deviation_of_steps: slider.x, from: ideal, window: late}", "4:67", "and has no window"),
         (
             "{deviation_of_steps: slider.x, from: ideal}, b: {max_of_steps: slider.x, from: dry}",
             "4:94",
-            "go beside scene",
+            "subtract both scene",
         ),
     ],
 )

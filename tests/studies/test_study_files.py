@@ -31,7 +31,7 @@ measures:
 OPTIONS = f"{{{', '.join(f'o{k}: {{bodies.bob.mass: {k + 1}}}' for k in range(9))}}}"
 ROW = "{from: 1, to: 2, count: 100000}"
 BAD = [  # in place of what, what; line:column and words of the message
-    ("gudgeon-study/1", "gudgeon/1", "1:1", "a mechanism, which `gudgeon run FILE` runs"),
+    ("gudgeon-study/1", "gudgeon/1", "1:1", "a mechanism: run it with `gudgeon run FILE`"),
     ("mechanism:", "mechansim:", "2:1", "did you mean 'mechanism'"),
     ("pendulum", "pendlum", "2:12", "pendulum"),
     ("pendulum", "../pendulum.yaml", "2:12", "study's folder or below"),
@@ -60,12 +60,12 @@ BAD = [  # in place of what, what; line:column and words of the message
     ("final", "finale", "9:7", "did you mean 'final'"),
     ("bob.y,", "bob.z,", "9:14", "nearest: bob"),
     ("window: late", "window: lat", "9:29", "unknown window 'lat'"),
-    ("final: bob.y, window: late", "max_of_steps: bob.y, window: late", "9:36", "knows no window"),
+    ("final: bob.y, window: late", "max_of_steps: bob.y, window: late", "9:36", "and has no window"),
     ("final: bob.y, window: late", "impacts: rod", "9:16", "unknown joint with play"),
     ("final: bob.y, window: late", "crossings: top", "9:18", "unknown event"),
-    ("y: {final", "run: {final", "9:3", "the name 'run' is taken, by the dataset itself"),
-    ("y: {final", "g: {final", "9:3", "the name 'g' is taken, by a number of the runs"),
-    ("  y: {final: bob.y, window: late}", "  {}", "1:1", "measures nothing"),
+    ("y: {final", "run: {final", "9:3", "the name 'run' is already used, by the dataset itself"),
+    ("y: {final", "g: {final", "9:3", "the name 'g' is already used, by a parameter of the runs"),
+    ("  y: {final: bob.y, window: late}", "  {}", "1:1", "has neither measures nor keep"),
     ("t_end: 1 s", "scenes: [ideal, idael]", "5:17", "idael"),
     ("t_end: 1 s", "scenes: [ideal, ideal]", "5:17", "twice"),
     ("y: {final", "Null: {final", "9:3", "no value"),
@@ -75,7 +75,7 @@ BAD = [  # in place of what, what; line:column and words of the message
     ("t_end: 1 s", "rtol: 1e-8 m", "5:7", "a pure number"),
     ("t_end: 1 s", "stop: maybe", "5:7", "true, false"),
     ("t_end: 1 s", "zip: {speed: {length: [1, 2], g: [1]}}", "5:7", "length has 2, g has 1"),
-    ("t_end: 1 s", "zip: {speed: {g: [1, 2]}}", "5:15", "is said twice"),
+    ("t_end: 1 s", "zip: {speed: {g: [1, 2]}}", "5:15", "is given twice"),
     ("t_end: 1 s", "draw: {count: 3, parameters: {length: {mean: 1 m}}}", "5:39", "has no std"),
     ("t_end: 1 s", "draw: {count: 3, parameters: {length: {mean: 1 m, std: -1 m}}}", "5:56", "positive"),
     ("t_end: 1 s", "draw: {count: 3, parameters: {length: {from: 2 m, to: 1 m}}}", "5:55", "from < to"),
@@ -83,18 +83,23 @@ BAD = [  # in place of what, what; line:column and words of the message
     ("t_end: 1 s", "draw: {count: 0, parameters: {length: {from: 1, to: 2}}}", "5:15", "a whole number from 1"),
     ("t_end: 1 s", "draw: {count: 3, method: lhs, parameters: {length: {from: 1, to: 2}}}", "5:26", "sobol"),
     ("t_end: 1 s", "draw: {count: 3, seed: 1.5, parameters: {length: {from: 1, to: 2}}}", "5:24", "a whole number"),
-    ("t_end: 1 s", "starts: {count: 3}", "5:9", "and by how much"),
+    ("t_end: 1 s", "starts: {count: 3}", "5:9", "starts has no deviations"),
     ("t_end: 1 s", "starts: {count: 3, relative: {g: 0}}", "5:34", "positive"),
     ("t_end: 1 s", "starts: {count: 3, relative: {q: 1}}", "5:31", "unknown number 'q'"),
     ("t_end: 1 s", "starts: {count: 3, absolute: {length: 1 kg}}", "5:39", "a length"),
     ("t_end: 1 s", "draw: {count: 3, parameters: {length: {from: -1e308, to: 1e308}}}", "5:58", "largest double"),
     ("t_end: 1 s", f"choices: {{{', '.join(f'c{k}: {OPTIONS}' for k in range(5))}}}", "5:11", "59049 scenes"),
-    ("t_end: 1 s", "choices: {g: [1, 2]}", "5:11", "choices: g varies what a number, at "),
-    ("t_end: 1 s", "choices: {moon: {a: {parameters.g: 1.6}}}", "5:11", "choices: moon, by g, varies what a number,"),
+    ("t_end: 1 s", "choices: {g: [1, 2]}", "5:11", "choices: g varies a parameter that a number, at "),
+    (
+        "t_end: 1 s",
+        "choices: {moon: {a: {parameters.g: 1.6}}}",
+        "5:11",
+        "choices: moon, by g, varies a parameter that a number,",
+    ),
     ("t_end: 1 s", "choices: {bodies.bob.masss: [1 kg]}", "5:30", "masss"),
     ("t_end: 1 s", "choices: {heavy: {a: {bodies.bob.mass: -1 kg}}}", "5:40", "positive"),
     ("t_end: 1 s", f"title: {'x' * 201}", "5:8", "at most 200"),
-    ("t_end: 1 s", 'title: "a\\0b"', "5:9", "can be seen"),
+    ("t_end: 1 s", 'title: "a\\0b"', "5:9", "visible characters"),
     ("t_end: 1 s", "output: 1 s", "5:9", "a pure number"),
     ("t_end: 1 s", "t_end: 0 s", "5:8", "t_end is 0\n  expected a positive time"),
     ("t_end: 1 s", "t_end: 1 s/0", "5:8", "a positive time"),
@@ -110,7 +115,10 @@ def test_what_a_choice_varies_is_not_set_for_all_runs(tmp_path: Path) -> None:
     """Else its options, each with a library of its own, would all be the same."""
     path = tmp_path / "s.yaml"
     path.write_text(GOOD.replace("t_end: 1 s", "t_end: 1 s\nchoices: {bodies.bob.mass: [1 kg, 2 kg]}"))
-    words = "s.yaml:6:11: choices: bodies.bob.mass varies what --set bodies.bob.mass gives to all runs\n  leave one of"
+    words = (
+        "s.yaml:6:11: choices: bodies.bob.mass varies a parameter that --set bodies.bob.mass sets for all runs\n"
+        "  remove one of"
+    )
     with pytest.raises(InputError, match=words):
         resolve_plans(path, {"bodies.bob.mass": "3 kg"})
 

@@ -266,8 +266,8 @@ def readme_names_every_file(name: str, scene: str) -> None:
     assert text.startswith("# ") and "Read `model.h` first" in text
     integrates = "What is integrated: nothing" not in text
     assert integrates == ("accelerations that are integrated" in text)
-    assert ("`positions.c`, which is what runs" in text) != integrates
-    assert integrates == ("`reduced.c`, which is what runs" in text or "reduced.c" not in text)
+    assert ("`positions.c`, which a run evaluates" in text) != integrates
+    assert integrates == ("`reduced.c`, which a run evaluates" in text or "reduced.c" not in text)
 
 
 def test_long_lines_are_broken_where_the_fewest_brackets_are_open() -> None:

@@ -87,7 +87,7 @@ def library_of(variant: str, scene: str) -> tuple[CompiledModel, np.ndarray]:
 
 def joint_numbers(document: dict[str, list[str]], joint: str) -> dict[str, float]:
     """The table of a joint's numbers: letter, value behind the last "="."""
-    lines = document[f"Joint {joint}: numbers"]
+    lines = document[f"Joint {joint}: parameters"]
     return {cells[0]: float(cells[3].split(" = ")[-1]) for cells in rows(lines) if len(cells) == 5 and "." in cells[2]}
 
 
@@ -95,17 +95,17 @@ def joint_forces(
     document: dict[str, list[str]], joint: str, known: dict[str, float], stored: float
 ) -> dict[str, float]:
     """Everything about one joint in the order of the document; `stored` is δ̇⁻, NaN while open."""
-    twin = re.search(r"those of joint (\w+);", " ".join(document[f"Joint {joint}: force"]))
+    twin = re.search(r"those of joint (\w+),", " ".join(document[f"Joint {joint}: force"]))
     laws_of = twin[1] if twin else joint
     known = known | joint_numbers(document, laws_of)
-    known = evaluate(document[f"Joint {laws_of}: numbers"], known)
+    known = evaluate(document[f"Joint {laws_of}: parameters"], known)
     known = evaluate(document[f"Joint {joint} with play"], known)
     if twin:  # the gap is written down with the laws
         gap = [line for line in document[f"Joint {laws_of} with play"] if not re.match(r"  (e.?_[xy]|ω_[ij]) = ", line)]
         known = evaluate(gap, known)
-    known[STORED] = known[dots_apart("δ̇")] if np.isnan(stored) else stored  # "counts as 1"
+    known[STORED] = known[dots_apart("δ̇")] if np.isnan(stored) else stored  # "is 1"
     dry = document.get(f"Joint {laws_of}: dry contact")
-    if dry is not None and known["δ"] > 0.0:  # "it acts while δ > 0"
+    if dry is not None and known["δ"] > 0.0:  # "the contact acts while δ > 0"
         known = evaluate(dry, known)
     elif dry is not None:
         known |= dict.fromkeys(["F_n", "F_t", "M_i", "M_j", "F_td", "M_id", "M_jd"], 0.0)
@@ -142,7 +142,7 @@ def test_what_is_read_is_what_is_computed(case: tuple[str, str]) -> None:
             scale = float(np.hypot(columns[0], columns[1]))
             assert found["F_x"] == pytest.approx(columns[0], abs=1e-9 * scale)
             assert found["F_y"] == pytest.approx(columns[1], abs=1e-9 * scale)
-            for left, right in equations(document[f"Joint {joint}: share in g"]):
+            for left, right in equations(document[f"Joint {joint}: contribution to g"]):
                 forces[int(left[3:]) - 1] += value(right, found)
             parts.add(found["δ"] > 0.0)
         balance = mass * got.a[0] + phi_q(t, q, v).T @ got.multipliers[0]
@@ -186,7 +186,7 @@ def test_a_dry_scene_shows_no_film() -> None:
 
 def test_every_number_of_a_law_is_in_its_table() -> None:
     model = derive_scene(BOB.encode(), "bob.yaml", "lubricated")
-    lines = sections(render_equations_text(model))["Joint A: numbers"]
+    lines = sections(render_equations_text(model))["Joint A: parameters"]
     shown = {cells[2]: cells for cells in rows(lines) if len(cells) == 5}
     play = model.scene.play["A"]
     for use in (play.contact.normal, play.contact.friction, play.contact.film):
@@ -237,7 +237,7 @@ def test_every_law_is_printed(name: str, left_out: bool) -> None:
     title = f"Joint A: {({'film': 'film', 'mixed': 'mixed lubrication'}).get(law.role, 'dry contact')}"
     lines = sections(written)
     assert len(equations(lines[title])) >= sum(step != 0 for step in equations_of.steps.values())
-    numbers_of = {cells[2] for cells in rows(lines["Joint A: numbers"]) if len(cells) == 5}
+    numbers_of = {cells[2] for cells in rows(lines["Joint A: parameters"]) if len(cells) == 5}
     for number in law.parameters:
         message = not (left_out and may_lack(number))
         assert (f"contacts.oil.{law.role}.{number.name}" in numbers_of) == message

@@ -87,13 +87,13 @@ def test_no_parameter_has_a_letter_of_the_document(scene: str) -> None:
     text = re.sub(r"\b[A-Z]\.(?= )", "", render_equations_text(clash(scene, twin=True)))  # initials of people
     others = set(NAME.findall(text))
     assert others & set(letters) == set()
-    message = [cells for cells in rows(found["Letters"]) if len(cells) == 4 and cells[1].startswith("parameters.")]
+    message = [cells for cells in rows(found["Symbols"]) if len(cells) == 4 and cells[1].startswith("parameters.")]
     assert {letter for letter in letters if "'" in letter} == {cells[0] for cells in message} == PRIMED[scene]
     assert all(cells[0] == f"{cells[2]}'" and cells[2] in others for cells in message)
 
 
 def test_every_target_tells_of_its_primes() -> None:
-    model, message = clash("dry"), "tells apart what would have the letter of something else"
+    model, message = clash("dry"), "distinguishes two quantities with the same symbol"
     pytest.importorskip("latex2mathml")
     for text in (render_equations_tex(model), render_equations_html(model), write_notebook(model, "clash.yaml")):
         assert " ".join(text.split()).count(message) == 1
@@ -103,10 +103,10 @@ def test_every_target_tells_of_its_primes() -> None:
 
 def test_a_file_whose_letters_are_its_own_is_told_of_none() -> None:
     """A clearance c and a bearing's c are two things; where no joint has play, c is free."""
-    assert "Letters" not in sections(render_equations_text(model_of("press ideal")))
+    assert "Symbols" not in sections(render_equations_text(model_of("press ideal")))
     dry = sections(render_equations_text(model_of("press dry")))
-    assert [cells[:3] for cells in rows(dry["Letters"])][2:] == [["c'", "parameters.c", "c"]]
-    assert "Letters" not in sections(render_equations_text(derive_scene(SLIDER.encode(), "slider.yaml", "ideal")))
+    assert [cells[:3] for cells in rows(dry["Symbols"])][2:] == [["c'", "parameters.c", "c"]]
+    assert "Symbols" not in sections(render_equations_text(derive_scene(SLIDER.encode(), "slider.yaml", "ideal")))
 
 
 def test_letters_of_a_sketch() -> None:

@@ -114,7 +114,9 @@ def test_numbers_are_given_as_for_a_run() -> None:
         assert model.prepare({spelled: 1.5}).omega_ == 1.5
     assert model.prepare({"omega": "300 rpm", "c": "0.5 mm"}).c_ == 0.0005
     assert model.prepare({"c": 0.0003}).pin_clearance_ == 0.0003
-    with pytest.raises(UnknownNameError, match=r"(?s)no number of this scene has the address 'omgea'.*nearest: omega"):
+    with pytest.raises(
+        UnknownNameError, match=r"(?s)no parameter of this scene has the address 'omgea'.*nearest: omega"
+    ):
         model.prepare({"omgea": 1.0})
     with pytest.raises(BadValueError, match=r"parameters\.omega is given twice"):
         model.prepare({"omega": 1.0, "parameters.omega": 2.0})
@@ -141,7 +143,9 @@ def test_modes_of_friction_must_be_given() -> None:
     y = np.concatenate([start.q, start.v])
     assert np.isnan(simulation.compiled.rhs(0.0, y, p)[start.q.size]).all()
     numbers = model.prepare()
-    with pytest.raises(ArrayError, match=r"modes of shape \(0,\): expected \(1,\)\n.*one each for rub"):
+    with pytest.raises(
+        ArrayError, match=r"modes of shape \(0,\): expected \(1,\)\n.*expected one number for each of rub"
+    ):
         model.dynamics(0.0, start.q, start.v, numbers)
     for mode in (-1.0, 0.0, 1.0):
         want = simulation.compiled.rhs(0.0, y, p, discrete_states=np.array([mode]))

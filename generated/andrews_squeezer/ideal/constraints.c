@@ -500,7 +500,7 @@ void outputs(const double t, const double *q, const double *v, const Parameters 
         * (-p->spring_free_length_ + spring_length_));
 }
 
-/* Whether a start with these numbers is that with the others: what closing the linkage reads. */
+/* Return whether two sets of parameters have the same start: compare those that the assembly uses. */
 int has_equal_start_parameters(const Parameters *p, const Parameters *other)
 {
     return is_same_number(p->OF_mass_, other->OF_mass_)

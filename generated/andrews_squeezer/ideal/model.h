@@ -9,50 +9,50 @@
 #define GUDGEON_MODEL_H
 
 #define N_Q 21                /* coordinates of all bodies */
-#define N_ROWS 20             /* constraint rows of the motion */
-#define N_ALL_ROWS 20         /* rows of the closed linkage */
+#define N_ROWS 20             /* constraint equations of the motion */
+#define N_ALL_ROWS 20         /* constraint equations of the closed linkage */
 #define N_JOINTS 10           /* joints without play */
 #define N_DRIVES 0            /* drives */
 #define N_CLEARANCES 0        /* joints with play */
 #define LAW_STATES 0          /* internal states of the laws of a joint with play, at most */
-#define N_FRICTIONS 0         /* slips that friction may hold */
-#define N_SWITCHES 0          /* corners of min, max, abs and sign */
-#define N_USER_EVENTS 0       /* expressions whose zeros are watched */
+#define N_FRICTIONS 0         /* slips that friction may stop */
+#define N_SWITCHES 0          /* switching functions of min, max, abs and sign */
+#define N_USER_EVENTS 0       /* expressions whose zeros are events */
 #define N_SERIES 3            /* results of force elements */
-#define INTEGRATES 1          /* 1; 0: no freedom is left, positions follow from the drives */
-#define TREE 1                /* 1: in coordinates of a tree of bodies; 0: in those of all bodies */
-#define POSITIONS_IN_TREE 0   /* the same, where they follow */
+#define INTEGRATES 1          /* 1: integrated; 0: no degree of freedom, drives determine positions */
+#define TREE 1                /* 1: tree coordinates; 0: coordinates of all bodies */
+#define POSITIONS_IN_TREE 0   /* the same for kinematic analysis */
 #define N_X 7                 /* coordinates that are integrated */
-#define N_LOOPS 6             /* constraint rows of these */
+#define N_LOOPS 6             /* constraint equations of these */
 #define N_DEPENDENT 0         /* coordinates that drives determine through loops */
-#define N_LED 0               /* these, cosines and sines of angles */
-#define SMOOTH_DRIVEN_LOOPS 0 /* their drives have no corners */
-#define TREE_PIVOTS 0         /* statuses of driven loops follow these */
-#define RESCUED 1             /* pivots may vanish: all bodies' equations help */
-#define LARGEST_BLOCK 0       /* rows that are solved together */
-#define N_VALUES 70           /* of the linearized equations */
-#define N_FACTORS 71          /* of their factors L and U */
-#define IMPLICIT_STAGES 0     /* 1: there are methods that find their stages together */
-#define HAS_LANES 1           /* runs go side by side */
-#define DRIVE_IMPULSES 0      /* drives' rates may jump, and something is free to move */
-#define RATE_JUMPS 0          /* the rate of some drive may jump */
-#define N_WATCHED 0           /* corners of expressions, and events */
-#define KNOWN_BOUNDS 0        /* bounds of what is watched are known over ranges of the state */
-#define WATCHES_STATE 0       /* they hang on more than time */
-#define N_TERMS 0             /* terms of time alone, which may hide within a step */
-#define N_PULSES 0            /* of these, the first: those that may in a step of any motion */
-#define N_GUESS 6             /* coordinates that the start guesses */
-#define GUESSED_POINTS 0      /* some of them are those of points */
-#define N_SET 1               /* those that it sets */
-#define N_RATES 0             /* velocities that it sets */
+#define N_LED 0               /* these, and cosines and sines of their angles */
+#define SMOOTH_DRIVEN_LOOPS 0 /* their drives have no switching functions */
+#define TREE_PIVOTS 0         /* statuses of pivots before those of driven loops */
+#define RESCUED 1             /* pivots may vanish: absolute equations replace them */
+#define LARGEST_BLOCK 0       /* constraint equations that are solved together */
+#define N_VALUES 70           /* values of the linearized equations */
+#define N_FACTORS 71          /* values of their factors L and U */
+#define IMPLICIT_STAGES 0     /* 1: there are methods that solve all stages together */
+#define HAS_LANES 1           /* runs in vector lanes */
+#define DRIVE_IMPULSES 0      /* drives' rates may jump, and there are degrees of freedom */
+#define RATE_JUMPS 0          /* the rate of a drive may jump */
+#define N_WATCHED 0           /* monitored functions and events */
+#define KNOWN_BOUNDS 0        /* bounds of monitored functions over ranges of the state are known */
+#define WATCHES_STATE 0       /* they depend on more than time */
+#define N_TERMS 0             /* terms of time only, which a step may miss */
+#define N_PULSES 0            /* the first of these: a step of any motion may miss them */
+#define N_GUESS 6             /* coordinates that the start gives as guesses */
+#define GUESSED_POINTS 0      /* some of them are coordinates of points */
+#define N_SET 1               /* coordinates that the start sets */
+#define N_RATES 0             /* velocities that the start sets */
 
 /* Thresholds of pivots: a constraint equation is dependent if less than this fraction of its pivot is left: */
-#define SINGULAR 1e-13                        /* where it depends on others */
-#define NEARLY_SINGULAR 1e-08                 /* where it nearly does */
-#define VANISHING 1e-10                       /* where one of a joint's two rows vanishes: links in one line */
-#define EARLY 1e-05                           /* of two rows that are solved before all of their coordinates */
-#define LIGHT_PIVOT 0.001                     /* of what turns with an angle, where its inertia is too small for it */
-#define SINGULAR_SQUARE 3.162277660168379e-07 /* of as many rows as unknowns: the root of SINGULAR */
+#define SINGULAR 1e-13                        /* if it depends on others */
+#define NEARLY_SINGULAR 1e-08                 /* if it nearly depends on others */
+#define VANISHING 1e-10                       /* if one of a joint's two pivots vanishes: links in one line */
+#define EARLY 1e-05                           /* of two equations that are solved before all of their coordinates */
+#define LIGHT_PIVOT 0.001                     /* of the bodies that turn with an angle, if their inertia is too small */
+#define SINGULAR_SQUARE 3.162277660168379e-07 /* of as many equations as unknowns: the root of SINGULAR */
 
 typedef struct Parameters Parameters; /* all parameters of a run */
 

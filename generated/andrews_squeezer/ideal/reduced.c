@@ -13,7 +13,7 @@
  * Unknowns, with rates in v and accelerations in a at the same index:
  *     q[0] = OF.theta (rad); q[1] = BDE.theta (rad); q[2] = AG.theta (rad); q[3] = AH.theta (rad);
  *     q[4] = FE.theta (rad); q[5] = HE.theta (rad); q[6] = EG.theta (rad)
- * Loop closures, with the places of their multipliers:
+ * Loop closures, with the storage of their multipliers:
  *     rhs->lambda[0] of G.x; rhs->lambda[1] of G.y; rhs->lambda[2] of H.x; rhs->lambda[3] of H.y;
  *     rhs->lambda[4] of E3.x; rhs->lambda[5] of E3.y
  *

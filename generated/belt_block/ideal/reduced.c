@@ -6,7 +6,7 @@
  *     block: on ground by guide, displaced by guide.slide; its angle is constant
  * Unknowns, with rates in v and accelerations in a at the same index:
  *     q[0] = guide.slide (m)
- * Loop closures, with the places of their multipliers:
+ * Loop closures, with the storage of their multipliers:
  *     none
  *
  * expand: state of the tree to all_q, all_v of the bodies (x, y, theta each, as in constraints.c).

@@ -6,7 +6,7 @@
  *     ball: moves freely, x and y are unknowns; its angle is an unknown
  * Unknowns, with rates in v and accelerations in a at the same index:
  *     q[0] = ball.x (m); q[1] = ball.y (m); q[2] = ball.theta (rad)
- * Loop closures, with the places of their multipliers:
+ * Loop closures, with the storage of their multipliers:
  *     none
  * Joints with play, whose forces are applied loads:
  *     rhs->clearance[0] of fall

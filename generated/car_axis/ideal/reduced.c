@@ -7,7 +7,7 @@
  *     axle: moves freely, x and y are unknowns; its angle is an unknown
  * Unknowns, with rates in v and accelerations in a at the same index:
  *     q[0] = axle.x (m); q[1] = axle.y (m); q[2] = axle.theta (rad)
- * Loop closures, with the places of their multipliers:
+ * Loop closures, with the storage of their multipliers:
  *     rhs->lambda[0] of slot.offset
  *
  * expand: state of the tree to all_q, all_v of the bodies (x, y, theta each, as in constraints.c).

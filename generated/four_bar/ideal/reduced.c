@@ -8,7 +8,7 @@
  *     coupler: on crank by A; its angle is an unknown
  * Unknowns, with rates in v and accelerations in a at the same index:
  *     q[0] = rocker.theta (rad); q[1] = coupler.theta (rad)
- * Loop closures, with the places of their multipliers:
+ * Loop closures, with the storage of their multipliers:
  *     rhs->lambda[0] of B.x; rhs->lambda[1] of B.y
  *
  * expand: state of the tree to all_q, all_v of the bodies (x, y, theta each, as in constraints.c).

@@ -11,7 +11,7 @@
  * Unknowns, with rates in v and accelerations in a at the same index:
  *     q[0] = crank0.theta (rad); q[1] = crank1.theta (rad); q[2] = crank2.theta (rad);
  *     q[3] = coupler1.theta (rad); q[4] = coupler2.theta (rad)
- * Loop closures, with the places of their multipliers:
+ * Loop closures, with the storage of their multipliers:
  *     rhs->lambda[0] of B2.x; rhs->lambda[1] of B2.y; rhs->lambda[2] of B1.x; rhs->lambda[3] of B1.y
  *
  * expand: state of the tree to all_q, all_v of the bodies (x, y, theta each, as in constraints.c).

@@ -489,7 +489,7 @@ void outputs(const double t, const double *q, const double *v, const Parameters 
         - p->L8_mass_*L8_y_*p->gravity_y_ - p->S9_mass_*S9_y_*p->gravity_y_;
 }
 
-/* Whether a start with these numbers is that with the others: what closing the linkage reads. */
+/* Return whether two sets of parameters have the same start: compare those that the assembly uses. */
 int has_equal_start_parameters(const Parameters *p, const Parameters *other)
 {
     return is_same_number(p->L1_mass_, other->L1_mass_)

@@ -14,7 +14,7 @@
  * Unknowns, with rates in v and accelerations in a at the same index:
  *     q[0] = L6.theta (rad); q[1] = L7.theta (rad); q[2] = L8.theta (rad); q[3] = L2.theta (rad);
  *     q[4] = L3.theta (rad)
- * Loop closures, with the places of their multipliers:
+ * Loop closures, with the storage of their multipliers:
  *     rhs->lambda[0] of guide.offset
  * Joints with play, whose forces are applied loads:
  *     rhs->clearance[0] of A; rhs->clearance[1] of B

@@ -14,7 +14,7 @@
  * Unknowns, with rates in v and accelerations in a at the same index:
  *     q[0] = L6.theta (rad); q[1] = L2.theta (rad); q[2] = L3.theta (rad); q[3] = L7.theta (rad);
  *     q[4] = L8.theta (rad)
- * Loop closures, with the places of their multipliers:
+ * Loop closures, with the storage of their multipliers:
  *     rhs->lambda[0] of guide.offset; rhs->lambda[1] of L2.head=L3.head.x;
  *     rhs->lambda[2] of L2.head=L3.head.y; rhs->lambda[3] of P2.x; rhs->lambda[4] of P2.y
  *

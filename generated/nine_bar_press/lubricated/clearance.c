@@ -138,7 +138,7 @@ static inline PinForce film_A_(double e, double deltadot, double de_t, double om
 
 /*
  * Joint A: film for e < c, dry contact for e > c + e_0, a linear blend between them
- * (the paper's Eq. 17); a step holds what it began with.
+ * (the paper's Eq. 17); fixed over a step.
  */
 static void clearance_A_(double e_x, double e_y, double de_x, double de_y, double omega_i, double omega_j,
     const ContactState *contact, const Parameters *p, const double *branch, double *g, Clearance *out)
@@ -229,7 +229,7 @@ static inline PinForce film_B_(double e, double deltadot, double de_t, double om
 
 /*
  * Joint B: film for e < c, dry contact for e > c + e_0, a linear blend between them
- * (the paper's Eq. 17); a step holds what it began with.
+ * (the paper's Eq. 17); fixed over a step.
  */
 static void clearance_B_(double e_x, double e_y, double de_x, double de_y, double omega_i, double omega_j,
     const ContactState *contact, const Parameters *p, const double *branch, double *g, Clearance *out)

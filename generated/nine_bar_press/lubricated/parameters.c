@@ -200,7 +200,7 @@ double radial_clearance(const Parameters *p, int i)
     }
 }
 
-/* The penetration beyond which contact laws mean nothing, m: a tenth of the bearing's radius. */
+/* The penetration beyond which contact laws are not valid, m: a tenth of the bearing's radius. */
 double max_valid_penetration(const Parameters *p, int i)
 {
     (void)p;
@@ -214,7 +214,7 @@ double max_valid_penetration(const Parameters *p, int i)
     }
 }
 
-/* The least velocity that counts as that of an impact, m/s. */
+/* The smallest approach speed that is stored at an onset, m/s. */
 double min_approach_speed(const Parameters *p, int i)
 {
     (void)p;

@@ -107,7 +107,7 @@ void outputs(const double t, const double *q, const double *v, const Parameters 
     energy[1] = -p->bob_mass_*bob_y_*p->gravity_y_;
 }
 
-/* Whether a start with these numbers is that with the others: what closing the linkage reads. */
+/* Return whether two sets of parameters have the same start: compare those that the assembly uses. */
 int has_equal_start_parameters(const Parameters *p, const Parameters *other)
 {
     return is_same_number(p->bob_mass_, other->bob_mass_)

@@ -6,7 +6,7 @@
  *     bob: moves freely, x and y are unknowns; its angle is an unknown
  * Unknowns, with rates in v and accelerations in a at the same index:
  *     q[0] = bob.x (m); q[1] = bob.y (m); q[2] = bob.theta (rad)
- * Loop closures, with the places of their multipliers:
+ * Loop closures, with the storage of their multipliers:
  *     rhs->lambda[0] of rod.length
  *
  * expand: state of the tree to all_q, all_v of the bodies (x, y, theta each, as in constraints.c).

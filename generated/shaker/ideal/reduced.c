@@ -9,7 +9,7 @@
  *     arm: on table by pivot; its angle is an unknown
  * Unknowns, with rates in v and accelerations in a at the same index:
  *     q[0] = arm.theta (rad); q[1] = rod.theta, dependent
- * Loop closures, with the places of their multipliers:
+ * Loop closures, with the storage of their multipliers:
  *     none
  *
  * expand: state of the tree to all_q, all_v of the bodies (x, y, theta each, as in constraints.c).

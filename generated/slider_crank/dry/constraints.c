@@ -216,7 +216,7 @@ void outputs(const double t, const double *q, const double *v, const Parameters 
     energy[1] = 0.0;
 }
 
-/* Whether a start with these numbers is that with the others: what closing the linkage reads. */
+/* Return whether two sets of parameters have the same start: compare those that the assembly uses. */
 int has_equal_start_parameters(const Parameters *p, const Parameters *other)
 {
     return is_same_number(p->crank_mass_, other->crank_mass_)

@@ -8,7 +8,7 @@
  *     rod: on crank by crankpin; its angle is an unknown
  * Unknowns, with rates in v and accelerations in a at the same index:
  *     q[0] = cylinder.slide (m); q[1] = rod.theta (rad)
- * Loop closures, with the places of their multipliers:
+ * Loop closures, with the storage of their multipliers:
  *     none
  * Joints with play, whose forces are applied loads:
  *     rhs->clearance[0] of wristpin

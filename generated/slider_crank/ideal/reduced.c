@@ -8,7 +8,7 @@
  *     slider: on rod by wristpin; its angle is constant
  * Unknowns, with rates in v and accelerations in a at the same index:
  *     q[0] = rod.theta (rad)
- * Loop closures, with the places of their multipliers:
+ * Loop closures, with the storage of their multipliers:
  *     rhs->lambda[0] of cylinder.offset
  *
  * expand: state of the tree to all_q, all_v of the bodies (x, y, theta each, as in constraints.c).

@@ -209,7 +209,7 @@ void outputs(const double t, const double *q, const double *v, const Parameters 
         * (-p->coil_free_length_ + coil_length_));
 }
 
-/* Whether a start with these numbers is that with the others: what closing the linkage reads. */
+/* Return whether two sets of parameters have the same start: compare those that the assembly uses. */
 int has_equal_start_parameters(const Parameters *p, const Parameters *other)
 {
     return is_same_number(p->crank_mass_, other->crank_mass_)

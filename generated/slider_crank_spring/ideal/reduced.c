@@ -7,7 +7,7 @@
  *     rod: on crank by pin; its angle is an unknown
  * Unknowns, with rates in v and accelerations in a at the same index:
  *     q[0] = crank.theta (rad); q[1] = rod.theta (rad)
- * Loop closures, with the places of their multipliers:
+ * Loop closures, with the storage of their multipliers:
  *     rhs->lambda[0] of slider.offset
  *
  * expand: state of the tree to all_q, all_v of the bodies (x, y, theta each, as in constraints.c).

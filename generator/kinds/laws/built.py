@@ -56,7 +56,7 @@ def build_law(law: Law, inputs: LawInputs) -> dict[str, Any]:
     def derive(name: Any, expression: Any, meaning: Any) -> Any:
         """Check a derived constant and return its symbol, which later expressions may use. Raises LawError."""
         if not isinstance(name, str) or not isinstance(meaning, str):
-            raise _make_law_error(law, f"derive({name!r}, …) wants a name, an expression and its meaning")
+            raise _make_law_error(law, f"derive({name!r}, …) needs a name, an expression and its meaning")
         _check_name_not_reserved(law, name)
         value = _convert_to_sympy(law, f"derive({name!r}, …)", expression)
         _check_expression(
@@ -64,7 +64,7 @@ def build_law(law: Law, inputs: LawInputs) -> dict[str, Any]:
             f"derive({name!r}, …)",
             value,
             constants,
-            "its parameters and the pair's numbers alone",
+            "the law's parameters and the pair's numbers only",
             types_from_file,
         )
         symbol = inputs.derive(name, value, meaning)
@@ -78,7 +78,7 @@ def build_law(law: Law, inputs: LawInputs) -> dict[str, Any]:
         raise
     except BaseException as error:
         location = find_error_location(error, ORIGINS[law.name].typed) if law.name in ORIGINS else None
-        hint = f"it is given {_list_inputs_of_law(law)}" if isinstance(error, KeyError) else ""
+        hint = f"build gets {_list_inputs_of_law(law)}" if isinstance(error, KeyError) else ""
         raise _make_law_error(law, f"build raised {format_exception(error)}", hint, location) from error
     results = _find_result_names(law, steps)
     expressions, known_symbols = (
@@ -89,7 +89,9 @@ def build_law(law: Law, inputs: LawInputs) -> dict[str, Any]:
     for name, step in steps.items():
         _check_name_not_reserved(law, name)
         if name in reserved_names:
-            raise _make_law_error(law, f"build returns {name!r}, which it is given", "call the abbreviation otherwise")
+            raise _make_law_error(
+                law, f"build returns {name!r}, which is an input", "choose another name for the abbreviation"
+            )
         expressions[name] = value = _convert_to_sympy(law, name, step)
         _check_expression(
             law,
@@ -226,7 +228,7 @@ def _check_expression(
 
     if unknown_symbols := sorted(str(symbol) for symbol in value.free_symbols - known_symbols):
         is_known_name = unknown_symbols[0] in {str(symbol) for symbol in known_symbols}
-        hint = "an abbreviation is sp.Symbol(name, real=True)" if is_known_name else f"it may use {allowed_text}"
+        hint = "an abbreviation is sp.Symbol(name, real=True)" if is_known_name else f"{label} may use {allowed_text}"
         raise _make_law_error(law, f"{label} uses the symbol {unknown_symbols[0]}", hint)
     functions = tuple(getattr(sp, name) for name in IN_SYMPY)
     for part in sp.preorder_traversal(value):
@@ -236,7 +238,7 @@ def _check_expression(
                 law, f"{label} {fault}: {sp.sstr(value)[:80]}", "expected a real number for every δ > 0"
             )
         is_basic = part.is_Number or part.is_NumberSymbol or part.is_Symbol or part.is_Add or part.is_Mul or part.is_Pow
-        is_unevaluated = type(part).__name__ == "Unevaluated"  # what `whole` makes, in a room above
+        is_unevaluated = type(part).__name__ == "Unevaluated"  # created by `whole` in a layer above
         if (
             not is_basic
             and not is_unevaluated
@@ -244,7 +246,7 @@ def _check_expression(
             and type(part) not in types_from_file
         ):
             hint = f"expected + - * / **, sqrt, {', '.join(IN_SYMPY)}"
-            raise _make_law_error(law, f"{label} uses {type(part).__name__}, which C is not given", hint)
+            raise _make_law_error(law, f"{label} uses {type(part).__name__}, which has no counterpart in C", hint)
 
 
 def _list_inputs_of_law(law: Law) -> str:
@@ -316,7 +318,7 @@ def make_law_function(
             try:
                 results_by_name[name] = function(*values) + 0.0 * arrays[0]
             except (NameError, TypeError) as error:
-                raise LawError(f"{law.role} law {law.name}: {name} cannot be computed here: {error}") from error
+                raise LawError(f"{law.role} law {law.name}: {name} cannot be computed: {error}") from error
             values.append(results_by_name[name])
         return {name: results_by_name[name] for name in law.results}
 

@@ -46,7 +46,7 @@ LAW = Law(
     validity="heights of the roughness with a nearly normal distribution, uniform over both surfaces; sigma is"
     " the combined roughness; the film acts alone where it is thicker than 3 sigma, and the dry "
     "contact acts alone below -3 sigma; the clearance c is measured between the tips of the "
-    "asperities, and the film has the clearance c + 3 sigma; the share b of the dry contact is three "
+    "asperities, and the film has the clearance c + 3 sigma; the fraction b of the dry contact is three "
     "times differentiable",
     fields=(ROUGHNESS,),
     build=build_load_fraction,

@@ -27,7 +27,7 @@ from gudgeon.language.argument_checks import check_path
 from gudgeon.language.names import check_label, format_name_hint
 from gudgeon.language.units import Dimension
 
-WHOLE = "docs/describing.md has one whole"
+WHOLE = "docs/describing.md has a complete example"
 
 
 @dataclass(frozen=True)
@@ -60,11 +60,11 @@ def register(law: str | os.PathLike[str] | Law) -> Law:
         _check_law_declaration(registered_law, origin)
     except LawError as error:
         raise LawError(f"{format_law_prefix(registered_law.name, origin)}{error.message}", hint=error.hint) from None
-    except Exception as error:  # a field of a type that nobody thought of
-        hint = f"what each of its fields may be: {WHOLE}"
+    except Exception as error:  # a field of an unexpected type
+        hint = f"check the types of the declaration's fields: {WHOLE}"
         name = getattr(registered_law, "name", None)
         raise LawError(
-            f"{format_law_prefix(name, origin)}its declaration is none: {format_exception(error)}", hint=hint
+            f"{format_law_prefix(name, origin)}the declaration is invalid: {format_exception(error)}", hint=hint
         ) from error
     USER_LAWS[registered_law.name], ORIGINS[registered_law.name] = registered_law, origin
     return registered_law
@@ -109,7 +109,7 @@ def _load_law_file(path_as_given: str | os.PathLike[str]) -> tuple[Law, Origin]:
     """
     display_path, hint = shorten_path(path_as_given), f"expected a Python file that exports LAW; {WHOLE}"
     if not os.fspath(path_as_given):
-        raise LawError("a law's file has no name: ''", hint=hint)
+        raise LawError("the path of a law's file is empty: ''", hint=hint)
     try:
         data = read_user_file(path_as_given, MAX_BYTES, "the law", hint)
     except InputError as error:
@@ -119,7 +119,7 @@ def _load_law_file(path_as_given: str | os.PathLike[str]) -> tuple[Law, Origin]:
     module.__file__ = os.path.abspath(path_as_given)
     sys.modules[module.__name__] = module  # a dataclass looks for its own module
     try:
-        with redirect_stdout(sys.stderr):  # what it prints is no part of what a command prints
+        with redirect_stdout(sys.stderr):  # its prints are not part of a command's output
             exec(compile(data, display_path, "exec"), module.__dict__)
     except KeyboardInterrupt:
         raise
@@ -140,7 +140,7 @@ def format_exception(error: BaseException) -> str:
     """Return a Python error as one line: its type and, if there is one, its text."""
     try:
         text = " ".join(str(error.msg if isinstance(error, SyntaxError) else error).split())
-    except Exception:  # its own words fail
+    except Exception:  # the text of the error itself fails
         text = ""
     return f"{type(error).__name__}{': ' if text else ''}{text}"
 
@@ -169,25 +169,25 @@ def _check_law_declaration(law: Law, origin: Origin) -> None:
     A registered law of the same name and origin may be replaced.
     """
     for name in ("name", "title", "source", "validity"):
-        _require_condition(isinstance(getattr(law, name), str), f"its {name} is no text")
+        _require_condition(isinstance(getattr(law, name), str), f"its {name} is not a text")
     check_law_name(law.name, "law")
     for law_name in (law.name, *law.also):
         bundled_names = {name for other in find_bundled_laws().values() for name in (other.name, *other.also)}
         _require_condition(
-            law_name not in bundled_names, f"{law_name} is a law of gudgeon's", "give yours another name"
+            law_name not in bundled_names, f"{law_name} is the name of a law of gudgeon", "choose another name"
         )
         other_user_laws = [other for other in USER_LAWS.values() if other.name != law.name]
         _require_condition(
             all(law_name not in (other.name, *other.also) for other in other_user_laws),
-            f"{law_name} is another registered law's name",
+            f"{law_name} is the name of another registered law",
         )
     known_origin = ORIGINS.get(law.name)
     if known_origin is not None and known_origin.file != origin.file:
-        origin_text = f"that of {known_origin.typed}" if known_origin.typed else "one made in Python"
-        raise LawError(f"another law of this name is registered, {origin_text}", hint="give one of them another name")
+        origin_text = f"from {known_origin.typed}" if known_origin.typed else "from Python"
+        raise LawError(f"another law of this name is registered {origin_text}", hint="give one of them another name")
     _require_condition(law.role in RESULTS, f"unknown role {law.role!r}", format_name_hint(str(law.role), RESULTS))
     _require_condition(
-        callable(law.build), "its build is no function", "expected build(inputs), which returns its forces by name"
+        callable(law.build), "its build is not a function", "expected build(inputs), which returns its forces by name"
     )
     _check_keys_of_law(law)
 
@@ -196,7 +196,7 @@ def _check_keys_of_law(law: Law) -> None:
     """Raise LawError for wrong fields, states or options of a law; names must be unique."""
     _require_condition(
         all(isinstance(field_of_law, Field) for field_of_law in law.fields),
-        "a field is none",
+        "a field is not a Field",
         "expected number(…), word(…), flag(…)",
     )
     kinds = {field_of_law.name: field_of_law.kind for field_of_law in law.fields}
@@ -211,23 +211,27 @@ def _check_keys_of_law(law: Law) -> None:
         is_usable = field_of_law.kind in (NUMBER, WORD, FLAG) and not field_of_law.varies
         _require_condition(
             is_usable,
-            f"{field_of_law.name} is no key of a law",
+            f"{field_of_law.name} is not a key of a law",
             "expected number(…) without `varies`, word(…) or flag(…)",
         )
         _check_declared_field(field_of_law, kinds)
     _require_condition(
-        all(isinstance(state, State) for state in law.states), "a state is none", "expected State(name, meaning)"
+        all(isinstance(state, State) for state in law.states), "a state is not a State", "expected State(name, meaning)"
     )
-    _require_condition(not law.rigid, "it is rigid", "velocities jump by gudgeon's newton_restitution alone")
+    _require_condition(not law.rigid, "the law is rigid", "only newton_restitution of gudgeon can be rigid")
     _require_condition(
-        law.role == "friction" or not law.states, "it has internal states", "only laws of friction have them so far"
+        law.role == "friction" or not law.states,
+        "the law has internal states",
+        "only laws of friction can have internal states",
     )
     option_names = {field_of_law.name for field_of_law in law.options}
     _require_condition(
-        {key for choices in law.also.values() for key in choices} <= option_names, "`also` chooses what is no option"
+        {key for choices in law.also.values() for key in choices} <= option_names,
+        "`also` sets a key that is not an option",
     )
     _require_condition(
-        {*law.instead} <= option_names and {*law.instead.values()} <= {*kinds}, "`instead` names no key of the law"
+        {*law.instead} <= option_names and {*law.instead.values()} <= {*kinds},
+        "`instead` names a key that the law does not have",
     )
 
 
@@ -238,7 +242,7 @@ def _check_declared_field(declaration: Field, kinds: Mapping[str, str]) -> None:
     """
     for attribute in ("meaning", "symbol", "otherwise"):
         _require_condition(
-            isinstance(getattr(declaration, attribute), str), f"the {attribute} of {declaration.name} is no text"
+            isinstance(getattr(declaration, attribute), str), f"the {attribute} of {declaration.name} is not a text"
         )
     if declaration.kind != NUMBER:
         allowed_words = declaration.values
@@ -246,7 +250,7 @@ def _check_declared_field(declaration: Field, kinds: Mapping[str, str]) -> None:
             isinstance(allowed_words, tuple)
             and len(allowed_words) > 0
             and all(isinstance(x, (str, bool)) for x in allowed_words),
-            f"the words of {declaration.name} are none",
+            f"the words of {declaration.name} are not a tuple of words",
             "expected word(name, meaning, (words, …), default)",
         )
         is_allowed = declaration.default in allowed_words and isinstance(declaration.default, (str, bool))
@@ -257,30 +261,34 @@ def _check_declared_field(declaration: Field, kinds: Mapping[str, str]) -> None:
         )
         return
     message = f"the dimension of {declaration.name} is {declaration.dimension!r}"
-    hint = "expected one of gudgeon.language.units: FORCE, STIFFNESS, …, dimension(mass=1, time=-2); None is any"
+    hint = "expected one of gudgeon.language.units: FORCE, STIFFNESS, …, dimension(mass=1, time=-2); None allows any"
     _require_condition(declaration.dimension is None or isinstance(declaration.dimension, Dimension), message, hint)
     has_bounds = isinstance(declaration.bounds, tuple) and all(isinstance(bound, Bound) for bound in declaration.bounds)
     _require_condition(
-        has_bounds, f"the bounds of {declaration.name} are none", 'expected bounds=POSITIVE, or (Bound(">=", 1.0), …)'
+        has_bounds,
+        f"the bounds of {declaration.name} are not a tuple of Bound",
+        'expected bounds=POSITIVE, or (Bound(">=", 1.0), …)',
     )
     default = declaration.default
-    expected = "expected a number in SI units, or none: required=True"
+    expected = "expected a number in SI units, or no default and required=True"
     _require_condition(
         default is None or _is_number(default), f"the default of {declaration.name} is {default!r}", expected
     )
     for bound in declaration.bounds:
         limit = bound.limit
         if isinstance(limit, str):
-            _require_condition(limit in kinds, f"a bound of {declaration.name} names no key of the law")
+            _require_condition(limit in kinds, f"a bound of {declaration.name} names a key that the law does not have")
         _require_condition(
             bound.relation in RELATIONS and (isinstance(limit, str) or _is_number(limit)),
-            f"a bound of {declaration.name} is none: {bound.relation!r} {limit!r}",
+            f"a bound of {declaration.name} is invalid: {bound.relation!r} {limit!r}",
             f"expected Bound(relation, limit), with {' '.join(RELATIONS)} and a number or a key",
         )
         if _is_number(default) and not isinstance(limit, str):
             is_satisfied = RELATIONS[bound.relation](default, limit)
             _require_condition(
-                is_satisfied, f"the default of {declaration.name} is {default!r}, its bound {bound.relation} {limit!r}"
+                is_satisfied,
+                f"the default of {declaration.name} is {default!r}, which violates its bound {bound.relation} "
+                f"{limit!r}",
             )
 
 
@@ -294,13 +302,13 @@ def check_law_name(name: Any, kind: str) -> None:
 
     `kind` is its kind in messages.
     """
-    _require_condition(isinstance(name, str), f"the name of a {kind} is no text")
+    _require_condition(isinstance(name, str), f"the name of a {kind} is not a text")
     try:
         check_label(name, kind, None)
     except BadNameError as error:
         raise LawError(error.message, hint=error.hint) from None
     is_reserved = "__" in name
-    _require_condition(not is_reserved, f"{name!r} is kept for emitted code", "choose another name")
+    _require_condition(not is_reserved, f"{name!r} is reserved for emitted code", "choose another name")
 
 
 def _require_condition(condition: bool, message: str, hint: str = "") -> None:

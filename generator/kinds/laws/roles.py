@@ -119,6 +119,8 @@ def make_overlap_fraction(inputs: LawInputs, tip_contact_ratio: int, full_contac
     sigma = inputs.parameters["roughness"]
     inputs.derive(MEAN_CLEARANCE, inputs.pair.c + tip_contact_ratio * sigma, "clearance between the mean surfaces")
     distance = inputs.derive(
-        "overlap", (tip_contact_ratio - full_contact_ratio) * sigma, "from where tips touch to where no film is left"
+        "overlap",
+        (tip_contact_ratio - full_contact_ratio) * sigma,
+        "distance from first contact of the tips to full contact",
     )
     return sp.Min(1, inputs.variables["delta"] / distance)

@@ -227,7 +227,7 @@ def _select_conditions(model: Model) -> tuple[Condition, ...]:
         for c in model.scene.mechanism.conditions
         if c.address in addresses and (not isinstance(c.bound, str) or addresses.issuperset(c.bound.split(" + ")))
     ) + tuple(
-        Condition(address, relation, 0.0, "a direction along an axis turns round with load(overrides=...) only")
+        Condition(address, relation, 0.0, "only load(overrides=...) can reverse a direction along an axis")
         for address, relation in model.parameter_table.signs.items()
     )
 

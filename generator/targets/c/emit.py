@@ -167,7 +167,7 @@ def _print_main_file(files_of_parts: Mapping[int, Iterable[str]], shared_files: 
     shared_files: files that all parts except METHODS include.
     """
     headers = (HEADER, "engine/scene/kernels.h", "engine/scene/trigonometry.h")
-    lines = ["/* All files together, or with -DPART=1, 2, 3 those of a part: these are compiled side by side. */"]
+    lines = ["/* All files together, or with -DPART=1, 2, 3 those of one part: parts are compiled in parallel. */"]
     lines += [*map(_print_include, headers), *_print_conditional_includes(f"PART != {METHODS}", shared_files)]
     for number, names in files_of_parts.items():
         lines += _print_conditional_includes(f"!PART || PART == {number}", names)
@@ -306,7 +306,7 @@ def print_start_comparison(kernels: Iterable[Kernel]) -> str:
             "    return 1;\n"
         )
     return (
-        "\n/* Whether a start with these numbers is that with the others: what closing the linkage reads. */\n"
+        "\n/* Return whether two sets of parameters have the same start: compare those that the assembly uses. */\n"
         f"int has_equal_start_parameters(const Parameters *p, const Parameters *other)\n{{\n{function_body}}}\n"
     )
 

@@ -201,7 +201,7 @@ class LaneLines(functions.LinePrinter):
                 ]
             case Sines():
                 return super()._print_line(line)
-        raise ValueError(f"a line of a kernel that has no counterpart for vectors: {line}")
+        raise ValueError(f"a line of a kernel has no counterpart for vectors: {line}")
 
 
 def print_expression(value: Value) -> str:

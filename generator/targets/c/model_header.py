@@ -123,21 +123,21 @@ _POSITION = {"vx": "x", "vy": "y", "omega": "theta"}  # coordinate of which each
 _MAX_PENETRATION = "max_valid_penetration"
 _PARAMETER_MEANINGS = {
     "radial_clearance": "Radial clearance of joint i with play, m.",
-    _MAX_PENETRATION: "The penetration beyond which contact laws mean nothing, m: a tenth of the bearing's radius.",
-    "min_approach_speed": "The least velocity that counts as that of an impact, m/s.",
-    "breakaway": "The deflection at which friction with an internal state slides, m; 0: not known.",
-    "restitution_of": "Where surfaces do not give, speed of parting by speed of approach.",
-    "threshold_of": "Where surfaces do not give, the speed of parting below which a contact closes, m/s.",
+    _MAX_PENETRATION: "The penetration beyond which contact laws are not valid, m: a tenth of the bearing's radius.",
+    "min_approach_speed": "The smallest approach speed that is stored at an onset, m/s.",
+    "breakaway": "The deflection at which friction with an internal state slides, m; 0: unknown.",
+    "restitution_of": "Rigid surfaces: separation speed divided by approach speed.",
+    "threshold_of": "Rigid surfaces: the separation speed below which a contact closes, m/s.",
 }
 _THRESHOLDS: Sizes = {
     limit.name: (limit, meaning)
     for limit, meaning in (
-        (SINGULAR, "where it depends on others"),
-        (NEARLY_SINGULAR, "where it nearly does"),
-        (VANISHING, "where one of a joint's two rows vanishes: links in one line"),
-        (EARLY, "of two rows that are solved before all of their coordinates"),
-        (LIGHT_PIVOT, "of what turns with an angle, where its inertia is too small for it"),
-        (SINGULAR_SQUARE, "of as many rows as unknowns: the root of SINGULAR"),
+        (SINGULAR, "if it depends on others"),
+        (NEARLY_SINGULAR, "if it nearly depends on others"),
+        (VANISHING, "if one of a joint's two pivots vanishes: links in one line"),
+        (EARLY, "of two equations that are solved before all of their coordinates"),
+        (LIGHT_PIVOT, "of the bodies that turn with an angle, if their inertia is too small"),
+        (SINGULAR_SQUARE, "of as many equations as unknowns: the root of SINGULAR"),
     )
 }
 _GAINS = {"two_alpha": "baumgarte_two_alpha", "beta_squared": "baumgarte_beta_squared", "stick": "stick_gain"}
@@ -186,15 +186,15 @@ def _list_linkage_sizes(program: Program) -> Sizes:
     switches = max(model.symbols.switches.count, program.integrated.system.model.symbols.switches.count)
     return {
         "N_Q": (len(model.q), "coordinates of all bodies"),
-        "N_ROWS": (len(model.rows), "constraint rows of the motion"),
-        "N_ALL_ROWS": (len(model.all_rows), "rows of the closed linkage"),
+        "N_ROWS": (len(model.rows), "constraint equations of the motion"),
+        "N_ALL_ROWS": (len(model.all_rows), "constraint equations of the closed linkage"),
         "N_JOINTS": (len(outputs.find_constraining_joints(model)), "joints without play"),
         "N_DRIVES": (len(model.scene.mechanism.drives), "drives"),
         "N_CLEARANCES": (len(model.clearances), "joints with play"),
         "LAW_STATES": (model.law_states, "internal states of the laws of a joint with play, at most"),
-        "N_FRICTIONS": (len(model.frictions), "slips that friction may hold"),
-        "N_SWITCHES": (switches, "corners of min, max, abs and sign"),
-        "N_USER_EVENTS": (len(model.events), "expressions whose zeros are watched"),
+        "N_FRICTIONS": (len(model.frictions), "slips that friction may stop"),
+        "N_SWITCHES": (switches, "switching functions of min, max, abs and sign"),
+        "N_USER_EVENTS": (len(model.events), "expressions whose zeros are events"),
         "N_SERIES": (len(outputs.find_element_series(model)), "results of force elements"),
     }
 
@@ -207,30 +207,30 @@ def _list_motion_sizes(program: Program) -> Sizes:
     integrated, chain, course, tree = program.integrated, program.integrated.chain, program.kinematics, program.tree
     system, newton = integrated.system, program.methods.newton if program.methods else None
     return {
-        "INTEGRATES": (int(program.integrates), "1; 0: no freedom is left, positions follow from the drives"),
-        "TREE": (int(tree is not None), "1: in coordinates of a tree of bodies; 0: in those of all bodies"),
-        "POSITIONS_IN_TREE": (int(course is not None and course.rows is not None), "the same, where they follow"),
+        "INTEGRATES": (int(program.integrates), "1: integrated; 0: no degree of freedom, drives determine positions"),
+        "TREE": (int(tree is not None), "1: tree coordinates; 0: coordinates of all bodies"),
+        "POSITIONS_IN_TREE": (int(course is not None and course.rows is not None), "the same for kinematic analysis"),
         "N_X": (len(system.q), "coordinates that are integrated"),
-        "N_LOOPS": (len(system.rows), "constraint rows of these"),
+        "N_LOOPS": (len(system.rows), "constraint equations of these"),
         "N_DEPENDENT": (len(system.dependent), "coordinates that drives determine through loops"),
         "N_LED": (
             len(system.dependent) + 2 * len(chain.directions) if chain else 0,
-            "these, cosines and sines of angles",
+            "these, and cosines and sines of their angles",
         ),
         "SMOOTH_DRIVEN_LOOPS": (
             int(bool(tree and tree.chains and not tree.chains.switch_kernel)),
-            "their drives have no corners",
+            "their drives have no switching functions",
         ),
         "TREE_PIVOTS": (
             len(integrated.pivots) - len(chain.rows) if chain else 0,
-            "statuses of driven loops follow these",
+            "statuses of pivots before those of driven loops",
         ),
-        "RESCUED": (int(tree is not None and tree.has_fallback), "pivots may vanish: all bodies' equations help"),
-        "LARGEST_BLOCK": (_find_largest_block_size(program), "rows that are solved together"),
-        "N_VALUES": (newton.values.size if newton else 0, "of the linearized equations"),
-        "N_FACTORS": (newton.factors.size if newton else 0, "of their factors L and U"),
-        "IMPLICIT_STAGES": (int(program.has_complex_stages), "1: there are methods that find their stages together"),
-        "HAS_LANES": (int(program.has_lanes), "runs go side by side"),
+        "RESCUED": (int(tree is not None and tree.has_fallback), "pivots may vanish: absolute equations replace them"),
+        "LARGEST_BLOCK": (_find_largest_block_size(program), "constraint equations that are solved together"),
+        "N_VALUES": (newton.values.size if newton else 0, "values of the linearized equations"),
+        "N_FACTORS": (newton.factors.size if newton else 0, "values of their factors L and U"),
+        "IMPLICIT_STAGES": (int(program.has_complex_stages), "1: there are methods that solve all stages together"),
+        "HAS_LANES": (int(program.has_lanes), "runs in vector lanes"),
     }
 
 
@@ -244,32 +244,32 @@ def _list_monitoring_sizes(program: Program, bounds: Kernel | None) -> Sizes:
     sizes: Sizes = {
         "DRIVE_IMPULSES": (
             int(bool(find_drives_with_jumps(model))),
-            "drives' rates may jump, and something is free to move",
+            "drives' rates may jump, and there are degrees of freedom",
         ),
-        "RATE_JUMPS": (int(has_jumps(model)), "the rate of some drive may jump"),
-        "N_WATCHED": (len(find_monitored_switches(program)) + len(model.events), "corners of expressions, and events"),
-        "KNOWN_BOUNDS": (int(bounds is not None), "bounds of what is watched are known over ranges of the state"),
-        "WATCHES_STATE": (int(bounds is not None and depends_on_state(bounds)), "they hang on more than time"),
-        "N_TERMS": (program.time_terms.count, "terms of time alone, which may hide within a step"),
-        "N_PULSES": (program.time_terms.pulses, "of these, the first: those that may in a step of any motion"),
+        "RATE_JUMPS": (int(has_jumps(model)), "the rate of a drive may jump"),
+        "N_WATCHED": (len(find_monitored_switches(program)) + len(model.events), "monitored functions and events"),
+        "KNOWN_BOUNDS": (int(bounds is not None), "bounds of monitored functions over ranges of the state are known"),
+        "WATCHES_STATE": (int(bounds is not None and depends_on_state(bounds)), "they depend on more than time"),
+        "N_TERMS": (program.time_terms.count, "terms of time only, which a step may miss"),
+        "N_PULSES": (program.time_terms.pulses, "the first of these: a step of any motion may miss them"),
     }
     systems = (model, program.integrated.system.model)
     switches = [switch.g for some in systems for switch in some.symbols.switches.switch_by_key.values()]
     if model.rigid:
-        sizes["N_RIGID"] = (len(model.rigid), "joints with play whose surfaces do not give")
+        sizes["N_RIGID"] = (len(model.rigid), "joints with play and rigid surfaces")
     if model.rigid_with_friction:
         sizes["N_RUBBED"] = (len(model.rigid_with_friction), "of them, with friction")
     if unused_switches := find_unused_switches(program):
-        sizes["N_IDLE"] = (len(unused_switches), "of N_SWITCHES that what is integrated does not have")
+        sizes["N_IDLE"] = (len(unused_switches), "of N_SWITCHES: those that the integrated equations do not contain")
     if any(g.has(PeriodsOf) for g in switches):
-        sizes["PERIODS"] = (1, "mod begins anew within the motion")
+        sizes["PERIODS"] = (1, "mod restarts within the motion")
     if any(g.has(KnotsOf) for g in switches):
         sizes["KNOTS"] = (1, "curves change from piece to piece within the motion")
     if any(clearance.contour for clearance in model.clearances):
-        sizes["CONTOURS"] = (1, "bearings are no circles")
+        sizes["CONTOURS"] = (1, "bearings are not circular")
     if corners := find_first_corners(model):
         sizes["WALLS"] = (len(corners), "guides in which sliders have play: corners at walls")
-        sizes["SLIDER_CORNERS"] = (len(CORNERS), "of each slider")
+        sizes["SLIDER_CORNERS"] = (len(CORNERS), "corners of each slider")
     return sizes
 
 
@@ -281,13 +281,14 @@ def _list_start_sizes(program: Program) -> Sizes:
     start_indices, guess = _find_start_indices(program.model), program.model.scene.mechanism.start.guess
     eccentricity_constraints = find_eccentricity_rows(program.model)
     sizes: Sizes = {
-        "N_GUESS": (len(start_indices["guess_place"]), "coordinates that the start guesses"),
-        "GUESSED_POINTS": (int(any(name.count(".") > 1 for name in guess)), "some of them are those of points"),
-        "N_SET": (len(start_indices["set_place"]), "those that it sets"),
-        "N_RATES": (len(start_indices["rate_place"]), "velocities that it sets"),
+        "N_GUESS": (len(start_indices["guess_place"]), "coordinates that the start gives as guesses"),
+        "GUESSED_POINTS": (int(any(name.count(".") > 1 for name in guess)), "some of them are coordinates of points"),
+        "N_SET": (len(start_indices["set_place"]), "coordinates that the start sets"),
+        "N_RATES": (len(start_indices["rate_place"]), "velocities that the start sets"),
     }
     return (
-        sizes | {"N_APART": (len(eccentricity_constraints), "rows that it holds apart: eccentricities of journals")}
+        sizes
+        | {"N_APART": (len(eccentricity_constraints), "constraint equations kept open: eccentricities of journals")}
         if eccentricity_constraints
         else sizes
     )
@@ -471,7 +472,7 @@ def list_joint_parameters(model: Model) -> list[tuple[str, str, list[str]]]:
         }
     meanings = dict(_PARAMETER_MEANINGS)
     if any(MAX_PENETRATION in c.constants for c in model.clearances):
-        meanings[_MAX_PENETRATION] = meanings[_MAX_PENETRATION].replace("radius.", "radius, or a law's own.")
+        meanings[_MAX_PENETRATION] = meanings[_MAX_PENETRATION].replace("radius.", "radius, or the limit of a law.")
     if any(c.wall for c in model.clearances):
         meanings[_MAX_PENETRATION] = meanings[_MAX_PENETRATION].replace("radius", "radius, of half a guide's width", 1)
     return [

@@ -108,10 +108,10 @@ def _print_transition_comment(clearance: Clearance) -> str:
     if clearance.mixed is None:
         return (
             "film for e < c, dry contact for e > c + e_0, a linear blend between them\n"
-            " * (the paper's Eq. 17); a step holds what it began with."
+            " * (the paper's Eq. 17); fixed over a step."
         )
     return (
-        "film for e < c; beyond, the dry contact has the share that the law above says;\n"
+        "film for e < c; beyond c, the dry contact has the fraction of the law above;\n"
         " * a step holds what it began with."
     )
 

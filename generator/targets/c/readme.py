@@ -8,39 +8,43 @@ from collections.abc import Collection, Mapping, Sized
 from gudgeon.generator.kernels.program import Program
 
 NAME = "README.md"
-# In the order in which they are to be read.
+# In the order of reading.
 _EQUATIONS = {
-    "model.h": "sizes, `Parameters` (every number, with its unit and its address in the YAML), and small tables",
-    "parameters.c": "`prepare`: defaults of all numbers, and what follows from them",
-    "constraints.c": "Φ, Φ_q, ν, γ and M of the closed linkage; where the start is; joint forces and other outputs",
-    "clearance.c": "joints with play: each law once, as a function of its numbers, then each joint's force",
-    "dynamics.c": "accelerations and multipliers in all coordinates, [M Φ_qᵀ; Φ_q 0][a; λ] = [g; γ − …], as they are "
-    "taught; written out for this linkage",
-    "reduced.c": "the same motion in few coordinates: there and back, and the accelerations that are integrated",
+    "model.h": "sizes, `Parameters` (every parameter, with its unit and its address in the YAML), and small tables",
+    "parameters.c": "`prepare`: defaults of all parameters, and derived parameters",
+    "constraints.c": "Φ, Φ_q, ν, γ and M of the closed linkage; values of the start; joint forces and other outputs",
+    "clearance.c": "joints with play: each law once, as a function of its parameters, then the force of each joint",
+    "dynamics.c": "accelerations and multipliers in all coordinates, [M Φ_qᵀ; Φ_q 0][a; λ] = [g; γ − …], "
+    "written out for this linkage",
+    "reduced.c": "the same motion in tree coordinates: conversion in both directions, and the accelerations "
+    "that are integrated",
 }
 _NUMERICS = {
-    "newton.c": "derivatives of the equations of motion, Newton's matrix solved (for stiff methods), and a step onto "
-    "the constraints",
+    "newton.c": "derivatives of the equations of motion, the solution with Newton's matrix (for stiff methods), and a "
+    "projection step onto the constraints",
     "newton_complex.c": "the same matrix at complex steps (for `radau5` and `radau9`)",
-    "positions.c": "no freedom is left: a step of Newton's method to the positions at a time, then velocities and "
+    "positions.c": "no degree of freedom: a step of Newton's method for the positions at a time, then velocities and "
     "accelerations",
     "curves.c": "the file's curves: knots and coefficients of their pieces",
     "taylor.c": "the motion's Taylor series, at order 0 and at every higher order (for `taylor`)",
-    "watched.c": "bounds over ranges of time and state: of what a step must not miss",
-    "lanes.c": "the same functions for several runs side by side in vectors; to the same bits",
-    "scene.c": "all files together, with what the engine adds to them: this one is compiled",
+    "watched.c": "bounds of monitored functions over ranges of time and state, so that a step misses no event",
+    "lanes.c": "the same functions for several runs in vector lanes, with the same bits",
+    "scene.c": "all files together, with the functions that the engine adds: this file is compiled",
     "kernel.json": "names of everything for the Python runtime: coordinates, addresses, results",
 }
-# Where no freedom is left and nothing is integrated.
+# For scenes without degrees of freedom, which are not integrated.
 _FOLLOWED = {
-    "reduced.c": "the same motion in few coordinates: there and back; its forces and powers, whose works are summed up",
+    "reduced.c": "the same motion in tree coordinates: conversion in both directions; forces, and powers that "
+    "are integrated to works",
 }
 READABLE = (*_EQUATIONS, "positions.c")  # stored as files in generated/; a compiler alone reads the others there
 _ENGINE = (
-    "Time loops, methods, contacts, events and batches are the same for all scenes: plain C in the folder `engine`, of "
-    "which `engine/README.md` says what to read first. It reads the sizes in `model.h`."
+    "Time loops, methods, contacts, events and batches are the same for all scenes: plain C in the folder `engine`. "
+    "`engine/README.md` describes the order of reading. The engine uses the sizes in `model.h`."
 )
-_COMPILED = "With `ROOT=..` where `gudgeon emit` wrote this, or gudgeon's own folder, which holds `engine` too:"
+_COMPILED = (
+    "`ROOT=..` fits a folder that `gudgeon emit` wrote. Otherwise `ROOT` is gudgeon's folder, which contains `engine`:"
+)
 
 
 def print_readme(program: Program, files: Mapping[str, str], further_files: Collection[str] = ("kernel.json",)) -> str:
@@ -63,11 +67,11 @@ def print_readme(program: Program, files: Mapping[str, str], further_files: Coll
             "",
             *_describe_reading_order(program, names),
             "",
-            "## The equations, in the order in which they are to be read",
+            "## The equations, in the order of reading",
             "",
             *(f"- `{name}`: {purpose_by_file[name]}" for name in equations),
             "",
-            "## How they are solved",
+            "## The solution of the equations",
             "",
             *(
                 f"- `{name}`: {purpose_by_file.get(name) or _extract_first_sentence(files.get(name, ''))}"
@@ -88,11 +92,11 @@ def _describe_sizes(program: Program) -> str:
     """Return a sentence about the sizes of the scene: bodies, coordinates, constraint equations, joints with play."""
     model, system = program.model, program.integrated.system
     joints_with_play = {clearance.joint.name for clearance in model.clearances}
-    integrated = f"{_format_count(system.q, 'coordinate')}, {_format_count(system.rows, 'row')}"
+    integrated = f"{_format_count(system.q, 'coordinate')}, {_format_count(system.rows, 'constraint equation')}"
     return (
         f"{_format_count(model.bodies, 'body', 'bodies')} with {_format_count(model.q, 'coordinate')}, "
-        f"{_format_count(model.rows, 'row')} of constraints, {_format_count(joints_with_play, 'joint')} with play. "
-        f"What is integrated: {integrated if program.integrates else 'nothing, for drives say all'}."
+        f"{_format_count(model.rows, 'constraint equation')},  {_format_count(joints_with_play, 'joint')} with play. "
+        f"Integrated: {integrated if program.integrates else 'nothing, because drives determine the motion'}."
     )
 
 
@@ -107,9 +111,9 @@ def _describe_reading_order(program: Program, file_names: Collection[str]) -> li
     file_names: the files of the scene, of which positions.c or reduced.c is mentioned if present.
     """
     integrated_file = next((name for name in ("positions.c", "reduced.c") if name in file_names), "")
-    continuation = f", and `{integrated_file}`, which is what runs" if integrated_file else ""
+    continuation = f", and `{integrated_file}`, which a run evaluates" if integrated_file else ""
     return [
-        f"Read `model.h` first, for the names, then `dynamics.c`, which is the textbook's{continuation}.",
+        f"Read `model.h` first, for the names, then `dynamics.c`, the equations of a textbook{continuation}.",
         "Units are SI; `q` and `v` are positions and velocities, `p` is the `Parameters` of a run.",
     ]
 
@@ -124,11 +128,11 @@ def _describe_calls(program: Program, file_names: Collection[str]) -> list[str]:
         if program.integrates
         else ("`gudgeon_kinematic_begin`, then `gudgeon_kinematic`")
     )
-    lanes_note = ["`lanes.c` is a library of its own, compiled in the same way without the engine."] * (
+    lanes_note = ["`lanes.c` is a separate library, compiled in the same way without the engine."] * (
         "lanes.c" in file_names
     )
     return [
-        "## How it is called",
+        "## Calls from outside",
         "",
         _ENGINE,
         "",
@@ -140,9 +144,9 @@ def _describe_calls(program: Program, file_names: Collection[str]) -> list[str]:
         "```",
         "",
         *lanes_note,
-        "What is called from outside is declared in `engine/scene/calls.h`: `gudgeon_prepare` fills the parameters, "
+        "`engine/scene/calls.h` declares the functions for calls from outside: `gudgeon_prepare` fills the parameters, "
         f"`gudgeon_start` closes the linkage, `gudgeon_rhs` is the right-hand side; a run is {run_functions}. "
-        "From Python all of it is `gudgeon.load(…).simulate(…)`.",
+        "From Python, `gudgeon.load(…).simulate(…)` calls all of them.",
         "",
     ]
 
@@ -153,7 +157,7 @@ def _escape_markdown(text: str) -> str:
 
 
 def _extract_first_sentence(text: str) -> str:
-    """Return the first sentence of the first block comment of a C file; "more of it" if there is none."""
+    """Return the first sentence of the first block comment of a C file; "further functions" if there is none."""
     _, _, comment = text.partition("/*")
     lines = [line.strip().removeprefix("*").strip() for line in comment.partition("*/")[0].splitlines()]
-    return " ".join(filter(None, lines)).partition(". ")[0] or "more of it"
+    return " ".join(filter(None, lines)).partition(". ")[0] or "further functions"

@@ -38,7 +38,7 @@ def describe_reduced_file(system: TreeSystem) -> list[str]:
         *_format_comment_list(tree_edges, "\n"),
         "Unknowns, with rates in v and accelerations in a at the same index:",
         *_format_comment_list(stored_coordinates or ["none"]),
-        "Loop closures, with the places of their multipliers:",
+        "Loop closures, with the storage of their multipliers:",
         *_format_comment_list(closures or ["none"]),
         *(["Joints with play, whose forces are applied loads:", *_format_comment_list(joints)] if joints else []),
         "",

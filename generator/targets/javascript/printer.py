@@ -197,7 +197,7 @@ class LinePrinter:
             call_arguments = ", ".join(self._print_argument(x) for x in line.given if x not in _BRANCH_PLACES)
             return [f"Object.assign({line.results[0]}, functions.{line.function}({call_arguments}, {{}}).force);"]
         if not isinstance(line, (Statement, Branch)):
-            raise ValueError(f"a line of a function that has no counterpart in JavaScript: {line}")
+            raise ValueError(f"a line of a function has no counterpart in JavaScript: {line}")
         target = self.value_printer.printer.get_name(line.target)
         declaration = f"{self.keyword} " * isinstance(line.target, (str, Result))
         if declaration:

@@ -73,7 +73,7 @@ def make_equation_block(
     if n_operations <= MAX_OPERATIONS:
         return make_equation(left, right, notation, tokens, selection_token, value_name)
     return make_paragraph(
-        left, f" follows by differentiation; written out it has {n_operations} operations.", tokens=tokens
+        left, f" follows by differentiation; its expression has {n_operations} operations.", tokens=tokens
     )
 
 
@@ -104,7 +104,7 @@ def _describe_coordinates(model: Model, notation: Notation) -> list[Block]:
         rows.append(make_row(body.name, f"{first} to {first + 2}", *q, *v))
         tokens.append([f"body-{body.name}"])
     introduction = make_paragraph(
-        "Each body has the two coordinates of its centre of mass and an angle, counted from the x axis of the ground "
+        "Each body has the two coordinates of its centre of mass and an angle, measured from the x axis of the ground "
         "and not wrapped: ",
         Name(f"n = {len(model.q)}", f"n = {len(model.q)}"),
         " coordinates.",
@@ -127,7 +127,7 @@ def _describe_abbreviations(model: Model, notation: Notation) -> Iterator[Block]
     ]
     yield from equations
     if any("where(" in term.text for equation_ in equations for term in equation_.terms):
-        yield make_paragraph("where(…) is its second part while the comparison in front holds, else its third.")
+        yield make_paragraph("where(…) is its second argument if the comparison is true, else the third.")
     if any(
         notation.expand_symbols(value).has(sp.Heaviside) for row in model.rows for value in (row.nu, row.gamma)
     ) or any(definition.has(sp.Heaviside) for definition in model.symbols.definitions.values()):
@@ -138,22 +138,22 @@ def _describe_constraints(model: Model, notation: Notation) -> list[Block]:
     """Return the constraint equations of each joint and drive, with entries of Φ_q, ν and γ, and an introduction."""
     blocks: list[Block] = [
         make_paragraph(
-            "The mechanism is closed while ",
+            "The mechanism is assembled if ",
             Name(r"\Phi(q, t) = 0", "Φ(q, t) = 0"),
-            f" in all of its {len(model.rows)} rows. Velocities obey ",
+            f" in all {len(model.rows)} constraint equations. Velocities satisfy ",
             Name(r"\Phi_{q} \dot{q} = \nu = -\Phi_{t}", "Φ_q·q̇ = ν = -Φ_t"),
             ", accelerations ",
             Name(
                 r"\Phi_{q} \ddot{q} = \gamma = -(\Phi_{q} \dot{q})_{q} \dot{q} - 2 \Phi_{qt} \dot{q} - \Phi_{tt}",
                 "Φ_q·q̈ = γ = -(Φ_q·q̇)_q·q̇ - 2·Φ_qt·q̇ - Φ_tt",
             ),
-            ". For each joint its rows, the columns of ",
+            ". The following lists contain, for each joint, its constraint equations, the columns of ",
             PHI_Q,
-            " in which they have entries, and what of ",
+            " with nonzero entries, and the nonzero components of ",
             NU,
             " and ",
             GAMMA,
-            " is not zero:",
+            ":",
         )
     ]
     for title, rows in _group_rows_by_owner(model):
@@ -233,8 +233,8 @@ def _describe_jacobian(model: Model) -> list[Block]:
         make_paragraph(
             "The derivative of ",
             PHI,
-            f" by the coordinates has {shape} entries, of which {count} are not zero; "
-            "they stand with their rows above. All in their places:",
+            f" by the coordinates has {shape} entries, of which {count} are not zero. "
+            "Their values are given above; the picture shows their positions:",
         ),
         *draw_jacobian_pattern(model),
     ]

@@ -50,29 +50,29 @@ _ROLES: Mapping[str, str] = {
     "mixed": "mixed lubrication",
 }
 GIVEN = "given"  # what is chosen of a number that may be left out
-# What a law is given and gives: meaning, SI unit.
+# Inputs and results of laws: meaning, SI unit.
 _MEANINGS: Mapping[str, tuple[str, str]] = {
     "delta": ("penetration", "m"),
-    "ratio": ("rate of penetration over that at the onset", "-"),
+    "ratio": ("rate of penetration divided by its value at the onset", "-"),
     "deltadot": ("rate of penetration", "m/s"),
-    "held_force": ("force that keeps a contact closed, found by the run", "N"),
+    "held_force": ("force that keeps a contact closed, computed by the run", "N"),
     "F_n": ("normal force, which pushes the surfaces apart", "N"),
     "v_t": ("slip of the journal's surface on the bearing's, along t", "m/s"),
-    "epsilon": ("eccentricity over the film's clearance", "-"),
-    "w_n": ("effective squeeze velocity along n over the clearance", "1/s"),
-    "w_t": ("the same along t", "1/s"),
+    "epsilon": ("eccentricity divided by the film's clearance", "-"),
+    "w_n": ("effective squeeze velocity along n divided by the clearance", "1/s"),
+    "w_t": ("effective squeeze velocity along t divided by the clearance", "1/s"),
     "F_r": ("force on the journal along n, from the bearing's centre to the journal's", "N"),
     "F_t": ("force on the journal along t, n turned by +90°", "N"),
-    "share": ("share of the dry contact in force and moments; the rest is the film's", "-"),
-    "T0": ("shear torque by the difference of the angular velocities", "N·m·s"),
+    "share": ("fraction of the dry contact in force and moments; the film has the rest", "-"),
+    "T0": ("shear torque divided by the difference of the angular velocities", "N·m·s"),
     "R_i": ("radius of the bearing", "m"),
     "R_j": ("radius of the journal", "m"),
     "c": ("radial clearance", "m"),
     "L": ("length of the bearing", "m"),
     "E_i": ("modulus of elasticity of the bearing", "Pa"),
-    "E_j": ("the same of the journal", "Pa"),
+    "E_j": ("modulus of elasticity of the journal", "Pa"),
     "nu_i": ("Poisson's ratio of the bearing", "-"),
-    "nu_j": ("the same of the journal", "-"),
+    "nu_j": ("Poisson's ratio of the journal", "-"),
 }
 
 
@@ -155,7 +155,7 @@ def _make_document(law: Law, name: str) -> Document:
         "Equations": _describe_equations(law, first, others),
         "Other choices": _describe_choices(others),
         "Numbers": make_tables(
-            make_row("key", "letter", "unit", "bounds", "default", "meaning"),
+            make_row("key", "symbol", "unit", "bounds", "default", "meaning"),
             [_list_parameter_cells(field) for field in fields if field.kind == NUMBER],
             (5,),
         ),
@@ -180,10 +180,10 @@ def _describe_equations(law: Law, default_form: Form, other_forms: Sequence[Form
         name: letter_ for each_form in (*reversed(other_forms), default_form) for name, letter_ in each_form.used
     }
     rows = [make_row(letters[name], *_MEANINGS[name]) for name in _MEANINGS if name in letters]
-    yield from make_tables(make_row("letter", "meaning", "unit"), rows)
+    yield from make_tables(make_row("symbol", "meaning", "unit"), rows)
     yield from describe_internal_states(law)
     if default_form.constants:
-        yield make_paragraph("Once a run:")
+        yield make_paragraph("Once per run:")
         yield from default_form.constants
     yield make_paragraph("At each evaluation:")
     yield from default_form.steps

@@ -17,9 +17,9 @@ from gudgeon.generator.targets.latex.document import Block, EmbeddedHtml, Listin
 from gudgeon.generator.targets.latex.trace import HighlightIndex, list_yaml_tokens
 
 SHOWN = ("parameters.c", "constraints.c", "clearance.c", "dynamics.c", "reduced.c", "positions.c")
-MOST_C = 600_000  # characters of C that a page carries
+MOST_C = 600_000  # characters of C in a page
 LARGEST_FILE = 1_000_000  # bytes of a mechanism's file
-_CARRIED = "gudgeon-c"  # id of what is not shown
+_CARRIED = "gudgeon-c"  # id of the element with compressed data
 
 
 def make_listing_sections(model: Model, highlights: HighlightIndex) -> list[Section]:

@@ -59,13 +59,14 @@ def _describe_bodies(model: Model, values: ValueFormatter) -> list[Block]:
         points += [make_row(f"{body.name}.{name}", values.format_vector(vector)) for name, vector in vectors.items()]
     lead = (
         "The x axis of a body with a length runs from its tail (the origin) to its head. The centre of mass (com) is "
-        "at mid-length, or at the origin of a body without length, unless it is given below; inertias are about it."
+        "at mid-length, or at the origin of a body without length, unless it is given below. Moments of inertia "
+        "are about the centre of mass."
     )
     return [
         make_paragraph(lead),
         *make_tables(make_row("body", "mass", "inertia", "length"), rows, tokens=tokens),
         *make_tables(make_row("side", "length"), values.list_body_quantities("sides")),
-        *make_tables(make_row("number of a shape", "value"), values.list_body_quantities("shape")),
+        *make_tables(make_row("parameter of a shape", "value"), values.list_body_quantities("shape")),
         *make_tables(make_row("material", "density"), values.list_densities()),
         *make_tables(make_row("point", "in the frame of its body"), points),
         *values.pop_long_expressions(),
@@ -86,7 +87,7 @@ def _describe_joints(model: Model, values: ValueFormatter) -> list[Block]:
         row_range = f"{row_numbers[0]} to {row_numbers[-1]}" if len(row_numbers) > 1 else "".join(row_numbers)
         joint_type = joint_types()[joint.kind]
         point_names = [format_point(ref, joint_type.joins) for ref in (joint.first, joint.second)]
-        reason = "none: it has play" if joint.name in model.scene.play else "none: they are redundant"
+        reason = "none: the joint has play" if joint.name in model.scene.play else "none: redundant"
         rows.append(make_row(joint.name, joint_type.title, *point_names, row_range or reason))
     tokens = [[f"joint-{name}"] for name in model.scene.mechanism.joints]
     blocks: list[Block] = make_tables(make_row("joint", "type", "first", "second", "rows"), rows, tokens=tokens)
@@ -129,7 +130,7 @@ def _describe_drives(model: Model, notation: Notation) -> list[Block]:
             prescribed = "distance of " + " and ".join(f"{p.body}.{p.point}" for p in drive.points)
         else:
             prescribed = "angle" if drive.kind == "angle" else drive.coordinate
-            prescribed += f" of {drive.body}" + (f" against {drive.reference}" if drive.reference else "")
+            prescribed += f" of {drive.body}" + (f" relative to {drive.reference}" if drive.reference else "")
         row_numbers = [str(k + 1) for k, row in enumerate(model.rows) if row.owner == name]
         rows.append(
             make_row(name, prescribed, format_drive_value(model, notation, name), "".join(row_numbers) or "redundant")
@@ -163,7 +164,7 @@ def format_drive_value(model: Model, notation: Notation, drive: str) -> str | Na
 def _describe_curves(model: Model) -> list[Block]:
     """Return the table of curves; f' and f'' are their derivatives."""
     rows = [make_row(name, f"{curve.describe()} (SI)") for name, curve in model.scene.mechanism.curves.items()]
-    return make_tables(make_row("curve", "what it is"), rows, (1,))
+    return make_tables(make_row("curve", "description"), rows, (1,))
 
 
 def _describe_expressions(model: Model) -> list[Block]:
@@ -193,6 +194,6 @@ def _describe_parameters(model: Model, notation: Notation, values: ValueFormatte
             )
         )
     return [
-        *make_tables(make_row("parameter", "letter", "value in the file", "unit"), rows),
+        *make_tables(make_row("parameter", "symbol", "value in the file", "unit"), rows),
         *values.pop_long_expressions(),
     ]

@@ -63,9 +63,9 @@ def _describe_masses(model: Model, notation: Notation) -> list[Block]:
         for body in model.bodies
     ]
     tokens = [[f"body-{body.name}"] for body in model.bodies]
-    introduction = "M is diagonal, because the coordinates are those of the centres of mass; its entries, body by body:"
+    introduction = "M is diagonal, because the coordinates are those of the centres of mass. Entries of M by body:"
     massless = [body.name for body in model.scene.mechanism.bodies.values() if body.missing_keys]
-    note = f"The file gives no mass or no inertia of {', '.join(massless)}: M only measures how far Newton's steps go."
+    note = f"The file gives no mass or no inertia of {', '.join(massless)}: M only scales the steps of Newton's method."
     mass_table = make_tables(make_row("body", "x", "y", "angle"), rows, tokens=tokens)
     return [make_paragraph(introduction), *mass_table, *([make_paragraph(note)] if massless else [])]
 
@@ -124,11 +124,13 @@ def _describe_friction(model: Model, friction: Friction, notation: Notation) -> 
     return [
         make_equation(slip_notation.names[v], notation.expand_symbols(slip.v), notation),
         make_paragraph(
-            "In stick ", slip_notation.names[v], " = 0 holds as a row of the equation of motion, with the entries"
+            "During stick, ", slip_notation.names[v], " = 0 is a row of the equation of motion, with the entries"
         ),
         *jacobian_row,
         make_equation(make_symbol_name("gamma", name), notation.expand_symbols(friction.gamma), notation),
-        make_paragraph("as long as the size of its multiplier is at most ", limit, "; in slip the force adds to g"),
+        make_paragraph(
+            "while the absolute value of its multiplier is at most ", limit, "; during slip the force adds to g"
+        ),
         *force,
     ]
 
@@ -154,7 +156,7 @@ def _describe_generalized_forces(model: Model, notation: Notation) -> list[Block
     note = "All other components are zero." if blocks else "No gravity and no force element acts: g is zero."
     blocks = [*introduction, *blocks, make_paragraph(note)]
     if model.clearances:
-        blocks.append(make_paragraph("The joints with play add their forces to g; see there."))
+        blocks.append(make_paragraph("The joints with play add their forces to g; their sections contain these terms."))
     return blocks
 
 
@@ -164,7 +166,11 @@ def _describe_events(model: Model, notation: Notation) -> list[Block]:
     actions = {"record": "the time is recorded", "stop": "the run ends"}
     blocks: list[Block] = []
     for event in model.events:
-        blocks.append(make_paragraph(f"{event.name}: where it {directions[event.direction]} {actions[event.action]}:"))
+        blocks.append(
+            make_paragraph(
+                f"{event.name}: when this expression {directions[event.direction]}, {actions[event.action]}:"
+            )
+        )
         blocks.append(
             make_equation(make_symbol_name("z", event.name), notation.expand_symbols(event.expression), notation)
         )
@@ -192,11 +198,11 @@ def _describe_equation_of_motion(model: Model, notation: Notation) -> list[Block
             PHI_DOT,
             ", ",
             *gains,
-            "which draw a drifting ",
+            "which return a drift of ",
             Name(r"\Phi", "Φ"),
-            " back to zero (Baumgarte). ",
+            " to zero (Baumgarte). ",
             Name(r"-\Phi_{q}^{\mathsf{T}} \lambda", "-Φ_qᵀ·λ"),
-            " holds the forces of joints and drives. ",
+            " contains the forces of joints and drives. ",
             f"M is {n} × {n}, ",
             PHI_Q,
             f" {m} × {n}; these are {n + m} equations for {n} accelerations and {m} multipliers.",
@@ -222,16 +228,18 @@ def _describe_degrees_of_freedom(model: Model) -> list[Block]:
     n, m, dropped = len(model.q), len(model.rows), model.redundancy.dropped
     counted = m + len(dropped)
     by_count, by_rank = (Name(f"{n} - {k} = {n - k}", f"{n} - {k} = {n - k}") for k in (counted, m))
-    introduction = "Degrees of freedom, counted as Grübler does: "
-    formula_note = f", three coordinates for each body less {counted} row{'s' * (counted != 1)}"
+    introduction = "Degrees of freedom by Grübler's formula: "
+    formula_note = f", three coordinates for each body minus {counted} constraint equation{'s' * (counted != 1)}"
     if dropped:
-        redundancy_note = f": {', '.join(dropped)} say{'s' * (len(dropped) == 1)} nothing new, and the rank is {m}."
+        redundancy_note = (
+            f": {', '.join(dropped)} {'is' if len(dropped) == 1 else 'are'} redundant, and the rank is {m}."
+        )
         return [
             make_paragraph(
                 introduction, by_count, formula_note, ". By the rank of ", PHI_Q, " they are ", by_rank, redundancy_note
             )
         ]
-    rank_note = f" The rank of the rows is {m} as well: each says something new." if m else ""
+    rank_note = f" The rank of the constraint equations is {m} as well: none is redundant." if m else ""
     return [make_paragraph(introduction, by_count, f"{formula_note}.{rank_note}")]
 
 

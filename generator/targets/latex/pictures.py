@@ -45,7 +45,7 @@ def draw_jacobian_pattern(model: Model) -> list[Block]:
         *_print_squares(entries, 30, 24, "entry", cell_side),
     ]
     size = 30 + cell_side * len(model.q) + 4, 24 + cell_side * len(model.rows) + 4
-    caption = "Rows and columns of the Jacobian with its entries that are not zero"
+    caption = "Rows and columns of the Jacobian with its nonzero entries"
     return [
         Picture(
             caption, print_svg(*size, caption, parts), _print_character_grid(len(model.rows), len(model.q), entries)
@@ -167,7 +167,7 @@ def draw_tree(reduction_log: ReductionLog, joints: Collection[str]) -> list[Bloc
     positions: dict[str, tuple[float, int]] = {}
     lines: list[str] = []
     _arrange_subtree(children, "ground", "", 0, [0], positions, lines)
-    caption = "The tree: who places whom, and by which joint"
+    caption = "The tree: the parent of each body, and the joint that positions it"
     return [Picture(caption, _print_tree_svg(reduction_log, joints, positions, caption), tuple(lines))]
 
 

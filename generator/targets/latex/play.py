@@ -44,15 +44,16 @@ def describe_contour(joint: JointWithPlay) -> Iterator[Block]:
     assert clearance.contour
     yield make_equation(contact.theta_i, joint.notation.expand_symbols(clearance.first.theta), joint.notation, joint.of)
     yield make_paragraph(
-        f"The bearing is not circular: d is how much deeper it is, {clearance.contour.count} depths at equal angles "
-        f"from the x axis of {clearance.joint.first.body} on, between them polynomials of degree five with two "
+        f"The bearing is not circular: d is its depth beyond the circle, given by {clearance.contour.count} "
+        "depths at equal angles "
+        f"from the x axis of {clearance.joint.first.body} on. Polynomials of degree five interpolate them with two "
         "continuous derivatives. The normal law gives ",
         joint.notation.format_expression(sp.Symbol("F_n", real=True)),
         ", which acts along the gradient of ",
         Name(r"\delta", "δ"),
         ", whose length is ",
         joint.notation.format_expression(contact.steep),
-        ": an elastic force is conservative.",
+        ", so that an elastic force is conservative.",
     )
 
 
@@ -65,10 +66,10 @@ def describe_corner(name: str, guide: str, slider: str) -> Block:
     corner_name = name.rpartition(".")[2]
     is_front, is_upper = "front" in corner_name, "upper" in corner_name
     return make_paragraph(
-        f"The guide i goes through {guide}, the slider j is in its middle at {slider}. This corner is"
-        f" {'in front, along' if is_front else 'at the rear, against'} the axis, at the wall to the"
-        f" {'left' if is_upper else 'right'} of it, whose outward normal is n; (e_x, e_y) leads from the guide's point"
-        " to the centre of the corner's radius, e is what that lies nearer to the wall than in the middle."
+        f"The guide i goes through {guide}; the middle of the slider j is {slider}. This corner is"
+        f" {'in front, along' if is_front else 'at the rear, against'} the axis, at the wall on the"
+        f" {'left' if is_upper else 'right'}, whose outward normal is n; (e_x, e_y) leads from the guide's point"
+        " to the centre of the corner's radius, and e is the component of its displacement towards the wall."
     )
 
 
@@ -81,17 +82,18 @@ def describe_rigid_contact(joint: JointWithPlay, approach_speed: Name) -> Block:
     )
     has_friction = joint.clearance.friction is not None
     friction_note = (
-        "; friction then brings the slip behind it to rest, as far as its coefficient there times the impulse lets it"
-        " and energy is not gained, and no parting changes by that"
+        "; friction then reduces the slip after the impact, at most to zero, by an impulse of at most the coefficient"
+        " of friction times the normal impulse, without a gain of energy and without a change of separation speeds"
     ) * has_friction
     return make_paragraph(
-        "Its surfaces do not give. Where they meet at the rate ",
+        "The surfaces are rigid. If they meet at the rate ",
         approach_speed,
-        ", a blow along n parts them with ",
+        ", an impact along n separates them with ",
         restitution,
-        " times that, or leaves them together where that is less than ",
+        " times this rate, or closes the contact if the result is less than ",
         threshold,
-        f"; all rows and contacts that are closed bear it{friction_note}. A contact that is closed has the force ",
+        f"; all constraint equations and closed contacts react to the impact{friction_note}. A closed contact "
+        "has the force ",
         Name(r"\lambda_n \geq 0,\ \ddot{\delta} \leq 0,\ \lambda_n \ddot{\delta} = 0", "λ_n ≥ 0, δ̈ ≤ 0, λ_n δ̈ = 0"),
         ".",
     )
@@ -103,15 +105,16 @@ def describe_onset(joint: JointWithPlay, approach_speed: Name) -> Block:
         f"contacts.{joint.play.contact.name}.velocity_floor"
     ].default
     return make_paragraph(
-        "It acts while ",
+        "The contact acts while ",
         Name(r"\delta > 0", "δ > 0"),
         ". ",
         approach_speed,
-        " is the speed of approach at the onset, "
-        f"at least {format_quantity(min_approach_speed, 'm/s')}, kept until separation; before an onset is accepted ",
+        " is the approach speed at the onset, "
+        f"at least {format_quantity(min_approach_speed, 'm/s')}, stored until separation; before an onset is "
+        "accepted, ",
         Name(r"\dot{\delta} / ", "δ̇ / "),
         approach_speed,
-        " counts as 1.",
+        " is 1.",
     )
 
 
@@ -219,9 +222,11 @@ def make_play_sections(model: Model, notation: Notation, functions: Functions) -
                 if clearance.wall
                 else (f"Bearing and contact are those of joint {described_joint}")
             )
-            text = f"{reference}; so are letters, laws and numbers."
+            text = f"{reference}, with the same symbols, laws and parameters."
             sections.append(Section(f"{kind} {clearance.name}: force", (make_paragraph(text),), 2))
-        sections.append(Section(f"{kind} {clearance.name}: share in g", tuple(_describe_generalized_force(joint)), 2))
+        sections.append(
+            Section(f"{kind} {clearance.name}: contribution to g", tuple(_describe_generalized_force(joint)), 2)
+        )
     return sections
 
 
@@ -266,7 +271,7 @@ def _describe_contact(joint: JointWithPlay) -> list[Section]:
     """
     clearance, name = joint.clearance, joint.clearance.name
     kind = clearance.kind.capitalize()
-    sections = [Section(f"{kind} {name}: numbers", tuple(describe_parameter_values(joint)), 2)]
+    sections = [Section(f"{kind} {name}: parameters", tuple(describe_parameter_values(joint)), 2)]
     if clearance.normal is not None:
         sections.append(Section(f"{kind} {name}: dry contact", tuple(_describe_dry_contact(joint)), 2))
     if clearance.film is not None:
@@ -281,11 +286,11 @@ def _describe_contact(joint: JointWithPlay) -> list[Section]:
     introduction = (
         "Force on the slider, in ground axes, and the moment about the guide's point"
         if clearance.wall
-        else ("At the centre any direction serves as n. Force on the journal, in ground axes")
+        else ("At the centre, n has an arbitrary direction. Force on the journal, in ground axes")
     )
     if clearance.normal is not None and clearance.film is not None:
-        share_text = "is the share above" if clearance.mixed else "goes from 0 to 1 over the transition"
-        introduction += f"; d marks the dry part, f the film, b {share_text}"
+        share_text = "is the fraction above" if clearance.mixed else "goes from 0 to 1 over the transition"
+        introduction += f"; the index d marks the dry part, f the film; b {share_text}"
     blocks = [make_paragraph(introduction + ":"), *joint.make_equations(contact.make_resultant_equations(clearance))]
     return [*sections, Section(f"{kind} {name}: force", tuple(blocks), 2)]
 
@@ -314,7 +319,9 @@ def _describe_dry_contact(joint: JointWithPlay) -> list[Block]:
 
 def _describe_mixed_lubrication(joint: JointWithPlay) -> list[Block]:
     """Return the blocks on mixed lubrication: its condition and its law."""
-    condition = make_paragraph("While ", Name(r"\delta > 0", "δ > 0"), "; otherwise the share of the dry contact is 0.")
+    condition = make_paragraph(
+        "While ", Name(r"\delta > 0", "δ > 0"), "; otherwise the fraction of the dry contact is 0."
+    )
     return [condition, *_describe_law(joint, "mixed")]
 
 
@@ -334,7 +341,7 @@ def _describe_law(joint: JointWithPlay, role: str) -> list[Block]:
             f"Option {option.name}: {format_option(value)} ({option.meaning}).{_format_source(option, value)}"
         )
         for option in law.options
-        if (value := equations.options.get(option.name)) is not None  # one may say nothing beside a number
+        if (value := equations.options.get(option.name)) is not None  # an option may have no effect next to a number
         and not (joint.clearance.wall and option is GEOMETRY)  # R_i → ∞
     ]
     blocks += describe_internal_states(law)
@@ -388,11 +395,11 @@ def describe_parameter_values(joint: JointWithPlay) -> list[Block]:
         for s in constants
         if s in definitions
     ]
-    header = make_row("letter", "meaning", "address", "value in the file", "unit")
+    header = make_row("symbol", "meaning", "address", "value in the file", "unit")
     return [
         *make_tables(header, rows, (1,)),
         *values.pop_long_expressions(),
-        make_paragraph("From these follow once a run:"),
+        make_paragraph("Derived from these, once per run:"),
         *constant_equations,
     ]
 

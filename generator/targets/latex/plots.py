@@ -127,7 +127,7 @@ def _plot_normal_force(
         curves.append(
             Curve(y, f"δ̇/δ̇⁻ = {ratio:g}" + (f", δ̇ = {ratio * FAST:g} m/s" if joint.further_variables else ""))
         )
-    caption = "The normal force over the penetration, while the surfaces approach, rest and part"
+    caption = "The normal force over the penetration, while the surfaces approach, rest and separate"
     return Plot(delta, tuple(curves), ("δ", "m"), ("F_n", "N"), ("clearance", "delta"), caption)
 
 
@@ -165,7 +165,7 @@ def _plot_film(
         Curve(np.broadcast_to(radial, epsilon.shape), "F_r"),
         Curve(np.broadcast_to(tangential, epsilon.shape), "F_t"),
     )
-    caption = "The film's forces over the eccentricity ratio, for surfaces that turn at 1 rad/s together and no squeeze"
+    caption = "The film's forces over the eccentricity ratio, for both surfaces at 1 rad/s and no squeeze"
     return Plot(epsilon, curves, ("ε", ""), ("F", "N"), ("film", "epsilon"), caption)
 
 

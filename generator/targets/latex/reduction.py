@@ -25,10 +25,10 @@ def make_reduction_sections(functions: Functions) -> list[Section]:
     source = functions.source
     return [
         Section(
-            "From all coordinates to few", tuple(_describe_reduction(source, functions.model.scene.mechanism.joints))
+            "Reduction to tree coordinates", tuple(_describe_reduction(source, functions.model.scene.mechanism.joints))
         ),
-        Section("Full and reduced, side by side", tuple(_compare_formulations(functions))),
-        Section("The C, file by file", tuple(_describe_files(functions))),
+        Section("Full and reduced formulation compared", tuple(_compare_formulations(functions))),
+        Section("The files of C", tuple(_describe_files(functions))),
     ]
 
 
@@ -40,9 +40,11 @@ def _describe_reduction(source: KernelSource, joints: Collection[str]) -> list[B
     step_rows = [make_row(f"{n:,}", f"{m:,}", f"{text}.") for n, m, text in describe_reduction_steps(source)]
     outcome_rows = [make_row(name, f"{text}.") for name, text in describe_reduced_system(source)]
     return [
-        make_paragraph("Coordinates and rows that are left, step by step, and what took the others:"),
+        make_paragraph(
+            "Remaining coordinates and constraint equations after each step, and the step that eliminated the others:"
+        ),
         *make_tables(make_row("coordinates", "rows", "step"), step_rows, (2,)),
-        *make_tables(make_row("", "what it comes to"), outcome_rows, (1,)),
+        *make_tables(make_row("", "result"), outcome_rows, (1,)),
         *draw_tree(source.story, joints),
     ]
 
@@ -54,7 +56,7 @@ def _compare_formulations(functions: Functions) -> list[Block]:
     reduced_function = "compute_body_motion" if "compute_body_motion" in counts else "reduced_dynamics"
     rows = [
         ("coordinates", len(source.coordinates), len(source.tree)),
-        ("rows of constraints", len(source.rows), len(source.closures)),
+        ("constraint equations", len(source.rows), len(source.closures)),
         *_compare_matrices(log.before, log.after),
         ("operations of a right-hand side", counts["dynamics"], counts.get(reduced_function)),
     ]
@@ -62,9 +64,7 @@ def _compare_formulations(functions: Functions) -> list[Block]:
     operations = [make_row(name, f"{count:,}") for name, count in counts.items() if count]
     return [
         *make_tables(make_row("", "full", "reduced"), size_rows),
-        make_paragraph(
-            "Additions, multiplications, divisions and calls of functions that each function of the C performs:"
-        ),
+        make_paragraph("Additions, multiplications, divisions and function calls in each function of the C:"),
         *make_tables(make_row("function", "operations"), operations),
     ]
 
@@ -83,9 +83,9 @@ def _compare_matrices(
         return full, reduced
 
     return [
-        ("rows of the matrix that is factored", *get_full_and_reduced("size")),
-        ("its entries that are not zero", *get_full_and_reduced("entries")),
-        ("entries of its factor", *get_full_and_reduced("factor")),
+        ("rows of the factored matrix", *get_full_and_reduced("size")),
+        ("nonzero entries of this matrix", *get_full_and_reduced("entries")),
+        ("entries of the factor", *get_full_and_reduced("factor")),
     ]
 
 
@@ -96,7 +96,8 @@ def _describe_files(functions: Functions) -> list[Block]:
     rows = [make_row(name, make_sentence(purpose_by_file[name].replace("`", ""))) for name in names]
     return [
         make_paragraph(
-            "What gudgeon emit writes. First comes model.h, for the names, then dynamics.c, the textbook's."
+            "Files that gudgeon emit writes. Read model.h first, for the names, then dynamics.c, the equations "
+            "of a textbook."
         ),
-        *make_tables(make_row("file", "what it holds"), rows, (1,)),
+        *make_tables(make_row("file", "contents"), rows, (1,)),
     ]

@@ -85,7 +85,7 @@ def _list_theory_symbols(model: Model) -> Iterator[tuple[str, str]]:
         yield "H", "unit step"
     yield from ((name, "a curve of the file") for name in model.scene.mechanism.curves)
     for clearance in model.clearances:
-        meaning = f"a letter of {clearance.kind} {clearance.name} with play"
+        meaning = f"a symbol of {clearance.kind} {clearance.name} with play"
         yield from ((text, meaning) for text in _list_clearance_symbols(model, clearance))
     yield from _list_force_element_symbols(model)
     yield from ((make_symbol_name("z", event.name).text, f"event {event.name}") for event in model.events)

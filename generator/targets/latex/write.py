@@ -37,7 +37,7 @@ from gudgeon.language.text_output import format_one_line
 
 # docs/physics.md
 PAPER = (
-    "Laws of joints with play are numbered as in the paper that they are from: X. Chen, S. Gao, T. Wang, Experimental "
+    "The numbers of laws of joints with play are those of the paper: X. Chen, S. Gao, T. Wang, Experimental "
     "verification of dynamic behavior for multi-link press mechanism with 2D revolute joint considering dry friction "
     "clearances and lubricated clearances, Nonlinear Dynamics, doi 10.1007/s11071-022-07478-4."
 )
@@ -75,7 +75,7 @@ def add_symbols_section(sections: Sequence[Section], notation: Notation) -> tupl
     table_blocks = make_primes_table(
         notation, (name for section in sections for block in section.blocks for name in _list_formulas(block))
     )
-    return (Section("Letters", tuple(table_blocks)), *sections) if table_blocks else (*sections,)
+    return (Section("Symbols", tuple(table_blocks)), *sections) if table_blocks else (*sections,)
 
 
 def make_primes_table(notation: Notation, formulas: Iterable[Name]) -> list[Block]:
@@ -86,10 +86,8 @@ def make_primes_table(notation: Notation, formulas: Iterable[Name]) -> list[Bloc
         for primed_symbol in notation.primed_symbols
         if primed_symbol.name.text in text
     ]
-    introduction = make_paragraph(
-        "A prime tells apart what would have the letter of something else; it is no derivative:"
-    )
-    header = make_row("letter", "what it is", "without the prime", "that is")
+    introduction = make_paragraph("A prime distinguishes two quantities with the same symbol. It is not a derivative:")
+    header = make_row("symbol", "meaning", "without the prime", "meaning")
     return [introduction, *make_tables(header, rows, (3,))] if rows else []
 
 

@@ -39,9 +39,11 @@ from gudgeon.language.quantities import parse_quantity
 
 Array = NDArray[np.float64]
 _ABOUT = (
-    "Its equations as functions, to be read: results go into the last arguments. Numbers are SI (m, kg, s, N, N*m), "
-    "angles rad; t is the time. p has a field a number, in the order of prepare(), which fills it: beside each is its "
-    "address in the file. q are the positions of the bodies' centres of mass and their angles, v are the rates of q:"
+    "The equations as functions, for reading: results are stored in the last arguments. Numbers are SI (m, kg, "
+    "s, N, N*m), "
+    "angles rad; t is the time. p has one field per parameter, in the order of prepare(), which fills it; "
+    "comments give the "
+    "addresses in the file. q are the positions of the bodies' centres of mass and their angles, v are the rates of q:"
 )
 
 
@@ -126,10 +128,10 @@ class ClosedLinkage:
             if address not in entries:
                 known_names = (*(a.removeprefix("parameters.") for a in entries), *entries)
                 raise make_missing_name_error(
-                    f"no number of this scene has the address {key!r}", key, tuple(dict.fromkeys(known_names))
+                    f"no parameter of this scene has the address {key!r}", key, tuple(dict.fromkeys(known_names))
                 )
             if address in values:
-                raise BadValueError(f"{address} is given twice, once as {key!r}", hint="give it once")
+                raise BadValueError(f"{address} is given twice, the second time as {key!r}", hint="give it once")
             if choices := entries[address].choice_words:
                 if not isinstance(value, str) or value.strip() not in choices:
                     raise make_unknown_name_error(f"choice of {address}", str(value).strip(), choices, None)
@@ -269,7 +271,7 @@ def _print_thresholds(kernel: Kernel) -> list[str]:
     tests = (line.test for section in kernel.sections for line in section.statements if isinstance(line, Guard))
     bounds = (x for test in tests if isinstance(test, Test) and not test.is_relative_to_value for x in test.bound)
     limits = {x.name: float(x) for x in bounds if isinstance(x, Threshold)}
-    head = print_comment("A row fails where less than such a share of it is left by the others.")
+    head = print_comment("A constraint equation is dependent if less than this fraction of its pivot is left.")
     return ["\n".join([*head, *(f"{name} = {value!r}" for name, value in sorted(limits.items()))])] if limits else []
 
 
@@ -285,7 +287,12 @@ def _order_numbers_by_name(
         return default_numbers
     if numbers.shape != (len(names),):
         message = f"{argument_name} of shape {numbers.shape}: expected ({len(names)},)"
-        raise ArrayError(message, hint=f"one each for {', '.join(names)}" if names else "this scene has none")
+        raise ArrayError(
+            message,
+            hint=f"expected one number for each of {', '.join(names)}"
+            if names
+            else "expected no numbers: this scene has none",
+        )
     return _convert_to_list(numbers)
 
 

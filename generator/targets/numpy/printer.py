@@ -280,7 +280,7 @@ class LinePrinter:
                 return print_assignment(f"{line.target}[0]", value, is_call=True)
             case Return():
                 return ["return 0"]
-        raise ValueError(f"a line of a function that has no counterpart in Python: {line}")
+        raise ValueError(f"a line of a function has no counterpart in Python: {line}")
 
 
 def print_statements(statements: Sequence[Statement]) -> list[str]:
