@@ -45,7 +45,7 @@ def check_name(name: str, item_kind: str, location: Location | None) -> None:
         reason = "it is the axis of results"
     alternative = ""
     if "__" in name:
-        reason, alternative = "names that hold '__' are kept for emitted code", re.sub("__+", "_", name)
+        reason, alternative = "names that contain '__' are reserved for emitted code", re.sub("__+", "_", name)
     if reason:
         raise BadNameError(
             f"{name!r} cannot name this {item_kind}: {reason}", location, suggest_another_name(name, alternative)

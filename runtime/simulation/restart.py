@@ -69,7 +69,9 @@ def copy_checked_states(source: KernelSource, start: Any, n_runs: int) -> list[S
     single = isinstance(start, State) or not isinstance(start, Iterable) or getattr(start, "ndim", 1) == 0
     if single or hasattr(start, "final"):
         return [copy_checked_state(source, start)] * n_runs
-    given_states = list(start)
+    given_states: list[State] = []
+    for given_state in start:  # which may have any number of entries: an error ends the loop at the first
+        given_states.append(given_state if isinstance(given_state, State) else copy_checked_state(source, given_state))
     states = _copy_similar_states(source, given_states) or [copy_checked_state(source, x) for x in given_states]
     if len(states) != n_runs and 1 not in (n_runs, len(states)) or not states:
         message = f"start has {format_count(len(states), 'state')} for {format_count(n_runs, 'run')}"

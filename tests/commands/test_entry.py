@@ -161,7 +161,7 @@ def test_what_an_encoding_lacks_is_escaped_as_in_json(call: Gudgeon, tmp_path: P
 @needs_compiler
 @pytest.mark.parametrize("ending", slow_but(["SIGTERM"], ["SIGTERM", "SIGHUP"]))
 def test_signals_that_end_a_program_keep_what_was_computed(ending: str, tmp_path: Path) -> None:
-    line = "gudgeon run pendulum --scene ideal --out out"
+    line = "gudgeon run pendulum --scene ideal --method dop853 --out out"
     gudgeon.load("pendulum", "ideal")  # compiled before: who asks without a pause waits for no compiler
     done = gudgeon_process(line, tmp_path, TERMINATED.replace("SIGTERM", ending))
     assert done.returncode == 128 + getattr(signal, ending), done.stderr

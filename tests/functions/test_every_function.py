@@ -144,7 +144,7 @@ def test_javascript(function: Function) -> None:
     program, arguments = node(), draw(function)
     assert program
     text = JavaScriptPrinter(Readable(()), set()).doprint(in_sympy(function))
-    outputs = (ROOT / "runtime" / "web" / "run.js").read_text(encoding="utf-8").partition("const UNPACKED")[0]
+    outputs = (ROOT / "runtime" / "web" / "run.js").read_text(encoding="utf-8").partition("const DECODED_TABLES")[0]
     code = f"""{PRELUDE}{outputs}
 const tree = {json.dumps(to_json(tree(function)))};
 const found = {json.dumps(arguments.tolist())}.map(([{", ".join(names(function))}]) =>

@@ -149,7 +149,7 @@ def test_a_monotone_curve_is_scipys_and_dwells_where_its_points_do(tmp_path: Pat
 
 
 REFUSED = [
-    ("40 mm", "does not follow phi"),
+    ("40 mm", "does not depend on phi"),
     ("40 mm + 1 mm/s * t", "'t' "),
     ("follower.y + 1 mm * phi", "is not allowed in the profile of a cam"),
     ("40 mm + 1 mm * abs(phi)", "slope that may jump, because of abs"),

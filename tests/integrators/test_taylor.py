@@ -250,7 +250,7 @@ def test_loops_and_singular_positions_in_lanes(at_once: Seen) -> None:
     [
         ("slider_crank", "dry", "wristpin has play"),
         ("belt_block", "ideal", "friction of rub"),
-        ("four_bar", "ideal", "nothing is integrated"),
+        ("four_bar", "ideal", "the scene integrates no coordinates of a tree"),
     ],
 )
 @needs_compiler

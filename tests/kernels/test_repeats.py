@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import gudgeon
+import tests.benches  # noqa: F401
 from benchmarks.peers.chains import written
 from gudgeon.generator.ir import repeats
 from gudgeon.generator.ir.repeats import MIN_REPETITIONS, divide_into_repeats

@@ -65,8 +65,8 @@ class Watched:
         return call
 
 
-def simulate(options: dict[str, Any]) -> Callable[[Simulation], object]:
-    return lambda simulation: simulation.simulate(0.05, output=200, **options)
+def simulate(options: dict[str, Any], output: int = 200) -> Callable[[Simulation], object]:
+    return lambda simulation: simulation.simulate(0.05, output=output, **options)
 
 
 def many(options: dict[str, Any]) -> Callable[[Simulation], object]:
@@ -81,7 +81,7 @@ def many(options: dict[str, Any]) -> Callable[[Simulation], object]:
 CASES = [
     ("dry", simulate({"method": "rk4", "step": 2e-6}), "gudgeon_ensemble"),
     ("dry", simulate({"method": "dop853", "rtol": 1e-9}), "gudgeon_ensemble"),
-    ("ideal", simulate({}), "gudgeon_kinematic_ensemble"),
+    ("ideal", simulate({}, 1900), "gudgeon_kinematic_ensemble"),
     ("dry", simulate({}), "gudgeon_evaluate"),
     ("dry", many({"rtol": 1e-9}), "gudgeon_ensemble"),
     ("dry", many({"rtol": 1e-9}), "gudgeon_evaluate"),

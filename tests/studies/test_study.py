@@ -236,7 +236,7 @@ def test_contacts_and_choices_of_a_ball() -> None:
         "windows": {"first": {"to": "1.5*sqrt(2*height/(9.81 m/s^2))"}, "after": {"from": "t_end"}},
         "measures": {"t": {"first_impact": "fall"}, "v": {"impact_speed": "fall"}, "n": {"impacts": "fall"}},
     }
-    with pytest.raises(InputError, match="the name 't' is taken"):
+    with pytest.raises(InputError, match="the name 't' is already used, by the dataset"):
         gudgeon.study(study)
     study["measures"] = {
         "when": {"first_impact": "fall"},

@@ -127,7 +127,9 @@ def test_mistakes_of_all_parts_at_once(tmp_path: Path) -> None:
         with pytest.raises(InputError, match=words):
             resolve_plans(path)
     path.write_text("format: gudgeon-study/1\nparts: {a: {keep: [bob.x]}, b: {mechanism: pendulum}}\n")
-    with pytest.raises(InputErrors, match=r"(?s)2:12: parts.a has no mechanism.*2:32: parts.b measures nothing"):
+    with pytest.raises(
+        InputErrors, match=r"(?s)2:12: parts.a has no mechanism.*2:32: parts.b has neither measures nor keep"
+    ):
         resolve_plans(path)
 
 

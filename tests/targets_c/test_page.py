@@ -89,6 +89,8 @@ def no_blemish(name: str, scene: str) -> None:
     for file, text in c_files(name, scene).items():
         bare = re.sub(r"/\*.*?\*/", "", text, flags=re.S)
         anywhere = {} if file == "curves.c" else ANYWHERE  # a table holds what the file says, multiples of pi too
+        if file in ("taylor.c", "lanes.c") and "taylor.c" in c_files(name, scene):  # the motion is derived again
+            anywhere = {k: pattern for k, pattern in anywhere.items() if k != "a name that another has taken"}
         for blemish, pattern in (anywhere | (IN_KERNELS if file in KERNELS else {})).items():
             found = re.search(pattern, bare)
             assert found is None, f"{file}: {blemish}: {found[0]}"
@@ -264,8 +266,8 @@ def readme_names_every_file(name: str, scene: str) -> None:
     message = re.findall(r"^- `([\w.]+)`: \S.*$", text, flags=re.M)
     assert sorted(message) == sorted({*source.files, "kernel.json"} - {"README.md"})
     assert text.startswith("# ") and "Read `model.h` first" in text
-    integrates = "What is integrated: nothing" not in text
-    assert integrates == ("accelerations that are integrated" in text)
+    integrates = "`positions.c`" not in text
+    assert integrates == ("Integrated: nothing" not in text)
     assert ("`positions.c`, which a run evaluates" in text) != integrates
     assert integrates == ("`reduced.c`, which a run evaluates" in text or "reduced.c" not in text)
 

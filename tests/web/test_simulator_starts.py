@@ -32,6 +32,7 @@ def test_a_start_that_only_python_finds_holds_while_nothing_moves_it(tmp_path: P
             {"parameters": {"length": 2.0}, "options": options},
         ],
     )
+    options["method"] = "dop853"  # as auto in pages, which have no Taylor series
     assert same_bits(weaker, pendulum.simulate(parameters={"g": 1.62}, **options))
     assert not weaker.is_continued and longer.is_continued
     assert_near(longer, pendulum.simulate(parameters={"length": 2.0}, **options))
