@@ -148,7 +148,7 @@ def test_javascript(function: Function) -> None:
     code = f"""{PRELUDE}{outputs}
 const tree = {json.dumps(to_json(tree(function)))};
 const found = {json.dumps(arguments.tolist())}.map(([{", ".join(names(function))}]) =>
-    [{text}, valueOf(tree, (name) => ({{{", ".join(names(function))}}})[name])]);
+    [{text}, evaluateExpression(tree, (name) => ({{{", ".join(names(function))}}})[name])]);
 console.log(JSON.stringify(found));"""
     done = subprocess.run([program, "-e", code], capture_output=True, text=True, check=True)
     found = np.array(json.loads(done.stdout))

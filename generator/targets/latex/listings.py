@@ -28,7 +28,7 @@ def make_listing_sections(model: Model, highlights: HighlightIndex) -> list[Sect
     The file is left out if it is missing or has changed.
     """
     blocks: list[Block] = []
-    hint = make_paragraph("Select any equation, entry, line or part: everything related to it is highlighted.")
+    hint = make_paragraph("Select an equation, entry, line or part: everything related to it is highlighted.")
     if (text := _read_mechanism_file(model)) is not None:
         name = Path(model.scene.mechanism.file).name
         blocks.append(Listing(name, tuple(text.splitlines()), list_yaml_tokens(model, highlights)))
@@ -88,7 +88,7 @@ def _print_c_listing(highlights: HighlightIndex) -> str:
     note = f" Not listed here: {', '.join(unlisted_files)}." if unlisted_files else ""
     return (
         f"<p>The emitted C. The foot of the page shows the lines that compute the selected part.{note}</p>\n"
-        "<noscript><p>A script of the page lists it; <code>gudgeon emit</code> writes the same files.</p>"
+        "<noscript><p><code>gudgeon emit</code> writes these files.</p>"
         f'</noscript>\n<div id="{_CARRIED}-files"></div>\n'
         f'<script type="text/plain" id="{_CARRIED}">{packed}</script>'
     )
