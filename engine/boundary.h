@@ -66,6 +66,12 @@ enum AuditCheck {
 /* Slip speed in m/s below which friction may stick. */
 #define AT_REST 1e-9
 
+/* Orders of the series of Taylor's method per factor e of its tolerance. */
+#define TAYLOR_EFFORT 0.7
+
+/* Tolerance of the method `auto` divided by that of its Taylor series, so that errors are at most those of dop853. */
+#define TAYLOR_STRICTNESS 10.0
+
 /*
  * Mode of a dry_friction element: 0 stick, -1 or 1 the sign of its slip, MODE_HELD at rest by drives or other friction.
  */

@@ -5,8 +5,6 @@
  * Taylor methods, Experimental Mathematics 14 (2005), section 3.
  */
 #if TAYLOR
-#define TAYLOR_EFFORT 0.7 /* orders per factor e of the tolerance */
-#define TAYLOR_STRICTNESS 10.0 /* of `auto`: its tolerance by that of the series, for dop853's errors */
 #define TAYLOR_ROUNDING 1e-14 /* of velocities: a smaller defect at the end of a step may be rounding */
 enum { TAYLOR_DEFECT = 5 /* log2 of the largest defect at the end of a step, in tolerances; less at low orders */ };
 enum { MIN_TAYLOR_ORDER = 4 };

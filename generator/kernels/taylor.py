@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import sympy as sp
 
+from gudgeon.contract.boundary import TAYLOR_EFFORT, TAYLOR_STRICTNESS
 from gudgeon.errors import BadValueError
 from gudgeon.generator.equations.notes import find_drives_with_jumps
 from gudgeon.generator.ir.kernels import KernelBuilder, remove_unused_locals
@@ -35,7 +36,6 @@ SERIES_STEP, SERIES_ROW = 2900.0, 1500.0  # of a step without its series; per cl
 LENGTH_RATIO, LENGTH_GROWTH = 0.4, 0.1
 LOOSE, TIGHT = 3, 12  # -log10 of the loosest and of the tightest tolerance that are compared
 MAX_RHS_OPERATIONS = 200  # of larger right-hand sides the series costs more, and it is not derived
-TAYLOR_EFFORT, TAYLOR_STRICTNESS = 0.7, 10.0  # as in engine/methods/taylor.c
 
 
 def make_taylor_series(program: Program) -> Series:

@@ -5,6 +5,8 @@ from typing import Final
 AUDIT_FAILS: Final = 10.0
 SHALLOW: Final = 1e-13
 AT_REST: Final = 1e-9
+TAYLOR_EFFORT: Final = 0.7
+TAYLOR_STRICTNESS: Final = 10.0
 
 # enum Status
 AUDITED: Final = -15

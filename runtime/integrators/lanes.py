@@ -35,9 +35,9 @@ NONE = -1  # in place of the number of a run
 MIN_RUNS = 16  # smallest number of runs for which vectors are used
 # largest number of runs that proceed together, and the number that always may, however many samples they have
 MAX_LANES, ALWAYS = 32, 8
-# s: expected remaining time of a batch from which on its library is compiled, and the share of it for kinematic runs,
+# s: expected remaining time of a batch from which on its library is compiled; its fraction for kinematic runs,
 # whose library is small
-MIN_REMAINING_S, KINEMATIC_SHARE = 6.0, 0.25
+MIN_REMAINING_S, KINEMATIC_FRACTION = 6.0, 0.25
 _later: ContextVar[int] = ContextVar("runs of the same scene that are to come in other batches", default=0)
 
 
@@ -158,12 +158,12 @@ class LaneProvider:
         return _made.get(self.compiled, {}).get(self.has_series)
 
     def _is_worth_compiling(self, runs: Runs) -> bool:
-        """Return whether the remaining runs are expected to take longer than MIN_REMAINING_S, or its share.
+        """Return whether the remaining runs are expected to take longer than MIN_REMAINING_S, or its fraction.
 
         The estimate is based on the time of the runs that are over.
         """
         over = int(np.count_nonzero(runs.arrays["phase"] == OVER))
-        required = MIN_REMAINING_S * (KINEMATIC_SHARE if runs.kinematic else 1.0)
+        required = MIN_REMAINING_S * (KINEMATIC_FRACTION if runs.kinematic else 1.0)
         return over > 0 and (time.perf_counter() - self.began) * (runs.n + self.later - over) / over > required
 
 

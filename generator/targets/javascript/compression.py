@@ -12,7 +12,7 @@ _SPACED = re.compile(
     r" ?(=>|[!=]==|\?\?=?|&&|\|\||[=,?:;(){}]) ?"
     r"|(?<![-+]) ([-+*/%<>]|[<>]=|>>) (?![-+])"  # not in a - -b
 )
-_LINE_END = re.compile(r"(?<=[{;,(=?:&|])\n$")  # that ends no statement
+_LINE_END = re.compile(r"(?<=[{;,(])\n$")  # that ends no statement
 
 
 def compress_script(text: str) -> str:
@@ -29,8 +29,6 @@ def compress_script(text: str) -> str:
         else:
             parts = _TEXT.split(line)
             parts[::2] = (_SPACED.sub(lambda match: match[1] or match[2], part) for part in parts[::2])
-            if lines and parts[0].startswith("}"):
-                lines[-1] = lines[-1].removesuffix("\n")
             lines.append(_LINE_END.sub("", "".join(parts) + "\n"))
         in_template_string ^= ends_template_string
     return "".join(lines)

@@ -87,7 +87,7 @@ def _print_c_listing(highlights: HighlightIndex) -> str:
     )
     note = f" Not listed here: {', '.join(unlisted_files)}." if unlisted_files else ""
     return (
-        f"<p>The emitted C. The foot of the page shows the lines that compute the selected part.{note}</p>\n"
+        f"<p>The emitted C. The foot of the page shows the lines that compute the selection.{note}</p>\n"
         "<noscript><p><code>gudgeon emit</code> writes these files.</p>"
         f'</noscript>\n<div id="{_CARRIED}-files"></div>\n'
         f'<script type="text/plain" id="{_CARRIED}">{packed}</script>'
