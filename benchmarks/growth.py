@@ -168,16 +168,20 @@ def cells(row: Size) -> list[float]:
 
 
 def table(rows: list[Size]) -> list[str]:
-    """Return the table of a family, with the exponents of each column over the number of bodies as the last row."""
-    from benchmarks.race.page import grid
+    """Return the table of a family, with the exponents of each column over the number of bodies as the last row.
 
-    body = [[f"{x:,}" if isinstance(x, int) else f"{x:#.3g}".rstrip(".") for x in cells(row)] for row in rows]
+    The column `bodies` is left out if each N is the number of bodies.
+    """
+    from benchmarks.race.page import grid, number
+
+    body = [[f"{x:,}" if isinstance(x, int) else number(x) for x in cells(row)] for row in rows]
     fitted = [row for row in rows if row.bodies >= FITTED]
     if len(fitted) > 1:
         logs = np.log([[*cells(row)[2:]] for row in fitted])
         slopes = np.polyfit(np.log([row.bodies for row in fitted]), logs, 1)[0]
         body.append(["exponent", "", *(f"{round(slope, 2) + 0.0:.2f}" for slope in slopes)])
-    return grid(list(HEAD), body)
+    columns = [k for k, name in enumerate(HEAD) if name != "bodies" or any(row.n != row.bodies for row in rows)]
+    return grid([HEAD[k] for k in columns], [[row[k] for k in columns] for row in body])
 
 
 def filled(page: str) -> str:

@@ -155,7 +155,8 @@ def test_tables_tell_times_ratios_and_what_is_not_reached() -> None:
     (cells,) = ([cell.strip() for cell in line.split("|")] for line in lines if "auto" in line)
     assert cells[1:-1] == ["gudgeon auto", "1.00", "4.00", "2.83", "11.3", "5.66", "22.6", "1.00", "1.00", "0.500"]
     (bar,) = ([cell.strip() for cell in line.split("|")] for line in race_page.bars(record()) if "jitcode" in line)
-    assert bar[1:-1] == ["andrews", "3.00 × jitcode dop853", "", "– (–)", "– (–)"]
+    assert bar[1:-1] == ["andrews", "3.00 × jitcode dop853", "", "", *["–"] * 4]
+    assert [race_page.number(x) for x in (6494.0, 999.96, 0.41263, math.nan)] == ["6,490", "1,000", "0.413", "–"]
 
 
 def test_a_newer_run_replaces_its_problems_and_keeps_the_rest() -> None:

@@ -57,8 +57,11 @@ THREADS = 1.8  # the sweep: two threads over one, at least
 
 
 def number(x: float) -> str:
-    """Return three digits; a dash if an error was not reached."""
-    return f"{x:#.3g}".rstrip(".") if math.isfinite(x) else "–"
+    """Return three digits without an exponent of ten (6,490); a dash if an error was not reached."""
+    if not math.isfinite(x):
+        return "–"
+    rounded = float(f"{x:.3g}")
+    return f"{rounded:,.0f}" if abs(rounded) >= 1000.0 else f"{x:#.3g}".rstrip(".")
 
 
 def grid(head: list[str], rows: list[list[str]]) -> list[str]:
@@ -73,7 +76,7 @@ def grid(head: list[str], rows: list[list[str]]) -> list[str]:
 
 
 def bars(record: Record) -> list[str]:
-    """Return the table of requirements and results; the ratio in brackets is 1 or more if a requirement is met."""
+    """Return the table of goals and results; the ratio to the goal is 1 or more if the goal is met."""
     rows = []
     for bar in (b for b in BARS if record.entries(b.work)):
         measure = bar.measure or MEASURES[bar.work][0]
@@ -86,14 +89,14 @@ def bars(record: Record) -> list[str]:
             unit, scale = UNITS.get(bar.work, ("ms", 1e3))
             found, shares = [x * scale for x in own], [m / x for m, x in zip(bar.most, own, strict=True)]
             text = f"≤ {' / '.join(f'{m * scale:g}' for m in dict.fromkeys(bar.most))} {unit}"
-        cells = [f"{number(x)} ({number(s)})" for x, s in zip(found, shares, strict=True)]
-        at = dict(zip(bar.levels, cells, strict=True))
-        rows.append([" ".join(filter(None, (bar.work, bar.measure))), text, *(at.get(level, "") for level in LEVELS)])
+        at = {x: [number(f), number(s)] for x, f, s in zip(bar.levels, found, shares, strict=True)}
+        cells = [cell for level in LEVELS for cell in at.get(level, ["", ""])]
+        rows.append([" ".join(filter(None, (bar.work, bar.measure))), text, *cells])
     if record.entries("sweep"):
         one, two = (record.time_to("sweep", f"{DEFAULT}, {k}", "worst", 1e-6) for k in ("1 thread", "2 threads"))
-        cell = f"{number(one / two)} ({number(one / two / THREADS)})"
-        rows.append(["sweep", f"2 threads {THREADS} × one", "", cell, ""])
-    return grid(["problem", "goal", *(f"{level:.0e}" for level in LEVELS)], rows)
+        cells = [number(one / two), number(one / two / THREADS)]
+        rows.append(["sweep", f"2 threads {THREADS} × one", "", "", *cells, "", ""])
+    return grid(["problem", "goal", *(f"{kind}{level:.0e}" for level in LEVELS for kind in ("at ", "ratio "))], rows)
 
 
 def table(record: Record, work: str, measure: str) -> list[str]:
@@ -124,7 +127,7 @@ def table(record: Record, work: str, measure: str) -> list[str]:
     at = [f"{level:.0e}{' s' if measure == 'onset' else ''}" for level in levels]
     head = [f"{kind} {level}" for level in at for kind in ("engine", "call")]
     middle = at[len(at) // 2]
-    head = [f"{measure}, {unit}", *head, f"× engine {middle}", f"× call {middle}", "set-up, s"]
+    head = [f"{measure}, {unit}", *head, f"relative engine {middle}", f"relative call {middle}", "set-up, s"]
     columns = [k for k in range(len(head)) if k == 0 or any(row[k] != number(math.nan) for row in rows)]
     return grid([head[k] for k in columns], [[row[k] for k in columns] for row in rows])
 
