@@ -48,6 +48,7 @@ TOLERANCES = tuple(10.0**-k for k in range(3, 13))
 WORKS = tuple(MEASURES)
 LONG_TOLERANCES = (1e-12, 1e-13, 1e-14)
 ENGINE_TOLERANCES = tuple(10.0**-k for k in range(4, 13))
+SLOW_TO_COMPILE = 6  # links: from here on, gcc takes more than ten minutes for the C of jitcode
 CHAIN_TOLERANCES = (1e-4, 1e-6, 1e-8, 1e-10)  # of heyoka, which compiles 64 links anew for each of them
 RK4_STEPS = {
     "lubricated": (2e-5, 1e-5, 5e-6),
@@ -305,8 +306,9 @@ def chain_entries() -> list[Entry]:
             if batches or not name:
                 run = plain(partial(peer, n), "angle")
                 found.append(Entry(work, f"heyoka{name}", run, tolerances, HEYOKAS, "", runs))
-        run = plain(partial(chains.by_jitcode, n), "angle")
-        found.append(Entry(work, "jitcode dop853", run, TOLERANCES[1:], ("jitcode",)))
+        if n < SLOW_TO_COMPILE:
+            run = plain(partial(chains.by_jitcode, n), "angle")
+            found.append(Entry(work, "jitcode dop853", run, TOLERANCES[1:], ("jitcode",)))
         found += engine_entries(work, mujoco_runs.STEPS[n])
     return found
 

@@ -24,7 +24,7 @@ from benchmarks.peers import chain_equations, own_scenes, press, sizes
 from benchmarks.race import entries as race_entries
 from benchmarks.race.entries import Entry
 
-LIMIT = 300.0  # s, wall time: an entry whose set-up takes longer has no value
+LIMIT = 120.0  # s, wall time: an entry whose set-up takes longer has no value
 REFERENCES: dict[str, Callable[[], object]] = {
     **{name: lambda n=n: chain_equations.reference(n) for name, n in chain_equations.WORKS.items()},  # type: ignore[misc]
     "dry": lambda: press.reference("dry"),
