@@ -114,6 +114,7 @@ static void extend_stage_range(Step *step, const double *y)
 }
 
 #include "../scalar_simd/error_weights.h"
+#include "../scalar_simd/step_decisions.h"
 
 /*
  * Compute the corrections dq, dv (N_X) that close the constraints at state y, and their largest residual *residual.
