@@ -121,6 +121,8 @@ static int try_lane_steps(LaneGroup *group, int method, int *lists_full)
 #if LANE_LOCAL_STEPS
     local_steps = accept_lane_local_steps(
         &group->local_steps, &group->integrator, method, is_requested, &group->step, &group->p, &group->h);
+#else
+    (void)is_requested;
 #endif
     for (int k = 0; k < LANES; k++) {
         if (!requested[k] || local_steps[k])
