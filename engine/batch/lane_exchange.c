@@ -91,6 +91,8 @@ static void gather_state(LaneGroup *group, int k, int is_requested)
     if (is_requested)
         load_lane_local_steps(&group->local_steps, lanes, k, group->batch, group->run_number[group->loaded_run[k]],
             group->single_run, run);
+#else
+    (void)is_requested;
 #endif
     group->h[k] = run->control.attempt.h;
     lanes->t[k] = run->t;
