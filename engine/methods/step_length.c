@@ -398,7 +398,8 @@ static int is_step_accepted(Integrator *run, int trial_status, const Parameters 
     const double min_length = MIN_STEP_FRACTION * attempt->far;
     if (is_good && !method->stiff && run->choice.h_rho > method->unstable) {
         count_rejected_step(run);
-        if (run->choice.automatic && !attempt->methods_failed)
+        if (run->choice.automatic && !attempt->methods_failed
+            && ++run->choice.n_contrary_steps >= run->choice.max_contrary_steps)
             change_method(run);
         else
             attempt->h *= method->bounded / run->choice.h_rho;
