@@ -23,13 +23,40 @@ static inline double get_end_time(const Batch *batch, long i)
 /* Return the row of the batch's arrays of samples at which those of run i begin. */
 static inline long get_first_row(const Batch *batch, long i) { return batch->sample_block[i] * batch->samples; }
 
+/*
+ * Limits within which a step needs no action of its run, so that the lanes may accept it (batch/lane_local_steps.c). A
+ * type argument gives the same limits for one run (double) or for several (vectors).
+ *   power, bounded     of the method: exponent of the step-size control, h rho at which stability limits the steps
+ *   unstable           h rho above which a step is rejected
+ *   min_rho, max_rho   h rho below or above which a step speaks against its method
+ *   max_contrary       number of such steps at which the method changes
+ *   max_length         s: longest step whose error need not be measured
+ *   max_ratio          largest ratio of the lengths of two successive steps that are not measured
+ *   film_error         relative error of film forces that is the limit inside a step
+ *   peak_ratio         ratio of a stage's force to those at both ends that shows a maximum
+ *   residual           m, rad: largest residual |Phi| that leaves the audit as it is
+ *   gap, clearance     m, of each joint with play: error of the dense output of its gap; its radial clearance
+ */
+#define STEP_LIMITS(Number) \
+    Number power, bounded, unstable, min_rho, max_rho, max_contrary, max_length, max_ratio, film_error, peak_ratio, \
+        residual, gap[AT_LEAST_ONE(N_CLEARANCES)], clearance[AT_LEAST_ONE(N_CLEARANCES)];
+
+/* Limits of the steps of one run that lanes accept, and their largest number until the run needs a call. */
+typedef struct {
+    struct {
+        STEP_LIMITS(double)
+    } limits;
+    long max_steps;
+} LocalStepLimits;
+
 /* Functions of a single run, for the time loop of several runs in lanes. */
 typedef struct {
     /* begin run i; candidates: n runs under way, -1: none; returns a status */
     int (*begin)(const Batch *batch, long i, const long *candidates, int n, void *run);
     /* advance run i to its next step; returns GOES_ON, LISTS or RUN_OVER */
     int (*advance_single)(const Batch *batch, long i, int trial_result, void *run);
-    long (*max_local_steps)(const void *run); /* steps before its next check of progress; 0: each is reported */
+    /* limits of steps without a call; p: parameters of the run */
+    void (*get_local_step_limits)(const void *run, const double *p, LocalStepLimits *limits);
 } SingleRunFunctions;
 
 #endif

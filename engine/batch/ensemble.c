@@ -264,23 +264,12 @@ static int advance_single_run(const Batch *batch, long i, int trial_result, void
     return RUN_OVER;
 }
 
-/*
- * Return the number of steps that a run may make in the lanes without a call: until its next progress check or audited
- * step. It is 0 if each step is recorded or audited.
- */
-static long get_max_local_steps(const void *integrator)
-{
-    const Integrator *run = integrator;
-    const long steps =
-        run->step_record.rows || run->envelope.rows ? 0 : count_steps_before_check(&run->progress.monitor);
-    const long unchecked_steps = run->audit.level == AUDIT_FULL ? 0 : run->audit.due - run->counts.steps;
-    return run->audit.level && unchecked_steps < steps ? (unchecked_steps > 0 ? unchecked_steps : 0) : steps;
-}
+#include "local_step_limits.c"
 
 /* Return the functions of a single run that a library of lanes calls. */
 const void *gudgeon_single_run_functions(void)
 {
-    static const SingleRunFunctions single = {begin_single_run, advance_single_run, get_max_local_steps};
+    static const SingleRunFunctions single = {begin_single_run, advance_single_run, get_local_step_limits};
     return &single;
 }
 #endif

@@ -77,18 +77,22 @@ static void gather_history(LaneIntegrator *lanes, int k, Integrator *run)
 
 /*
  * Load the state of lane k's run at the beginning of a step, and the length of the step, into the lane. Does nothing if
- * the lane holds the newest state, because it accepted the last step itself (lane_local_steps.c).
+ * the lane holds the newest state, because it accepted the last step itself (lane_local_steps.c). is_requested: whether
+ * the run needs the step; else its results are ignored.
  */
-static void gather_state(LaneGroup *group, int k)
+static void gather_state(LaneGroup *group, int k, int is_requested)
 {
     Integrator *run = group->run[group->loaded_run[k]];
     LaneIntegrator *lanes = &group->integrator;
 #if LANE_LOCAL_STEPS
-    if (has_run(group, k) && group->local_steps.has_state[k])
+    if (group->local_steps.has_state[k])
         return;
-    if (has_run(group, k))
-        load_lane_local_steps(
-            &group->local_steps, lanes, k, group->batch, group->run_number[k], group->single_run, run);
+    group->local_steps.may_accept[k] = 0;
+    if (is_requested)
+        load_lane_local_steps(&group->local_steps, lanes, k, group->batch, group->run_number[group->loaded_run[k]],
+            group->single_run, run);
+#else
+    (void)is_requested;
 #endif
     group->h[k] = run->control.attempt.h;
     lanes->t[k] = run->t;
@@ -121,6 +125,10 @@ static void gather_state(LaneGroup *group, int k)
         lanes->rhs.clearance[i].Fy[k] = run->rhs.clearance[i].Fy;
         lanes->rhs.clearance[i].moment_first[k] = run->rhs.clearance[i].moment_first;
         lanes->rhs.clearance[i].moment_second[k] = run->rhs.clearance[i].moment_second;
+        lanes->rhs.clearance[i].F_n[k] = run->rhs.clearance[i].F_n;
+        lanes->rhs.clearance[i].F_t[k] = run->rhs.clearance[i].F_t;
+        lanes->rhs.clearance[i].delta[k] = run->rhs.clearance[i].delta;
+        lanes->rhs.clearance[i].deltadot[k] = run->rhs.clearance[i].deltadot;
     }
     for (int i = 0; i < N_SWITCHES; i++)
         lanes->discrete.branch[i][k] = run->discrete.branch[i];
@@ -219,16 +227,10 @@ static void scatter_trial(const LaneGroup *group, int k, int method, Integrator 
  */
 static void scatter_trial(const LaneGroup *group, int k, int method, Integrator *run)
 {
-    static const int n_stages[LANE_KINDS] = {[BY_DOP853] = DOP853_STAGES, [BY_RK4] = RK4_STAGES,
-        [BY_DOPRI5] = DOPRI5_STAGES, [BY_RODAS5P] = RODAS5P_STAGES, [BY_RADAU5] = 3, [BY_RADAU9] = 5};
-    const int stages = n_stages[method];
-    (void)group, (void)k;
-    run->counts.evaluations += stages - 1;
+    run->counts.evaluations += (long)count_trial_evaluations(&group->integrator, method)[k];
 #if IMPLICIT_STAGES
-    if (method >= BY_RADAU5) {
-        run->counts.evaluations += (long)group->integrator.newton.evaluations[k] - stages + 1;
+    if (method >= BY_RADAU5)
         run->newton.convergence_rate = group->integrator.newton.convergence_rate[k];
-    }
 #endif
     if (method >= BY_RODAS5P && !run->newton.ready) {
         run->counts.jacobians++;

@@ -21,12 +21,13 @@ static int record_run_result(LaneGroup *group, int i, int result)
     return result != GOES_ON;
 }
 
-/* Copy the steps that lane i accepted itself to run i of the group, before the run is used; else do nothing. */
+/* Copy the steps that the lane of run i of the group accepted itself to that run, before it is used. */
 static void flush_lane(LaneGroup *group, int i)
 {
 #if LANE_LOCAL_STEPS
-    if (has_run(group, i) && group->local_steps.has_state[i])
-        flush_lane_local_steps(&group->local_steps, &group->integrator, i, group->h[i], group->run[i]);
+    const int k = i % LANES;
+    if (group->loaded_run[k] == i && group->local_steps.has_state[k])
+        flush_lane_local_steps(&group->local_steps, &group->integrator, k, group->h[k], group->run[i]);
 #else
     (void)group, (void)i;
 #endif
@@ -75,6 +76,8 @@ static int load_run_into_lane(LaneGroup *group, int k, int method)
     int best = is_own ? last : k;
     for (int i = k; i < MAX_GROUP_RUNS && !needs_method(group, best, method); i += LANES)
         best = needs_method(group, i, method) || !has_run(group, best) ? i : best;
+    if (last >= 0 && (last != best || !needs_method(group, best, method)))
+        flush_lane(group, last);
     load_lane_parameters(group, k, best);
     return group->loaded_run[k] % LANES == k && needs_method(group, group->loaded_run[k], method);
 }
@@ -108,20 +111,24 @@ static int passes_event(const LaneGroup *group, int k)
 static int try_lane_steps(LaneGroup *group, int method, int *lists_full)
 {
     int n_reported = 0, requested[LANES];
-    LaneBits local_steps = {0};
+    LaneBits local_steps = {0}, is_requested = {0};
     for (int k = 0; k < LANES; k++) {
         requested[k] = load_run_into_lane(group, k, method);
-        gather_state(group, k);
+        is_requested[k] = -requested[k];
+        gather_state(group, k, requested[k]);
     }
     try_lanes(&group->integrator, method, group->h, &group->p, &group->step);
 #if LANE_LOCAL_STEPS
-    local_steps = accept_lane_local_steps(&group->local_steps, &group->integrator, &group->step, &group->h);
+    local_steps = accept_lane_local_steps(
+        &group->local_steps, &group->integrator, method, is_requested, &group->step, &group->p, &group->h);
+#else
+    (void)is_requested;
 #endif
     for (int k = 0; k < LANES; k++) {
         if (!requested[k] || local_steps[k])
             continue;
         const int needs_single_run = group->step.is_failed[k] || passes_event(group, k);
-        flush_lane(group, k);
+        flush_lane(group, group->loaded_run[k]);
         if (!needs_single_run)
             scatter_result(group, k, method);
         const int trial = needs_single_run ? NOT_TRIED : group->step.has_no_stages[k] ? STAGES_FAILED : TRIED;

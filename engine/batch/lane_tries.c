@@ -254,6 +254,19 @@ static int try_method(LaneIntegrator *run, int method, Lanes h, const LaneParame
 #endif
 
 #if !LANE_SERIES
+/* Return the number of right-hand sides of a trial step by `method` (BY_...) in each lane, without that at its end. */
+static Lanes count_trial_evaluations(const LaneIntegrator *run, int method)
+{
+    static const int n_stages[LANE_KINDS] = {[BY_DOP853] = DOP853_STAGES, [BY_RK4] = RK4_STAGES,
+        [BY_DOPRI5] = DOPRI5_STAGES, [BY_RODAS5P] = RODAS5P_STAGES};
+#if IMPLICIT_STAGES
+    if (method >= BY_RADAU5)
+        return run->newton.evaluations;
+#endif
+    (void)run;
+    return broadcast(n_stages[method] - 1);
+}
+
 /*
  * Return the number of accepting lanes in which an event may end the step: an event function is negative at a stage or
  * the end.

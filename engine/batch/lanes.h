@@ -220,17 +220,14 @@ typedef struct {
 
 /* ErrorNorm of several runs. */
 typedef struct {
-    Lanes weight[N_Y], min_size[2];
-#if LANE_SERIES
-    Lanes energy_scale, work_scale, speed[2], speed_floor[2], inverse_scale[2 * N_X];
-#endif
+    Lanes weight[N_Y], min_size[2], energy_scale, work_scale, speed[2], speed_floor[2], inverse_scale[2 * N_X + 1];
 } LaneNorm;
 
 /* Integrator of several runs: the data with which a trial step begins. */
 typedef struct {
     Lanes t, y[N_Y], dy[N_Y];
     struct {
-        Lanes h_rho, mean_length; /* the latter of explicit steps */
+        Lanes h_rho;
     } choice;
     LaneNorm norm;
     struct {

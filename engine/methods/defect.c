@@ -1,24 +1,13 @@
 /* Defect of the dense output: the residual of the equations of motion for the interpolant of a step. */
 
 /*
- * Compute the first n rates dy of the dense output at fraction theta of a step, by differentiating its polynomial. The
- * nested polynomial is y0 + w0 (d0 + w1 (d1 + ...)), each w being theta or 1 - theta (bit k of `turned`). The dense
- * output must have been computed.
+ * Compute the first n rates dy of the dense output at fraction theta of a step by differentiate_dense_output(). The
+ * dense output must have been computed.
  */
 static inline void interpolate_rates(const Step *step, double theta, int n, double *restrict dy)
 {
-    const Method *method = step->method;
-    double value = 1.0 / step->h, rate = 0.0; /* of a product of factors theta and 1 - theta */
-    for (int i = 0; i < n; i++)
-        dy[i] = 0.0;
-    for (int k = 0; k < method->degree; k++) {
-        const int turned = method->turned >> k & 1;
-        const double w = turned ? 1.0 - theta : theta, *coefficients = step->dense[k];
-        rate = rate * w + (turned ? -value : value);
-        value *= w;
-        for (int i = 0; i < n; i++)
-            dy[i] += rate * coefficients[i];
-    }
+    differentiate_dense_output(step->h, (const double (*)[N_Y])step->dense, step->method->degree, step->method->turned,
+        theta, n, dy);
 }
 
 /* Return the largest film force of all joints in `rhs`, N, and its joint in *joint; 0 and -1 if no film acts. */
@@ -100,9 +89,6 @@ static int has_inaccurate_film_force_at_event(Integrator *run, const Step *step,
         p) > compute_film_error_limit(run);
 }
 
-#define FILM_SMALL 0.02 /* of the limit: with smaller errors at the ends, the error inside is measured rarely */
-#define FILM_LONGER 1.5 /* times the last measured step: longer steps are measured */
-enum { FILM_STEPS = 16 /* steps between two measurements */ };
 
 /*
  * Return the error of film forces at both ends of a step in multiples of its limit, without evaluating a right-hand
@@ -129,8 +115,8 @@ static int is_film_error_small(const Integrator *run, const Step *step, double e
 {
     if (!step->method->stiff || !has_films())
         return 1;
-    return run->films.error < FILM_SMALL && end_error < FILM_SMALL && step->h < FILM_LONGER * run->films.h
-        && !run->control.first && run->counts.steps - run->films.steps < FILM_STEPS;
+    return is_film_measured(end_error, step->h, run->films.error, run->films.h,
+        (double)(run->counts.steps - run->films.steps)) && !run->control.first;
 }
 
 /*

@@ -58,15 +58,12 @@ static int radau_compute_dense_output(Integrator *run, Step *step, const RadauTa
 {
     const double h = step->h;
     double (*const d)[N_Y] = step->dense, change[N_Y];
+    const double *values[RADAU_MAX_STAGES];
     for (int i = 0; i < N_Y; i++)
         change[i] = step->y[i] - run->y[i];
-    memset(d, 0, sizeof step->dense);
-    for (int k = 0; k < stages; k++)
-        for (int s = 0; s < stages; s++) {
-            const double *values = s < stages - 1 ? step->k[s] : change, factor = table->dense[k][s];
-            for (int i = 0; i < N_Y; i++)
-                d[k][i] += factor * values[i];
-        }
+    for (int s = 0; s < stages; s++)
+        values[s] = s < stages - 1 ? step->k[s] : change;
+    compute_collocation_polynomial(table, stages, values, d);
     for (int i = 0; i < N_X && !has_films(); i++) {
         const int v = N_X + i;
         d[0][i] = step->y[i] - run->y[i];
@@ -103,9 +100,7 @@ static int radau9_compute_dense_output(Integrator *run, const Parameters *p, Ste
  */
 static void radau_interpolate(const Integrator *run, const Step *step, double s, double *y)
 {
-    const double (*d)[N_Y] = (const double (*)[N_Y])step->dense, r = 1.0 - s;
-    for (int i = 0; i < N_Y; i++)
-        y[i] = run->y[i] + s * (d[0][i] + r * (d[1][i] + s * (d[2][i] + r * (d[3][i] + s * d[4][i]))));
+    evaluate_collocation_polynomial(run->y, (const double (*)[N_Y])step->dense, s, y);
 }
 
 /* Fractions of a step, ascending, at which radau5 evaluates the equations. */
@@ -118,13 +113,13 @@ static const double radau9_error_nodes[] = {0.0, 0.057104196114517682, 0.2768430
 /* The method Radau IIA of order 5 with three stages. */
 static const Method radau5 = {.name = "radau5", .try = radau5_try_step, .dense = radau5_compute_dense_output,
     .interpolate = radau_interpolate, .power = 1.0 / 4.0, .stiff = 1, .lane = BY_RADAU5, .unstable = INFINITY,
-    .bounded = INFINITY, .stages = 3, .degree = 5, .turned = 0xA, .error_nodes = radau5_error_nodes,
-    .n_error_nodes = COUNT_OF(radau5_error_nodes), .max_error_fraction = 0.85,
+    .bounded = INFINITY, .stages = 3, .degree = RADAU_DEGREE, .turned = RADAU_TURNED, .error_nodes = radau5_error_nodes,
+    .n_error_nodes = COUNT_OF(radau5_error_nodes), .max_error_fraction = RADAU5_ERROR_FRACTION,
     .end_rates = &radau5_end_rates};
 
 /* The method Radau IIA of order 9 with five stages. */
 static const Method radau9 = {.name = "radau9", .try = radau9_try_step, .dense = radau9_compute_dense_output,
     .interpolate = radau_interpolate, .power = 1.0 / 6.0, .stiff = 1, .lane = BY_RADAU9, .unstable = INFINITY,
-    .bounded = INFINITY, .stages = 5, .degree = 5, .turned = 0xA, .error_nodes = radau9_error_nodes,
-    .n_error_nodes = COUNT_OF(radau9_error_nodes), .max_error_fraction = 0.74,
+    .bounded = INFINITY, .stages = 5, .degree = RADAU_DEGREE, .turned = RADAU_TURNED, .error_nodes = radau9_error_nodes,
+    .n_error_nodes = COUNT_OF(radau9_error_nodes), .max_error_fraction = RADAU9_ERROR_FRACTION,
     .end_rates = &radau9_end_rates};

@@ -114,6 +114,7 @@ static void extend_stage_range(Step *step, const double *y)
 }
 
 #include "../scalar_simd/error_weights.h"
+#include "../scalar_simd/step_decisions.h"
 
 /*
  * Compute the corrections dq, dv (N_X) that close the constraints at state y, and their largest residual *residual.
@@ -162,6 +163,16 @@ static void set_last_step_length(Integrator *run, double h) { run->control.last_
 
 /* Discard the stored length of the stiff method: it does not apply after an event. */
 static void discard_stiff_step_length(Integrator *run) { run->control.h_stiff = 0.0; }
+
+/*
+ * Count the steps against the explicit method anew after an event. Between frequent events the steps of the stiff method
+ * cannot become longer.
+ */
+static void restart_contrary_steps(Integrator *run)
+{
+    if (run->choice.method == run->choice.explicit && run->choice.n_contrary_steps > 0)
+        run->choice.n_contrary_steps = 0;
+}
 
 static int uses_baumgarte_terms(const Integrator *run); /* methods/methods.c */
 static double *get_end_rounding(Integrator *run); /* methods/taylor.c */

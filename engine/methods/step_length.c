@@ -9,17 +9,9 @@
  * [1] E. Hairer, S. P. Norsett, G. Wanner, Solving ODEs I (1993), section II.4, and its code DOP853; [2] the code
  * RADAU5 of II, section IV.8. Constants without a source are gudgeon's own.
  */
-#define SAFETY 0.9              /* [1] */
 #define SAFETY_ONSET 0.8        /* the same for the first step of a contact, whose error has a lower order */
-#define ERROR_EXPONENT 0.8      /* integral gain 0.6 + proportional gain 0.2 */
-#define LAST_ERROR_EXPONENT 0.2 /* proportional gain */
-#define MIN_LAST_ERROR 1e-4     /* tolerances: e' is at least as large, also before the first step [1] */
-#define MIN_ERROR 1e-12         /* tolerances: e is at least as large */
-#define MIN_GROWTH 0.3          /* smallest ratio of the lengths of two accepted steps; 0.333 in [1] */
-#define MAX_GROWTH 6.0          /* largest ratio [1] */
 #define MAX_GROWTH_EVENTS 2.0   /* largest ratio if a watched function may have a zero in the step */
 #define MAX_GROWTH_FIRST 5.0    /* largest ratio for the stored length of first steps after an event */
-#define STABLE_GROWTH 1.1       /* largest ratio of the next length to the longest stable one */
 #define MIN_SHRINK 0.1          /* smallest ratio of the lengths of an attempt and the rejected one before */
 #define MAX_SHRINK 0.9          /* largest ratio */
 #define MIN_ORDER_SEEN 2.0      /* smallest order inferred from the errors of two rejected attempts */
@@ -45,10 +37,8 @@ enum { PATIENCE = 8, MAX_PATIENCE = 4096,
 #define STIFF_LENGTH_RATIO 0.8     /* of the stiff step length: an explicit step must be longer to be cheaper */
 #define WORK_TOL 10.0    /* times rtol: allowed error of the works of a step relative to the energy throughput */
 #define SEPARATION_MARGIN 1.05    /* of the estimated time to a separation: length of a step that ends after it */
-#define MAX_FLIGHTS 2.0    /* of the time in which a journal crosses its bearing: longest step */
 #define MAX_EXPLICIT_STABILITY 2.5     /* h rho below which the explicit method is cheaper */
 #define MAX_ORDER_SEEN 30.0 /* largest order of error growth inferred from two steps */
-#define ORDER_DECAY 0.95    /* factor on that order after each step */
 
 /* Replace the methods that a run stores by those of this library, when a call continues the run. */
 static void relink_methods(Integrator *run)
@@ -142,7 +132,7 @@ static double estimate_largest_rate(Integrator *run, const Parameters *p)
 static int is_stiff_method_slower(MethodChoice *choice, double h)
 {
     double *mean = &choice->mean_length[!!choice->method->stiff];
-    *mean = *mean > 0.0 ? LENGTH_MEMORY * *mean + (1.0 - LENGTH_MEMORY) * h : h;
+    *mean = update_mean_length(*mean, h);
     return choice->method->stiff && choice->since % CHECK_STIFF_STEPS == COMPARE_FROM
         && choice->mean_length[1] < STIFF_COST * choice->mean_length[0];
 }
@@ -242,20 +232,17 @@ static void record_first_step_length(Integrator *run, const Step *step)
 }
 
 /*
- * Return the largest factor on the length of the next step by the order of error growth seen in rejected attempts. In
- * stiff motion that order can be far higher than the method's. was_rejected: whether an attempt at this step was
- * rejected, which then updates the stored order; the order decays with each step. Infinity: no limit.
+ * Update the order of error growth seen in rejected attempts, by which the next step may grow. In stiff motion that
+ * order can be far higher than the method's. was_rejected: whether an attempt at this step was rejected, which then
+ * updates the stored order; the order decays with each step.
  */
-static double compute_observed_growth(Integrator *run, const Step *step, int was_rejected)
+static void update_observed_order(Integrator *run, const Step *step, int was_rejected)
 {
     const Attempt *attempt = &run->control.attempt;
     if (was_rejected && attempt->refused > step->h && isfinite(attempt->error) && attempt->error > step->error)
         run->control.observed_order =
             min_of(MAX_ORDER_SEEN, log(attempt->error / get_bounded_error(step)) / log(attempt->refused / step->h));
     run->control.observed_order *= ORDER_DECAY;
-    const double observed_order = run->control.observed_order;
-    return observed_order * step->method->power > 1.0
-        ? SAFETY * approximate_power(get_bounded_error(step), -1.0 / observed_order) : INFINITY;
 }
 
 /*
@@ -270,14 +257,11 @@ static void choose_next_length(Integrator *run, const Step *step, int was_reject
         run->control.h = was_rejected ? step->h : get_max_attempt_length(run);
         return;
     }
-    const double error = get_bounded_error(step), power = step->method->power;
-    double factor = SAFETY * approx_exp2(power
-        * (LAST_ERROR_EXPONENT * approx_log2(run->control.error_before) - ERROR_EXPONENT * approx_log2(error)));
+    const double error = get_bounded_error(step);
     const double known = run->choice.since <= PATIENCE ? run->choice.rate * step->h : 0.0;
-    const double stability = max_of(run->choice.h_rho, known);
-    if (!step->method->stiff && stability > 1.0)
-        factor = min_of(factor, STABLE_GROWTH * step->method->bounded / stability);
-    factor = min_of(factor, compute_observed_growth(run, step, was_rejected));
+    update_observed_order(run, step, was_rejected);
+    double factor = compute_length_ratio(error, run->control.error_before, max_of(run->choice.h_rho, known),
+        run->control.observed_order, step->method->power, step->method->bounded);
     const double max_factor = was_rejected ? 1.0 /* [1] */ : step->has_zero_bracket ? MAX_GROWTH_EVENTS : MAX_GROWTH;
     factor = min_of(max_factor, max_of(MIN_GROWTH, factor));
     run->control.error_before = max_of(MIN_LAST_ERROR, error);
@@ -311,9 +295,8 @@ static double limit_length_by_flight(const Integrator *run, double h, const Para
 {
     for (int i = 0; i < N_CLEARANCES; i++) {
         const Clearance *joint = &run->rhs.clearance[i];
-        const double c = radial_clearance(p, i), distance = max_of(c, 2.0 * c + joint->delta);
         if (is_compliant(i) && !run->discrete.contact[i].closed && joint->deltadot < 0.0)
-            h = min_of(h, MAX_FLIGHTS * distance / -joint->deltadot);
+            h = min_of(h, compute_flight_length(radial_clearance(p, i), joint->delta, joint->deltadot));
     }
     return h;
 }
@@ -415,7 +398,8 @@ static int is_step_accepted(Integrator *run, int trial_status, const Parameters 
     const double min_length = MIN_STEP_FRACTION * attempt->far;
     if (is_good && !method->stiff && run->choice.h_rho > method->unstable) {
         count_rejected_step(run);
-        if (run->choice.automatic && !attempt->methods_failed)
+        if (run->choice.automatic && !attempt->methods_failed
+            && ++run->choice.n_contrary_steps >= run->choice.max_contrary_steps)
             change_method(run);
         else
             attempt->h *= method->bounded / run->choice.h_rho;

@@ -5,8 +5,6 @@
 enum { MAX_PARABOLAS = 20, MIN_INNER_STAGES = 2 /* with fewer stages inside, the dense output is evaluated */ };
 #define MAX_BEND 0.25 /* of the last chord's slope: largest correction by a parabola that leaves the sign certain */
 #define MIN_FORCE_CHANGE 0.1 /* of the force: smallest change since the last stage that shows a trend */
-#define MAXIMUM_RATIO 1.001 /* ratio of a stage's force to those at both ends that shows a maximum between */
-#define MAXIMUM_RATIO_STIFF 1.1 /* the same for stiff methods, whose stages have larger errors */
 #define RIGID_FORCE_TOL 1e-6 /* relative accuracy of the largest force of a rigid contact */
 #define PEAK_TOL 0.1 /* times rtol: relative accuracy of a largest force, within these limits: */
 #define MIN_PEAK_TOL 1e-10
@@ -260,7 +258,7 @@ static int determine_force_trends(Integrator *run, const Step *step, double frac
 {
     double y[N_Y];
     RhsOutputs rhs;
-    const double duration = 1e-4 * fraction * step->h;
+    const double duration = FORCE_AHEAD * fraction * step->h;
     for (int k = 0; k < N_Y; k++)
         y[k] = step->y[k] + duration * step->dy[k];
     const int status = evaluate_contacts_at(run, step->t + fraction * step->h + duration, y, p, &rhs);
@@ -333,7 +331,7 @@ static void find_inner_peaks(Integrator *run, Step *step, double fraction, const
             : run->contacts.F_peak[i];
         force_begin[i] = compute_force_magnitude(a), force_end[i] = compute_force_magnitude(b);
         /* a contact's force may double in a step, a film's grows by some percent */
-        const double min_ratio = run->discrete.contact[i].closed ? 0.9 : 0.97;
+        const double min_ratio = run->discrete.contact[i].closed ? 0.9 : FILM_PEAK_RATIO;
 #if N_RIGID
         if (!is_compliant(i) && run->discrete.contact[i].closed)
             find_rigid_peak(run, step, fraction, i, force_begin[i], force_end[i], p);

@@ -154,7 +154,7 @@ typedef struct {
 
 /*
  * Contacts of joints with play, their peaks, and the list of ended contacts until Python fetches it.
- * Written by: run/contacts.c, run/joint_maxima.h.
+ * Written by: run/contacts.c, run/joint_maxima.h. Copied by: batch/lane_controlled_steps.c.
  */
 typedef struct {
     Impact open[AT_LEAST_ONE(N_CLEARANCES)];       /* contact that lasts in each joint */
@@ -185,7 +185,7 @@ typedef struct {
 
 /*
  * Error of film forces: last measured error, length of that step (s), steps before it; smallest mass of a body with a
- * film, kg. Written by: methods/defect.c. Copied by: batch/lane_exchange.c.
+ * film, kg. Written by: methods/defect.c. Copied by: batch/lane_exchange.c, batch/lane_controlled_steps.c.
  */
 typedef struct {
     double error, h, lightest;
@@ -219,8 +219,8 @@ typedef struct {
 
 /*
  * Choice of the method of the next step: `auto` changes to the stiff method and back.
- * Written by: methods/step_length.c, scalar_simd/distance.h. Copied by: batch/lane_exchange.c,
- * batch/lane_local_steps.c.
+ * Written by: methods/step_length.c, scalar_simd/distance.h.
+ * Copied by: batch/lane_exchange.c, batch/lane_local_steps.c, batch/lane_controlled_steps.c.
  */
 typedef struct {
     const Method *method, *explicit, *implicit; /* method of the next step; explicit and stiff method of `auto` */
@@ -235,7 +235,7 @@ typedef struct {
 /*
  * Control of the step length.
  * Written by: methods/step.c, methods/step_length.c, methods/first_step.c.
- * Copied by: batch/lane_exchange.c, batch/lane_local_steps.c.
+ * Copied by: batch/lane_exchange.c, batch/lane_local_steps.c, batch/lane_controlled_steps.c.
  */
 typedef struct {
     Attempt attempt;
@@ -268,7 +268,7 @@ typedef struct {
 /*
  * Newton's matrix and, for methods with iterated stages, the data of their initial guesses.
  * Written by: methods/rodas5p.c, run/iteration_history.h, scalar_simd/radau_step.h.
- * Copied by: batch/lane_exchange.c, batch/lane_local_steps.c, batch/lane_tries.c.
+ * Copied by: batch/lane_exchange.c, batch/lane_local_steps.c, batch/lane_controlled_steps.c, batch/lane_tries.c.
  */
 typedef struct {
     Linear linear;

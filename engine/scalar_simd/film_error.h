@@ -69,6 +69,28 @@ static void compute_end_rates(const IntegratorOf *run, const StepOf *step, const
 }
 
 /*
+ * Compute the first n rates dy of a dense output at fraction theta of a step of length h (s), by differentiating its
+ * polynomial. The nested polynomial is y0 + w0 (d0 + w1 (d1 + ...)) of this degree, each w being theta or 1 - theta
+ * (bit k of `turned`).
+ */
+static inline void differentiate_dense_output(Real h, const Real (*dense)[N_Y], int degree, int turned, double theta,
+    int n, Real *restrict dy)
+{
+    Real value = 1.0 / h, rate = make_real(0.0); /* of a product of factors theta and 1 - theta */
+    for (int i = 0; i < n; i++)
+        dy[i] = make_real(0.0);
+    for (int k = 0; k < degree; k++) {
+        const int is_turned = turned >> k & 1;
+        const double w = is_turned ? 1.0 - theta : theta;
+        const Real *coefficients = dense[k];
+        rate = rate * w + (is_turned ? -value : value);
+        value *= w;
+        for (int i = 0; i < n; i++)
+            dy[i] += rate * coefficients[i];
+    }
+}
+
+/*
  * Return the relative error of film forces at both ends of a step of a stiff method. At the beginning it is the error
  * of the dense output, at the end that of the iteration of velocities. scale_fraction: see
  * compute_relative_film_error().

@@ -5,9 +5,13 @@
  * Wanner, Solving Ordinary Differential Equations II, Springer (1996), section IV.8; the same, Stiff differential
  * equations solved by Radau methods, J. Comput. Appl. Math. 111 (1999) 93-111.
  */
+/* degree of the dense output; its factors 1 - s (Method) */
+enum { RADAU_DEGREE = 5, RADAU_TURNED = 0xA };
 enum { RADAU_MAX_STAGES = 5, RADAU_MAX_ITERATIONS = 14, RADAU_MAX_FIXED_ITERATIONS = 60 };
 #define RADAU_STAGE_TOL 3e-3   /* of a step's tolerance: error of its stages */
 #define RADAU_ROUNDED 4e-16 /* of the state: change by rounding */
+#define RADAU5_ERROR_FRACTION 0.85 /* of a step: where the error of the dense output is largest */
+#define RADAU9_ERROR_FRACTION 0.74 /* the same for radau9 */
 #define RADAU_NOISE 2.5e4   /* times that, at most, if rates are differences of large forces */
 
 /*
@@ -63,6 +67,32 @@ static const RadauTable RADAU9 = {
         {-36.193358167658926, 10.611734614705874, -10.029661925319592, 18.811285478272644, -11.2},
         {-144.05356518917777, 63.630162942362741, -17.885204671340986, -5.2913930818439813, 5.6},
         {199.88739542347736, -127.022853068795, 92.10283313613322, -64.167375490815583, 25.2}}};
+
+/*
+ * Compute the coefficients d of the dense output of a step, without accelerations at its ends: the collocation
+ * polynomial through its stages. values: those of the stages, the last one the change over the step.
+ */
+static void compute_collocation_polynomial(const RadauTable *table, int stages, const Real *const *values,
+    Real (*d)[N_Y])
+{
+    for (int k = 0; k < RADAU_MAX_STAGES; k++)
+        for (int i = 0; i < N_Y; i++)
+            d[k][i] = make_real(0.0);
+    for (int k = 0; k < stages; k++)
+        for (int s = 0; s < stages; s++) {
+            const double factor = table->dense[k][s];
+            for (int i = 0; i < N_Y; i++)
+                d[k][i] += factor * values[s][i];
+        }
+}
+
+/* Compute the state y (N_Y) at fraction s of a step from y0 at its beginning and the dense output d of degree 5. */
+static void evaluate_collocation_polynomial(const Real *y0, const Real (*d)[N_Y], double s, Real *y)
+{
+    const double r = 1.0 - s;
+    for (int i = 0; i < N_Y; i++)
+        y[i] = y0[i] + s * (d[0][i] + r * (d[1][i] + s * (d[2][i] + r * (d[3][i] + s * d[4][i]))));
+}
 
 /* Rates of the dense output of each method at the ends of a step. */
 static const EndRateWeights radau5_end_rates = {

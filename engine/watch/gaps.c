@@ -13,8 +13,6 @@
  */
 enum { MAX_BISECTIONS = 48, MAX_SAMPLES = 400 /* of a joint in a step */ };
 
-#define BEND_SAFETY 2.0
-#define WIDEST 0.125     /* w/4 for neighbouring stages at most w of a step apart */
 #define DENSE_ERROR 10.0 /* tolerances of a length, by which the dense output may differ from the stages */
 
 /* A part of a step: the sample at its end, and the error of the cubic between both ends. */
@@ -90,14 +88,9 @@ static double compute_dense_output_error(const Integrator *run, int joint, const
  */
 static int is_gap_far_from_zero(const Integrator *run, const Step *step, int joint, const Parameters *p)
 {
-    const double rate_begin = run->rhs.clearance[joint].deltadot, rate_end = step->rhs.clearance[joint].deltadot;
-    const double slowest = min_of(step->rate[joint][0], min_of(rate_begin, rate_end)),
-        fastest = max_of(step->rate[joint][1], max_of(rate_begin, rate_end));
-    const double begin = event_function(&run->discrete, &run->rhs, joint),
-                 end = event_function(&run->discrete, &step->rhs, joint);
-    const double smallest = min_of(step->lowest[joint], min_of(begin, end));
-    return smallest - WIDEST * step->h * (fastest - slowest) * BEND_SAFETY / 2.0 > compute_dense_output_error(run,
-        joint, p);
+    return compute_least_gap(step, joint, event_function(&run->discrete, &run->rhs, joint),
+        event_function(&run->discrete, &step->rhs, joint), run->rhs.clearance[joint].deltadot,
+        step->rhs.clearance[joint].deltadot) > compute_dense_output_error(run, joint, p);
 }
 
 /*

@@ -14,11 +14,13 @@ import tests.benches  # noqa: F401
 from benchmarks.peers.chains import written
 from gudgeon.generator.ir import repeats
 from gudgeon.generator.ir.repeats import MIN_REPETITIONS, divide_into_repeats
+from gudgeon.generator.pipeline import generate_kernel_source
 from gudgeon.generator.targets.c import emit, equal_parts, long_sums
 from gudgeon.model.compiled import Array
 from tests.kernels.test_parts import shorten, simulation
 from tests.programs import needs_compiler
 from tests.slow import slow_but
+from tests.targets_c.test_c_compiles import FLAGS, compile_c, write
 
 
 def split_sequence(shapes: list[int], max_length: int, min_length: int) -> list[tuple[tuple[int, ...], bool]]:
@@ -83,6 +85,14 @@ def test_start_parameters_are_compared_one_by_one(monkeypatch: pytest.MonkeyPatc
         assert ("indices[]" in "".join(four_bars.source.files.values())) == (limit == 1)
         results.append(four_bars.simulate_many({"start.set.crank0.theta": starts}, 5e-3, output=2).q)
     assert np.array_equal(results[0], results[1]) and not np.array_equal(results[0][0], results[0][2])
+
+
+@needs_compiler
+def test_equal_parts_of_a_taylor_series_compile(tmp_path: Path) -> None:
+    source = generate_kernel_source(written(24, (0.0,) * 24).encode(), "chain.yaml", "ideal", None, "taylor")
+    assert "const int *table_row, " in source.files["taylor.c"]
+    main = write(source, tmp_path)
+    compile_c("cc", main, [*FLAGS, "-fsyntax-only"])
 
 
 @needs_compiler

@@ -19,7 +19,7 @@ from gudgeon.generator.ir.statements import AssignStatus, Call, Line, Statement
 from gudgeon.generator.symbols.storage import PARAMETERS, Place
 from gudgeon.generator.targets.c.printer import WIDTH
 
-_TABLE = make_input_argument("at", Number.INTEGER)  # the argument with a part's row of the table
+_TABLE = make_input_argument("table_row", Number.INTEGER)  # the argument with a part's row of the table
 PARAMETER_INDEX = "PARAMETER_INDEX"  # the macro of engine/scene/types.h that numbers the parameters
 _COMMENT = re.compile(r"(/\*.*?\*/)", re.DOTALL)
 _SPACE = re.compile(r"\s+")

@@ -1,0 +1,109 @@
+/*
+ * Limits of the steps that lanes accept for a run without a call (batch/lane_local_steps.c). Such a step changes the
+ * state, error weights, peaks, step length and counts of the run, and nothing else. It ends no search, changes no
+ * contact, branch or method and leaves the record of the audit as it is.
+ */
+
+/*
+ * Return the number of steps that a run may make in the lanes without a call: until its next progress check or audited
+ * step. It is 0 if each step is recorded or audited.
+ */
+static long count_steps_before_call(const Integrator *run)
+{
+    const long steps =
+        run->step_record.rows || run->envelope.rows ? 0 : count_steps_before_check(&run->progress.monitor);
+    const long unchecked_steps = run->audit.level == AUDIT_FULL ? 0 : run->audit.due - run->counts.steps;
+    return run->audit.level && unchecked_steps < steps ? (unchecked_steps > 0 ? unchecked_steps : 0) : steps;
+}
+
+/*
+ * Return whether a step without a violation leaves the record of the audit as it is: all checks of the ends of steps
+ * are recorded. Their values are then 0, except the residual of the closures, for which the limit of the lanes is set.
+ */
+static int are_end_checks_recorded(const Integrator *run)
+{
+    const AuditRecord *record = run->audit.record;
+    int is_recorded = record[CHECK_position].worst >= 0.0 && record[CHECK_position].worst < 1.0
+        && (N_SWITCHES == 0 || record[CHECK_branch].worst >= 0.0);
+    for (int i = 0; i < N_CLEARANCES; i++)
+        is_recorded &= record[CHECK_gap].worst >= 0.0 && (has_film(i) || record[CHECK_free].worst >= 0.0);
+    return !run->audit.level || is_recorded;
+}
+
+/*
+ * Return whether the next step of a run is an ordinary one: the first attempt, not the first step after an event, no
+ * closed contact, no suppressed switching point, no singular position, no comparison of both methods.
+ */
+static int is_ordinary_step(const Integrator *run)
+{
+    const MethodChoice *choice = &run->choice;
+    int has_contact = 0;
+    for (int i = 0; i < N_CLEARANCES; i++)
+        has_contact |= run->discrete.contact[i].closed;
+    if (has_contact)
+        return 0;
+    const int is_compared = choice->method->stiff ? has_films() && choice->method->lane < BY_RADAU5
+        : (choice->since <= PATIENCE && choice->rate > 0.0)
+            || (choice->since < COMPARE_TO && run->control.h_stiff > 0.0);
+    const int is_regular = run->near.n_undetected == 0 && run->near.n_failed == 0
+        && run->discrete.singular_policy == SINGULAR_CONTINUE;
+    return !run->control.attempt.again && !run->control.first && run->roots.skip < 0 && is_regular
+        && !is_compared && run->control.fixed <= 0.0 && run->counts.steps > 1 && run->discrete.is_frozen;
+}
+
+/* Return the number of steps of a stiff method until the lengths of both methods are compared (choose_method()). */
+static long count_steps_before_comparison(const Integrator *run)
+{
+    return !run->choice.method->stiff ? LONG_MAX
+        : (COMPARE_FROM - run->choice.since % CHECK_STIFF_STEPS + CHECK_STIFF_STEPS) % CHECK_STIFF_STEPS;
+}
+
+/*
+ * Return the number of the next steps that the audit does not measure however long they are, because it has measured
+ * enough (audit_step()). 0: long steps are measured.
+ */
+static long count_steps_of_any_length(const Integrator *run)
+{
+    const double first_measured = ((double)run->audit.longer + 1.0) * compute_mean_check_interval(run->choice.method);
+    const double left = first_measured - (double)run->counts.steps;
+    return !run->audit.level || left > 1e9 ? LONG_MAX : left >= 0.0 ? (long)left + 1 : 0;
+}
+
+/*
+ * Set the limits of the next steps of a run, and their largest number. p: parameters of the run. A step by Taylor
+ * series needs that number only.
+ */
+static void get_local_step_limits(const void *integrator, const double *parameters, LocalStepLimits *local)
+{
+    const Integrator *run = integrator;
+    const Method *method = run->choice.method;
+    const Parameters *p = (const Parameters *)parameters;
+    local->max_steps = run->control.attempt.lane == BY_TAYLOR ? count_steps_before_call(run) : 0;
+    if (run->control.attempt.lane == BY_TAYLOR || !is_ordinary_step(run) || !are_end_checks_recorded(run))
+        return;
+    const long steps = count_steps_before_call(run), compared_steps = count_steps_before_comparison(run);
+    const long unlimited_steps = count_steps_of_any_length(run);
+    local->max_steps = steps < compared_steps ? steps : compared_steps;
+    if (unlimited_steps > 0 && unlimited_steps < local->max_steps)
+        local->max_steps = unlimited_steps;
+    if (local->max_steps <= 0)
+        return;
+    const double checked = max_of(run->audit.record[CHECK_position].worst, 0.0), rtol = get_audit_tolerance(run);
+    local->limits.power = method->power;
+    local->limits.bounded = method->bounded;
+    local->limits.unstable = method->unstable;
+    local->limits.min_rho = method->stiff ? MAX_EXPLICIT_STABILITY : -INFINITY;
+    local->limits.max_rho = method->stiff ? INFINITY : method->bounded;
+    local->limits.max_contrary =
+        !run->choice.automatic ? INFINITY : method->stiff ? run->choice.patience : run->choice.max_contrary_steps;
+    local->limits.max_length = unlimited_steps > 0 ? INFINITY : AUDIT_LONGEST * run->audit.longest;
+    local->limits.max_ratio = unlimited_steps > 0 ? INFINITY : AUDIT_LONGER;
+    local->limits.film_error = has_films() && method->stiff ? compute_film_error_limit(run) : INFINITY;
+    local->limits.peak_ratio = method->stiff ? MAXIMUM_RATIO_STIFF : MAXIMUM_RATIO;
+    local->limits.residual = !run->audit.level ? INFINITY : max_of(max_of(run->audit.phi_start, run->residuals.phi_max),
+        checked * max_of(rtol * run->norm.min_size[0], AUDIT_ROUNDING * get_mechanism_size(run)));
+    for (int i = 0; i < N_CLEARANCES; i++) {
+        local->limits.gap[i] = compute_dense_output_error(run, i, p);
+        local->limits.clearance[i] = radial_clearance(p, i);
+    }
+}
