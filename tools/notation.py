@@ -94,8 +94,8 @@ MEANING = {  # what a formula says more clearly than the words of CLEARANCE
     "e": "eccentricity: distance of the centres of journal and bearing",
     "deltadot": "rate of the penetration, positive in approach",
     "delta": "penetration, δ = e − c; in a non-circular bearing, c is the clearance at the angle of the journal",
-    "Fn": "normal force, positive in compression: component along $-\\mathbf n$ of the force on the journal; −F_r in a film. "
-    "The member in C is the component along $\\mathbf n$",
+    "Fn": "normal force, positive in compression: component along $-\\mathbf n$ of the force on the journal; "
+    "−F_r in a film. The member in C is the component along $\\mathbf n$",
     "Ft": "tangential force: component along $\\mathbf t$ of the force on the journal",
     "vt": "slip of the journal's surface on the bearing's, along $\\mathbf t$",
 }
