@@ -95,7 +95,7 @@ MEANING = {  # what a formula says more clearly than the words of CLEARANCE
     "deltadot": "rate of the penetration, positive in approach",
     "delta": "penetration, δ = e − c; in a non-circular bearing, c is the clearance at the angle of the journal",
     "Fn": "normal force, positive in compression: component along $-\\mathbf n$ of the force on the journal; "
-    "−F_r in a film. The member in C is the component along $\\mathbf n$",
+    "in a film alone, F_n = −F_r. The member in C is the component along $\\mathbf n$",
     "Ft": "tangential force: component along $\\mathbf t$ of the force on the journal",
     "vt": "slip of the journal's surface on the bearing's, along $\\mathbf t$",
 }
@@ -129,7 +129,13 @@ STEPS = (  # symbol of the equations, quantity, Python, C variable, unit
 LAMBDA_N = NAMES[sp.Symbol(CONSTRAINT_VARIABLES[0], real=True)].latex
 IMPACTS = (  # symbol, quantity, Python, C, unit
     ("\\dot{\\delta}^{+}", "rate of δ after the impact", "", "", "m/s"),
-    ("P_n", "impulse along $-\\mathbf n$ on the second body", '`run.impacts["F_peak"]`', "`impulse[k]`", "N·s"),
+    (
+        "P_n",
+        "impulse along $-\\mathbf n$ on the second body",
+        '`run.impacts["F_peak"]` of an impact',
+        "`impulse[k]`",
+        "N·s",
+    ),
     ("P_t", "impulse of friction along $\\mathbf t$ on the second body", "", "`friction->P[k]`", "N·s"),
     (
         "v_t^{0}",
@@ -253,6 +259,8 @@ def notation() -> str:
         "",
         "The unit vector $\\mathbf n$ points from the centre of the bearing to the centre of the journal.",
         "The unit vector $\\mathbf t$ is $\\mathbf n$ turned by +90°. The forces act on the journal.",
+        "In a guide, `JOINT` is a corner, such as `guide.front_upper`. The corner then replaces the journal, and its wall",
+        "replaces the bearing.",
         "",
         'In Python, `run["JOINT.delta"]` returns a series. In C, the structure `rhs->clearance[i]` contains the',
         "quantities of the first table. Those of the second table are local variables.",
