@@ -14,11 +14,16 @@ def test_the_map_is_current() -> None:
     assert (ROOT / "docs" / "map.md").read_text(encoding="utf-8") == MAP["file_map"]()
 
 
-def test_the_notation_is_current() -> None:
-    written = runpy.run_path(str(ROOT / "tools" / "notation.py"))["notation"]()
+def test_the_notation_is_current_and_each_symbol_has_one_meaning() -> None:
+    tool = runpy.run_path(str(ROOT / "tools" / "notation.py"))
+    written = tool["notation"]()
     assert (ROOT / "docs" / "notation.md").read_text(encoding="utf-8") == written
     for row in ("| $c$ | radial clearance", "`JOINT.deltadot` | `deltadot` | m/s |", "| `hertz` |"):
         assert row in written
+    find = tool["find_ambiguous_symbols"]
+    assert find(written) == []
+    assert find(written.replace("| $V$ | potential energy", "| $T$ | potential energy")) != []
+    assert find(written.replace("| $v_1$ | slip above", "| $v_0$ | slip above")) == ["$v_0$ in modified_coulomb"]
 
 
 def test_each_source_file_has_a_first_sentence() -> None:

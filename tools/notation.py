@@ -2,12 +2,14 @@
 
 Symbols of a joint with play are those of the LaTeX target, units and series those of a result, keys and symbols of the
 laws' parameters those of their declarations. The paper is X. Chen, S. Gao, T. Wang, Nonlinear Dynamics (2022),
-doi 10.1007/s11071-022-07478-4; the tables have its symbols in a column.
+doi 10.1007/s11071-022-07478-4; the tables have its symbols in a column. Writing fails if one symbol has two meanings in
+a table, or in a law.
 """
 
 from __future__ import annotations
 
 import re
+from collections import defaultdict
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 
@@ -36,11 +38,14 @@ and Wang (2022).
 - Values in Python and C are in SI units, angles in radians. The unit 1 marks a pure number.
 - `JOINT`, `BODY` and `NAME` stand for names of the mechanism file; `ROW` is the name of a constraint equation.
 - The sign – marks a quantity without a name in that place.
-- Each symbol stands for one quantity. In the tables of the laws, $K$, $S$ and $v_0$ are quantities of each law.
+- Bold letters are vectors. In each table, a symbol stands for one quantity.
+- Within one law, each symbol stands for one quantity. The equation of each law defines its $K$, $S$ and $v_0$.
+- The letter $c$ is the clearance of a joint: radial in a bearing, on each side in a guide.
+- All names in C have the sign of their quantity, with one exception: the member `F_n` of `rhs->clearance[i]` is $-F_n$.
 - [Physics](physics.md) gives the equations. `make tables` writes this page from the declarations.
 
 Example: the slip velocity $v_t$ of joint A is the series `run["A.vt"]` in Python, and the member `v_t` of
-`rhs->clearance[i]` in C. It is positive if the journal's surface moves along t relative to the bearing's.
+`rhs->clearance[i]` in C. It is positive if the journal's surface moves along $\\mathbf t$ relative to the bearing's.
 """
 NONE = "–"
 SYSTEM = (  # symbol, quantity, paper, YAML, Python, C, unit
@@ -70,7 +75,6 @@ SYSTEM = (  # symbol, quantity, paper, YAML, Python, C, unit
         "m/s², rad/s²",
     ),
     ("\\lambda", "Lagrange multipliers", "\\lambda", "", '`run["lambda.ROW"]`', "`rhs->lambda`", "N, N·m"),
-    ("G", "Delassus operator: −∂δ̈/∂F_n of closed rigid contacts", "", "", "", "`contacts->D`", "1/kg"),
     ("\\alpha", "Baumgarte's gain of the rates of Φ", "\\alpha", "", "`baumgarte.alpha`", "`p->alpha_`", "1/s"),
     ("\\beta", "Baumgarte's gain of Φ", "\\beta", "", "`baumgarte.beta`", "`p->beta_`", "1/s"),
 )
@@ -90,12 +94,18 @@ MEANING = {  # what a formula says more clearly than the words of CLEARANCE
     "e": "eccentricity: distance of the centres of journal and bearing",
     "deltadot": "rate of the penetration, positive in approach",
     "delta": "penetration, δ = e − c; in a non-circular bearing, c is the clearance at the angle of the journal",
-    "Fn": "normal force, positive in compression: component along −n of the force on the journal; −F_r in a film alone",
-    "Ft": "tangential force: component along t of the force on the journal",
-    "vt": "slip of the journal's surface on the bearing's, along t",
+    "Fn": "normal force, positive in compression: component along $-\\mathbf n$ of the force on the journal; "
+    "in a film alone, F_n = −F_r. The member in C is the component along $\\mathbf n$",
+    "Ft": "tangential force: component along $\\mathbf t$ of the force on the journal",
+    "vt": "slip of the journal's surface on the bearing's, along $\\mathbf t$",
 }
 OF_JOINT = {"ex": "`start.play.JOINT.e`", "ey": "`start.play.JOINT.e`"}  # YAML keys of initial values
 C_MEMBER = {"Fn": "-F_n", "Ft": "F_t", "vt": "v_t"}
+VECTORS = (  # symbol, quantity, Python, C variables, unit
+    ("\\mathbf e", "eccentricity vector: from the centre of the bearing to that of the journal", "", "e_x, e_y", "m"),
+    ("\\mathbf n", "unit normal: along $\\mathbf e$, in a guide from the middle outwards", "", "n_x, n_y", "1"),
+    ("\\mathbf t", "unit tangent: $\\mathbf n$ turned by +90°", "", "", "1"),
+)
 STEPS = (  # symbol of the equations, quantity, Python, C variable, unit
     (
         steps.stored,
@@ -109,20 +119,83 @@ STEPS = (  # symbol of the equations, quantity, Python, C variable, unit
     (steps.omega_j, "angular velocity of the journal", "`BODY.omega`", "omega_j", "rad/s"),
     (steps.a_i, "lever arm of F_t about the centre of the bearing", "", "a_i", "m"),
     (steps.a_j, "lever arm of F_t about the centre of the journal", "", "a_j", "m"),
-    (steps.w_n, "effective squeeze velocity of a film along n, divided by c", "", "w_n", "1/s"),
-    (steps.w_t, "effective squeeze velocity of a film along t, divided by c", "", "w_t", "1/s"),
-    (sp.Symbol("F_r", real=True), "force of a film along n", "", "F_r", "N"),
-    (steps.share, "fraction of the load that the dry contact carries", "", "share", "1"),
-    (
-        sp.Symbol(CONSTRAINT_VARIABLES[0], real=True),
-        "multiplier of a closed contact of rigid surfaces: its normal force",
-        "",
-        "contact->force",
-        "N",
-    ),
+    (steps.w_n, "effective squeeze velocity of a film along $\\mathbf n$, divided by c", "", "w_n", "1/s"),
+    (steps.w_t, "effective squeeze velocity of a film along $\\mathbf t$, divided by c", "", "w_t", "1/s"),
+    (sp.Symbol("F_r", real=True), "force of a film along $\\mathbf n$", "", "F_r", "N"),
     (steps.steep, "length of the gradient of δ in a bearing with a contour", "", "steep", "1"),
     (steps.worn, "depth of a contour beyond the circle, at the angle of the journal", "", "worn", "m"),
-    (steps.beta_i, "angle of e in the body of the bearing, with a contour", "", "beta_i", "rad"),
+    (steps.beta_i, "angle of $\\mathbf e$ in the body of the bearing, with a contour", "", "beta_i", "rad"),
+)
+LAMBDA_N = NAMES[sp.Symbol(CONSTRAINT_VARIABLES[0], real=True)].latex
+IMPACTS = (  # symbol, quantity, Python, C, unit
+    ("\\dot{\\delta}^{+}", "rate of δ after the impact", "", "", "m/s"),
+    (
+        "P_n",
+        "impulse along $-\\mathbf n$ on the second body",
+        '`run.impacts["F_peak"]` of an impact',
+        "`impulse[k]`",
+        "N·s",
+    ),
+    ("P_t", "impulse of friction along $\\mathbf t$ on the second body", "", "`friction->P[k]`", "N·s"),
+    (
+        "v_t^{0}",
+        "slip after the impact without friction, with the specified restitution",
+        "",
+        "`friction->after[k]`",
+        "m/s",
+    ),
+    (
+        "\\tilde v_t",
+        "slip after the impact without friction, with the restitution 0",
+        "",
+        "`friction->plastic[k]`",
+        "m/s",
+    ),
+    ("v_t^{+}", "slip after the impact", "", "", "m/s"),
+    (
+        "G_{kl}",
+        "Delassus operator: −∂δ̈/∂F_n, of contact k by the force in contact l",
+        "",
+        "`contacts->D[k][l]`",
+        "1/kg",
+    ),
+    ("G_t", "change of the slip per unit of P_t", "", "`S[k][k]`", "1/kg"),
+    (LAMBDA_N, "multiplier of a closed contact: its normal force", "`JOINT.Fn`", "`contact->force`", "N"),
+)
+MIXED = (
+    (NAMES[steps.share].latex, "fraction of the load that the dry contact carries", "", "`share`", "1"),
+    ("h", "film thickness between the mean surfaces", "", "", "m"),
+    ("\\Lambda", "film thickness ratio h/σ_r", "", "", "1"),
+    ("\\Lambda_0", "film thickness ratio at δ = 0", "", "", "1"),
+    ("\\eta", "height of an asperity divided by σ_r", "", "", "1"),
+    ("F_{5/2}", "mean of (η − Λ)^{5/2} over the heights η > Λ", "", "", "1"),
+)
+WEAR = (
+    ("V_w", "worn volume of one surface", "`worn.bearing.volume`, `worn.journal.volume`", "", "m³"),
+    ("k_w", "wear coefficient", "argument `k` of `gudgeon.wear`", "", "1"),
+    ("H", "hardness", "argument `hardness` of `gudgeon.wear`", "", "Pa"),
+)
+ENERGY = (
+    ("T", "kinetic energy", '`run["energy.kinetic"]`', "`energy[0]`", "J"),
+    ("V", "potential energy of gravity and springs", '`run["energy.potential"]`', "`energy[1]`", "J"),
+    ("\\Delta E", "energy residual", '`run["energy.residual"]`', "", "J"),
+    ("W_{\\text{drives}}", "work of drives since the start", '`run["work.drives"]`', "`y[2 * N_X]`", "J"),
+    ("W_{\\text{forces}}", "work of force elements", '`run["work.forces"]`', "`y[2 * N_X + 1]`", "J"),
+    ("W_{\\text{joints}}", "work of joints with play", '`run["work.clearances"]`', "`y[2 * N_X + 2]`", "J"),
+)
+QUANTITIES = (  # heading, text above the table, rows of symbol, quantity, Python, C, unit
+    (
+        "Impacts and closed contacts of rigid surfaces",
+        "The names in C are those of `engine/run/impacts.c` and `engine/run/frictional_impact.c`.",
+        IMPACTS,
+    ),
+    ("Mixed lubrication", "The roughness $\\sigma_r$ is in the table of the laws.", MIXED),
+    ("Wear", "In Python, `worn` is what `gudgeon.wear` returns.", WEAR),
+    (
+        "Energy",
+        "In C, `energy` is an argument of the function `outputs`, and `y` is the state that the integrator advances.",
+        ENERGY,
+    ),
 )
 SECTIONS = (
     ("Bearings", "bearings.NAME", BEARING),
@@ -133,6 +206,10 @@ SECTIONS = (
 )
 IN_LAWS = {field: sign for field, sign, _ in PAIR}  # symbols of a bearing in the laws
 IN_GUIDE = {field: sign for field, sign, _ in GUIDE_LETTERS}
+IN_SECTION = {  # what the words of a declaration do not say: the term of physics.md
+    "bearings.NAME.length": "length of the bearing: length of the pin in the hole",
+    "guides.NAME.gap": "clearance: gap on each side, half the difference of the widths of slot and slider",
+}
 IN_CONTACT = {"transition": "e_0", "velocity_floor": "v_{\\min}"}  # as physics.md
 OF_MATERIAL = {"E": "E_i$, $E_j", "nu": "\\nu_i$, $\\nu_j"}  # of the surface of the bearing or the journal
 IN_PAPER = {
@@ -148,7 +225,7 @@ IN_PAPER = {
 DERIVED = (  # name in the functions of the laws, quantity, laws, unit
     ("K", "contact stiffness", "laws of the normal force with a stiffness", "N/m^n"),
     ("hysteresis", "hysteresis damping factor, by `dissipation`", "laws with `dissipation`", "1"),
-    ("F_e", "elastic force", "`expression`", "N"),
+    ("F_e", "elastic force, the value of f_δ", "`expression`", "N"),
     ("friction_slope", "1/(v_1 − v_0)", "`modified_coulomb`", "s/m"),
     ("z", "deflection of the bristles", "`dahl`, `lugre`", "m"),
     ("film_clearance", "clearance of the film, c + c_a", "all films", "m"),
@@ -165,7 +242,10 @@ DERIVED = (  # name in the functions of the laws, quantity, laws, unit
 
 
 def notation() -> str:
-    """Return the page: equations of motion, a joint with play, parameters of the file, parameters of the laws."""
+    """Return the page: equations of motion, a joint with play, parameters of the file, parameters of the laws.
+
+    Raises ValueError if a symbol has two meanings in one table or in one law.
+    """
     head = ("symbol", "quantity", "in the paper", "YAML", "Python", "C", "unit")
     lines = [LEAD, "## Equations of motion", ""]
     lines += [
@@ -177,13 +257,27 @@ def notation() -> str:
         "",
         "## A joint with play",
         "",
-        "The unit vector n points from the centre of the bearing to the centre of the journal; t is n turned by +90°.",
-        'The forces act on the journal. In Python, `run["JOINT.delta"]` returns a series. In C, the structure',
-        "`rhs->clearance[i]` contains the quantities of the first table; those of the second are local variables.",
+        "The unit vector $\\mathbf n$ points from the centre of the bearing to the centre of the journal.",
+        "The unit vector $\\mathbf t$ is $\\mathbf n$ turned by +90°. The forces act on the journal.",
+        "In a guide, `JOINT` is a corner, such as `guide.front_upper`. The corner then replaces the journal, and its",
+        "wall replaces the bearing.",
+        "",
+        'In Python, `run["JOINT.delta"]` returns a series. In C, the structure `rhs->clearance[i]` contains the',
+        "quantities of the first table. Those of the second table are local variables.",
         "",
     ]
     lines += _table(head, _of_play())
-    lines += ["", *_table(("symbol", "quantity", "Python", "C", "unit"), _of_steps())]
+    head_of_quantities = ("symbol", "quantity", "Python", "C", "unit")
+    lines += ["", *_table(head_of_quantities, _of_steps())]
+    for title, text, rows in QUANTITIES:
+        lines += [
+            "",
+            f"## {title}",
+            "",
+            text,
+            "",
+            *_table(head_of_quantities, ((f"${row[0]}$", *row[1:]) for row in rows)),
+        ]
     lines += [
         "",
         "## Parameters of the file",
@@ -202,12 +296,51 @@ def notation() -> str:
         "## Derived quantities of the laws",
         "",
         "A derived quantity has no key in YAML. The column C gives the name of the argument or local variable in the",
-        "function of the law. Quantities that are constant in a run are also members of `struct Parameters`, such as",
-        "`p->dry_pin_K_` for the contact `dry` and the bearing `pin`.",
+        "function of the law. Such a name is valid in that function only: `q` and `x` of `finite_length` are not",
+        "coordinates.",
+        "",
+        "Quantities that are constant in a run are also members of `struct Parameters`, such as `p->dry_pin_K_` for",
+        "the contact `dry` and the bearing `pin`.",
         "",
     ]
     lines += _table(("symbol", "quantity", "laws", "C", "unit"), _of_derived())
-    return "\n".join([*lines, ""])
+    page = "\n".join([*lines, ""])
+    if ambiguous := find_ambiguous_symbols(page):
+        raise ValueError("docs/notation.md: symbols with two meanings: " + "; ".join(ambiguous))
+    return page
+
+
+def find_ambiguous_symbols(page: str) -> list[str]:
+    """Return a message for each symbol that has two meanings in one context of the page.
+
+    A context is one law, one section of parameters with all tables of quantities before it, or these tables alone.
+    """
+    above, _, parameters = page.partition("\n## Parameters of the file\n")
+    common = list(_iterate_meanings(above))
+    contexts: dict[str, list[tuple[str, str]]] = defaultdict(list, {"quantities": common})
+    of_file, _, of_laws = parameters.partition("\n## Parameters of the laws\n")
+    for section in of_file.split("\n### ")[1:]:
+        contexts[section.partition("\n")[0]] = [*common, *_iterate_meanings(section)]
+    of_laws, _, derived = of_laws.partition("\n## ")
+    contexts["derived quantities"] = [*common, *_iterate_meanings(derived)]
+    for line in of_laws.splitlines():
+        for law in re.findall(r"`(\w+)`", line.split(" | ")[2]) if line.startswith("| $") else ():
+            contexts[law] += _iterate_meanings(line)
+    messages = []
+    for context, pairs in contexts.items():
+        meanings = defaultdict(set)
+        for symbol, meaning in pairs:
+            meanings[symbol].add(meaning)
+        messages += [f"{symbol} in {context}" for symbol, found in meanings.items() if len(found) > 1]
+    return messages
+
+
+def _iterate_meanings(text: str) -> Iterator[tuple[str, str]]:
+    """Yield symbol and meaning of each row of the tables in a text; a row may have several symbols."""
+    for line in text.splitlines():
+        if line.startswith("| $"):
+            symbols, meaning = line.removeprefix("| ").split(" | ")[:2]
+            yield from ((symbol, meaning) for symbol in symbols.split(", "))
 
 
 def _table(head: Iterable[str], rows: Iterable[Iterable[str]]) -> list[str]:
@@ -233,6 +366,8 @@ def _of_play() -> Iterator[tuple[str, ...]]:
 
 
 def _of_steps() -> Iterator[tuple[str, ...]]:
+    for symbol, meaning, python, variables, unit in VECTORS:
+        yield f"${symbol}$", meaning, python, ", ".join(f"`{name}`" for name in variables.split(", ") if name), unit
     for symbol, meaning, python, variable, unit in STEPS:
         yield f"${NAMES[symbol].latex}$", meaning, python, f"`{variable}`", unit
 
@@ -249,7 +384,8 @@ def _of_record(path: str, record: Field) -> Iterator[tuple[str, ...]]:
             key = f"{path}.{field.name}"
             shown = symbols.get(field.name) or make_symbol_name(get_field_letter(field.name)).latex
             paper = IN_PAPER.get(key, "")
-            yield f"${shown}$", field.meaning, f"${paper}$" * bool(paper), f"`{key}`", _c_member(key), _unit(field)
+            meaning = IN_SECTION.get(key, field.meaning)
+            yield f"${shown}$", meaning, f"${paper}$" * bool(paper), f"`{key}`", _c_member(key), _unit(field)
 
 
 def _of_laws() -> Iterator[tuple[str, ...]]:

@@ -312,13 +312,13 @@ def test_slopes_in_tree_coordinates(folder: Path) -> None:
 def test_equations_in_numpy_are_those_in_c(folder: Path) -> None:
     simulation = made(folder, ARM, "elastic")
     run = simulation.simulate(2e-3, output=40)
-    own, compiled = simulation.model.numpy(), simulation.compiled
-    p, given = own.prepare(), compiled.prepare(*np.zeros((2, len(compiled.source.slots))))
+    numpy_model, compiled = simulation.model.numpy(), simulation.compiled
+    p, parameters = numpy_model.prepare(), compiled.prepare(*np.zeros((2, len(compiled.source.slots))))
     assert (run.state > 0).any()
-    for t, q, v, latched in zip(run.t, run.q, run.v, run.memory, strict=True):
-        found = own.dynamics(t, q, v, p, latched)
-        expected = compiled.rhs(t, np.concatenate([q, v]), given, latched)[6:12]
-        np.testing.assert_allclose(found.a, expected, rtol=1e-9, atol=1e-9 * abs(expected).max())
+    for t, q, v, contact_state in zip(run.t, run.q, run.v, run.memory, strict=True):
+        actual = numpy_model.dynamics(t, q, v, p, contact_state)
+        expected = compiled.rhs(t, np.concatenate([q, v]), parameters, contact_state)[6:12]
+        np.testing.assert_allclose(actual.a, expected, rtol=1e-9, atol=1e-9 * abs(expected).max())
 
 
 def test_many_runs_are_the_single_ones(folder: Path) -> None:
