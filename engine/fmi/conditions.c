@@ -30,7 +30,7 @@ static void format_given_values(const Model *model, int value_index, char *text,
  * 0. Checked are the conditions of fmu.h, that all numbers are finite, and that clearances exceed rounding. size: the
  * mechanism's size, m.
  */
-static int are_parameters_valid(const Model *model, double size)
+static int validate_parameters(const Model *model, double size)
 {
     char text[600], given_values[250];
     for (int k = 0; k < FMU_CONDITIONS; k++) {

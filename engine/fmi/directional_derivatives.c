@@ -12,10 +12,10 @@ FMI3_EXPORT fmi3Status fmi3GetDirectionalDerivative(fmi3Instance instance, const
     double J[N_Y * N_Y], f_t[N_Y], direction[N_Y] = {0.0}, x[N_Y];
     int rates = 0;
     if (n_seed < n_knowns || n_sensitivity < n_unknowns)
-        return log_failure(model, "there are fewer values than variables", 0);
+        return log_error_with_status(model, "there are fewer values than variables", 0);
     for (size_t k = 0; k < n_knowns; k++) {
         if (knowns[k] < VR_STATES || knowns[k] >= VR_STATES + N_Y)
-            return log_failure(model, "derivatives by states are what there is", (int)knowns[k]);
+            return log_error_with_status(model, "derivatives by states are what there is", (int)knowns[k]);
         direction[knowns[k] - VR_STATES] += seed[k];
     }
     if (!model->exchange)
@@ -24,7 +24,7 @@ FMI3_EXPORT fmi3Status fmi3GetDirectionalDerivative(fmi3Instance instance, const
         rates |= unknowns[k] >= VR_RATES && unknowns[k] < VR_RATES + N_Y;
     const double *p = TREE ? model->motion : model->p; /* rates in tree coordinates have no Baumgarte terms */
     if (rates && gudgeon_jacobian(model->t, model->x, model->latched, p, J, f_t))
-        return log_failure(model, "a constraint row depends on others", 0);
+        return log_error_with_status(model, "a constraint row depends on others", 0);
     for (size_t k = 0; k < n_unknowns; k++) {
         const fmi3ValueReference r = unknowns[k];
         sensitivity[k] = 0.0;
@@ -34,7 +34,7 @@ FMI3_EXPORT fmi3Status fmi3GetDirectionalDerivative(fmi3Instance instance, const
             continue;
         }
         if (!model->exchange || r < VR_OUTPUTS || r >= VR_OUTPUTS + FMU_OUTPUTS)
-            return log_failure(model, "derivatives of rates and outputs are what there is", (int)r);
+            return log_error_with_status(model, "derivatives of rates and outputs are what there is", (int)r);
         double most = 0.0, end_values[2];
         /* outputs are linear in works, which need no small step */
         for (int j = 0; j < N_Y && (j < 2 * N_X || most == 0.0); j++)
@@ -51,7 +51,7 @@ FMI3_EXPORT fmi3Status fmi3GetDirectionalDerivative(fmi3Instance instance, const
             memcpy(model->x, x, sizeof x);
             model->moved = 1;
             if (status)
-                return log_failure(model, "a constraint row depends on others", status);
+                return log_error_with_status(model, "a constraint row depends on others", status);
             end_values[branch] = get_output(model, fmu_outputs[r - VR_OUTPUTS][0], fmu_outputs[r - VR_OUTPUTS][1]);
         }
         sensitivity[k] = (end_values[1] - end_values[0]) * most / 2e-5;

@@ -10,7 +10,7 @@
  * Change the branches of switching functions whose values have the opposite sign: those whose branches meet, or all
  * (`includes_all`). Return whether any changed.
  */
-static int update_branches(Model *model, const RhsOutputs *rhs, int includes_all)
+static int flip_violated_branches(Model *model, const RhsOutputs *rhs, int includes_all)
 {
     int has_changed = 0;
     for (int k = 0; k < N_SWITCHES; k++)
@@ -22,7 +22,7 @@ static int update_branches(Model *model, const RhsOutputs *rhs, int includes_all
 }
 
 /*
- * Compute the rates dx and outputs rhs at the present state of an instance. Return 0 or a status. Between events,
+ * Compute the rates dx and outputs rhs at the current state of an instance. Return 0 or a status. Between events,
  * contacts and branches of expressions are frozen, so that the importer integrates a smooth function. Branches of
  * contact laws meet and follow the state, in up to six passes. A slip near a switching point would otherwise cause
  * repeated events.
@@ -33,13 +33,13 @@ static int evaluate_exchange_rates(Model *model, double *dx, RhsOutputs *rhs)
     for (int pass = 0; pass < 6 && changed && !status; pass++) {
         DiscreteState now = model->discrete;
         status = compute_motion_rates(model->t, model->x, &now, (const Parameters *)model->p, dx, rhs);
-        changed = now.is_frozen && update_branches(model, rhs, 0);
+        changed = now.is_frozen && flip_violated_branches(model, rhs, 0);
     }
     return status;
 }
 
 /*
- * Raise the nominal of each velocity to the largest present velocity of its kind (length or angle), and those of works
+ * Raise the nominal of each velocity to the largest current velocity of its kind (length or angle), and those of works
  * and internal states to the kinetic energy, J. Nominals are never lowered. Return whether any was raised.
  */
 static int raise_nominals(Model *model)
@@ -131,7 +131,7 @@ static double compute_closure_drift(Model *model, int is_projected)
 
 /*
  * Return event indicator k: a penetration (m), or the value of a switching function; its branch if it is not in use.
- * rhs: outputs of the right-hand side at the present state.
+ * rhs: outputs of the right-hand side at the current state.
  */
 static double get_event_indicator(const Model *model, const RhsOutputs *rhs, int k)
 {
@@ -143,7 +143,7 @@ static double get_event_indicator(const Model *model, const RhsOutputs *rhs, int
 
 /*
  * Replace the values of switching functions that are exactly zero in rhs by their values a moment later. Return 0 or a
- * status. dx: rates of the present state, along which the state is moved for that. The instance is not changed.
+ * status. dx: rates of the current state, along which the state is moved for that. The instance is not changed.
  */
 static int resolve_zero_branches(Model *model, const double *dx, RhsOutputs *rhs)
 {
@@ -197,7 +197,7 @@ static int update_contacts_and_branches(Model *model)
     model->discrete.is_frozen = 1;
     for (int pass = 0; pass < 6 && changed && !status; pass++) {
         status = evaluate_exchange_rates(model, dx, &rhs);
-        changed = !status && update_branches(model, &rhs, 1);
+        changed = !status && flip_violated_branches(model, &rhs, 1);
     }
     return status;
 }
@@ -225,7 +225,7 @@ FMI3_EXPORT fmi3Status fmi3UpdateDiscreteStates(fmi3Instance instance, fmi3Boole
     *next_event_time = INFINITY;
     *values_changed = drift != 0.0;
     model->moved = 1;
-    return status ? log_failure(model, "the motion cannot be followed", status) : fmi3OK;
+    return status ? log_error_with_status(model, "the motion cannot be followed", status) : fmi3OK;
 }
 
 /*
@@ -260,7 +260,7 @@ FMI3_EXPORT fmi3Status fmi3SetTime(fmi3Instance instance, fmi3Float64 t)
 /* Return fmi3OK if n is the expected number of values; otherwise log an error and return fmi3Error. */
 static fmi3Status check_value_count(const Model *model, size_t n, size_t expected)
 {
-    return n == expected ? fmi3OK : log_failure(model, "another number of values than there are", (int)n);
+    return n == expected ? fmi3OK : log_error_with_status(model, "another number of values than there are", (int)n);
 }
 
 /* Set the integrated state x, n = N_Y values (FMI 3). Outputs are evaluated again when needed. */

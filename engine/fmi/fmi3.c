@@ -126,7 +126,7 @@ FMI3_EXPORT fmi3Status fmi3ExitInitializationMode(fmi3Instance instance)
     Model *model = instance;
     if (model->phase != INITIALIZING)
         return log_error(model, "initialization mode was not entered");
-    if (!model->begun && begin_run(model))
+    if (!model->begun && begin_instance_run(model))
         return fmi3Error;
     model->phase = RUNNING;
     return fmi3OK;
@@ -148,7 +148,7 @@ FMI3_EXPORT fmi3Status fmi3Reset(fmi3Instance instance)
 }
 
 /*
- * Integrate an instance from t, its present time, to t + h, a communication point (FMI 3). last_time: time reached.
+ * Integrate an instance from t, its current time, to t + h, a communication point (FMI 3). last_time: time reached.
  * terminate: whether an event ended the run; the state then no longer changes. Return an error outside a run, for h <=
  * 0 or another t, and if the motion cannot be followed.
  */
@@ -162,11 +162,11 @@ FMI3_EXPORT fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 t, fmi3Floa
     if (model->phase != RUNNING)
         return log_error(model, "a step is made after initialization");
     if (!(h > 0.0) || fabs(t - model->t) > 1e-9 * fmax(1.0, fabs(t)))
-        return log_failure(model, "a step begins where the last one ended, and is longer than 0", 0);
+        return log_error_with_status(model, "a step begins where the last one ended, and is longer than 0", 0);
     const double end = t + h;
-    const int status = model->ended ? 0 : advance_to(model, end);
+    const int status = model->ended ? 0 : integrate_instance(model, end);
     if (status)
-        return log_failure(model, "the motion cannot be followed", status);
+        return log_error_with_status(model, "the motion cannot be followed", status);
     model->t = *last_time = end;
     model->moved = 1;
     *terminate = model->ended;

@@ -51,7 +51,7 @@ static fmi3Status log_error(const Model *model, const char *message)
  * Log an error `message` with the time and, if `status` is one of the engine, its reason. Return fmi3Error. status: 0
  * if there is none; other numbers are printed.
  */
-static fmi3Status log_failure(const Model *model, const char *message, int status)
+static fmi3Status log_error_with_status(const Model *model, const char *message, int status)
 {
     char text[600];
     const char *reason = status == OUTSIDE ? ": a journal or corner is deeper in its wall than its law is good for"
@@ -70,7 +70,7 @@ static fmi3Status log_failure(const Model *model, const char *message, int statu
 #include "conditions.c"
 #if INTEGRATES
 /* Integrate the run of an instance to time t (s), which ends a step. Return 0 or a status. */
-static int advance_to(Model *model, double t);
+static int integrate_instance(Model *model, double t);
 #endif
 #if FMU_EXCHANGE
 static int set_initial_nominals(Model *model, const double *least);
@@ -81,7 +81,7 @@ static int set_initial_nominals(Model *model, const double *least);
  * logged. Parameters are checked first. If the linkage does not close, it is continued from the start with the file's
  * parameters. A run of the instance is replaced.
  */
-static fmi3Status begin_run(Model *model)
+static fmi3Status begin_instance_run(Model *model)
 {
     double residual = 0.0, size = 0.0, *q = model->y, *v = model->y + N_Q;
     unsigned char projected[FMU_SLOTS];
@@ -92,7 +92,7 @@ static fmi3Status begin_run(Model *model)
         size = fmax(size, sqrt(x * x + y * y)); /* the same bits as in sizes.py */
     }
     size = size > 0.0 ? size : 1.0;
-    if (!are_parameters_valid(model, size))
+    if (!validate_parameters(model, size))
         return fmi3Error;
     memcpy(projected, model->is_given, sizeof projected);
     memcpy(gains_removed, model->given, sizeof gains_removed);
@@ -109,7 +109,7 @@ static fmi3Status begin_run(Model *model)
         for (int k = 0; k < FMU_SLOTS; k++)
             has_given |= model->is_given[k];
         if (has_given && gudgeon_continuation(model->t, model->p, size, q, v))
-            return log_failure(model, "the linkage does not close with these parameters", 0);
+            return log_error_with_status(model, "the linkage does not close with these parameters", 0);
     }
     for (int k = 0; k < N_DISCRETE; k++)
         model->latched[k] = NAN;
@@ -119,7 +119,7 @@ static fmi3Status begin_run(Model *model)
     model->size = gudgeon_run_size();
     model->run = calloc(1, model->size);
     if (!model->run)
-        return log_failure(model, "there is no memory", 0);
+        return log_error_with_status(model, "there is no memory", 0);
     for (int k = 0; k < FMU_PLAYS; k++)
         if (model->p[fmu_plays[k]] > 0.0)
             length = fmin(length, model->p[fmu_plays[k]]);
@@ -141,9 +141,9 @@ static fmi3Status begin_run(Model *model)
         gudgeon_run_stop(model->run, !start);
         gudgeon_adaptive_setup(model->run, gudgeon_method(is_fine ? FMU_BEGINS_FINE : FMU_BEGINS),
             FMU_AUTOMATIC ? gudgeon_method(is_fine ? FMU_STIFF_FINE : FMU_STIFF) : 0, scale, least, 0.0);
-        const int status = start ? advance_to(model, model->t) : 0;
+        const int status = start ? integrate_instance(model, model->t) : 0;
         if (status)
-            return log_failure(model, "the motion cannot begin", status);
+            return log_error_with_status(model, "the motion cannot begin", status);
     }
     model->ended = 0;
 #if FMU_EXCHANGE
@@ -153,13 +153,13 @@ static fmi3Status begin_run(Model *model)
     convert_from_absolute(model->t, model->y, &model->discrete, (const Parameters *)model->p, model->x);
     const int invalid = set_initial_nominals(model, least);
     if (invalid)
-        return log_failure(model, "the motion cannot begin", invalid);
+        return log_error_with_status(model, "the motion cannot begin", invalid);
 #endif
 #else
     model->size = gudgeon_kinematic_size();
     model->run = calloc(1, model->size);
     if (!model->run)
-        return log_failure(model, "there is no memory", 0);
+        return log_error_with_status(model, "there is no memory", 0);
     gudgeon_kinematic_begin(model->run, FMU_REACH, size, model->t_end, NULL, NULL, INFINITY);
 #endif
     model->begun = 1;
@@ -183,7 +183,7 @@ static void discard_contacts_and_events(void *run)
  * Integrate the run of an instance to time t (s), which ends a step. Return 0 or a status. Full lists are emptied.
  * After an event that ends the run, its state is copied and model->ended is set.
  */
-static int advance_to(Model *model, double t)
+static int integrate_instance(Model *model, double t)
 {
     long done = 0;
     int status = 0;
@@ -207,7 +207,7 @@ static int advance_to(Model *model, double t)
  * Follow the kinematic motion and its works from the time of an instance to time t (s). Return 0 or a status. The state
  * of the instance is changed only without a failure.
  */
-static int advance_to(Model *model, double t)
+static int integrate_instance(Model *model, double t)
 {
     double rows[2] = {model->t, t}, q[2 * N_Q], v[2 * N_Q], a[2 * N_Q], work[2 * N_WORK], phi[2] = {0.0, 0.0};
     long steps = 0, done = 0;
@@ -232,7 +232,7 @@ static int advance_to(Model *model, double t)
 static void synchronize_states(Model *model);
 #endif
 
-/* Evaluate all outputs at the present state of an instance, unless they are up to date. Return 0 or a status. */
+/* Evaluate all outputs at the current state of an instance, unless they are up to date. Return 0 or a status. */
 static int evaluate_outputs(Model *model)
 {
     long failed = 0;

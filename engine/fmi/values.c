@@ -10,7 +10,7 @@ FMI3_EXPORT fmi3Status fmi3GetFloat64(fmi3Instance instance, const fmi3ValueRefe
 {
     Model *model = instance;
     if (n_values < n)
-        return log_failure(model, "there are fewer values than variables", 0);
+        return log_error_with_status(model, "there are fewer values than variables", 0);
     for (size_t k = 0; k < n; k++) {
         const fmi3ValueReference r = reference[k];
         if (r == VR_TIME) {
@@ -21,15 +21,15 @@ FMI3_EXPORT fmi3Status fmi3GetFloat64(fmi3Instance instance, const fmi3ValueRefe
             const int i = (int)(r - VR_PARAMETERS);
             value[k] = model->begun ? model->p[i] : model->is_given[i] ? model->given[i] : fmu_defaults[i];
         } else if (r >= VR_OUTPUTS && r < VR_OUTPUTS + FMU_OUTPUTS) {
-            if (!model->begun && begin_run(model)) /* in initialization mode: outputs at the start */
+            if (!model->begun && begin_instance_run(model)) /* in initialization mode: outputs at the start */
                 return fmi3Error;
             const int status = evaluate_outputs(model);
             if (status)
-                return log_failure(model, "a constraint row depends on others", status);
+                return log_error_with_status(model, "a constraint row depends on others", status);
             value[k] = get_output(model, fmu_outputs[r - VR_OUTPUTS][0], fmu_outputs[r - VR_OUTPUTS][1]);
 #if FMU_EXCHANGE
         } else if (r >= VR_STATES && r < VR_STATES + N_Y) {
-            if (!model->begun && begin_run(model))
+            if (!model->begun && begin_instance_run(model))
                 return fmi3Error;
             if (!model->exchange)
                 synchronize_states(model);
@@ -38,18 +38,18 @@ FMI3_EXPORT fmi3Status fmi3GetFloat64(fmi3Instance instance, const fmi3ValueRefe
             || (r >= VR_INDICATORS && r < VR_INDICATORS + N_INDICATORS)) {
             double dx[N_Y];
             RhsOutputs rhs;
-            if (!model->begun && begin_run(model))
+            if (!model->begun && begin_instance_run(model))
                 return fmi3Error;
             if (!model->exchange)
                 synchronize_states(model);
             const int status = evaluate_exchange_rates(model, dx, &rhs);
             if (status)
-                return log_failure(model, "a constraint row depends on others", status);
+                return log_error_with_status(model, "a constraint row depends on others", status);
             value[k] = r < VR_INDICATORS ? dx[r - VR_RATES]
                 : get_event_indicator(model, &rhs, (int)(r - VR_INDICATORS));
 #endif
         } else {
-            return log_failure(model, "a variable that there is not", (int)r);
+            return log_error_with_status(model, "a variable that there is not", (int)r);
         }
     }
     return fmi3OK;
@@ -65,14 +65,14 @@ FMI3_EXPORT fmi3Status fmi3SetFloat64(fmi3Instance instance, const fmi3ValueRefe
 {
     Model *model = instance;
     if (n_values < n)
-        return log_failure(model, "there are fewer values than variables", 0);
+        return log_error_with_status(model, "there are fewer values than variables", 0);
     for (size_t k = 0; k < n; k++) {
         const fmi3ValueReference r = reference[k];
         const int slot = r >= VR_PARAMETERS && r < VR_PARAMETERS + FMU_SLOTS_USED ? (int)(r - VR_PARAMETERS) : -1;
         const char *name = r == VR_RTOL ? "relative_tolerance" : slot >= 0 ? fmu_slots[slot].address : NULL;
         char text[400];
         if (!name || (slot >= 0 && fmu_slots[slot].chosen))
-            return log_failure(model, "a variable that there is not, or that is not set", (int)r);
+            return log_error_with_status(model, "a variable that there is not, or that is not set", (int)r);
         if (model->phase == RUNNING) { /* parameters are fixed during a run */
             snprintf(text, sizeof text, "%s is fixed: it is set before initialization ends", name);
             return log_error(model, text);
@@ -105,13 +105,13 @@ FMI3_EXPORT fmi3Status fmi3GetFMUState(fmi3Instance instance, fmi3FMUState *stat
         *state = malloc(sizeof(Model) + sizeof(double));
     Model *copy = *state;
     if (!copy)
-        return log_failure(model, "there is no memory", 0);
+        return log_error_with_status(model, "there is no memory", 0);
     *copy = *model;
     copy->run = NULL;
     if (model->run) {
         copy->run = malloc(model->size);
         if (!copy->run)
-            return log_failure(model, "there is no memory", 0);
+            return log_error_with_status(model, "there is no memory", 0);
         memcpy(copy->run, model->run, model->size);
     }
     return fmi3OK;
@@ -126,12 +126,12 @@ FMI3_EXPORT fmi3Status fmi3SetFMUState(fmi3Instance instance, fmi3FMUState state
     if (copy->run && !run)
         run = malloc(copy->size);
     if (copy->run && !run)
-        return log_failure(model, "there is no memory", 0);
-    const Model present = *model;
+        return log_error_with_status(model, "there is no memory", 0);
+    const Model current = *model;
     *model = *copy;
-    model->name = present.name;
-    model->environment = present.environment;
-    model->log_message = present.log_message;
+    model->name = current.name;
+    model->environment = current.environment;
+    model->log_message = current.log_message;
     model->run = run;
     if (copy->run)
         memcpy(run, copy->run, copy->size);
@@ -166,7 +166,7 @@ FMI3_EXPORT fmi3Status fmi3SerializeFMUState(fmi3Instance instance, fmi3FMUState
     size_t size = 0;
     fmi3SerializedFMUStateSize(instance, state, &size);
     if (n < size)
-        return log_failure(instance, "there are fewer bytes than a state has", 0);
+        return log_error_with_status(instance, "there are fewer bytes than a state has", 0);
     memcpy(bytes, copy, sizeof(Model));
     if (copy->run)
         memcpy(bytes + sizeof(Model), copy->run, copy->size);
@@ -183,13 +183,13 @@ FMI3_EXPORT fmi3Status fmi3DeserializeFMUState(fmi3Instance instance, const uint
     Model *copy = n < sizeof(Model) ? NULL : malloc(sizeof(Model));
     *state = NULL;
     if (!copy)
-        return log_failure(instance, "these are not the bytes of a state", 0);
+        return log_error_with_status(instance, "these are not the bytes of a state", 0);
     memcpy(copy, bytes, sizeof(Model));
     if (copy->run) { /* the address is invalid; it shows only that a run existed */
         copy->run = n == sizeof(Model) + copy->size ? malloc(copy->size) : NULL;
         if (!copy->run) {
             free(copy);
-            return log_failure(instance, "these are not the bytes of a state", 0);
+            return log_error_with_status(instance, "these are not the bytes of a state", 0);
         }
         memcpy(copy->run, bytes + sizeof(Model), copy->size);
     }

@@ -41,7 +41,7 @@ static int commit_step(Integrator *run, Step *step, double fraction, double t_ne
     int status = fraction < 1.0 ? evaluate_state_at(run, step, fraction, p, step->y, step->dy, &step->rhs) : 0;
     if (status)
         return status;
-    find_inner_peaks(run, step, fraction, p);
+    record_inner_peaks(run, step, fraction, p);
     flip_ignored_branches(run, step);
     update_energy_scale(run, 1, step->y);
     for (int k = 0; k < N_Y; k++) {
@@ -67,7 +67,7 @@ static int commit_step(Integrator *run, Step *step, double fraction, double t_ne
         set_phi_dot_max(run, drift);
     if (!status && event < 0 && run->roots.skip >= 0) { /* away from the switching point, on either branch */
         clear_suppressed_switch(run);
-        status = update_branches(run, -1, p);
+        status = update_branches_at_current_state(run, -1, p);
     }
     update_event_signs(run, run->t, run->y, &run->rhs, p);
     if (!status && event >= 0)
@@ -113,7 +113,7 @@ static int store_samples_of_step(Integrator *run, Step *step, double t_new, cons
  * one (`has_jump`). Points that coincide with an end are omitted. Return 0, also if no record is kept, or the status of
  * the dense output. Evaluations are not counted.
  */
-static int record_step_interior(Integrator *run, Step *step, double fraction, int has_jump, const Parameters *p)
+static int append_step_interior_rows(Integrator *run, Step *step, double fraction, int has_jump, const Parameters *p)
 {
     const long evaluations = run->counts.evaluations;
     const double event_width = max_of(64.0 * DBL_EPSILON * fabs(step->t), 4.0 * run->roots.time_resolution) / step->h;
@@ -129,7 +129,7 @@ static int record_step_interior(Integrator *run, Step *step, double fraction, in
             continue; /* so short a step has no such rows */
         interpolate(run, step, s, y);
         project_state(run, t, y, p);
-        record_state(run, t, y, p);
+        append_record_row(run, t, y, p);
     }
     restore_evaluations(run, evaluations); /* output, not integration */
     return status;
@@ -139,11 +139,11 @@ static int record_step_interior(Integrator *run, Step *step, double fraction, in
  * Append the run's state at the end of a step to the step record. After a change there (`has_jump`) nothing is
  * appended, unless this is the last step: the next step appends the row after the jump.
  */
-static void record_step_end_state(Integrator *run, int has_jump, int is_last, const Parameters *p)
+static void append_step_end_row(Integrator *run, int has_jump, int is_last, const Parameters *p)
 {
-    mark_jump(run, has_jump);
+    mark_jump_before_next_row(run, has_jump);
     if (!has_jump || is_last)
-        record_state(run, run->t, run->y, p);
+        append_record_row(run, run->t, run->y, p);
 }
 
 /* Whether the scene has periodic functions (mod). */
@@ -159,7 +159,7 @@ static void record_step_end_state(Integrator *run, int has_jump, int is_last, co
 #define MAX_KNOT_EXTRAPOLATION 0.4 /* of a piece of a curve, which continues beyond its knot (scene/curves.h) */
 
 /*
- * Repeat the present step with length h (s), and find its first event: *event and its *fraction of the step. Contacts
+ * Repeat the current step with length h (s), and find its first event: *event and its *fraction of the step. Contacts
  * and branches are frozen meanwhile. Sets the run's next step length to h and replaces *step. Return 0 or the status;
  * then *event and *fraction are unchanged.
  */
@@ -180,7 +180,7 @@ static int repeat_step(
  * needed if its computation has failed before, or if the next sample lies inside the step. It is computed as a side
  * effect; its evaluations are not counted.
  */
-static int is_dense_output_missing(Integrator *run, Step *step, const Parameters *p, const Samples *samples)
+static int compute_needed_dense_output(Integrator *run, Step *step, const Parameters *p, const Samples *samples)
 {
     const long evaluations = run->counts.evaluations; /* samples are output, not integration */
     const int needed = step->dense_ready == FAILED || samples->t[*samples->done] < step->t + step->h;
@@ -214,7 +214,8 @@ static int find_event_of_step(
     const int is_adaptive = run->control.fixed <= 0.0;
     int status = 0;
     *fraction = find_first_event(run, step, p, event);
-    for (int k = 0; k < MAX_SHORTENED && !status && is_adaptive && is_dense_output_missing(run, step, p, samples); k++)
+    for (int k = 0;
+         k < MAX_SHORTENED && !status && is_adaptive && compute_needed_dense_output(run, step, p, samples); k++)
         status = repeat_step(run, 0.25 * step->h, t_end, p, step, fraction, event);
     for (int k = 0; k < MAX_REPEATS && !status && *event >= 0 && length_factor * *fraction < 1.0; k++) {
         const double next = run->control.h, h = length_factor * *fraction * step->h;
@@ -235,14 +236,14 @@ static int find_event_of_step(
  * continued. Return 0 at the last sample, or if `is_last`: the step is left to the next call. Also return 0 if *status
  * is EVENTS_FULL, STOPPED, STALLED or an error.
  */
-static int prepare_step(Integrator *run, int is_last, const Parameters *p, const Samples *samples, int *status)
+static int begin_step(Integrator *run, int is_last, const Parameters *p, const Samples *samples, int *status)
 {
     const double t_end = samples->t[samples->n - 1];
     const int is_new_step = !run->discrete.is_frozen && !run->control.attempt.open;
     *status = is_new_step ? begin_integration(run, t_end - run->t, p) : 0;
     if (!*status && is_new_step)
-        record_state_after_jump(run, p);
-    mark_jump(run, is_new_step);
+        append_row_after_jump(run, p);
+    mark_jump_before_next_row(run, is_new_step);
     if (run->control.attempt.open)
         return !is_last; /* attempts continue */
     if (*status)
@@ -257,7 +258,7 @@ static int prepare_step(Integrator *run, int is_last, const Parameters *p, const
         *status = STOPPED;
     else if (has_full_lists(run))
         *status = EVENTS_FULL;
-    else if (run->control.fixed <= 0.0 && is_stalled(run, t_end))
+    else if (run->control.fixed <= 0.0 && detect_run_stall(run, t_end))
         *status = diagnose_stall(run, STALLED, p);
     else
         open_attempt(run, t_end, p);
@@ -292,7 +293,7 @@ static int accept_step(Integrator *run, const Parameters *p, const Samples *samp
     const int may_jump = DRIVE_IMPULSES && (t_new == t_end || (run->control.fixed > 0.0 && fraction >= 1.0));
     const int has_jump = may_jump || (event >= 0 && event < N_EVENT_FUNCTIONS - N_USER_EVENTS);
     if (!status)
-        status = record_step_interior(run, step, fraction, has_jump, p);
+        status = append_step_interior_rows(run, step, fraction, has_jump, p);
     defer_stop(&run->cancellation);
     if (AUDITS && !status)
         audit_step(run, step, fraction, event, p);
@@ -308,11 +309,11 @@ static int accept_step(Integrator *run, const Parameters *p, const Samples *samp
         status = apply_drive_jumps_now(run, p);
     }
     if (!status && run->t == t_end)
-        status = record_events_at_end(run, 0.0, p);
+        status = record_user_events_at_run_end(run, 0.0, p);
     if (AUDITS && (!status || status == ENDED))
         status = audit_state(run, n_listed, p) ? AUDITED : status;
     if (!status || status == ENDED)
-        record_step_end_state(run, has_jump, status == ENDED || run->t == t_end, p);
+        append_step_end_row(run, has_jump, status == ENDED || run->t == t_end, p);
     allow_stop(&run->cancellation);
     return status;
 }
@@ -333,7 +334,7 @@ int gudgeon_adaptive_run(void *integrator, const double *parameters, long n, con
     int status;
     relink_methods(run);
     run->step.method = find_method_in_library(run->step.method);
-    for (long i = 0; prepare_step(run, i == max_steps, p, &samples, &status); i++) {
+    for (long i = 0; begin_step(run, i == max_steps, p, &samples, &status); i++) {
         status = find_accepted_step(run, p, &run->step);
         if (!status)
             status = accept_step(run, p, &samples);

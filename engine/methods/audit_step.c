@@ -93,7 +93,7 @@ static void check_rates_at_step_end(Integrator *run, Step *step, const Parameter
 {
     double dy[N_Y];
     RhsOutputs rhs;
-    if (has_tolerance(run) && !evaluate_run_rhs(run, step->t + step->h, step->y, p, dy, &rhs))
+    if (has_step_size_control(run) && !evaluate_run_rhs(run, step->t + step->h, step->y, p, dy, &rhs))
         record_check(&run->audit, CHECK_defect, compute_scaled_defect(run, step, step->y, step->dy, dy, p), 1.0,
             step->t + step->h, -1);
 }
@@ -110,12 +110,12 @@ static void check_film_forces(Integrator *run, const Step *step, double t, const
     int joint;
     if (!has_films())
         return;
-    double max_force = find_largest_film_force(rhs, &joint);
+    double max_force = find_joint_of_largest_film_force(rhs, &joint);
     for (int i = 0; i < N_CLEARANCES; i++)
         max_force = has_film(i) ? max_of(max_force, FILM_FADED * run->contacts.F_peak[i]) : max_force;
     const double fraction = compute_relative_film_error(run, step, rate, dy, max_force, 1.0);
     const double limit = compute_film_audit_limit(run, step);
-    if (joint >= 0 && has_tolerance(run) && run->counts.steps > 0
+    if (joint >= 0 && has_step_size_control(run) && run->counts.steps > 0
         && (fraction <= limit || !has_drive_jump_at_ends(run, step, p)))
         record_check(&run->audit, CHECK_force, fraction, limit, t, joint);
 }
@@ -132,10 +132,10 @@ static void check_interior_state(Integrator *run, Step *step, double theta, int 
     const double t = step->t + theta * step->h;
     double rate[2 * N_X];
     interpolate_rates(step, theta, 2 * N_X, rate);
-    const double defect = has_tolerance(run) ? compute_scaled_defect(run, step, y, rate, dy, p) : 0.0;
-    if (has_tolerance(run) && (defect <= 1.0 || !has_drive_jump_at_ends(run, step, p)))
+    const double defect = has_step_size_control(run) ? compute_scaled_defect(run, step, y, rate, dy, p) : 0.0;
+    if (has_step_size_control(run) && (defect <= 1.0 || !has_drive_jump_at_ends(run, step, p)))
         record_check(&run->audit, CHECK_defect, defect, 1.0, t, -1);
-    if (is_random && has_tolerance(run) && !N_CLEARANCES) /* rates in contacts change quickly inside a step */
+    if (is_random && has_step_size_control(run) && !N_CLEARANCES) /* rates in contacts change quickly inside a step */
         check_dense_output_rates(run, step, t, y, rate, dy, p);
     check_film_forces(run, step, t, rhs, rate, dy, p);
     check_open_gaps(run, t, rhs, p);
@@ -284,7 +284,7 @@ static void audit_step(Integrator *run, Step *step, double fraction, int event, 
             check_interior_point(run, step, fraction * (k + draw_random_number(audit)) / n_points, is_random, p);
         if (is_random && fraction >= 1.0)
             check_rates_at_step_end(run, step, p);
-        if (is_measured && is_whole && has_tolerance(run))
+        if (is_measured && is_whole && has_step_size_control(run))
             check_step_error(run, step, p);
         if (is_random || (is_due && is_whole)) {
             const double first = audit->turns++ ? 1.0 : AUDIT_FIRST;

@@ -100,7 +100,7 @@ static void set_internal_state_weights(Integrator *run, const Parameters *p)
  * start at or just before a jump of a drive's rate is first projected onto the constraints after the jump, without
  * work. Called once, by begin_integration().
  */
-static int begin_run(Integrator *run, const Parameters *p)
+static int initialize_run_at_start(Integrator *run, const Parameters *p)
 {
     if (DRIVE_IMPULSES) {
         double absolute_state[N_S];
@@ -122,12 +122,12 @@ static int begin_run(Integrator *run, const Parameters *p)
  */
 static int begin_integration(Integrator *run, double time_left, const Parameters *p)
 {
-    int status = run->ready ? 0 : begin_run(run, p);
+    int status = run->ready ? 0 : initialize_run_at_start(run, p);
     set_time_resolution(run, time_left);
     set_film_mass_scale(run, p);
     freeze_branches(run);
     if (!status)
-        status = update_branches(run, -1, p);
+        status = update_branches_at_current_state(run, -1, p);
     set_speed_floors(run, time_left, p);
     update_speeds(run);
     /* error weights are its inverse */

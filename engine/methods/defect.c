@@ -22,7 +22,7 @@ static inline void interpolate_rates(const Step *step, double theta, int n, doub
 }
 
 /* Return the largest film force of all joints in `rhs`, N, and its joint in *joint; 0 and -1 if no film acts. */
-static double find_largest_film_force(const RhsOutputs *rhs, int *joint)
+static double find_joint_of_largest_film_force(const RhsOutputs *rhs, int *joint)
 {
     double most = 0.0;
     *joint = -1;

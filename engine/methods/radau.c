@@ -35,7 +35,7 @@ static void begin_stage_iteration(Integrator *run, Step *step, int is_active, in
  * Record the state y and the right-hand side's outputs `rhs` at one stage of an iteration, at fraction `node` of the
  * step. is_active is not used: it is the mask of the lanes where radau_step.h is compiled for lanes.
  */
-static void record_iterated_stage(Integrator *run, Step *step, int is_active, const double *y, const RhsOutputs *rhs,
+static void record_newton_stage(Integrator *run, Step *step, int is_active, const double *y, const RhsOutputs *rhs,
     double node)
 {
     (void)is_active;

@@ -154,7 +154,7 @@ static inline int is_first_after_switch(const Integrator *run)
 /* Set the length of the next step, s. */
 static void set_next_step_length(Integrator *run, double h) { run->control.h = h; }
 
-/* Set the length of the present attempt, s. */
+/* Set the length of the current attempt, s. */
 static inline void set_attempt_step_length(Integrator *run, double h) { run->control.attempt.h = h; }
 
 /* Store the length of the last step up to its end, s. */

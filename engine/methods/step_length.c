@@ -73,7 +73,7 @@ static void set_method_choice(Integrator *run, int method, int stiff_method)
 }
 
 /*
- * Start the step-size control of a run at its present time. fixed_step: length of all steps, s, which are accepted with
+ * Start the step-size control of a run at its current time. fixed_step: length of all steps, s, which are accepted with
  * any error; 0: error norms determine the length.
  */
 static void start_step_control(Integrator *run, double fixed_step)
@@ -139,7 +139,7 @@ static double estimate_largest_rate(Integrator *run, const Parameters *p)
  * not pay: its steps are not STIFF_COST times as long as the explicit ones before. They are compared COMPARE_FROM steps
  * after the change and each CHECK_STIFF_STEPS steps.
  */
-static int is_stiff_method_slower(MethodChoice *choice, double h)
+static int detect_slow_stiff_method(MethodChoice *choice, double h)
 {
     double *mean = &choice->mean_length[!!choice->method->stiff];
     *mean = *mean > 0.0 ? LENGTH_MEMORY * *mean + (1.0 - LENGTH_MEMORY) * h : h;
@@ -161,7 +161,7 @@ static void choose_method(Integrator *run, const Parameters *p)
         && run->control.h < STIFF_LENGTH_RATIO * run->control.h_stiff;
     const int stiff = run->choice.method->stiff;
     const double stability = run->choice.h_rho;
-    if (is_stiff_method_slower(&run->choice, run->step.h) && run->choice.automatic) {
+    if (detect_slow_stiff_method(&run->choice, run->step.h) && run->choice.automatic) {
         run->choice.max_contrary_steps *= run->choice.max_contrary_steps < MAX_CONTRARY_LIMIT ? 2 : 1;
         run->choice.rate = 0.0;
         change_method(run);
@@ -377,7 +377,7 @@ static void open_attempt(Integrator *run, double t_end, const Parameters *p)
 /*
  * Prepare another attempt at the step with length run->control.attempt.h, by the method that the run now has. Return 0.
  */
-static int prepare_retry(Integrator *run)
+static int request_retry(Integrator *run)
 {
     run->control.attempt.lane = run->choice.method->lane;
     return 0;
@@ -399,7 +399,7 @@ static int is_step_accepted(Integrator *run, int trial_status, const Parameters 
     if (N_SWITCHES > 0 && is_fixed && trial_status == NOT_FINITE && run->discrete.is_frozen) {
         /* until the step is committed: a frozen branch may be NaN beyond its switching point */
         run->discrete.is_frozen = 0;
-        return prepare_retry(run);
+        return request_retry(run);
     }
     if (trial_status == STOPPED || is_fixed)
         return 1;
@@ -419,13 +419,13 @@ static int is_step_accepted(Integrator *run, int trial_status, const Parameters 
             change_method(run);
         else
             attempt->h *= method->bounded / run->choice.h_rho;
-        return prepare_retry(run);
+        return request_retry(run);
     }
     if (is_good && FLIGHT_STEP_SLACK * compute_flight_step_limit(run, step, p) < attempt->h) {
         attempt->again = 1;
         count_rejected_step(run);
         attempt->h *= SHRINK_FLIGHT_STEP;
-        return prepare_retry(run);
+        return request_retry(run);
     }
     const int unresolved = is_good && is_step_unresolved(run, step, p);
     if (is_good && (unresolved || has_unresolved_film_force(run, step, end_error))
@@ -433,7 +433,7 @@ static int is_step_accepted(Integrator *run, int trial_status, const Parameters 
         attempt->again = 1;
         count_rejected_step(run);
         attempt->h *= SHRINK_UNRESOLVED;
-        return prepare_retry(run);
+        return request_retry(run);
     }
     const double transient = is_good && attempt->h > MIN_TRANSIENT_FRACTION * attempt->far
         ? find_missed_transient(run, step, p) : 0.0;
@@ -441,12 +441,12 @@ static int is_step_accepted(Integrator *run, int trial_status, const Parameters 
         attempt->again = 1;
         count_rejected_step(run);
         attempt->h *= max_of(SHRINK_UNRESOLVED, TRANSIENT_PART * transient);
-        return prepare_retry(run);
+        return request_retry(run);
     }
     if (is_good) {
         choose_next_length(run, step, attempt->again, attempt->h < attempt->left);
         const int is_short = attempt->h < SHORT_STEP_FRACTION * attempt->far;
-        *status = is_stuck_in_short_steps(run, is_short) ? diagnose_stall(run, TOO_SMALL, p) : 0;
+        *status = detect_short_step_stall(run, is_short) ? diagnose_stall(run, TOO_SMALL, p) : 0;
         return 1;
     }
     attempt->again = 1;
@@ -454,12 +454,12 @@ static int is_step_accepted(Integrator *run, int trial_status, const Parameters 
     attempt->h *= trial_status == NOT_FOUND ? SHRINK_NEWTON : trial_status ? SHRINK_FAILED
         : compute_shrink_factor(run, step);
     if (attempt->h > min_length)
-        return prepare_retry(run);
+        return request_retry(run);
     if (N_SWITCHES > 0 && trial_status == NOT_FINITE && run->discrete.is_frozen) {
         /* until the step is committed: a frozen branch may be NaN beyond its switching point */
         run->discrete.is_frozen = 0;
         attempt->h = attempt->longest;
-        return prepare_retry(run);
+        return request_retry(run);
     }
     if (!run->choice.automatic || !method->stiff || attempt->methods_failed++) {
         *status = trial_status ? trial_status : diagnose_stall(run, TOO_SMALL, p);
@@ -467,7 +467,7 @@ static int is_step_accepted(Integrator *run, int trial_status, const Parameters 
     }
     change_method(run); /* its matrix is singular with dependent constraints; the explicit method can continue */
     attempt->h = attempt->longest;
-    return prepare_retry(run);
+    return request_retry(run);
 }
 
 /*

@@ -34,13 +34,13 @@ static double draw_random_number(Audit *audit)
 }
 
 /* Return whether the tolerance controls the step length. */
-static int has_tolerance(const Integrator *run) { return run->control.fixed <= 0.0; }
+static int has_step_size_control(const Integrator *run) { return run->control.fixed <= 0.0; }
 
 /*
  * Return the relative tolerance to which the audit refers: that of step-size control, or AUDIT_FIXED for steps of fixed
  * length. Used for the limits of all checks.
  */
-static double get_audit_tolerance(const Integrator *run) { return has_tolerance(run) ? get_rtol(run)
+static double get_audit_tolerance(const Integrator *run) { return has_step_size_control(run) ? get_rtol(run)
     : AUDIT_FIXED; }
 
 /* Return the size of the mechanism in m, which start_audit() has stored. */
@@ -257,7 +257,7 @@ static void check_accelerations(Integrator *run, double t, const double *y, cons
  */
 static void check_open_gaps(Integrator *run, double t, const RhsOutputs *rhs, const Parameters *p)
 {
-    for (int i = 0; i < N_CLEARANCES && has_tolerance(run); i++) {
+    for (int i = 0; i < N_CLEARANCES && has_step_size_control(run); i++) {
         const Clearance *joint = &rhs->clearance[i];
         if (run->discrete.contact[i].closed)
             continue;

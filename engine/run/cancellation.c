@@ -7,7 +7,7 @@ enum { MAX_POLL_AFTER = 64, MAX_SLOW_CHECKS = 3, MIN_DOUBLED_STEPS = 1 << 18 };
 #define MAX_STEPS_LEFT 1e11  /* steps left at which any run is ended */
 #define MIN_GAIN_RATIO 1e-3     /* of the earlier gain per step: slower steps count as slow */
 
-/* Return the present time in s since the epoch, from the clock of the system. */
+/* Return the current time in s since the epoch, from the clock of the system. */
 double read_clock(void)
 {
     struct timespec now;
@@ -68,7 +68,7 @@ static double estimate_remaining_steps(const ProgressMonitor *monitor, double t,
  * when the number of steps has doubled. That doubling gained no more time than the one DOUBLINGS before, and the
  * extrapolated number of steps exceeds MAX_STEPS_LEFT. Updates the monitor.
  */
-static int is_step_count_exponential(ProgressMonitor *monitor, double t, double t_end)
+static int detect_exponential_step_count(ProgressMonitor *monitor, double t, double t_end)
 {
     Doubling *doubling = &monitor->doubling;
     const double gain = t - doubling->t, steps = (double)monitor->steps, gain_before = doubling->gain[0];
@@ -95,10 +95,10 @@ static int is_step_count_exponential(ProgressMonitor *monitor, double t, double 
  * time: monitor->slowdown is then GROWTH_DOUBLINGS. Steps that become longer again reset the count, because a fast
  * motion may decay. Called once per step.
  */
-int has_stalled(ProgressMonitor *monitor, double t, double t_end)
+int detect_stall(ProgressMonitor *monitor, double t, double t_end)
 {
     const long n_before = monitor->steps++;
-    if (is_step_count_exponential(monitor, t, t_end)) {
+    if (detect_exponential_step_count(monitor, t, t_end)) {
         monitor->slowdown = GROWTH_DOUBLINGS;
         return 1;
     }
@@ -123,7 +123,7 @@ int has_stalled(ProgressMonitor *monitor, double t, double t_end)
 }
 
 /*
- * Return how many of the next calls of has_stalled() only count steps, without a comparison. Used by runs in lanes,
+ * Return how many of the next calls of detect_stall() only count steps, without a comparison. Used by runs in lanes,
  * which make these steps without the test.
  */
 long count_steps_before_check(const ProgressMonitor *monitor)

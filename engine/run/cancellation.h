@@ -24,10 +24,10 @@ typedef struct {
 
 double read_clock(void);
 void start_polling(Cancellation *token, int (*is_stop_requested)(void *), void *context, double poll_interval);
-int has_stalled(ProgressMonitor *monitor, double t, double t_end);
+int detect_stall(ProgressMonitor *monitor, double t, double t_end);
 long count_steps_before_check(const ProgressMonitor *monitor);
 
-/* Defer a request to stop until the present operation is complete. */
+/* Defer a request to stop until the current operation is complete. */
 static inline void defer_stop(Cancellation *token) { token->hold = 1; }
 
 /* Obey requests to stop at once from now on. */

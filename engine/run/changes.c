@@ -5,18 +5,18 @@
 #define ONSET_ORDER 3.5 /* order of the error of a first step in a contact, whose force begins as delta^n */
 
 /*
- * Update the branches of all active switching functions at the present state and evaluate the right-hand side there.
+ * Update the branches of all active switching functions at the current state and evaluate the right-hand side there.
  * crossed_switch: function that was just switched and keeps its branch, -1: none. Return 0 or the status of the
  * right-hand side. Called after events and at the start of a run.
  */
-static int update_branches(Integrator *run, int crossed_switch, const Parameters *p)
+static int update_branches_at_current_state(Integrator *run, int crossed_switch, const Parameters *p)
 {
     return update_branches_at(run, run->t, run->y, run->dy, &run->rhs, crossed_switch, p);
 }
 
 #if N_USER_EVENTS && N_SWITCHES
 /*
- * Update the branches of switching functions to those just after an event, at the present state extrapolated by the
+ * Update the branches of switching functions to those just after an event, at the current state extrapolated by the
  * location tolerance. crossed_switch keeps its branch, -1: none. Functions that jump at one time, as a mod of a mod,
  * have zeros of several switching functions there; between these zeros event functions have values that they never
  * take. If a branch changed, the right-hand side is evaluated again. Return a status.
@@ -71,7 +71,7 @@ static int count_closed_contacts(const Integrator *run)
 }
 
 /*
- * Open the contact of a joint if it is closed, else close it, at the present time. min_speed: smallest stored approach
+ * Open the contact of a joint if it is closed, else close it, at the current time. min_speed: smallest stored approach
  * speed, m/s. Also select the estimated length of the next step, by the number of closed contacts, and discard that of
  * the stiff method. Called at the zero of the event function of a compliant contact.
  */
@@ -120,8 +120,8 @@ static double compute_initial_energy_scale(const Integrator *run, const Paramete
 
 #if DRIVE_IMPULSES
 /*
- * Set the branches of all switching functions to their signs at time t_after (s), just after the present time, with the
- * present coordinates. crossed_switch was just switched and keeps its branch in the first pass: it changes only if
+ * Set the branches of all switching functions to their signs at time t_after (s), just after the current time, with the
+ * current coordinates. crossed_switch was just switched and keeps its branch in the first pass: it changes only if
  * other functions change it; -1: none. At most six passes. Return 0 or the status of the right-hand side. Called before
  * and after the impulse of a drive.
  */
@@ -147,7 +147,7 @@ static int update_branches_just_after(Integrator *run, double t_after, int cross
 }
 
 /*
- * Return whether the second rate of a drive is unbounded next to the present time, as that of (t - t0)^1.5 is at t0. At
+ * Return whether the second rate of a drive is unbounded next to the current time, as that of (t - t0)^1.5 is at t0. At
  * fixed coordinates, accelerations then change far more from here to `time_offset` (s, negative: before) than from
  * there to twice as far. Return 0 if an evaluation fails. Called at jumps of drives in runs with steps of fixed length.
  */
@@ -189,7 +189,7 @@ static int apply_drive_jump(Integrator *run, int switch_index, const Parameters 
     const double energy_before = compute_kinetic_energy(run, p);
     apply_drive_impulse(run, p);
     if (compute_kinetic_energy(run, p) == energy_before)
-        return update_branches(run, switch_index, p);
+        return update_branches_at_current_state(run, switch_index, p);
     status = update_branches_just_after(run, t_after, switch_index, p); /* branches that depend on the changed speeds */
     if (!status)
         status = evaluate_run_rhs(run, t, run->y, p, run->dy, &run->rhs);
@@ -197,7 +197,7 @@ static int apply_drive_jump(Integrator *run, int switch_index, const Parameters 
 }
 
 /*
- * Apply jumps of the rates of drives at the present time, called at the start and end of a run. If a branch differs
+ * Apply jumps of the rates of drives at the current time, called at the start and end of a run. If a branch differs
  * just after that time, apply the impulse, resolve the impacts it causes and record the user-defined events that it
  * crosses. Return 0, ENDED or another status.
  */
@@ -226,7 +226,7 @@ static int apply_drive_jumps_now(Integrator *run, const Parameters *p)
  */
 static inline int apply_drive_jump(Integrator *run, int switch_index, const Parameters *p)
 {
-    return update_branches(run, switch_index, p);
+    return update_branches_at_current_state(run, switch_index, p);
 }
 
 /* Return 0: no drive of the scene has a rate that jumps. */
@@ -247,7 +247,7 @@ static int change_branch(Integrator *run, int switch_index, const Parameters *p)
 }
 
 /*
- * Record the forces of compliant contacts that begin at the present time, as peaks: a force that begins with a jump may
+ * Record the forces of compliant contacts that begin at the current time, as peaks: a force that begins with a jump may
  * be largest at its onset.
  */
 static void record_onset_forces(Integrator *run)
@@ -272,11 +272,12 @@ static int apply_event(Integrator *run, int event, const Parameters *p)
         values_before[i] = run->rhs.event[i];
     for (int k = 0; k < N_CLEARANCES + N_SWITCHES; k++)
         if (k == event
-            || (k < N_CLEARANCES && event_function(&run->discrete, &run->rhs, k) < compute_penetration_tolerance(p, k)))
+            || (k < N_CLEARANCES && event_function(&run->discrete, &run->rhs, k) < compute_gap_event_threshold(p, k)))
             toggle_contact_or_branch(run, k, p);
     const int switch_index = event - N_CLEARANCES, friction = switch_index - N_SWITCHES;
     const int user_event = friction - N_FRICTIONS;
-    int status = switch_index >= 0 && friction < 0 ? change_branch(run, switch_index, p) : update_branches(run, -1, p);
+    int status = switch_index >= 0 && friction < 0 ? change_branch(run, switch_index, p)
+        : update_branches_at_current_state(run, -1, p);
     if (!status && switch_index >= 0)
         status = update_branches_after_event(run, friction < 0 ? switch_index : -1, p);
     if (!status)

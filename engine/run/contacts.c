@@ -10,7 +10,7 @@
  * is 1e-10 of the largest valid penetration, SHALLOW at most, or SHALLOW_RIGID clearances for rigid surfaces. Called in
  * the search for zeros of gaps, after events, and at the start for contacts that touch.
  */
-static double compute_penetration_tolerance(const Parameters *p, int joint)
+static double compute_gap_event_threshold(const Parameters *p, int joint)
 {
     return is_compliant(joint) ? -min_of(SHALLOW, 1e-10 * max_valid_penetration(p, joint))
         : -SHALLOW_RIGID * radial_clearance(p, joint);
@@ -147,7 +147,7 @@ static void open_contact(Integrator *run, int joint, double t)
 }
 
 /*
- * Close or open the contact of a joint with rigid surfaces at the present time. A closed contact takes its approach
+ * Close or open the contact of a joint with rigid surfaces at the current time. A closed contact takes its approach
  * speed from the impact listed at this time, else 0. An opened contact is appended to the list. Nothing happens if the
  * contact does not change. Return 0, or CHATTERING if the list is full. Called by update_closed_contacts() for each
  * rigid joint.
@@ -185,7 +185,7 @@ static int initialize_compliant_contacts(Integrator *run, const Parameters *p)
         const Clearance *clearance = &run->rhs.clearance[i];
         const int was_closed = run->discrete.contact[i].closed;
         const int touches = clearance->delta >= 0.0
-            && (clearance->delta > -compute_penetration_tolerance(p, i) || clearance->deltadot > 0.0);
+            && (clearance->delta > -compute_gap_event_threshold(p, i) || clearance->deltadot > 0.0);
         if (!is_compliant(i)) /* rigid contacts change at events only (run/impacts.c) */
             continue;
         if (!was_closed && touches)

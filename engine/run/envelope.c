@@ -77,7 +77,7 @@ static void merge_envelope_rows(EnvelopeRow *merged_row, const EnvelopeRow *firs
 }
 
 /*
- * Extend the current row of the envelope by the present state, the end of a step, and begin the next row after `stride`
+ * Extend the current row of the envelope by the current state, the end of a step, and begin the next row after `stride`
  * steps. If no row is left, each two rows are merged and the stride is doubled. Called at each accepted state of a run
  * with an envelope.
  */

@@ -22,7 +22,7 @@ static double evaluate_friction_event_function(const DiscreteState *discrete, co
 }
 
 /*
- * Evaluate the right-hand side at the present state with the present friction modes. A sticking element whose pivot
+ * Evaluate the right-hand side at the current state with the current friction modes. A sticking element whose pivot
  * vanishes is already held by a drive or another sticking element: it becomes MODE_HELD, without force, and the
  * evaluation is repeated. Return 0 or a status.
  */
@@ -149,7 +149,7 @@ static int initialize_friction_modes(Integrator *run, const Parameters *p)
 static int update_friction_modes(Integrator *run, const Parameters *p) { return iterate_friction_modes(run, p); }
 
 /*
- * Evaluate the right-hand side after an impact with the present modes of friction elements, then set the modes by its
+ * Evaluate the right-hand side after an impact with the current modes of friction elements, then set the modes by its
  * slips: an element with a slip above AT_REST slips in its direction, others keep their mode. run->dy and run->rhs are
  * not evaluated again with the new modes. Return 0, or the status of the evaluation; the modes are then unchanged.
  */

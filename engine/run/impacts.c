@@ -52,7 +52,7 @@ static double compute_flight_step_limit(const Integrator *run, const Step *step,
 }
 
 /*
- * Compute the Delassus operator of the listed contacts at the present state of the run, count the evaluations, and
+ * Compute the Delassus operator of the listed contacts at the current state of the run, count the evaluations, and
  * return a status.
  */
 static int compute_present_delassus(Integrator *run, const Parameters *p, Delassus *contacts)
@@ -208,7 +208,7 @@ static int separate_contacts(Integrator *run, const Parameters *p)
 }
 
 /*
- * Resolve impacts at the present time until no rigid surfaces approach; return 0, CHATTERING or another status. One
+ * Resolve impacts at the current time until no rigid surfaces approach; return 0, CHATTERING or another status. One
  * impact may make other surfaces approach, and these the first ones again, as in a wedge. Two contacts with the
  * Delassus operator G approach in turn at chi[n+1] = (1 + c_e) kappa chi[n] - c_e chi[n-1], where kappa =
  * -G12/sqrt(G11 G22), and chi is the approach speed over sqrt(G11) or sqrt(G22). If (1 + c_e) kappa < 2 sqrt(c_e) some

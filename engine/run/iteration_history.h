@@ -1,11 +1,11 @@
-/* Starts of the present and the last step, from which implicit methods extrapolate guesses of their stages. */
+/* Starts of the current and the last step, from which implicit methods extrapolate guesses of their stages. */
 #ifndef GUDGEON_ITERATION_HISTORY_H
 #define GUDGEON_ITERATION_HISTORY_H
 
 #define FILM_FORCE_TOL 5e2 /* times rtol: relative accuracy of film forces when the iteration of stages ends */
 
 /*
- * Update the stored beginnings of steps before a step is tried: at a new step the present beginning becomes the
+ * Update the stored beginnings of steps before a step is tried: at a new step the current beginning becomes the
  * previous one. A repeated attempt leaves them unchanged. Also set the distance of both beginnings, the accuracy of
  * film forces, and whether the motion continues smoothly, so that initial guesses can be extrapolated
  * (run->newton.continues).

@@ -29,7 +29,8 @@ static void record_force(Integrator *run, int joint, double t, double F)
  * If a switching function is on the wrong branch there, branches are updated for this evaluation only. Return 0 if the
  * evaluation fails.
  */
-static double evaluate_joint_force(Integrator *run, const Step *step, double fraction, int joint, const Parameters *p)
+static double evaluate_and_record_joint_force(
+    Integrator *run, const Step *step, double fraction, int joint, const Parameters *p)
 {
     RhsOutputs rhs;
     int has_wrong_branch = 0;
@@ -74,13 +75,13 @@ static double find_node_of_largest_force(const Step *step, double fraction, int 
  * the parabola predicts a gain below the tolerance (PEAK_TOL). Called if a force rose before the step and falls at its
  * end, or a stage exceeds both ends.
  */
-static void find_inner_peak(Integrator *run, const Step *step, double fraction, int joint, double force_begin,
+static void record_inner_peak(Integrator *run, const Step *step, double fraction, int joint, double force_begin,
     double force_end,
     const Parameters *p)
 {
     const double node = find_node_of_largest_force(step, fraction, joint, max_of(force_begin, force_end));
     const double tolerance = min_of(MAX_PEAK_TOL, max_of(MIN_PEAK_TOL, PEAK_TOL * get_rtol(run)));
-    double f[3] = {force_begin, evaluate_joint_force(run, step, node, joint, p), force_end};
+    double f[3] = {force_begin, evaluate_and_record_joint_force(run, step, node, joint, p), force_end};
     double x[3] = {0.0, node, fraction}, error = INFINITY;
     record_force(run, joint, step->t, force_begin);
     for (int n = 0; n < MAX_PARABOLAS; n++) {
@@ -97,7 +98,7 @@ static void find_inner_peak(Integrator *run, const Step *step, double fraction, 
         const double most = max_of(f[1], max_of(f[0], f[2]));
         if (bend < 0.0 && expected - most + 0.1 * error < tolerance * most)
             break;
-        const double force = evaluate_joint_force(run, step, top, joint, p);
+        const double force = evaluate_and_record_joint_force(run, step, top, joint, p);
         const int above = top > x[1], higher = force > f[1], end = above == higher ? 0 : 2;
         error = fabs(force - expected);
         x[end] = higher ? x[1] : top;
@@ -137,7 +138,7 @@ static int is_force_monotone(Step *step, double fraction, int joint, double forc
  * force. force_begin, force_end: forces at both ends, N. Nothing happens if the stages show a monotone force, or
  * without dense output.
  */
-static void find_rigid_peak(
+static void record_rigid_peak(
     Integrator *run, Step *step, double fraction, int joint, double force_begin, double force_end, const Parameters *p)
 {
     const double middle = 0.5 * fraction;
@@ -147,8 +148,8 @@ static void find_rigid_peak(
     if (is_force_monotone(step, fraction, joint, force_begin, force_end, p) || compute_dense_output(run, p, step))
         return;
     part[0] =
-        (SampledPart){{middle, evaluate_joint_force(run, step, middle, joint, p), NAN}, {fraction, force_end, NAN},
-            INFINITY};
+        (SampledPart){{middle, evaluate_and_record_joint_force(run, step, middle, joint, p), NAN},
+            {fraction, force_end, NAN}, INFINITY};
     for (int n = 1, samples = 1; n > 0;) {
         const SampledPart now = part[n - 1];
         const double largest_known = max_of(run->contacts.open[joint].F_peak, force_end) * (1.0 + RIGID_FORCE_TOL);
@@ -164,8 +165,8 @@ static void find_rigid_peak(
             continue;
         }
         const double fractions[2] = {from.s + 0.25 * width, now.end.s - 0.25 * width};
-        const Sample left = {fractions[0], evaluate_joint_force(run, step, fractions[0], joint, p), NAN};
-        const Sample right = {fractions[1], evaluate_joint_force(run, step, fractions[1], joint, p), NAN};
+        const Sample left = {fractions[0], evaluate_and_record_joint_force(run, step, fractions[0], joint, p), NAN};
+        const Sample right = {fractions[1], evaluate_and_record_joint_force(run, step, fractions[1], joint, p), NAN};
         const double error = estimate_error_of_halves(from, now, left, right);
         part[n - 1] = (SampledPart){right, now.end, error};
         part[n++] = (SampledPart){left, now.middle, error};
@@ -192,7 +193,7 @@ static double find_cubic_maximum(double value_0, double slope_0, double value_1,
  * happens unless the gap rate changes from outward to inward, if the cubic stays below the largest known eccentricity,
  * or if the evaluation fails.
  */
-static void find_largest_eccentricity(Integrator *run, Step *step, double fraction, int joint, const Parameters *p)
+static void record_largest_eccentricity(Integrator *run, Step *step, double fraction, int joint, const Parameters *p)
 {
     if (!(run->rhs.clearance[joint].deltadot > 0.0 && step->rhs.clearance[joint].deltadot < 0.0))
         return;
@@ -306,7 +307,7 @@ static double find_largest_force_within_step(
     if (n_inner < MIN_INNER_STAGES && run->discrete.contact[joint].closed && is_compliant(joint)
         && may_have_inner_maximum(step, fraction, joint, force_begin, force_end)
             && compute_dense_output(run, p, step) == 0)
-        return max_of(sqrt(most), evaluate_joint_force(run, step, 0.5 * fraction, joint, p));
+        return max_of(sqrt(most), evaluate_and_record_joint_force(run, step, 0.5 * fraction, joint, p));
     return sqrt(most);
 }
 
@@ -321,13 +322,13 @@ static int has_tension_at_end(double force_before, double force_after) { return 
  * falls. Store which forces rise at the end. Without trends, because an evaluation fails, the search of forces is
  * omitted. Called after each accepted step.
  */
-static void find_inner_peaks(Integrator *run, Step *step, double fraction, const Parameters *p)
+static void record_inner_peaks(Integrator *run, Step *step, double fraction, const Parameters *p)
 {
     enum { LOW = 2 }; /* a force too small to be a peak */
     double force_begin[AT_LEAST_ONE(N_CLEARANCES)], force_end[AT_LEAST_ONE(N_CLEARANCES)];
     int trends[AT_LEAST_ONE(N_CLEARANCES)], has_inner_peak[AT_LEAST_ONE(N_CLEARANCES)], has_unknown = 0;
     for (int i = 0; i < N_CLEARANCES; i++) {
-        find_largest_eccentricity(run, step, fraction, i, p);
+        record_largest_eccentricity(run, step, fraction, i, p);
         const Clearance *a = &run->rhs.clearance[i], *b = &step->rhs.clearance[i];
         const double largest_known = run->discrete.contact[i].closed ? run->contacts.open[i].F_peak
             : run->contacts.F_peak[i];
@@ -336,7 +337,7 @@ static void find_inner_peaks(Integrator *run, Step *step, double fraction, const
         const double min_ratio = run->discrete.contact[i].closed ? 0.9 : 0.97;
 #if N_RIGID
         if (!is_compliant(i) && run->discrete.contact[i].closed)
-            find_rigid_peak(run, step, fraction, i, force_begin[i], force_end[i], p);
+            record_rigid_peak(run, step, fraction, i, force_begin[i], force_end[i], p);
 #endif
         const int has_force = run->discrete.contact[i].closed || has_film(i);
         const double larger_end = max_of(force_begin[i], force_end[i]);
@@ -358,7 +359,7 @@ static void find_inner_peaks(Integrator *run, Step *step, double fraction, const
         const int has_event_candidate = trends[i] != LOW, falls = has_event_candidate && trends[i] < 0;
         if (has_event_candidate && (((falls || reverses) && run->contacts.is_rising[i]) || has_inner_peak[i])
             && compute_dense_output(run, p, step) == 0)
-            find_inner_peak(run, step, fraction, i, force_begin[i], force_end[i], p);
+            record_inner_peak(run, step, fraction, i, force_begin[i], force_end[i], p);
         set_force_rising(run, i, !falls);
     }
 }

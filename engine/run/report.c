@@ -2,7 +2,7 @@
 #include <string.h>
 
 /*
- * Store the present state of all bodies y (N_S), the discrete state (N_DISCRETE) and the contact codes (N_CLEARANCES)
+ * Store the current state of all bodies y (N_S), the discrete state (N_DISCRETE) and the contact codes (N_CLEARANCES)
  * as a sample.
  */
 void gudgeon_run_sample(const void *integrator, const double *p, double *y, double *discrete, signed char *codes)

@@ -49,7 +49,7 @@ static int evaluate_run_rhs(
 #include "envelope.c"
 
 /*
- * Return whether the penetration of any joint at the present state exceeds the range of validity of its contact laws: a
+ * Return whether the penetration of any joint at the current state exceeds the range of validity of its contact laws: a
  * tenth of the radius, unless a law states it.
  */
 static int is_outside_contact_laws(const Integrator *run, const Parameters *p)
@@ -61,7 +61,7 @@ static int is_outside_contact_laws(const Integrator *run, const Parameters *p)
 }
 
 /*
- * Update the largest residuals of the closures with those of the present state. residuals: largest |Phi| and |Phi_dot|
+ * Update the largest residuals of the closures with those of the current state. residuals: largest |Phi| and |Phi_dot|
  * there; NULL: they are computed. Return 0 or the status of accept_state().
  */
 static int update_residuals(Integrator *run, const double *residuals, const Parameters *p)
@@ -118,8 +118,8 @@ static void store_sample(const Integrator *run, double t, const double *state_ve
 }
 
 /*
- * Set the branches of all switching functions to their signs at the present state, and freeze them and the contacts
- * (discrete.is_frozen). Called when a run begins, and before states just after the present time are evaluated.
+ * Set the branches of all switching functions to their signs at the current state, and freeze them and the contacts
+ * (discrete.is_frozen). Called when a run begins, and before states just after the current time are evaluated.
  */
 static void freeze_branches(Integrator *run)
 {
@@ -150,7 +150,7 @@ static int update_branches_at(
     return status;
 }
 
-/* Return the kinetic energy of all bodies at the present state, J. */
+/* Return the kinetic energy of all bodies at the current state, J. */
 static double compute_kinetic_energy(const Integrator *run, const Parameters *p)
 {
     double mass[N_Q], absolute_state[N_S], sum = 0.0;

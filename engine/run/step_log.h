@@ -52,7 +52,7 @@ static inline int is_chattering(const Integrator *run) { return run->progress.no
  * Count successive steps that are too short to advance, and return whether they exceed MAX_SHORT_STEPS: speeds grow
  * without bound, as at a dead centre. A longer step resets the count.
  */
-static inline int is_stuck_in_short_steps(Integrator *run, int is_short)
+static inline int detect_short_step_stall(Integrator *run, int is_short)
 {
     run->progress.short_steps = is_short ? run->progress.short_steps + 1 : 0;
     return run->progress.short_steps > MAX_SHORT_STEPS;
@@ -62,9 +62,9 @@ static inline int is_stuck_in_short_steps(Integrator *run, int is_short)
  * Count a step and return whether the run no longer advances towards t_end (s). Each comparison of the progress monitor
  * restarts the counts of the event functions that ended steps.
  */
-static inline int is_stalled(Integrator *run, double t_end)
+static inline int detect_run_stall(Integrator *run, double t_end)
 {
-    const int stalled = has_stalled(&run->progress.monitor, run->t, t_end);
+    const int stalled = detect_stall(&run->progress.monitor, run->t, t_end);
     for (int k = 0; k < N_EVENT_FUNCTIONS && !stalled && run->progress.monitor.steps % MONITOR_STEPS == 1; k++)
         run->progress.ended[k] = 0;
     return stalled;

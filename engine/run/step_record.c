@@ -19,7 +19,7 @@ static int is_record_full(const Integrator *run)
  * Append a state y at time t (s) to the step record: jump mark, t, state of all bodies, discrete state, contact codes.
  * Then reset the jump mark. Nothing is done without a record or if it is full.
  */
-static void record_state(Integrator *run, double t, const double *y, const Parameters *p)
+static void append_record_row(Integrator *run, double t, const double *y, const Parameters *p)
 {
     StepRecord *step_record = &run->step_record;
     signed char state[AT_LEAST_ONE(N_CLEARANCES)] = {0};
@@ -35,13 +35,13 @@ static void record_state(Integrator *run, double t, const double *y, const Param
 }
 
 /* Mark that something jumped before the next row, if `jumped`. */
-static void mark_jump(Integrator *run, int jumped) { run->step_record.jumped |= jumped; }
+static void mark_jump_before_next_row(Integrator *run, int jumped) { run->step_record.jumped |= jumped; }
 
-/* Append the present state to the step record, marked as the state just after a jump. */
-static void record_state_after_jump(Integrator *run, const Parameters *p)
+/* Append the current state to the step record, marked as the state just after a jump. */
+static void append_row_after_jump(Integrator *run, const Parameters *p)
 {
     run->step_record.jumped = 1;
-    record_state(run, run->t, run->y, p);
+    append_record_row(run, run->t, run->y, p);
 }
 
 /*

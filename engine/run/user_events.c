@@ -117,7 +117,7 @@ static int extrapolate_event_functions(Integrator *run, double t, double duratio
 }
 
 /*
- * Evaluate the right-hand side `duration` seconds after the present time, along the present rates, and update and
+ * Evaluate the right-hand side `duration` seconds after the current time, along the current rates, and update and
  * freeze the branches that hold there. rhs_after: the outputs. Return a status.
  */
 static int evaluate_rates_just_after(Integrator *run, double duration, const Parameters *p, RhsOutputs *rhs_after)
@@ -147,11 +147,11 @@ static double compute_coincidence_time(const Integrator *run, double fixed_step)
 }
 
 /*
- * Compute the sign of each user-defined event function just after the present time into `signs`, 0 if it stays below
+ * Compute the sign of each user-defined event function just after the current time into `signs`, 0 if it stays below
  * its uncertainty. fixed_step: step length of rk4 in s, 0 for other methods. The signs depend on the state alone. A run
  * that ends here records events with other signs; a run that begins here starts with these signs. Each event of a run
  * that is divided anywhere is therefore recorded once. Branches of switching functions are updated to those just after
- * the present time. Return a status.
+ * the current time. Return a status.
  */
 static int compute_event_signs_just_after(Integrator *run, double fixed_step, const Parameters *p, signed char *signs)
 {
@@ -183,7 +183,7 @@ static int compute_event_signs_just_after(Integrator *run, double fixed_step, co
  * otherwise. The discrete state is restored except for the signs. Return ENDED if one of the events ends the run, else
  * 0.
  */
-static int record_events_at_end(Integrator *run, double fixed_step, const Parameters *p)
+static int record_user_events_at_run_end(Integrator *run, double fixed_step, const Parameters *p)
 {
     const DiscreteState discrete_before = run->discrete;
     signed char sign[N_USER_EVENTS];
@@ -217,7 +217,7 @@ static int initialize_event_signs(Integrator *run, double fixed_step, const Para
 }
 #else
 /* Return 0: the scene has no user-defined events. */
-static inline int record_events_at_end(Integrator *run, double fixed_step, const Parameters *p)
+static inline int record_user_events_at_run_end(Integrator *run, double fixed_step, const Parameters *p)
 {
     return (void)run, (void)fixed_step, (void)p, 0;
 }
