@@ -273,7 +273,7 @@ static long get_max_local_steps(const void *integrator)
     const Integrator *run = integrator;
     const long steps =
         run->step_record.rows || run->envelope.rows ? 0 : count_steps_before_check(&run->progress.monitor);
-    const long unchecked_steps = run->audit.level == AUDIT_FULL ? 0 : run->audit.due - run->counts.steps;
+    const long unchecked_steps = run->audit.level == AUDIT_FULL ? 0 : run->audit.next_drawn_step - run->counts.steps;
     return run->audit.level && unchecked_steps < steps ? (unchecked_steps > 0 ? unchecked_steps : 0) : steps;
 }
 

@@ -26,24 +26,24 @@ FMI3_EXPORT fmi3Status fmi3GetDirectionalDerivative(fmi3Instance instance, const
     if (rates && gudgeon_jacobian(model->t, model->x, model->latched, p, J, f_t))
         return log_error_with_status(model, "a constraint row depends on others", 0);
     for (size_t k = 0; k < n_unknowns; k++) {
-        const fmi3ValueReference r = unknowns[k];
+        const fmi3ValueReference reference = unknowns[k];
         sensitivity[k] = 0.0;
-        if (r >= VR_RATES && r < VR_RATES + N_Y) {
+        if (reference >= VR_RATES && reference < VR_RATES + N_Y) {
             for (int j = 0; j < N_Y; j++)
-                sensitivity[k] += J[(size_t)(r - VR_RATES) * N_Y + j] * direction[j];
+                sensitivity[k] += J[(size_t)(reference - VR_RATES) * N_Y + j] * direction[j];
             continue;
         }
-        if (!model->exchange || r < VR_OUTPUTS || r >= VR_OUTPUTS + FMU_OUTPUTS)
-            return log_error_with_status(model, "derivatives of rates and outputs are what there is", (int)r);
-        double most = 0.0, end_values[2];
+        if (!model->exchange || reference < VR_OUTPUTS || reference >= VR_OUTPUTS + FMU_OUTPUTS)
+            return log_error_with_status(model, "derivatives of rates and outputs are what there is", (int)reference);
+        double largest_ratio = 0.0, end_values[2];
         /* outputs are linear in works, which need no small step */
-        for (int j = 0; j < N_Y && (j < 2 * N_X || most == 0.0); j++)
-            most = fmax(most, fabs(direction[j]) / model->nominal[j]);
-        if (most == 0.0)
+        for (int j = 0; j < N_Y && (j < 2 * N_X || largest_ratio == 0.0); j++)
+            largest_ratio = fmax(largest_ratio, fabs(direction[j]) / model->nominal[j]);
+        if (largest_ratio == 0.0)
             continue;
         memcpy(x, model->x, sizeof x);
         for (int branch = 0; branch < 2; branch++) {
-            const double h = (branch ? 1e-5 : -1e-5) / most;
+            const double h = (branch ? 1e-5 : -1e-5) / largest_ratio;
             for (int j = 0; j < N_Y; j++)
                 model->x[j] = x[j] + h * direction[j];
             model->moved = 1;
@@ -52,9 +52,10 @@ FMI3_EXPORT fmi3Status fmi3GetDirectionalDerivative(fmi3Instance instance, const
             model->moved = 1;
             if (status)
                 return log_error_with_status(model, "a constraint row depends on others", status);
-            end_values[branch] = get_output(model, fmu_outputs[r - VR_OUTPUTS][0], fmu_outputs[r - VR_OUTPUTS][1]);
+            const int *const output = fmu_outputs[reference - VR_OUTPUTS];
+            end_values[branch] = get_output(model, output[0], output[1]);
         }
-        sensitivity[k] = (end_values[1] - end_values[0]) * most / 2e-5;
+        sensitivity[k] = (end_values[1] - end_values[0]) * largest_ratio / 2e-5;
     }
     return fmi3OK;
 }

@@ -45,21 +45,21 @@ static int evaluate_exchange_rates(Model *model, double *dx, RhsOutputs *rhs)
 static int raise_nominals(Model *model)
 {
     double mass[N_Q], all[N_S], energy = 0.0;
-    int more = 0;
+    int is_raised = 0;
     mass_matrix((const Parameters *)model->p, mass);
     convert_to_absolute(model->t, model->x, &model->discrete, (const Parameters *)model->p, all);
     for (int k = 0; k < N_Q; k++)
         energy += 0.5 * mass[k] * all[N_Q + k] * all[N_Q + k];
     for (int k = N_X; k < N_Y; k++) {
-        double most = model->nominal[k];
+        double nominal = model->nominal[k];
         for (int i = 0; i < N_X && k < 2 * N_X; i++)
             if (fmu_is_angle[i] == fmu_is_angle[k - N_X])
-                most = fmax(most, fabs(model->x[N_X + i]));
-        most = k < 2 * N_X ? most : fmax(most, energy);
-        more |= most > model->nominal[k];
-        model->nominal[k] = most;
+                nominal = fmax(nominal, fabs(model->x[N_X + i]));
+        nominal = k < 2 * N_X ? nominal : fmax(nominal, energy);
+        is_raised |= nominal > model->nominal[k];
+        model->nominal[k] = nominal;
     }
-    return more;
+    return is_raised;
 }
 
 /*

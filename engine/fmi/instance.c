@@ -73,7 +73,7 @@ static fmi3Status log_error_with_status(const Model *model, const char *message,
 static int integrate_instance(Model *model, double t);
 #endif
 #if FMU_EXCHANGE
-static int set_initial_nominals(Model *model, const double *least);
+static int set_initial_nominals(Model *model, const double *min_scale);
 #endif
 
 /*
@@ -115,7 +115,7 @@ static fmi3Status begin_instance_run(Model *model)
         model->latched[k] = NAN;
     free(model->run);
 #if INTEGRATES
-    double least[2], scale[FMU_AT_LEAST(2 * N_X)], length = INFINITY;
+    double min_scale[2], scale[FMU_AT_LEAST(2 * N_X)], length = INFINITY;
     model->size = gudgeon_run_size();
     model->run = calloc(1, model->size);
     if (!model->run)
@@ -124,10 +124,10 @@ static fmi3Status begin_instance_run(Model *model)
         if (model->p[fmu_plays[k]] > 0.0)
             length = fmin(length, model->p[fmu_plays[k]]);
     length = isfinite(length) ? length : size;
-    least[0] = length, least[1] = length / size;
+    min_scale[0] = length, min_scale[1] = length / size;
     for (int k = 0; k < N_X; k++) {
-        scale[k] = model->rtol * (fmu_is_angle[k] ? least[1] : length);
-        scale[N_X + k] = FMU_FILM ? fmin(model->rtol, FMU_FELT * least[1]) : model->rtol;
+        scale[k] = model->rtol * (fmu_is_angle[k] ? min_scale[1] : length);
+        scale[N_X + k] = FMU_FILM ? fmin(model->rtol, FMU_FELT * min_scale[1]) : model->rtol;
     }
     if (N_X == 0)
         scale[0] = model->rtol;
@@ -140,7 +140,7 @@ static fmi3Status begin_instance_run(Model *model)
         gudgeon_run_start(model->run, model->motion, model->t, y, latched);
         gudgeon_run_stop(model->run, !start);
         gudgeon_adaptive_setup(model->run, gudgeon_method(is_fine ? FMU_BEGINS_FINE : FMU_BEGINS),
-            FMU_AUTOMATIC ? gudgeon_method(is_fine ? FMU_STIFF_FINE : FMU_STIFF) : 0, scale, least, 0.0);
+            FMU_AUTOMATIC ? gudgeon_method(is_fine ? FMU_STIFF_FINE : FMU_STIFF) : 0, scale, min_scale, 0.0);
         const int status = start ? integrate_instance(model, model->t) : 0;
         if (status)
             return log_error_with_status(model, "the motion cannot begin", status);
@@ -151,7 +151,7 @@ static fmi3Status begin_instance_run(Model *model)
     memset(&model->discrete, 0, sizeof model->discrete);
     read_discrete_state(model->latched, &model->discrete);
     convert_from_absolute(model->t, model->y, &model->discrete, (const Parameters *)model->p, model->x);
-    const int invalid = set_initial_nominals(model, least);
+    const int invalid = set_initial_nominals(model, min_scale);
     if (invalid)
         return log_error_with_status(model, "the motion cannot begin", invalid);
 #endif

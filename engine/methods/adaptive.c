@@ -150,8 +150,8 @@ static void append_step_end_row(Integrator *run, int has_jump, int is_last, cons
 #ifndef PERIODS
 #define PERIODS 0
 #endif
-#define NEAR_END 1.02 /* times the fraction of the event: length of a repeated step that ends just after it */
-#define PERIOD_END 1.1 /* the same for scenes with periodic functions */
+#define EVENT_END_RATIO 1.02 /* times the fraction of the event: length of a repeated step that ends just after it */
+#define PERIOD_END_RATIO 1.1 /* the same for scenes with periodic functions */
 /* Whether the scene has curves with knots. */
 #ifndef KNOTS
 #define KNOTS 0
@@ -210,12 +210,12 @@ static int is_far_beyond_knot(const Integrator *run, const Step *step, double fr
 static int find_event_of_step(
     Integrator *run, const Samples *samples, const Parameters *p, Step *step, double *fraction, int *event)
 {
-    const double t_end = samples->t[samples->n - 1], length_factor = PERIODS ? PERIOD_END : NEAR_END;
+    const double t_end = samples->t[samples->n - 1], length_factor = PERIODS ? PERIOD_END_RATIO : EVENT_END_RATIO;
     const int is_adaptive = run->control.fixed <= 0.0;
     int status = 0;
     *fraction = find_first_event(run, step, p, event);
     for (int k = 0;
-         k < MAX_SHORTENED && !status && is_adaptive && compute_needed_dense_output(run, step, p, samples); k++)
+         k < MAX_REDUCTIONS && !status && is_adaptive && compute_needed_dense_output(run, step, p, samples); k++)
         status = repeat_step(run, 0.25 * step->h, t_end, p, step, fraction, event);
     for (int k = 0; k < MAX_REPEATS && !status && *event >= 0 && length_factor * *fraction < 1.0; k++) {
         const double next = run->control.h, h = length_factor * *fraction * step->h;

@@ -36,8 +36,8 @@ static double find_fastest_rate(const Integrator *run, const double *dy)
 {
     double rate = 0.0;
     for (int k = 0; k < N_X; k++) {
-        const double least = run->norm.min_size[is_angle[k]], a = fabs(dy[N_X + k]);
-        rate = max_of(rate, max_of(fabs(run->y[N_X + k]) / least, sqrt(a / least)));
+        const double min_size = run->norm.min_size[is_angle[k]], a = fabs(dy[N_X + k]);
+        rate = max_of(rate, max_of(fabs(run->y[N_X + k]) / min_size, sqrt(a / min_size)));
     }
     return rate;
 }

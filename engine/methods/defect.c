@@ -24,32 +24,32 @@ static inline void interpolate_rates(const Step *step, double theta, int n, doub
 /* Return the largest film force of all joints in `rhs`, N, and its joint in *joint; 0 and -1 if no film acts. */
 static double find_joint_of_largest_film_force(const RhsOutputs *rhs, int *joint)
 {
-    double most = 0.0;
+    double largest_force = 0.0;
     *joint = -1;
     for (int i = 0; i < N_CLEARANCES; i++)
-        if (has_film(i) && compute_force_magnitude(&rhs->clearance[i]) > most)
-            most = compute_force_magnitude(&rhs->clearance[i]), *joint = i;
-    return most;
+        if (has_film(i) && compute_force_magnitude(&rhs->clearance[i]) > largest_force)
+            largest_force = compute_force_magnitude(&rhs->clearance[i]), *joint = i;
+    return largest_force;
 }
 
-#define FILM_FORCE 1e4 /* times rtol: allowed relative error of a film force inside a step */
-#define RODAS5P_FILM 3.0 /* factor for rodas5p, whose dense output has errors all along the step */
-#define FILM_FADED 1e-3 /* of the largest film force of a run: smallest scale of film errors in the audit */
-#define FILM_AUDIT 1e5 /* times rtol: limit in the audit, at least 1e-3; explicit methods: tenfold, no control */
+#define FILM_ERROR_TOL 1e4 /* times rtol: allowed relative error of a film force inside a step */
+#define RODAS5P_FILM_FACTOR 3.0 /* factor for rodas5p, whose dense output has errors all along the step */
+#define MIN_FILM_FORCE_FRACTION 1e-3 /* of the largest film force of a run: smallest scale of film errors, audit */
+#define FILM_AUDIT_TOL 1e5 /* times rtol: limit in the audit, at least 1e-3; explicit methods: tenfold, no control */
 
-/* Return the allowed relative error of film forces inside a step: FILM_FORCE times rtol, between 3e-5 and 0.1. */
+/* Return the allowed relative error of film forces inside a step: FILM_ERROR_TOL times rtol, between 3e-5 and 0.1. */
 static double compute_film_error_limit(const Integrator *run)
 {
-    return min_of(0.1, max_of(3e-5, FILM_FORCE * get_rtol(run)));
+    return min_of(0.1, max_of(3e-5, FILM_ERROR_TOL * get_rtol(run)));
 }
 
 /*
- * Return the limit of the relative error of film forces in the audit: FILM_AUDIT times rtol, at least 1e-3 and at most
- * 1. It is tenfold for explicit methods, whose film errors are not controlled.
+ * Return the limit of the relative error of film forces in the audit: FILM_AUDIT_TOL times rtol, at least 1e-3 and at
+ * most 1. It is tenfold for explicit methods, whose film errors are not controlled.
  */
 static double compute_film_audit_limit(const Integrator *run, const Step *step)
 {
-    return min_of(1.0, (step->method->stiff ? 1.0 : 10.0) * max_of(1e-3, FILM_AUDIT * get_rtol(run)));
+    return min_of(1.0, (step->method->stiff ? 1.0 : 10.0) * max_of(1e-3, FILM_AUDIT_TOL * get_rtol(run)));
 }
 
 /*
@@ -71,9 +71,9 @@ static double evaluate_relative_film_error(Integrator *run, const Step *step, do
 
 /*
  * Measure the error of film forces inside a step, at the fraction where its dense output is worst, in multiples of its
- * limit. The result is also stored in run->films with the step's length and number; for rodas5p it is RODAS5P_FILM
- * times as large. Return 0 if the dense output or the state there cannot be computed. A velocity within its tolerance,
- * times the damping of a thin film, may have any force.
+ * limit. The result is also stored in run->films with the step's length and number; for rodas5p it is
+ * RODAS5P_FILM_FACTOR times as large. Return 0 if the dense output or the state there cannot be computed. A velocity
+ * within its tolerance, times the damping of a thin film, may have any force.
  */
 static double measure_film_error(Integrator *run, Step *step, const Parameters *p)
 {
@@ -86,7 +86,7 @@ static double measure_film_error(Integrator *run, Step *step, const Parameters *
     run->films.h = step->h, run->films.steps = run->counts.steps;
     run->films.error = fraction / compute_film_error_limit(run);
     if (step->method->lane == BY_RODAS5P)
-        run->films.error *= RODAS5P_FILM;
+        run->films.error *= RODAS5P_FILM_FACTOR;
     return run->films.error;
 }
 
@@ -100,9 +100,9 @@ static int has_inaccurate_film_force_at_event(Integrator *run, const Step *step,
         p) > compute_film_error_limit(run);
 }
 
-#define FILM_SMALL 0.02 /* of the limit: with smaller errors at the ends, the error inside is measured rarely */
-#define FILM_LONGER 1.5 /* times the last measured step: longer steps are measured */
-enum { FILM_STEPS = 16 /* steps between two measurements */ };
+#define MAX_SMALL_FILM_ERROR 0.02 /* of the limit: below it at the ends, the error inside is measured rarely */
+#define FILM_LENGTH_RATIO 1.5 /* times the last measured step: longer steps are measured */
+enum { MAX_UNMEASURED_FILM_STEPS = 16 /* steps between two measurements */ };
 
 /*
  * Return the error of film forces at both ends of a step in multiples of its limit, without evaluating a right-hand
@@ -123,14 +123,15 @@ static double estimate_film_error_at_ends(const Integrator *run, const Step *ste
 /*
  * Return whether the errors of film forces are, and were recently, so small that they need not be measured inside this
  * step. end_error: that at the ends of the step. Always 1 for explicit methods and without films. They are measured at
- * least every FILM_STEPS steps, in longer steps and in the first step after an event.
+ * least every MAX_UNMEASURED_FILM_STEPS steps, in longer steps and in the first step after an event.
  */
 static int is_film_error_small(const Integrator *run, const Step *step, double end_error)
 {
     if (!step->method->stiff || !has_films())
         return 1;
-    return run->films.error < FILM_SMALL && end_error < FILM_SMALL && step->h < FILM_LONGER * run->films.h
-        && !run->control.first && run->counts.steps - run->films.steps < FILM_STEPS;
+    return run->films.error < MAX_SMALL_FILM_ERROR && end_error < MAX_SMALL_FILM_ERROR
+        && step->h < FILM_LENGTH_RATIO * run->films.h && !run->control.first
+        && run->counts.steps - run->films.steps < MAX_UNMEASURED_FILM_STEPS;
 }
 
 /*

@@ -36,8 +36,8 @@ enum { PATIENCE = 8, MAX_PATIENCE = 4096,
     MAX_CONTRARY_STEPS = 3 /* successive steps against the explicit method until the first change */,
     MAX_CONTRARY_LIMIT = 1024 /* the same after changes that did not pay, at most about */,
     CHECK_STIFF_STEPS = 32 /* steps of the stiff method between comparisons of its length with the explicit one */,
-    COMPARE_FROM = 8, COMPARE_TO = 200 /* steps after a change in which the lengths of both methods are compared */,
-    MAX_SHORTENED = 12 /* reductions by four: what remains unresolved then is rounding */ };
+    MIN_COMPARE_STEPS = 8, MAX_COMPARE_STEPS = 200 /* steps after a change: the lengths of both methods are compared */,
+    MAX_REDUCTIONS = 12 /* reductions by four: what remains unresolved then is rounding */ };
 #define FILM_ERROR_RATIO 0.7   /* largest ratio of the film errors of a shorter and a longer step without rounding */
 #define MIN_TRANSIENT_FRACTION 1e-9     /* of the times: in shorter steps no transients are searched */
 #define STIFF_COST 1.3             /* times a step of the explicit method: processor time of a stiff step */
@@ -136,14 +136,14 @@ static double estimate_largest_rate(Integrator *run, const Parameters *p)
 
 /*
  * Update the mean length of recent steps of the method with one of length h (s). Return whether the stiff method does
- * not pay: its steps are not STIFF_COST times as long as the explicit ones before. They are compared COMPARE_FROM steps
- * after the change and each CHECK_STIFF_STEPS steps.
+ * not pay: its steps are not STIFF_COST times as long as the explicit ones before. They are compared MIN_COMPARE_STEPS
+ * steps after the change and each CHECK_STIFF_STEPS steps.
  */
 static int detect_slow_stiff_method(MethodChoice *choice, double h)
 {
     double *mean = &choice->mean_length[!!choice->method->stiff];
     *mean = *mean > 0.0 ? LENGTH_MEMORY * *mean + (1.0 - LENGTH_MEMORY) * h : h;
-    return choice->method->stiff && choice->since % CHECK_STIFF_STEPS == COMPARE_FROM
+    return choice->method->stiff && choice->since % CHECK_STIFF_STEPS == MIN_COMPARE_STEPS
         && choice->mean_length[1] < STIFF_COST * choice->mean_length[0];
 }
 
@@ -157,7 +157,7 @@ static int detect_slow_stiff_method(MethodChoice *choice, double h)
 static void choose_method(Integrator *run, const Parameters *p)
 {
     /* the stiff method's stages give a lower bound of rho: soon after a change, compare the step lengths too */
-    const int slower = run->choice.since > COMPARE_FROM && run->choice.since < COMPARE_TO
+    const int slower = run->choice.since > MIN_COMPARE_STEPS && run->choice.since < MAX_COMPARE_STEPS
         && run->control.h < STIFF_LENGTH_RATIO * run->control.h_stiff;
     const int stiff = run->choice.method->stiff;
     const double stability = run->choice.h_rho;
@@ -429,7 +429,7 @@ static int is_step_accepted(Integrator *run, int trial_status, const Parameters 
     }
     const int unresolved = is_good && is_step_unresolved(run, step, p);
     if (is_good && (unresolved || has_unresolved_film_force(run, step, end_error))
-        && attempt->n_shortened++ < MAX_SHORTENED) {
+        && attempt->n_shortened++ < MAX_REDUCTIONS) {
         attempt->again = 1;
         count_rejected_step(run);
         attempt->h *= SHRINK_UNRESOLVED;
@@ -437,7 +437,7 @@ static int is_step_accepted(Integrator *run, int trial_status, const Parameters 
     }
     const double transient = is_good && attempt->h > MIN_TRANSIENT_FRACTION * attempt->far
         ? find_missed_transient(run, step, p) : 0.0;
-    if (transient > 0.0 && attempt->n_shortened++ < MAX_SHORTENED) {
+    if (transient > 0.0 && attempt->n_shortened++ < MAX_REDUCTIONS) {
         attempt->again = 1;
         count_rejected_step(run);
         attempt->h *= max_of(SHRINK_UNRESOLVED, TRANSIENT_PART * transient);

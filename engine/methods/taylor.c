@@ -6,7 +6,7 @@
  */
 #if TAYLOR
 #define TAYLOR_ROUNDING 1e-14 /* of velocities: a smaller defect at the end of a step may be rounding */
-enum { TAYLOR_DEFECT = 5 /* log2 of the largest defect at the end of a step, in tolerances; less at low orders */ };
+enum { TAYLOR_DEFECT_LOG2 = 5 /* of the largest defect at the end of a step, in tolerances; less at low orders */ };
 enum { MIN_TAYLOR_ORDER = 4 };
 
 static const double taylor_error_nodes[] = {0.0};
@@ -126,7 +126,7 @@ static void set_series_order(Integrator *run, double tolerance)
     run->series.strictness = run->choice.automatic ? TAYLOR_STRICTNESS : 1.0;
     tolerance /= run->series.strictness;
     run->series.order = choose_taylor_order(tolerance);
-    const int log2_defect = run->series.order - 4 < TAYLOR_DEFECT ? run->series.order - 4 : TAYLOR_DEFECT;
+    const int log2_defect = run->series.order - 4 < TAYLOR_DEFECT_LOG2 ? run->series.order - 4 : TAYLOR_DEFECT_LOG2;
     run->series.defect_weight = run->series.strictness * min_of(1.0, tolerance / TAYLOR_ROUNDING) / (1 << log2_defect);
 }
 

@@ -75,14 +75,14 @@ static void add_interpolation_node(
  */
 static int has_interpolation_converged(const double *y, const ContinuedMotion *interpolated_motion, double tolerance)
 {
-    double most[2] = {0.0, 0.0}, difference[2] = {0.0, 0.0};
+    double largest[2] = {0.0, 0.0}, difference[2] = {0.0, 0.0};
     for (int k = 0; k < N_X; k++) {
         const int kind = is_angle[k];
         const double a = interpolated_motion->dy[N_X + k], v = y[N_X + k];
-        most[kind] = max_of(most[kind], fabs(a) + (kind ? v * v : 0.0));
+        largest[kind] = max_of(largest[kind], fabs(a) + (kind ? v * v : 0.0));
         difference[kind] = max_of(difference[kind], fabs(a - interpolated_motion->lower[k]));
     }
-    return difference[0] <= tolerance * most[0] && difference[1] <= tolerance * most[1];
+    return difference[0] <= tolerance * largest[0] && difference[1] <= tolerance * largest[1];
 }
 
 /*

@@ -79,13 +79,13 @@ static double compute_loop_position_error(double h, const DrivenLoops *loops_bef
     const Parameters *p)
 {
     const double *q = tree_after->q + N_X, *rate = tree_after->v + N_X, *second = rate + N_DEPENDENT;
-    double most = 0.0;
+    double largest_error = 0.0;
     for (int k = 0; k < N_DEPENDENT; k++) {
         const double distance = 0.5 * h * (loops_before->v[k] + rate[k]
             + (1.0 / 6.0) * h * (loops_before->v[N_DEPENDENT + k] - second[k]));
-        most = max_of(most, get_loop_step_scale(p, k) * fabs(q[k] - loops_before->q[k] - distance));
+        largest_error = max_of(largest_error, get_loop_step_scale(p, k) * fabs(q[k] - loops_before->q[k] - distance));
     }
-    return most;
+    return largest_error;
 }
 
 /*

@@ -6,19 +6,19 @@
  * the inside of steps. The audit changes only its own record.
  */
 #define AUDIT_GRAZE 4e-13      /* m: contacts with less penetration carry a negligible force */
-#define AUDIT_DEPTH 10.0       /* tolerances that an open joint may penetrate */
-#define AUDIT_REST 1e-3 /* of the smallest relevant speed: slower bodies rest */
+#define AUDIT_MAX_DEPTH 10.0       /* tolerances that an open joint may penetrate */
+#define AUDIT_REST_FRACTION 1e-3 /* of the smallest relevant speed: slower bodies rest */
 #define AUDIT_ROUNDING 1e-9    /* of the size, or speed: rounding of the constraint equations */
 #define AUDIT_ACCELERATION 1e-6 /* of the largest term: allowed difference of both accelerations */
 #define AUDIT_BALANCE 1e-8     /* of force over mass: smaller accelerations are less accurate */
-#define AUDIT_CLOSURE 1e-9     /* of the size: error of positions that accelerations must not depend on */
-#define AUDIT_CLOSED 1024.0    /* roundings to which kinematically determined loops are closed */
-#define AUDIT_NOISE 1e-9       /* of its largest magnitude, below which the sign of a function is rounding */
-#define AUDIT_ZERO 1e-3        /* of the value at the step's beginning: a smaller one is a zero, not a pole */
+#define AUDIT_CLOSURE_TOL 1e-9     /* of the size: error of positions that accelerations must not depend on */
+#define AUDIT_LOOP_ULPS 1024.0    /* roundings to which kinematically determined loops are closed */
+#define AUDIT_NOISE_FRACTION 1e-9       /* of its largest magnitude, below which the sign of a function is rounding */
+#define AUDIT_ZERO_FRACTION 1e-3        /* of the value at the step's beginning: a smaller one is a zero, not a pole */
 #define AUDIT_LOCATED 4.0      /* event tolerances, and ulp of the time, within which an event is located */
-#define AUDIT_FIXED 1e-8       /* the tolerance that stands in for that of a fixed step */
+#define AUDIT_FIXED_STEP_TOL 1e-8       /* the tolerance that stands in for that of a fixed step */
 /* successive steps on a wrong branch that count; steps after which the magnitude of a function is known */
-enum { AUDIT_WRONG = 3, AUDIT_SETTLED = 20 };
+enum { AUDIT_WRONG_STEPS = 3, AUDIT_MIN_STEPS = 20 };
 
 static int is_above_uncertainty(Integrator *run, double t, const double *y, const RhsOutputs *rhs, int k,
     const Parameters *p);
@@ -37,14 +37,14 @@ static double draw_random_number(Audit *audit)
 static int has_step_size_control(const Integrator *run) { return run->control.fixed <= 0.0; }
 
 /*
- * Return the relative tolerance to which the audit refers: that of step-size control, or AUDIT_FIXED for steps of fixed
- * length. Used for the limits of all checks.
+ * Return the relative tolerance to which the audit refers: that of step-size control, or AUDIT_FIXED_STEP_TOL for steps
+ * of fixed length. Used for the limits of all checks.
  */
 static double get_audit_tolerance(const Integrator *run) { return has_step_size_control(run) ? get_rtol(run)
-    : AUDIT_FIXED; }
+    : AUDIT_FIXED_STEP_TOL; }
 
 /* Return the size of the mechanism in m, which start_audit() has stored. */
-static double get_mechanism_size(const Integrator *run) { return run->audit.size; }
+static double get_mechanism_size(const Integrator *run) { return run->audit.mechanism_size; }
 
 /*
  * Replace the record of a check by a violation if value/max_value exceeds the recorded multiple. A NaN counts as
@@ -122,7 +122,7 @@ static void check_constraints(Integrator *run, double t, const double *absolute_
     }
     if (!include_velocities)
         return;
-    const double min_speed = max_of(AUDIT_REST * run->norm.speed_floor[0], 1e-300); /* m/s */
+    const double min_speed = max_of(AUDIT_REST_FRACTION * run->norm.speed_floor[0], 1e-300); /* m/s */
     const double speed_scale = max_of(max_of(max_speed[0], size * max_speed[1]), min_speed),
         half_interval = 1e-5 * size / speed_scale;
     compute_velocity_residuals(t, absolute_state, absolute_state + N_Q, half_interval, p, velocity_residual, nu);
@@ -130,8 +130,9 @@ static void check_constraints(Integrator *run, double t, const double *absolute_
         const int row = kept_row[i];
         const double scale = max_of(row_is_length[row] ? speed_scale : speed_scale / max_of(size, 1e-300),
             fabs(nu[row]));
-        const double most = row_is_length[row] ? max_coordinate[0] + size * max_coordinate[1] : max_coordinate[1];
-        const double rounding = 4.0 * DBL_EPSILON * most / half_interval;
+        const double largest_coordinate =
+            row_is_length[row] ? max_coordinate[0] + size * max_coordinate[1] : max_coordinate[1];
+        const double rounding = 4.0 * DBL_EPSILON * largest_coordinate / half_interval;
         record_check(audit, CHECK_velocity, fabs(velocity_residual[row]), max_of(rtol, 1e-8) * scale + rounding, t,
             row);
     }
@@ -180,8 +181,9 @@ static int is_comparison_ill_conditioned(Integrator *run, double t, const double
     const double size = get_mechanism_size(run);
     for (int k = 0; k < N_Y; k++)
         state[k] = k < N_X
-            ? y[k] + AUDIT_CLOSURE * (is_angle[k] ? 1.0 : size) * (2.0 * draw_random_number(&run->audit) - 1.0) : y[k];
-    const double t_perturbed = N_DEPENDENT ? t * (1.0 - AUDIT_CLOSED * DBL_EPSILON) : t;
+            ? y[k] + AUDIT_CLOSURE_TOL * (is_angle[k] ? 1.0 : size) * (2.0 * draw_random_number(&run->audit) - 1.0)
+            : y[k];
+    const double t_perturbed = N_DEPENDENT ? t * (1.0 - AUDIT_LOOP_ULPS * DBL_EPSILON) : t;
     convert_to_absolute(t_perturbed, state, &run->discrete, p, absolute_state);
     if (compute_absolute_accelerations(t_perturbed, absolute_state, &run->discrete, p, a_perturbed, &force))
         return 1;
@@ -269,7 +271,7 @@ static void check_open_gaps(Integrator *run, double t, const RhsOutputs *rhs, co
             + 8.0 * DBL_EPSILON * fabs(t)) * fabs(joint->deltadot);
         const double min_rounding = max_of(AUDIT_GRAZE, 64.0 * DBL_EPSILON * get_mechanism_size(run));
         const double rounding = max_of(1e-9 * radial_clearance(p, i), min_rounding);
-        const double limit = max_of(AUDIT_DEPTH * get_audit_tolerance(run) * run->norm.min_size[0], rounding)
+        const double limit = max_of(AUDIT_MAX_DEPTH * get_audit_tolerance(run) * run->norm.min_size[0], rounding)
             + location_error;
         record_check(&run->audit, CHECK_gap, max_of(joint->delta, 0.0), limit, t, i);
     }
@@ -302,7 +304,7 @@ static int has_jumped_at(Integrator *run, Step *step, double t, int switch_index
 
 /*
  * Check the frozen branches at a state inside a step: by how much each switching function is on the wrong branch. Also
- * update the largest magnitudes of the functions in the audit. Not checked: the first AUDIT_SETTLED steps, times just
+ * update the largest magnitudes of the functions in the audit. Not checked: the first AUDIT_MIN_STEPS steps, times just
  * after the beginning, functions that the step passes or suppresses, functions whose branches meet, values below their
  * uncertainty, and jumps that have just happened. Called at states inside the steps that the audit selects.
  */
@@ -315,7 +317,7 @@ static void check_frozen_branches(Integrator *run, Step *step, double t, const d
         return; /* functions that change at one time, as those of one mod, do so one after the other */
     for (int k = 0; k < N_SWITCHES; k++)
         run->audit.switch_scale[k] = max_of(run->audit.switch_scale[k], fabs(rhs->g[k]));
-    for (int k = 0; k < N_SWITCHES && run->counts.steps > AUDIT_SETTLED; k++) {
+    for (int k = 0; k < N_SWITCHES && run->counts.steps > AUDIT_MIN_STEPS; k++) {
         const double g = run->discrete.branch[k] * rhs->g[k];
         if (!(g < 0.0) || step->passed[k] || k == run->roots.skip || meets[k]
             || !is_above_uncertainty(run, t, y, rhs, N_CLEARANCES + k, p))

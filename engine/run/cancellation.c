@@ -65,7 +65,7 @@ static double estimate_remaining_steps(const ProgressMonitor *monitor, double t,
 /*
  * Return whether the number of steps grows exponentially with time, so that the run never ends, as where the frequency
  * of a drive grows exponentially. The test runs
- * when the number of steps has doubled. That doubling gained no more time than the one DOUBLINGS before, and the
+ * when the number of steps has doubled. That doubling gained no more time than the one N_DOUBLINGS before, and the
  * extrapolated number of steps exceeds MAX_STEPS_LEFT. Updates the monitor.
  */
 static int detect_exponential_step_count(ProgressMonitor *monitor, double t, double t_end)
@@ -75,9 +75,9 @@ static int detect_exponential_step_count(ProgressMonitor *monitor, double t, dou
     if (monitor->steps < doubling->next)
         return 0;
     doubling->t = t;
-    for (int k = 1; k < DOUBLINGS; k++)
+    for (int k = 1; k < N_DOUBLINGS; k++)
         doubling->gain[k - 1] = doubling->gain[k];
-    doubling->gain[DOUBLINGS - 1] = gain;
+    doubling->gain[N_DOUBLINGS - 1] = gain;
     doubling->next = doubling->next ? 2 * monitor->steps : 1024;
     /* steps have not become longer again */
     const int slows = monitor->gain * steps <= 2.0 * gain * MONITOR_STEPS;

@@ -2,11 +2,11 @@
 #ifndef GUDGEON_CANCELLATION_H
 #define GUDGEON_CANCELLATION_H
 
-enum { MONITOR_STEPS = 32768, DOUBLINGS = 4, GROWTH_DOUBLINGS = 2 };
+enum { MONITOR_STEPS = 32768, N_DOUBLINGS = 4, GROWTH_DOUBLINGS = 2 };
 
 /* Time gained (s) by the last doublings of the number of steps, and the number of steps of the next check. */
 typedef struct {
-    double t, gain[DOUBLINGS];
+    double t, gain[N_DOUBLINGS];
     long next;
 } Doubling;
 

@@ -3,17 +3,17 @@
  * file owns Contacts (run/run.h).
  */
 
-#define SHALLOW_RIGID (8.0 * DBL_EPSILON) /* times the clearance: every impact of rigid surfaces has an impulse */
+#define RIGID_GAP_ROUNDING (8.0 * DBL_EPSILON) /* times the clearance: every impact of rigid surfaces has an impulse */
 
 /*
  * Return the negative penetration in m that counts as rounding at a joint: an event function above it has no sign. It
- * is 1e-10 of the largest valid penetration, SHALLOW at most, or SHALLOW_RIGID clearances for rigid surfaces. Called in
- * the search for zeros of gaps, after events, and at the start for contacts that touch.
+ * is 1e-10 of the largest valid penetration, SHALLOW at most, or RIGID_GAP_ROUNDING clearances for rigid surfaces.
+ * Called in the search for zeros of gaps, after events, and at the start for contacts that touch.
  */
 static double compute_gap_event_threshold(const Parameters *p, int joint)
 {
     return is_compliant(joint) ? -min_of(SHALLOW, 1e-10 * max_valid_penetration(p, joint))
-        : -SHALLOW_RIGID * radial_clearance(p, joint);
+        : -RIGID_GAP_ROUNDING * radial_clearance(p, joint);
 }
 
 /* Set the integrated internal states of the contact laws of a joint to zero, when its contact begins or ends. */

@@ -4,8 +4,8 @@
  * evaluate_friction_event_function() on the step.
  */
 #if N_FRICTIONS
-#define ROUNDING 1e-12 /* m/s: rounding of a slip that other constraints hold at zero */
-enum { MAX_TRIES = 8 + 4 * N_FRICTIONS };
+#define SLIP_ROUNDING 1e-12 /* m/s: rounding of a slip that other constraints hold at zero */
+enum { MAX_MODE_PASSES = 8 + 4 * N_FRICTIONS };
 
 /*
  * Return the event function of a friction element, positive while its mode lasts. In stick: static limit minus |force|
@@ -18,7 +18,7 @@ static double evaluate_friction_event_function(const DiscreteState *discrete, co
         return AT_REST - fabs(friction->v);
     if (discrete->mode[element] == 0.0)
         return friction->static_limit - fabs(friction->force);
-    return discrete->mode[element] * friction->v + ROUNDING;
+    return discrete->mode[element] * friction->v + SLIP_ROUNDING;
 }
 
 /*
@@ -89,15 +89,15 @@ static int correct_worst_friction_mode(Integrator *run)
 
 /*
  * Iterate the friction modes to a consistent set and evaluate the right-hand side, since a change of one mode loads or
- * unloads the others at once. Held elements at rest may stick again. Return 0, CHATTERING if MAX_TRIES passes find no
- * set, or another status. Called after each change of modes, at the start and after impacts.
+ * unloads the others at once. Held elements at rest may stick again. Return 0, CHATTERING if MAX_MODE_PASSES passes
+ * find no set, or another status. Called after each change of modes, at the start and after impacts.
  */
 static int iterate_friction_modes(Integrator *run, const Parameters *p)
 {
     for (int i = 0; i < N_FRICTIONS; i++)
         if (run->discrete.mode[i] == MODE_HELD && fabs(run->rhs.friction[i].v) <= AT_REST)
             run->discrete.mode[i] = 0.0;
-    for (int i = 0; i < MAX_TRIES; i++) {
+    for (int i = 0; i < MAX_MODE_PASSES; i++) {
         const int status = evaluate_rates_with_friction_modes(run, p);
         if (status || !correct_worst_friction_mode(run))
             return status;

@@ -6,9 +6,9 @@
  * Unilateral Contacts (1996).
  */
 #if N_RIGID
-#define TOUCHING 1e-10 /* times the clearance: surfaces with a smaller gap touch */
+#define TOUCHING_GAP_FRACTION 1e-10 /* times the clearance: surfaces with a smaller gap touch */
 #define RATIO_TOL 1e-8    /* relative difference up to which ratios of successive passes are one geometric ratio */
-enum { MAX_PASSES = 1000, LISTED_PASSES = 8, MAX_SEPARATIONS = 12 };
+enum { MAX_IMPACT_PASSES = 1000, N_LISTED_PASSES = 8, MAX_SEPARATIONS = 12 };
 
 /*
  * Return the event function of a contact, non-negative while it stays open or closed: gap of an open contact in m,
@@ -23,12 +23,12 @@ static double evaluate_contact_event_function(const DiscreteState *discrete, con
 }
 
 /*
- * Return whether the rigid surfaces of a joint touch: the gap is within TOUCHING clearances, or the contact is closed.
- * Compliant surfaces return 0.
+ * Return whether the rigid surfaces of a joint touch: the gap is within TOUCHING_GAP_FRACTION clearances, or the
+ * contact is closed. Compliant surfaces return 0.
  */
 static int is_rigid_joint_touching(const Integrator *run, int joint, const Parameters *p)
 {
-    const int has_no_gap = run->rhs.clearance[joint].delta >= -TOUCHING * radial_clearance(p, joint);
+    const int has_no_gap = run->rhs.clearance[joint].delta >= -TOUCHING_GAP_FRACTION * radial_clearance(p, joint);
     return !is_compliant(joint) && (has_no_gap || run->discrete.contact[joint].closed);
 }
 
@@ -134,7 +134,7 @@ static int resolve_impact(Integrator *run, const Parameters *p, int n_impacts_be
             : 0.0; /* 0: a resting contact */
         const Impact listed = {run->t, run->t, u, impulse[k], run->t, i};
         if (impulse[k] > 0.0)
-            status = append_impact(run, &listed, n_impacts_before >= LISTED_PASSES, !known_state.contact[i].closed);
+            status = append_impact(run, &listed, n_impacts_before >= N_LISTED_PASSES, !known_state.contact[i].closed);
         *energy += impulse[k] * u;
     }
     return status ? status : update_modes_after_impact(run, p);
@@ -210,18 +210,18 @@ static int separate_contacts(Integrator *run, const Parameters *p)
 /*
  * Resolve impacts at the current time until no rigid surfaces approach; return 0, CHATTERING or another status. One
  * impact may make other surfaces approach, and these the first ones again, as in a wedge. Two contacts with the
- * Delassus operator G approach in turn at chi[n+1] = (1 + c_e) kappa chi[n] - c_e chi[n-1], where kappa =
- * -G12/sqrt(G11 G22), and chi is the approach speed over sqrt(G11) or sqrt(G22). If (1 + c_e) kappa < 2 sqrt(c_e) some
- * chi is negative: the sequence ends. Otherwise the chi tend to a geometric sequence that never ends. Its limit has no
+ * Delassus operator G approach in turn at chi[n+1] = (1 + c_e) kappa chi[n] - c_e chi[n-1], where kappa = -G12/sqrt(G11
+ * G22), and chi is the approach speed over sqrt(G11) or sqrt(G22). If (1 + c_e) kappa < 2 sqrt(c_e) some chi is
+ * negative: the sequence ends. Otherwise the chi tend to a geometric sequence that never ends. Its limit has no
  * approach speed left and the impulses sum = G^-1 u: the joint impact of all touching contacts with c_e = 0. That
- * impact is solved directly once the ratio is steady, or after MAX_PASSES. Called by update_contacts() at each event,
- * also if nothing approaches.
+ * impact is solved directly once the ratio is steady, or after MAX_IMPACT_PASSES. Called by update_contacts() at each
+ * event, also if nothing approaches.
  */
 static int resolve_impacts(Integrator *run, const Parameters *p)
 {
     double energies[5] = {0.0}; /* impulse times approach speed of the last passes, J */
     int is_limit = 0, status = evaluate_run_rhs(run, run->t, run->y, p, run->dy, &run->rhs);
-    for (int pass = 0; pass < 2 * MAX_PASSES && !status; pass++) {
+    for (int pass = 0; pass < 2 * MAX_IMPACT_PASSES && !status; pass++) {
         memmove(energies, energies + 1, sizeof energies - sizeof *energies);
         status = resolve_impact(run, p, pass, is_limit, &energies[4]);
         if (status || !(energies[4] > 0.0))
@@ -229,7 +229,8 @@ static int resolve_impacts(Integrator *run, const Parameters *p)
         status = evaluate_run_rhs(run, run->t, run->y, p, run->dy, &run->rhs);
         const double ratio_before = energies[2] / energies[0],
             ratio = energies[4] / energies[2]; /* of two passes: contacts alternate */
-        is_limit |= pass >= MAX_PASSES || (pass >= 4 && ratio < 1.0 && fabs(ratio - ratio_before) < RATIO_TOL * ratio);
+        is_limit |= pass >= MAX_IMPACT_PASSES
+            || (pass >= 4 && ratio < 1.0 && fabs(ratio - ratio_before) < RATIO_TOL * ratio);
     }
     return status ? status : CHATTERING;
 }

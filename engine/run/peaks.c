@@ -95,8 +95,8 @@ static void record_inner_peak(Integrator *run, const Step *step, double fraction
         top = min_of(x[2] - 0.1 * width_right, max_of(x[0] + 0.1 * width_left, top));
         const double offset = top - x[1], expected = f[1]
             + offset * (rise + bend * offset) / (width_left * width_right * (width_left + width_right));
-        const double most = max_of(f[1], max_of(f[0], f[2]));
-        if (bend < 0.0 && expected - most + 0.1 * error < tolerance * most)
+        const double largest = max_of(f[1], max_of(f[0], f[2]));
+        if (bend < 0.0 && expected - largest + 0.1 * error < tolerance * largest)
             break;
         const double force = evaluate_and_record_joint_force(run, step, top, joint, p);
         const int above = top > x[1], higher = force > f[1], end = above == higher ? 0 : 2;
@@ -296,19 +296,19 @@ static int may_have_inner_maximum(const Step *step, double fraction, int joint, 
 static double find_largest_force_within_step(
     Integrator *run, Step *step, double fraction, int joint, double force_begin, double force_end, const Parameters *p)
 {
-    double most = 0.0;
+    double largest_square = 0.0;
     int n_inner = 0;
     const StageValues forces = get_stage_values(step, STAGE_FORCES + joint);
     for (int k = 0; k < step->n_stored_stages; k++)
         if (step->node[k] > 0.0 && step->node[k] < fraction) {
-            most = max_of(most, read_stage(forces, k));
+            largest_square = max_of(largest_square, read_stage(forces, k));
             n_inner++;
         }
     if (n_inner < MIN_INNER_STAGES && run->discrete.contact[joint].closed && is_compliant(joint)
         && may_have_inner_maximum(step, fraction, joint, force_begin, force_end)
             && compute_dense_output(run, p, step) == 0)
-        return max_of(sqrt(most), evaluate_and_record_joint_force(run, step, 0.5 * fraction, joint, p));
-    return sqrt(most);
+        return max_of(sqrt(largest_square), evaluate_and_record_joint_force(run, step, 0.5 * fraction, joint, p));
+    return sqrt(largest_square);
 }
 
 /*

@@ -50,6 +50,6 @@ int main(void)
     /* explicit steps that are too short beside the stiff ones from before lead back as well */
     run.control.h_stiff = 1.0;
     run.control.h = 0.5 * STIFF_LENGTH_RATIO;
-    CHECK(steps_to_change(below, 1000) == COMPARE_FROM + 1 + MAX_CONTRARY_STEPS);
+    CHECK(steps_to_change(below, 1000) == MIN_COMPARE_STEPS + 1 + MAX_CONTRARY_STEPS);
     return failures;
 }
