@@ -7,8 +7,10 @@ enum { N_SIGN_PARTS = 4, MAX_REPEATS = 8 /* repetitions of a step to end just af
 /*
  * Set the unset signs of user-defined events from their values at inner points of a step, before the step is committed.
  * Acts only if a contact or friction event ends the step at `fraction` and a sign is unset (0). Such an event holds the
- * user-defined one at zero at both ends. The points are at 1/4, 2/4 and 3/4 of `fraction`. It returns early without an
- * effect if the dense output or a state there cannot be computed.
+ * user-defined one at zero at both ends.
+ *
+ * The points are at 1/4, 2/4 and 3/4 of `fraction`. The function returns early if the dense output or a state there
+ * cannot be computed; signs set before remain.
  */
 static void update_event_signs_within_step(Integrator *run, Step *step, double fraction, int event, const Parameters *p)
 {
@@ -30,9 +32,11 @@ static void update_event_signs_within_step(Integrator *run, Step *step, double f
 
 /*
  * Make the end of an accepted step, or its state at `fraction` < 1 where `event` occurs, the new state of the run at
- * time t_new. Then update everything that depends on it (peaks, works, counts, error weights, step record, event
- * signs), apply the event (-1: none), and check the contacts. `fraction` < 1 needs a dense output that exists. Return 0
- * or the status: that of the state, CHATTERING, that of the event or of the contacts.
+ * time t_new (s). Then update everything that depends on it: peaks, works, counts, error weights, step record, event
+ * signs. Last, apply the event (-1: none), and check open contacts. `fraction` < 1 needs a dense output that exists.
+ *
+ * Return 0 or the status: that of the state, CHATTERING after too many events without advance, that of the event (also
+ * ENDED) or of the contacts.
  */
 static int commit_step(Integrator *run, Step *step, double fraction, double t_new, int event, const Parameters *p)
 {
@@ -77,7 +81,7 @@ static int commit_step(Integrator *run, Step *step, double fraction, double t_ne
 
 /*
  * Return the rounding error in s of the end time t of a fixed step, a multiple of the step length; 0 without fixed
- * steps. Samples within that difference of t are at t.
+ * steps. Samples within that difference of t are taken from the state at t.
  */
 static double compute_end_time_tolerance(const Integrator *run, double t)
 {
@@ -85,9 +89,10 @@ static double compute_end_time_tolerance(const Integrator *run, double t)
 }
 
 /*
- * Store all samples that lie before time t_new, from the dense output of a step, and increment *samples->done for each.
- * Each interpolated state is projected onto the constraints, closed contacts and sticking friction. The right-hand
- * sides evaluated here are not counted. Return 0, or the status if the dense output cannot be computed.
+ * Store all samples whose output times lie before t_new (s), from the dense output of a step, and increment
+ * *samples->done for each. Each interpolated state is projected onto the constraints, closed contacts and sticking
+ * friction. The right-hand sides evaluated here are not counted. Return 0, or the status if the dense output cannot be
+ * computed.
  */
 static int store_samples_of_step(Integrator *run, Step *step, double t_new, const Parameters *p, const Samples *samples)
 {
@@ -109,9 +114,11 @@ static int store_samples_of_step(Integrator *run, Step *step, double t_new, cons
 
 /*
  * Append inner points of a step, up to `fraction`, to the step record before the step is committed. The points divide
- * the step into RECORD_PARTS parts, with further points next to the beginning after a jump and next to the end before
- * one (`has_jump`). Points that coincide with an end are omitted. Return 0, also if no record is kept, or the status of
- * the dense output. Evaluations are not counted.
+ * the step into RECORD_PARTS parts. Further points lie next to the beginning after a jump, and next to the end before
+ * one (`has_jump`).
+ *
+ * Points that coincide with an end are omitted. Return 0, also if no record is kept, or the status of the dense output.
+ * Evaluations are not counted.
  */
 static int append_step_interior_rows(Integrator *run, Step *step, double fraction, int has_jump, const Parameters *p)
 {
@@ -136,8 +143,10 @@ static int append_step_interior_rows(Integrator *run, Step *step, double fractio
 }
 
 /*
- * Append the run's state at the end of a step to the step record. After a change there (`has_jump`) nothing is
- * appended, unless this is the last step: the next step appends the row after the jump.
+ * Append the run's state at the end of a step to the step record. If the state jumped there (`has_jump`), the next row
+ * is marked and nothing is appended: the next step appends the row after the jump. In the last step of a run
+ * (`is_last`) the state after the jump is appended here. Nothing happens without a record. Called by accept_step()
+ * after the step is committed.
  */
 static void append_step_end_row(Integrator *run, int has_jump, int is_last, const Parameters *p)
 {
@@ -159,9 +168,9 @@ static void append_step_end_row(Integrator *run, int has_jump, int is_last, cons
 #define MAX_KNOT_EXTRAPOLATION 0.4 /* of a piece of a curve, which continues beyond its knot (scene/curves.h) */
 
 /*
- * Repeat the current step with length h (s), and find its first event: *event and its *fraction of the step. Contacts
- * and branches are frozen meanwhile. Sets the run's next step length to h and replaces *step. Return 0 or the status;
- * then *event and *fraction are unchanged.
+ * Repeat the current step from its beginning with a length of at most h (s), and find its first event: *event and its
+ * *fraction of the step. Contacts and branches are frozen meanwhile. Sets the run's next step length to h and replaces
+ * *step. Return 0 or the status; then *event and *fraction are unchanged.
  */
 static int repeat_step(
     Integrator *run, double h, double t_end, const Parameters *p, Step *step, double *fraction, int *event)
@@ -176,9 +185,9 @@ static int repeat_step(
 }
 
 /*
- * Return whether an event or a sample needs the dense output of a step, and the dense output cannot be computed. It is
- * needed if its computation has failed before, or if the next sample lies inside the step. It is computed as a side
- * effect; its evaluations are not counted.
+ * Compute the dense output of a step if it is needed, and return whether that failed. It is needed if its computation
+ * has failed before, or if the next sample lies inside the step. Evaluations are not counted. Called in a loop that
+ * repeats the step with a shorter length.
  */
 static int compute_needed_dense_output(Integrator *run, Step *step, const Parameters *p, const Samples *samples)
 {
@@ -191,8 +200,8 @@ static int compute_needed_dense_output(Integrator *run, Step *step, const Parame
 
 /*
  * Return whether a step extends beyond an event at `fraction` by more than MAX_KNOT_EXTRAPOLATION times the time since
- * the last crossing. Such a step may have evaluated another piece of a curve beyond the knot. Always 0 in scenes
- * without curves.
+ * the last crossing of a switching point. Such a step may have evaluated another piece of a curve beyond the knot.
+ * Always 0 in scenes without curves.
  */
 static int is_far_beyond_knot(const Integrator *run, const Step *step, double fraction)
 {
@@ -231,10 +240,12 @@ static int find_event_of_step(
 }
 
 /*
- * Prepare the next step of a run: begin the run if necessary, store samples due at its time, and open an attempt.
- * Return 1 if a step of length run->control.attempt.h must now be computed; an attempt that is open already is
- * continued. Return 0 at the last sample, or if `is_last`: the step is left to the next call. Also return 0 if *status
- * is EVENTS_FULL, STOPPED, STALLED or an error.
+ * Begin the next step of a run: begin or resume the integration if necessary, store samples due at the current time,
+ * and open an attempt. Return 1 if a step of length run->control.attempt.h must now be computed; an attempt that is
+ * open already is continued.
+ *
+ * Return 0 at the last sample, or if `is_last`: the step is left to the next call. Also return 0 if *status is
+ * EVENTS_FULL (Python must fetch the lists), STOPPED, STALLED or an error.
  */
 static int begin_step(Integrator *run, int is_last, const Parameters *p, const Samples *samples, int *status)
 {

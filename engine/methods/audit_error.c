@@ -8,9 +8,9 @@
 enum { AUDIT_MIN_MEASURED_STEPS = 3 }; /* measured steps for a mean error */
 
 /*
- * Return whether the frozen branches and contacts of a run agree with the switching functions and penetrations in
- * `rhs`. Near a switching point or a separation they may not, and a check is then omitted. Rigid joints are not
- * compared.
+ * Return whether the frozen branches and the contacts of compliant joints agree with the switching functions and
+ * penetrations in `rhs`. Near a switching point or a separation they may not, and a check is then omitted. Rigid joints
+ * are not compared.
  */
 static int is_branch_consistent(const Integrator *run, const RhsOutputs *rhs)
 {
@@ -34,7 +34,7 @@ static double compute_audit_weight(const Integrator *run, int k)
 
 /*
  * Return whether a rate of a drive jumps, or is unbounded, at the beginning or at the end of a step. Checks that fail
- * in such a step are not recorded. Always 0 without drives.
+ * in such a step are not recorded. Always 0 in scenes without drives.
  */
 static int has_drive_jump_at_ends(const Integrator *run, const Step *step, const Parameters *p)
 {
@@ -49,11 +49,12 @@ static int has_drive_jump_at_ends(const Integrator *run, const Step *step, const
 }
 
 /*
- * Add the error of a measured step to the sums of the audit, and record a failed CHECK_step if the mean error is too
- * large. The mean error must be small compared with the mean change of rates over a step. Otherwise the method has lost
- * its order, and errors of many short steps add up. error, change: of this step, in tolerances. Steps limited by
- * stability are not counted. No check is made before AUDIT_MIN_MEASURED_STEPS steps and an error sum of
- * AUDIT_MIN_ERROR_SUM tolerances.
+ * Add the error of a measured step to the sums of the audit, and record the mean error as CHECK_step. Its limit is
+ * AUDIT_ORDER of the mean change of rates over a step, more for loose tolerances. A method that has lost its order
+ * exceeds it. error, change: of this step, in tolerances.
+ *
+ * Steps limited by stability (h rho >= 1) are not counted. No check is made before AUDIT_MIN_MEASURED_STEPS steps, or
+ * while the errors extrapolated to all steps sum up to less than AUDIT_MIN_ERROR_SUM tolerances.
  */
 static void check_convergence_order(Integrator *run, double error, double change)
 {
@@ -77,8 +78,8 @@ static const double gauss_weight[] = {0.17392742256872692, 0.32607257743127307, 
     0.17392742256872692};
 
 /*
- * Return the largest component of a step's `error` (2 N_X used) as a multiple of `allowed_error` tolerances plus
- * rounding of the state. error_norm: set to the largest error less rounding, in tolerances.
+ * Return the largest component of a step's `error` (coordinates and velocities, 2 N_X) as a multiple of `allowed_error`
+ * tolerances plus rounding of the state. error_norm: set to the largest error less rounding, in tolerances, at least 0.
  */
 static double find_largest_error(const Integrator *run, const Step *step, const double *error, double allowed_error,
     double *error_norm)

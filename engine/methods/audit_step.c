@@ -87,7 +87,7 @@ static void check_dense_output_rates(Integrator *run, const Step *step, double t
 
 /*
  * Check the rates that a step used at its end against a new evaluation of the right-hand side, and record CHECK_defect.
- * Nothing is checked with fixed steps or if the evaluation fails.
+ * Nothing is checked in runs with fixed steps or if the evaluation fails. Called for drawn steps that no event ends.
  */
 static void check_rates_at_step_end(Integrator *run, Step *step, const Parameters *p)
 {
@@ -100,9 +100,9 @@ static void check_rates_at_step_end(Integrator *run, Step *step, const Parameter
 
 /*
  * Check the film forces at time t of a step by the accelerations `dy` that they cause, against those of the dense
- * output, `rate`. Recorded as CHECK_force of the joint with the largest film force, relative to that force or, if
- * larger, MIN_FILM_FORCE_FRACTION of a peak force in the run. Omitted without films, without tolerances, in the first
- * step, and where a failure is at a jump of a drive.
+ * output, `rate`. The error is recorded as CHECK_force of the joint with the largest film force. It is relative to that
+ * force or, if larger, to MIN_FILM_FORCE_FRACTION of a peak force in the run. Omitted without films, in runs with fixed
+ * steps, in the first step, and where a failure is at a jump of a drive.
  */
 static void check_film_forces(Integrator *run, const Step *step, double t, const RhsOutputs *rhs, const double *rate,
     const double *dy, const Parameters *p)
@@ -121,10 +121,12 @@ static void check_film_forces(Integrator *run, const Step *step, double t, const
 }
 
 /*
- * Check one state y inside a step, at fraction theta. dy, rhs: rates and outputs of the right-hand side at y. With
- * tolerances, the rates of the dense output are compared with dy by compute_scaled_defect() and recorded as
- * CHECK_defect; a failure at a jump of a drive is not recorded. At random points (`is_random`) of scenes without play,
- * check_dense_output_rates() compares them too. Film forces, open gaps and frozen branches are always checked.
+ * Check one state y inside a step, at fraction theta. dy, rhs: rates and outputs of the right-hand side at y. In runs
+ * with step-size control, the rates of the dense output are compared with dy (compute_scaled_defect()) and recorded as
+ * CHECK_defect; a failure at a jump of a drive is not recorded.
+ *
+ * At random points (`is_random`) of scenes without play, check_dense_output_rates() compares them too. Film forces,
+ * open gaps and frozen branches are always checked.
  */
 static void check_interior_state(Integrator *run, Step *step, double theta, int is_random, const double *y,
     const double *dy, const RhsOutputs *rhs, const Parameters *p)
@@ -171,9 +173,9 @@ static void check_interior_point(Integrator *run, Step *step, double theta, int 
 }
 
 /*
- * Return whether user-defined event i changes sign between the beginning of a step and `fraction` at a zero, and not at
- * a pole. Bisection of the dense output, AUDIT_HALVINGS times. It is a zero if the last value is below 0.01 of both end
- * values. Return 0 if a state cannot be evaluated.
+ * Return whether user-defined event i has a zero, not a pole, between the beginning of a step and `fraction`, at which
+ * its values have opposite signs. The dense output is bisected AUDIT_HALVINGS times. It is a zero if the last value is
+ * below 0.01 of both end values. Return 0 if a state cannot be evaluated.
  */
 static int has_event_zero(Integrator *run, Step *step, double fraction, int i, const Parameters *p)
 {
@@ -196,7 +198,7 @@ static int has_event_zero(Integrator *run, Step *step, double fraction, int i, c
 
 /*
  * Return whether the value of user-defined event i exceeds its uncertainty at the end of a step (`is_end`), else at its
- * beginning.
+ * beginning (is_above_uncertainty()).
  */
 static int is_event_resolved(Integrator *run, const Step *step, int is_end, int i, const Parameters *p)
 {
@@ -206,10 +208,10 @@ static int is_event_resolved(Integrator *run, const Step *step, int is_end, int 
 }
 
 /*
- * Store in the audit, for each user-defined event, its scale in this step and whether it crossed zero without ending
- * the step. Called before the step is committed; audit_state() reports the result after it. `event` is the one that
- * ends the step at `fraction`, -1: none. A crossing counts only if it has the requested direction and both end values
- * are resolved.
+ * Prepare the check of user-defined events (check_user_event()) before a step is committed. Store in the audit the
+ * scale of each, whether it left zero, and whether it crosses zero without ending the step (has_zero). A crossing
+ * counts only if it has the requested direction and both end values are resolved. `event` is the one that ends the step
+ * at `fraction`, -1: none.
  */
 static void check_event_zeros(Integrator *run, Step *step, double fraction, int event, const Parameters *p)
 {
@@ -238,8 +240,8 @@ static void check_event_zeros(Integrator *run, Step *step, double fraction, int 
 }
 
 /*
- * Return the mean number of steps between two steps drawn for checks, which limits their cost to AUDIT_COST_FRACTION of
- * the evaluations. It depends on the method alone, so that a run in a batch is checked at the same steps.
+ * Return the mean number of steps between two steps drawn for checks. Their cost is thus limited to AUDIT_COST_FRACTION
+ * of the evaluations. The interval depends on the method alone, so that a run in a batch is checked at the same steps.
  */
 static double compute_mean_check_interval(const Method *method)
 {

@@ -21,7 +21,10 @@ static inline void interpolate_rates(const Step *step, double theta, int n, doub
     }
 }
 
-/* Return the largest film force of all joints in `rhs`, N, and its joint in *joint; 0 and -1 if no film acts. */
+/*
+ * Find the joint with the largest film force in `rhs` (magnitude, N). Return that force, and the number of the joint in
+ * *joint; 0 and -1 if no film acts. Used by the audit to name the joint.
+ */
 static double find_joint_of_largest_film_force(const RhsOutputs *rhs, int *joint)
 {
     double largest_force = 0.0;
@@ -54,8 +57,8 @@ static double compute_film_audit_limit(const Integrator *run, const Step *step)
 
 /*
  * Return the relative error of film forces at fraction theta of a step, from one right-hand side at the interpolated
- * state. Return -1 if the state is undefined. min_force: smallest film force used as scale, N. The dense output must
- * have been computed.
+ * state. Return -1 if the state cannot be evaluated. min_force: smallest film force used as scale, N. The dense output
+ * must have been computed.
  */
 static double evaluate_relative_film_error(Integrator *run, const Step *step, double theta, double min_force,
     const Parameters *p)
@@ -121,9 +124,12 @@ static double estimate_film_error_at_ends(const Integrator *run, const Step *ste
 }
 
 /*
- * Return whether the errors of film forces are, and were recently, so small that they need not be measured inside this
- * step. end_error: that at the ends of the step. Always 1 for explicit methods and without films. They are measured at
- * least every MAX_UNMEASURED_FILM_STEPS steps, in longer steps and in the first step after an event.
+ * Return whether the errors of film forces need not be measured inside this step. end_error: that at the ends of the
+ * step, in limits. Always 1 for explicit methods and without films.
+ *
+ * The last measured error and end_error must be below MAX_SMALL_FILM_ERROR. Errors are measured at least every
+ * MAX_UNMEASURED_FILM_STEPS steps, in steps FILM_LENGTH_RATIO longer than the last measured one, and in the first step
+ * after an event.
  */
 static int is_film_error_small(const Integrator *run, const Step *step, double end_error)
 {
@@ -144,7 +150,7 @@ static int has_unresolved_film_force(const Integrator *run, const Step *step, do
     return end_error > 1.0 && estimate_film_error_at_ends(run, step, 1.0) > 1.0;
 }
 
-/* Return the smallest non-zero mass of a body, kg; infinity if there is none. */
+/* Return the smallest non-zero mass of a body, kg; infinity if no body has mass. */
 static double find_lightest_mass(const Parameters *p)
 {
     double m[N_Q], lightest = INFINITY;
@@ -154,7 +160,10 @@ static double find_lightest_mass(const Parameters *p)
     return lightest;
 }
 
-/* Set the lightest mass of the scene, by which errors of film forces are scaled; infinity without films. */
+/*
+ * Set run->films.lightest, the lightest mass of the scene (kg), by which errors of film forces are scaled; infinity
+ * without films. Called when the integration begins.
+ */
 static void set_film_mass_scale(Integrator *run, const Parameters *p)
 {
     run->films.lightest = has_films() ? find_lightest_mass(p) : INFINITY;

@@ -16,7 +16,7 @@ enum { MAX_FITTED = 3 };
 
 /*
  * Estimate the length of the first step of a run from the error norms of the first two derivatives of the motion. The
- * second derivative is a difference over a trial step by Euler's method. Sets run->control.h; MAX_FIRST_FRACTION of
+ * second derivative is a difference over a trial step by Euler's method. Sets run->control.h (s): MAX_FIRST_FRACTION of
  * time_left (s, to the end) if the rates are constant. Return 0, or the status of the right-hand side.
  */
 static int estimate_initial_step(Integrator *run, double time_left, const Parameters *p)

@@ -54,7 +54,10 @@ static const Method *const METHODS[] = {
  */
 static int uses_baumgarte_terms(const Integrator *run) { return run->choice.method->uses_baumgarte_terms; }
 
-/* Return the index of the method with this name for gudgeon_adaptive_setup(), -1 if the library has no such method. */
+/*
+ * Return the index of the method with this name ("dopri5") for gudgeon_adaptive_setup(), -1 if the library has no such
+ * method.
+ */
 int gudgeon_method(const char *name)
 {
     for (int i = 0; i < COUNT_OF(METHODS); i++)
@@ -65,14 +68,14 @@ int gudgeon_method(const char *name)
 
 /*
  * Return the method of the same name in this library; NULL if `method` is NULL. A run may have begun in another library
- * of the same code, whose pointers are other ones.
+ * of the same code, whose pointers are other ones. The method must exist here.
  */
 static const Method *find_method_in_library(const Method *method)
 {
     return method ? METHODS[gudgeon_method(method->name)] : NULL;
 }
 
-/* Copy n states of one lane, stored with a stride of `lanes` numbers, into `target`. */
+/* Copy n state vectors (N_Y) of one lane, stored with a stride of `lanes` numbers, into `target`. */
 static void copy_states_from_lane(const double *lane, int lanes, int n, double (*target)[N_Y])
 {
     for (int k = 0; k < n; k++)
@@ -83,9 +86,9 @@ static void copy_states_from_lane(const double *lane, int lanes, int n, double (
 static void discard_dense_samples(Integrator *run); /* watch/roots.c */
 
 /*
- * Compute the dense output of a step unless it exists. Return 0, or the status if an additional stage is not
- * computable. A failure is stored and returned again. If the step was computed in lanes, its dense output or its stages
- * are copied from there. Stored samples of the dense output are discarded.
+ * Compute the dense output (continuous extension) of a step unless it exists. Return 0, or the status if an additional
+ * stage is not computable. A failure is stored and returned again. If the step was computed in lanes, its dense output
+ * or its stages are copied from there. Stored samples of the dense output are discarded.
  */
 static int compute_dense_output(Integrator *run, const Parameters *p, Step *step)
 {

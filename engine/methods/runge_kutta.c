@@ -4,13 +4,16 @@
  */
 #include "../scalar_simd/runge_kutta.h"
 
-/* Try a step of length h (s) by the tableau of the step's method: stages, error and end. Return 0 or the status. */
+/*
+ * Try a step of length h (s) of an explicit Runge-Kutta method by the Butcher tableau of step->method: stages, error
+ * and end, into `step`. Return 0 or the status.
+ */
 static int tableau_try_step(Integrator *run, double h, const Parameters *p, Step *step)
 {
     return runge_kutta_try_step(run, step->method->tableau, h, p, step);
 }
 
-/* Compute the dense output of a step by the tableau of its method. Return 0. */
+/* Compute the dense output of a step by the Butcher tableau of its method. Return 0. */
 static int tableau_compute_dense_output(Integrator *run, const Parameters *p, Step *step)
 {
     (void)p;

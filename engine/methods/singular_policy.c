@@ -8,8 +8,8 @@
 enum { MAX_SKIPPED_LOG2 = 6 }; /* log2 of the largest number of steps without detection after failed attempts */
 
 /*
- * Set the policy near singular positions (SINGULAR_...) in the discrete state, with its limits of small pivots: the
- * usual ones for SINGULAR_IGNORE, else NEARBY.
+ * Set the policy near singular positions (SINGULAR_...) in the discrete state, with its limits of small pivots: those
+ * that need only allow a division for SINGULAR_IGNORE, else NEARBY.
  */
 static void set_singular_policy(Integrator *run, int policy)
 {
@@ -53,7 +53,10 @@ static int advance_singular_policy(Integrator *run, int status)
     return 0;
 }
 
-/* Set the policy near singular positions as after a step that met none; for steps that were computed in lanes. */
+/*
+ * Set the policy near singular positions as after a step that met none: one step less without detection, and the policy
+ * of states outside steps. Called for steps that were computed in lanes.
+ */
 static inline void reset_singular_policy(Integrator *run)
 {
     begin_singular_policy(run);

@@ -50,7 +50,7 @@ enum { PATIENCE = 8, MAX_PATIENCE = 4096,
 #define MAX_ORDER_SEEN 30.0 /* largest order of error growth inferred from two steps */
 #define ORDER_DECAY 0.95    /* factor on that order after each step */
 
-/* Replace the methods that a run stores by those of this library, when a call continues the run. */
+/* Replace the methods that a run stores by those of this library, when a call continues a run of another library. */
 static void relink_methods(Integrator *run)
 {
     run->choice.method = find_method_in_library(run->choice.method);
@@ -59,8 +59,8 @@ static void relink_methods(Integrator *run)
 }
 
 /*
- * Set the first method of a run by its index from gudgeon_method(), and the stiff method to which it may change.
- * stiff_method: its index; 0: the method never changes.
+ * Set the first method of a run by its index from gudgeon_method(), and the stiff method to which it may change: its
+ * index, or 0 if the method never changes. A run that begins with the stiff method returns to dop853.
  */
 static void set_method_choice(Integrator *run, int method, int stiff_method)
 {
@@ -74,7 +74,7 @@ static void set_method_choice(Integrator *run, int method, int stiff_method)
 
 /*
  * Start the step-size control of a run at its current time. fixed_step: length of all steps, s, which are accepted with
- * any error; 0: error norms determine the length.
+ * any error; 0: error norms determine the length, and the first one is estimated later.
  */
 static void start_step_control(Integrator *run, double fixed_step)
 {
@@ -86,8 +86,7 @@ static void start_step_control(Integrator *run, double fixed_step)
 
 /*
  * Change the method of a run from the explicit to the stiff one, or back, and reset the counters of the automatic
- * choice. If the run had returned to the explicit method less than LASTING_STEPS ago, the next return needs twice as
- * many steps.
+ * choice. If the explicit method was used for at most LASTING_STEPS steps, the next return needs twice as many steps.
  */
 static void change_method(Integrator *run)
 {
@@ -135,9 +134,9 @@ static double estimate_largest_rate(Integrator *run, const Parameters *p)
 }
 
 /*
- * Update the mean length of recent steps of the method with one of length h (s). Return whether the stiff method does
- * not pay: its steps are not STIFF_COST times as long as the explicit ones before. They are compared MIN_COMPARE_STEPS
- * steps after the change and each CHECK_STIFF_STEPS steps.
+ * Update the mean length of recent steps of the method with one of length h (s), and return whether the stiff method
+ * does not pay: its mean is less than STIFF_COST times that of the explicit steps before. The test is made
+ * MIN_COMPARE_STEPS steps after the change and each CHECK_STIFF_STEPS steps.
  */
 static int detect_slow_stiff_method(MethodChoice *choice, double h)
 {
@@ -189,8 +188,7 @@ static void choose_method(Integrator *run, const Parameters *p)
 }
 
 /*
- * Return the order of a step's error in its length: that of its method, or the lower one of a first step after an
- * event.
+ * Return the order of a step's error in its length: that of its method, or the lower first_step_order after an onset.
  */
 static double compute_error_order(const Integrator *run, const Step *step)
 {
@@ -207,8 +205,8 @@ static double get_bounded_error(const Step *step) { return max_of(MIN_ERROR, ste
 
 /*
  * Return the factor, MIN_SHRINK to MAX_SHRINK, from the length of a rejected step to that of the next attempt. If an
- * attempt at this step was rejected before, both errors show their order; else it is compute_error_order(). The
- * rejected length, its error and its end are stored in the run.
+ * attempt at this step was rejected before, both errors show their order, at least MIN_ORDER_SEEN; else it is
+ * compute_error_order(). The rejected length, its error and its end are stored in the run.
  */
 static double compute_shrink_factor(Integrator *run, const Step *step)
 {
@@ -226,7 +224,8 @@ static double compute_shrink_factor(Integrator *run, const Step *step)
 
 /*
  * Store the length that would have fitted for the first step after an event, for the next event of the same kind. Does
- * nothing if the step is not a first one. After an onset the allowed error of straight motion is stored too.
+ * nothing if the step is not a first one. After an onset the allowed error of straight motion is stored too. The mark
+ * of a first step (control.first) is then cleared.
  */
 static void record_first_step_length(Integrator *run, const Step *step)
 {
@@ -244,7 +243,8 @@ static void record_first_step_length(Integrator *run, const Step *step)
 /*
  * Return the largest factor on the length of the next step by the order of error growth seen in rejected attempts. In
  * stiff motion that order can be far higher than the method's. was_rejected: whether an attempt at this step was
- * rejected, which then updates the stored order; the order decays with each step. Infinity: no limit.
+ * rejected, which then updates the stored order. The order decays with each step; once it is not above that of the
+ * method, return infinity: no limit.
  */
 static double compute_observed_growth(Integrator *run, const Step *step, int was_rejected)
 {
@@ -287,9 +287,9 @@ static void choose_next_length(Integrator *run, const Step *step, int was_reject
 }
 
 /*
- * Return a step length h (s), shortened to end just after the separation of a compliant contact if h would reach
- * beyond. The force is not smooth there. The time to separation follows from penetration and rate. A separation in the
- * first MIN_SEPARATION_FRACTION of h does not shorten it.
+ * Return the step length h (s), shortened to end just after the separation of a closed compliant contact if h would
+ * reach beyond. The force is not smooth there. The time to separation is estimated by delta/|deltadot|. A separation in
+ * the first MIN_SEPARATION_FRACTION of h does not shorten it.
  */
 static double limit_length_by_separation(const Integrator *run, double h)
 {
@@ -304,8 +304,8 @@ static double limit_length_by_separation(const Integrator *run, double h)
 }
 
 /*
- * Return a step length h (s) of at most MAX_FLIGHTS times the time in which a journal that leaves the wall crosses its
- * bearing. Applies to open compliant contacts whose gap grows.
+ * Return the step length h (s), limited to MAX_FLIGHTS times the time in which a journal that leaves the wall crosses
+ * its bearing. Applies to open compliant contacts whose gap grows.
  */
 static double limit_length_by_flight(const Integrator *run, double h, const Parameters *p)
 {
@@ -319,9 +319,9 @@ static double limit_length_by_flight(const Integrator *run, double h, const Para
 }
 
 /*
- * Return a step length h (s), limited just after a switching point by the length last rejected for its error. A
- * switching point of forces changes the motion little; a small estimate of such a long step would be chance. The limit
- * ends at the time that the rejected step would have reached.
+ * Return the step length h (s), limited in the first step after a switching point to the length last rejected for its
+ * error, up to the end of that step. A switching point of forces changes the motion little; a small estimate of such a
+ * long step would be chance.
  */
 static double limit_length_by_rejection(const Integrator *run, double h)
 {
@@ -331,8 +331,8 @@ static double limit_length_by_rejection(const Integrator *run, double h)
 
 /*
  * Return the length in s of a fixed step from the run's time to the next point of the grid that begins with the run.
- * end_time: set to the time at the end of that step, at most t_end. An event in between does not move the grid. A step
- * repeated to end just after an event is shorter: it has the length control.h.
+ * end_time: set to the time at the end of that step, at most t_end. An event in between does not move the grid: the
+ * step after it is shorter. A step repeated to end just after an event has the length control.h.
  */
 static double compute_fixed_step_length(Integrator *run, double t_end, double *end_time)
 {
@@ -353,8 +353,8 @@ static double compute_fixed_step_length(Integrator *run, double t_end, double *e
 /*
  * Open the attempts at the next step of a run towards t_end: set run->control.attempt with the first length to try. The
  * length is limited by contacts, flights, rejected lengths, a suppressed switching point and the end of the run. Fixed
- * steps do not freeze branches. Without an error estimate, a branch held beyond its end, as the force of a film, could
- * grow without bound.
+ * steps do not freeze branches, except in scenes with jumps of drives. Without an error estimate, a branch held beyond
+ * its end, as the force of a film, could grow without bound.
  */
 static void open_attempt(Integrator *run, double t_end, const Parameters *p)
 {
@@ -375,7 +375,7 @@ static void open_attempt(Integrator *run, double t_end, const Parameters *p)
 }
 
 /*
- * Prepare another attempt at the step with length run->control.attempt.h, by the method that the run now has. Return 0.
+ * Request another attempt of length run->control.attempt.h by the method that the run now has. Return 0: not accepted.
  */
 static int request_retry(Integrator *run)
 {
@@ -456,7 +456,6 @@ static int is_step_accepted(Integrator *run, int trial_status, const Parameters 
     if (attempt->h > min_length)
         return request_retry(run);
     if (N_SWITCHES > 0 && trial_status == NOT_FINITE && run->discrete.is_frozen) {
-        /* until the step is committed: a frozen branch may be NaN beyond its switching point */
         run->discrete.is_frozen = 0;
         attempt->h = attempt->longest;
         return request_retry(run);
@@ -471,8 +470,9 @@ static int is_step_accepted(Integrator *run, int trial_status, const Parameters 
 }
 
 /*
- * Compute one attempt at a step of length run->control.attempt.h by the run's method. Return 0 or the status. Near a
- * singular position it is computed again with other policies (advance_singular_policy()).
+ * Compute one attempt at a step of length run->control.attempt.h by the run's method, into `step`. Return 0 or the
+ * status; the error is not tested here. Near a singular position it is computed again with other policies
+ * (advance_singular_policy()).
  */
 static int try_step(Integrator *run, const Parameters *p, Step *step)
 {

@@ -2,8 +2,10 @@
 
 /*
  * Compute tree accelerations a and multipliers of the closures by the equations of all bodies, where a pivot of the
- * tree vanishes. Return 0 or a status. Return NEAR near a singular position if such positions are to be detected. If
- * they are, and this is none, the reduced equations are solved with the usual limits of pivots.
+ * tree vanishes. Return 0 or a status.
+ *
+ * If near-singular positions are to be detected (discrete->least > NEARLY_SINGULAR), return NEAR at one of them;
+ * elsewhere the reduced equations are solved with the usual limits of pivots.
  */
 int solve_by_absolute_equations(double t, const double *q, const double *v, const DiscreteState *discrete,
     const Parameters *p, double *a, RhsOutputs *rhs)

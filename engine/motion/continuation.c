@@ -15,9 +15,9 @@ enum { N_SIDE_NODES = TREE ? 5 : 6, N_WIDE_PASSES = 2, N_NARROW_PASSES = 4 };
 #define WIDE_TOL 1e-10
 
 /*
- * Project state y in place onto the closures by Newton steps, and compute its rates dy and outputs rhs there.
- * max_step_sum: largest allowed sum of the steps, rad. Return 0 or a status; LOST if the projection is longer or does
- * not converge in six steps.
+ * Project state y in place onto the closures by at most six Newton steps, and compute its rates dy and outputs rhs
+ * there. max_step_sum: largest allowed sum of the steps of angles, rad. Return 0 or a status; LOST if the projection is
+ * longer or does not converge, with y changed.
  */
 static int project_and_evaluate_state(
     double t, double *y, DiscreteState *discrete, const Parameters *p, double max_step_sum, double *dy, RhsOutputs *rhs)
@@ -70,7 +70,7 @@ static void add_interpolation_node(
 }
 
 /*
- * Return whether the interpolated accelerations of the last two degrees agree within `tolerance` times their size.
+ * Return whether the accelerations interpolated with the last two degrees agree within `tolerance` times their size.
  * Lengths and angles are compared separately; y: the state, whose squared angular rates count as accelerations.
  */
 static int has_interpolation_converged(const double *y, const ContinuedMotion *interpolated_motion, double tolerance)
@@ -122,7 +122,10 @@ static int continue_motion(
     return 0;
 }
 
-/* Return a copy of a discrete state in which pivots need only be large enough for a division. */
+/*
+ * Return a copy of a discrete state with the usual limits of pivots: these need only be large enough for a division, so
+ * that near-singular positions are not detected.
+ */
 static DiscreteState copy_state_with_usual_pivot_limits(const DiscreteState *discrete)
 {
     DiscreteState now = *discrete;
@@ -131,7 +134,10 @@ static DiscreteState copy_state_with_usual_pivot_limits(const DiscreteState *dis
     return now;
 }
 
-/* Copy the interpolated motion at state y into rates dy and outputs rhs (powers, multipliers). Return 0. */
+/*
+ * Copy the interpolated motion at state y into rates dy and outputs rhs (powers, multipliers). Coordinates' rates are
+ * the velocities in y. Return 0.
+ */
 static int copy_continued_motion(const double *y, const ContinuedMotion *continued_motion, double *dy, RhsOutputs *rhs)
 {
     for (int k = 0; k < N_X; k++) {
@@ -147,8 +153,8 @@ static int copy_continued_motion(const double *y, const ContinuedMotion *continu
 
 /*
  * Compute the rates dy of the integrated state y and the outputs rhs. Return 0 or a status. Near a singular position,
- * the policy in `discrete` decides. The state is projected and evaluated there, the motion is continued from both
- * sides, NEAR is returned, or the state is evaluated without treatment.
+ * discrete->singular_policy decides: the state is projected and evaluated there, the motion is continued from both
+ * sides, NEAR is returned, or the state is evaluated without treatment. y is not changed.
  */
 int compute_motion_rates(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dy,
     RhsOutputs *rhs)
@@ -177,10 +183,11 @@ int compute_motion_rates(double t, const double *y, DiscreteState *discrete, con
 }
 
 /*
- * Compute the corrections dq, dv (N_X) of state y, to be subtracted, that close the loops, and the largest residual
- * *residual. Return 0 or a status. Near a singular position, by the policy in `discrete`, they are those to the
- * continued state, with *residual = 0: one pass is enough. If the motion cannot be continued there, the usual limits of
- * pivots apply. y is not changed.
+ * Compute the corrections dq, dv (N_X) of state y, to be subtracted, that close the loops (one Newton step), and the
+ * largest residual *residual. Return 0 or a status. y is not changed.
+ *
+ * Near a singular position, by the policy in `discrete`, they are those to the continued state, with *residual = 0: one
+ * pass is enough. If the motion cannot be continued there, the usual limits of pivots apply.
  */
 int compute_correction(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dq, double *dv,
     double *residual)

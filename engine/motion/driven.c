@@ -4,8 +4,8 @@
  */
 #if N_DEPENDENT
 /*
- * Compute the rates dy of the integrated state y: independent tree coordinates, their rates, works. Return 0 or a
- * status. Coordinates of driven loops are not in y: they are solved for at time t.
+ * Compute the rates dy of the integrated state y: independent tree coordinates, their rates, works; and the outputs
+ * rhs. Return 0 or a status. Coordinates of driven loops are not in y: they are solved for at time t.
  */
 int evaluate_rhs(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dy, RhsOutputs *rhs)
 {
@@ -29,8 +29,8 @@ int evaluate_rhs(double t, const double *y, DiscreteState *discrete, const Param
 }
 
 /*
- * Evaluate the contacts of joints with play at state y into `rhs`, without solving for accelerations. Return 0 or a
- * status. Driven loops are solved at time t first.
+ * Evaluate the contacts of joints with play at state y into rhs->clearance, without solving for accelerations. Return 0
+ * or a status. Driven loops are solved at time t first.
  */
 int evaluate_contacts(double t, const double *y, DiscreteState *discrete, const Parameters *p, RhsOutputs *rhs)
 {
@@ -88,8 +88,9 @@ void convert_to_absolute(double t, const double *y, const DiscreteState *discret
 }
 
 /*
- * Compute the integrated state y from the state of all bodies, (q, v, works) in `absolute_state`. The positions of the
- * driven loops are stored in `discrete`, from which they are followed.
+ * Compute the integrated state y, except internal states of laws, from the state of all bodies, (q, v, works) in
+ * `absolute_state`. The driven loops are solved at time t and stored in `discrete`; later times are solved from there.
+ * A failure is stored in discrete->chain.failed.
  */
 void convert_from_absolute(double t, const double *absolute_state, DiscreteState *discrete, const Parameters *p,
     double *y)
@@ -119,8 +120,8 @@ int solve_correction(double t, const double *y, DiscreteState *discrete, const P
 }
 
 /*
- * Linearize the equations of motion at state y with accelerations a (N_X) into `linear`. Return 0 or the status of the
- * driven loops.
+ * Linearize the equations of motion at state y with accelerations a (N_X) into `linear`, for Newton's matrix. Return 0
+ * or the status of the driven loops.
  */
 int linearize_state(double t, const double *y, DiscreteState *discrete, const Parameters *p, const double *a,
     const RhsOutputs *rhs, Linear *linear)
@@ -136,7 +137,7 @@ int linearize_state(double t, const double *y, DiscreteState *discrete, const Pa
 
 /*
  * Accept a state: update the maxima of |Phi| and |Phi_dot| of the closures. Return 0 or a status. Driven loops are
- * stored in `discrete` and followed from here on.
+ * stored in `discrete`; later times are solved from there. Called at the start and after each accepted step.
  */
 int accept_state(double t, const double *y, DiscreteState *discrete, const Parameters *p, const RhsOutputs *rhs,
     double *phi_max, double *phi_dot_max)
@@ -170,7 +171,9 @@ int solve_correction(double t, const double *y, DiscreteState *discrete, const P
     return closing_step(t, y, y + N_X, discrete, p, dq, dv, residual);
 }
 
-/* Linearize the equations of motion at state y with accelerations a (N_X) into `linear`. Return 0. */
+/*
+ * Linearize the equations of motion at state y with accelerations a (N_X) into `linear`, for Newton's matrix. Return 0.
+ */
 int linearize_state(double t, const double *y, DiscreteState *discrete, const Parameters *p, const double *a,
     const RhsOutputs *rhs, Linear *linear)
 {

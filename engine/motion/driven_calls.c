@@ -1,8 +1,9 @@
 /* Functions that Python calls to evaluate the motion in tree coordinates, for scenes with driven loops. */
 
 /*
- * Build the state `tree` that the scene's functions read from the coordinates q and rates v of a call from Python.
- * Driven loops are solved at time t from the guess in q. Return 0 or a status.
+ * Build the state `tree`, which the scene's functions read, from the coordinates q and rates v of a call from Python.
+ * Driven loops are solved at time t from the guess of their coordinates after the N_X tree coordinates in q. Return 0
+ * or a status.
  */
 static int solve_tree_state(
     double t, const double *q, const double *v, DiscreteState *discrete, const Parameters *p, TreeState *tree)
@@ -29,7 +30,10 @@ void gudgeon_expand(double t, const double *q, const double *v, const double *p,
     expand(t, tree.q, tree.v, (const Parameters *)p, all_q, all_v);
 }
 
-/* Compute tree coordinates q and rates v from positions and velocities of all bodies (N_Q each). */
+/*
+ * Compute tree coordinates q and rates v from positions and velocities of all bodies (N_Q each). Coordinates of driven
+ * loops follow those of the tree in q and v.
+ */
 void gudgeon_reduce(double t, const double *all_q, const double *all_v, const double *p, double *q, double *v)
 {
     reduce_state(t, all_q, all_v, (const Parameters *)p, q, v);
@@ -60,7 +64,7 @@ int gudgeon_reduced_rhs(double t, const double *q, const double *v, const double
 
 /*
  * Compute the residuals phi of the closures and their rates phi_dot (N_LOOPS each) at a state; driven loops are solved
- * at t.
+ * at t. A failure of that solution is ignored.
  */
 void gudgeon_closures(double t, const double *q, const double *v, const double *p, double *phi, double *phi_dot)
 {

@@ -60,9 +60,7 @@ static inline void store_driven_loops(double t, const TreeState *tree, DrivenLoo
         loops->v[k] = tree->v[N_X + k];
 }
 
-/*
- * Copy stored coordinates and two rates of the driven loops to `tree`; third rates are computed where they are needed.
- */
+/* Copy stored coordinates and two rates of the driven loops to `tree`. Third rates are not copied. */
 static void restore_driven_loops(const DrivenLoops *stored_loops, TreeState *tree)
 {
     for (int k = 0; k < N_LED; k++)
@@ -73,7 +71,8 @@ static void restore_driven_loops(const DrivenLoops *stored_loops, TreeState *tre
 
 /*
  * Return the largest difference of the driven loops' positions in tree_after from their Euler-Maclaurin integral from
- * loops_before, h (s) earlier. In rad; lengths are divided by the size of the mechanism.
+ * loops_before, h (s) earlier. In rad; lengths are divided by the size of the mechanism. Used to detect a change of
+ * branch.
  */
 static double compute_loop_position_error(double h, const DrivenLoops *loops_before, const TreeState *tree_after,
     const Parameters *p)
@@ -89,9 +88,12 @@ static double compute_loop_position_error(double h, const DrivenLoops *loops_bef
 }
 
 /*
- * Solve the driven loops at time t, with two rates, from their state `loops_before` at a near time. Return 0, or the
- * number of a closure if they cannot be solved or the branch is not certain. The branch is certain if the move is short
- * and the positions agree with the integral of the rates.
+ * Solve the driven loops at time t, with two rates, from their state `loops_before` at a near time, whose Taylor series
+ * of third order is the guess. Return 0, or the number of a closure if they cannot be solved or the branch is not
+ * certain.
+ *
+ * The branch is certain if the Newton steps sum up to at most MAX_LOOP_MOVE, and the positions agree with the integral
+ * of the rates within LOOP_POSITION_TOL.
  */
 static int advance_driven_loops(double t, const DrivenLoops *loops_before, const DiscreteState *discrete,
     const Parameters *p, TreeState *tree)
@@ -111,8 +113,9 @@ static int advance_driven_loops(double t, const DrivenLoops *loops_before, const
 }
 
 /*
- * Solve the driven loops at time t from the last accepted state in parts, whose length is halved where a move is too
- * long. Return 0, or the number of a closure that cannot be followed in MAX_LOOP_PARTS parts.
+ * Solve the driven loops at time t from the last accepted state in parts. The length of a part is halved where
+ * advance_driven_loops() fails, and doubled after a success. Return 0, or the number of a closure that cannot be
+ * followed in MAX_LOOP_PARTS parts. The result is in `tree`; `discrete` is not changed.
  */
 static int follow_driven_loops_in_parts(double t, const DiscreteState *discrete, const Parameters *p, TreeState *tree)
 {
@@ -178,9 +181,9 @@ static int interpolate_singular_loops(double t, const DiscreteState *discrete, c
 }
 
 /*
- * Store the driven loops of an accepted state in `discrete`, with third rates; they are followed from there. If third
- * rates cannot be solved, as in a singular position, the loops are interpolated. Return 0, or the number of a closure
- * that fails.
+ * Store the driven loops of an accepted state in `discrete`, with third rates; later times are solved from there. If
+ * third rates cannot be solved, as in a singular position, the loops are interpolated. Return 0, or the number of a
+ * closure that fails.
  */
 static int accept_driven_loops(double t, const TreeState *tree, DiscreteState *discrete, const Parameters *p)
 {
@@ -223,9 +226,9 @@ static inline int follow_driven_loops(double t, const DiscreteState *discrete, c
 }
 
 /*
- * Build all that the scene's functions read at (t, y): driven loops solved at t, and the independent coordinates and
- * rates of y. Several stages of a method share a time. Return 0, or TREE_PIVOTS plus the number of a closure of a
- * driven loop.
+ * Build all that the scene's functions read at (t, y) in `tree`: driven loops solved at t, and the independent
+ * coordinates and rates of y. Without switching functions in the loops, they are solved once for the stages that share
+ * a time. Return 0, or TREE_PIVOTS plus the number of a closure of a driven loop.
  */
 static inline int build_tree_state(double t, const double *y, DiscreteState *discrete, const Parameters *p,
     TreeState *tree)
@@ -243,8 +246,8 @@ static inline int build_tree_state(double t, const double *y, DiscreteState *dis
 }
 
 /*
- * Solve the driven loops at time t from a guess of their coordinates (N_DEPENDENT), and store them in `discrete`. They
- * are followed from there. A failure is stored in discrete->chain.failed.
+ * Solve the driven loops at time t from a guess of their coordinates (N_DEPENDENT), and store them in `discrete`; later
+ * times are solved from there. A failure is stored in discrete->chain.failed. Called where a run starts.
  */
 void solve_driven_loops(double t, const double *guess, DiscreteState *discrete, const Parameters *p)
 {

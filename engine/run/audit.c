@@ -33,7 +33,7 @@ static double draw_random_number(Audit *audit)
     return ((audit->random >> 8) + 0.5) / 16777216.0;
 }
 
-/* Return whether the tolerance controls the step length. */
+/* Return whether errors control the step length; 0 in runs with steps of fixed length. */
 static int has_step_size_control(const Integrator *run) { return run->control.fixed <= 0.0; }
 
 /*
@@ -43,18 +43,21 @@ static int has_step_size_control(const Integrator *run) { return run->control.fi
 static double get_audit_tolerance(const Integrator *run) { return has_step_size_control(run) ? get_rtol(run)
     : AUDIT_FIXED_STEP_TOL; }
 
-/* Return the size of the mechanism in m, which start_audit() has stored. */
+/*
+ * Return the size of the mechanism in m, as stored by start_audit(): the largest distance of a point from the origin of
+ * its body. Used as scale of lengths.
+ */
 static double get_mechanism_size(const Integrator *run) { return run->audit.mechanism_size; }
 
 /*
- * Replace the record of a check by a violation if value/max_value exceeds the recorded multiple. A NaN counts as
- * infinite. A multiple of zero is stored without time and index. A multiple above AUDIT_FAILS sets audit->status to
- * AUDITED. t: time in s; index: as in record_check().
+ * Replace the record of a check by a violation if value/limit exceeds the recorded multiple. A NaN counts as infinite.
+ * A multiple of zero is stored without time and index. A multiple above AUDIT_FAILS sets audit->status to AUDITED. t:
+ * time in s; index: as in record_check(), which calls it.
  */
-static void record_largest_violation(Audit *audit, int check, double value, double max_value, double t, int index)
+static void record_largest_violation(Audit *audit, int check, double value, double limit, double t, int index)
 {
     AuditRecord *record = &audit->record[check];
-    const double multiple = value / max_of(max_value, 1e-300);
+    const double multiple = value / max_of(limit, 1e-300);
     if (!(multiple > record->worst) && multiple == multiple)
         return;
     *record = (AuditRecord){multiple == multiple ? multiple : INFINITY, t, index};
@@ -65,20 +68,20 @@ static void record_largest_violation(Audit *audit, int check, double value, doub
 }
 
 /*
- * Record the value of a check (CHECK_...) at time t (s) with its limit max_value, if value/max_value is the largest so
- * far. index: number of the joint, constraint equation, body coordinate, switching function or event; -1: none. A ratio
- * above AUDIT_FAILS sets the status AUDITED.
+ * Record the value of a check (CHECK_...) at time t (s) with its limit, if value/limit is the largest so far. index:
+ * number of the joint, constraint equation, body coordinate, switching function or event; -1: none. A ratio above
+ * AUDIT_FAILS sets the status AUDITED.
  */
-static void record_check(Audit *audit, int check, double value, double max_value, double t, int index)
+static void record_check(Audit *audit, int check, double value, double limit, double t, int index)
 {
-    if (!(value <= audit->record[check].worst * max_value))
-        record_largest_violation(audit, check, value, max_value, t, index);
+    if (!(value <= audit->record[check].worst * limit))
+        record_largest_violation(audit, check, value, limit, t, index);
 }
 
 /*
- * Check the largest residual |Phi| of all accepted steps so far against its limit, at the end of a step. A residual
- * that is not larger than that of the first step counts as zero. Methods without projection (uses_baumgarte_terms())
- * are not checked.
+ * Check the largest residual |Phi| of all accepted steps so far against its limit, and record CHECK_position. Called at
+ * the end of each step. A residual that is not larger than that of the start and the first step counts as zero. Methods
+ * with Baumgarte's terms instead of projection (uses_baumgarte_terms()) are not checked.
  */
 static void check_constraint_residuals(Integrator *run)
 {
@@ -141,9 +144,9 @@ static void check_constraints(Integrator *run, double t, const double *absolute_
 #if TREE
 /*
  * Compute the states of all bodies at t - h and t + h (s) from the state y and its rates dy at t. Coordinates are
- * extrapolated quadratically and velocities linearly; internal states of laws stay. neighbours[0], neighbours[1]: the
- * results. Return the exact difference of both times in s, which rounding makes different from 2 h. Used by
- * check_accelerations() for central differences.
+ * extrapolated quadratically and velocities linearly; works and internal states of laws stay. neighbours[0],
+ * neighbours[1]: the results. Return the exact difference of both times in s, which rounding makes different from 2 h.
+ * Used by check_accelerations() for central differences.
  */
 static double compute_neighbouring_states(const Integrator *run, double t, const double *y, const double *dy, double h,
     const Parameters *p, double (*neighbours)[N_S])
@@ -253,9 +256,10 @@ static void check_accelerations(Integrator *run, double t, const double *y, cons
 }
 
 /*
- * Check that joints whose contact is open have no penetration beyond their limit at a state with outputs `rhs`.
- * Penetrations up to AUDIT_GRAZE count as zero; the limit contains the error of event location. Runs with steps of
- * fixed length are not checked. Called at the end of each step and at states inside selected steps.
+ * Check that joints whose contact is open have no penetration beyond their limit at a state with outputs `rhs`, and
+ * record CHECK_gap. Closed contacts are skipped. Penetrations up to AUDIT_GRAZE count as zero; the limit contains the
+ * error of event location. Runs with steps of fixed length are not checked. Called at the end of each step and at
+ * states inside selected steps.
  */
 static void check_open_gaps(Integrator *run, double t, const RhsOutputs *rhs, const Parameters *p)
 {
@@ -277,7 +281,10 @@ static void check_open_gaps(Integrator *run, double t, const RhsOutputs *rhs, co
     }
 }
 
-/* Return the time in s after its zero within which an event is located: AUDIT_LOCATED event tolerances. */
+/*
+ * Return the time in s within which an event is located: AUDIT_LOCATED times the time resolution plus 2 ulp of the
+ * time. Also the distance from an event to a state just after it.
+ */
 static double compute_event_location_tolerance(const Integrator *run)
 {
     return AUDIT_LOCATED * (run->roots.time_resolution + 2.0 * DBL_EPSILON * fabs(run->t));
@@ -289,8 +296,9 @@ static int evaluate_state_at(
 
 /*
  * Return whether a switching function has just jumped to the wrong branch at time t (s) in a step. It was then on its
- * branch, or cannot be evaluated, one location tolerance earlier. A jump has its full size at once, so that its value
- * is no violation. Computes the dense output of the step. Called only for a function that is on the wrong branch.
+ * branch, or cannot be evaluated, one location tolerance earlier; return 1 also if that is before the step. A jump has
+ * its full size at once, so that its value is no violation. Computes the dense output of the step. Called only for a
+ * function that is on the wrong branch.
  */
 static int has_jumped_at(Integrator *run, Step *step, double t, int switch_index, const Parameters *p)
 {
@@ -303,10 +311,13 @@ static int has_jumped_at(Integrator *run, Step *step, double t, int switch_index
 }
 
 /*
- * Check the frozen branches at a state inside a step: by how much each switching function is on the wrong branch. Also
- * update the largest magnitudes of the functions in the audit. Not checked: the first AUDIT_MIN_STEPS steps, times just
- * after the beginning, functions that the step passes or suppresses, functions whose branches meet, values below their
- * uncertainty, and jumps that have just happened. Called at states inside the steps that the audit selects.
+ * Check the frozen branches at a state inside a step, and record as CHECK_branch by how much each switching function is
+ * on the wrong branch. Also update the largest magnitudes of the functions in the audit. Called at states inside the
+ * steps that the audit selects.
+ *
+ * Not checked: the first AUDIT_MIN_STEPS steps, times just after the beginning, and functions that the step passes or
+ * suppresses. Also omitted are functions that are continuous at their switching point (`meets`), values below their
+ * uncertainty, and jumps that have just happened.
  */
 static void check_frozen_branches(Integrator *run, Step *step, double t, const double *y, const RhsOutputs *rhs,
     const Parameters *p)
@@ -331,8 +342,8 @@ static void check_frozen_branches(Integrator *run, Step *step, double t, const d
 }
 
 /*
- * Check that joints with compliant surfaces, without a film, exert no force while their contact is open. Called at the
- * end of each step; the limit is a fraction of the largest force so far.
+ * Check that joints with compliant surfaces and without a film exert no force while their contact is open, and record
+ * CHECK_free. The limit is 1e-6 of the joint's largest force so far. Called at the end of each step.
  */
 static void check_forces_of_open_joints(Integrator *run)
 {

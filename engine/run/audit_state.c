@@ -1,9 +1,10 @@
 /* The audit of a run at the end of each step (run/audit.c), and the functions that start and report the audit. */
 
 /*
- * Check a user-defined event at the end of a step. Report an infinite violation if a zero in the step is not recorded,
- * or if rounding around zero is recorded as AUDIT_WRONG_STEPS successive events. n_events_before: number of events in
- * the list before the step. Resets the marks of the step. Called by audit_state() for each user-defined event.
+ * Check a user-defined event at the end of a step, and record CHECK_event. The violation is infinite if a zero in the
+ * step is not in the list of events, or if rounding around zero is listed as AUDIT_WRONG_STEPS successive events.
+ * n_events_before: number of events in the list before the step. Clears has_zero, and has_left_zero after a listed
+ * event. Called by audit_state() for each user-defined event.
  */
 static void check_user_event(Integrator *run, int event, int n_events_before)
 {
@@ -28,9 +29,9 @@ static void check_user_event(Integrator *run, int event, int n_events_before)
 
 /*
  * Check the frozen branches at the end of a step, and count the successive steps that each switching function ends on
- * the wrong branch. A violation is recorded after AUDIT_WRONG_STEPS such steps, if the value exceeds its uncertainty.
- * Suppressed functions and functions whose branches meet are not counted. Updates the largest magnitudes of the
- * functions.
+ * the wrong branch. CHECK_branch is recorded after AUDIT_WRONG_STEPS such steps, if the value exceeds its uncertainty
+ * and 0.001 of its largest magnitude. Suppressed functions and functions that are continuous at their switching point
+ * (`meets`) are not counted. Updates the largest magnitudes of the functions.
  */
 static void check_branches_at_step_end(Integrator *run, const Parameters *p)
 {
@@ -59,9 +60,9 @@ static void check_branches_at_step_end(Integrator *run, const Parameters *p)
 }
 
 /*
- * Check the end of an accepted step: residuals, gaps, driven loops, forces of open joints, branches, user-defined
- * events. n_events_before: number of events in the list before the step. Return 0, also if the audit is off, or AUDITED
- * if a check has failed.
+ * Check the end of an accepted and committed step: residuals, gaps, driven loops, forces of open joints, branches (only
+ * while frozen), user-defined events. n_events_before: number of events in the list before the step. Return 0, also if
+ * the audit is off, or AUDITED once any check has failed.
  */
 static int audit_state(Integrator *run, int n_events_before, const Parameters *p)
 {
@@ -87,8 +88,8 @@ static int audit_state(Integrator *run, int n_events_before, const Parameters *p
 }
 
 /*
- * Initialize the audit of a run before its first step: no check has a record, and random numbers restart. level:
- * AuditLevel, AUDIT_OFF: no audit; size: of the mechanism, m.
+ * Initialize the audit of a run before its first step: no check has a record, and the random numbers restart, the same
+ * in every run. level: AuditLevel, AUDIT_OFF: no audit; size: of the mechanism, m.
  */
 static void start_audit(Integrator *run, int level, double size)
 {

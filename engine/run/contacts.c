@@ -6,9 +6,10 @@
 #define RIGID_GAP_ROUNDING (8.0 * DBL_EPSILON) /* times the clearance: every impact of rigid surfaces has an impulse */
 
 /*
- * Return the negative penetration in m that counts as rounding at a joint: an event function above it has no sign. It
- * is 1e-10 of the largest valid penetration, SHALLOW at most, or RIGID_GAP_ROUNDING clearances for rigid surfaces.
- * Called in the search for zeros of gaps, after events, and at the start for contacts that touch.
+ * Return the threshold in m (negative) below which the event function of a joint's gap has reached zero: above it, its
+ * sign is rounding. For compliant surfaces it is minus 1e-10 of the largest valid penetration, SHALLOW at most; for
+ * rigid ones minus RIGID_GAP_ROUNDING clearances. Used in the search for zeros of gaps, after events, and at the start
+ * for contacts that touch.
  */
 static double compute_gap_event_threshold(const Parameters *p, int joint)
 {
@@ -16,7 +17,10 @@ static double compute_gap_event_threshold(const Parameters *p, int joint)
         : -RIGID_GAP_ROUNDING * radial_clearance(p, joint);
 }
 
-/* Set the integrated internal states of the contact laws of a joint to zero, when its contact begins or ends. */
+/*
+ * Set the integrated internal states of the contact laws of a joint (bristle deflections) to zero in run->y, when its
+ * contact begins or ends. Nothing happens in scenes without internal states.
+ */
 static void reset_internal_states(Integrator *run, int joint)
 {
     for (int k = 0; k < LAW_STATES; k++)
@@ -33,8 +37,8 @@ static void start_contact_record(Integrator *run, int joint, double t, double de
 }
 
 /*
- * Initialize the contacts, restitution ratios and peaks of a new run at time t (s). approach_speed (N_CLEARANCES):
- * stored approach speeds, m/s, NaN for open joints.
+ * Initialize the contact records, restitution ratios and peaks of a new run at time t (s). approach_speed
+ * (N_CLEARANCES): stored approach speeds, m/s, NaN for open joints. Contact states (closed or open) are not set here.
  */
 static void initialize_contacts(Integrator *run, double t, const double *approach_speed)
 {
@@ -47,8 +51,8 @@ static void initialize_contacts(Integrator *run, double t, const double *approac
 }
 
 /*
- * Set which contacts are still being compressed, when an earlier run is resumed. codes: the contact code of each joint
- * at the end of that run. Called when a batch resumes a run.
+ * Set is_compressing of each joint from the contact codes (N_CLEARANCES) at the end of an earlier run: 1 for
+ * CODE_IMPACT, else 0. Called whenever a batch starts or resumes a run.
  */
 static void restore_compression_flags(Integrator *run, const signed char *codes)
 {
@@ -58,7 +62,7 @@ static void restore_compression_flags(Integrator *run, const signed char *codes)
 
 /*
  * Append a contact to the list that Python fetches. For an impact without duration F_peak is the impulse in N s. Return
- * 0, or CHATTERING if the list is full.
+ * 0, or CHATTERING if the list is full; the contact is then dropped.
  */
 static int append_contact(Integrator *run, const Impact *contact)
 {
@@ -71,7 +75,7 @@ static int append_contact(Integrator *run, const Impact *contact)
 /*
  * Append an impact of rigid surfaces to the list, and count an onset if its joint was open (`is_onset`). With
  * `may_merge`, the impulse is added to the last row of the same joint at this time instead, if there is one. Return 0,
- * or CHATTERING if the list is full. Called for each contact of an impact.
+ * or CHATTERING if the list is full. Called for each contact of an impact with a positive impulse.
  */
 static inline int append_impact(Integrator *run, const Impact *impact, int may_merge, int is_onset)
 {
@@ -85,10 +89,7 @@ static inline int append_impact(Integrator *run, const Impact *impact, int may_m
     return append_contact(run, impact);
 }
 
-/*
- * Update the peak force of a joint in this run: store F (N) and time t (s) if F is larger. Called at evaluations
- * between the ends of steps.
- */
+/* Update the peak force of a joint in this run: store F (N) and time t (s) if F is larger. Called by record_force(). */
 static inline void update_peak_force(Integrator *run, int joint, double t, double F)
 {
     if (F > run->contacts.F_peak[joint]) {
@@ -99,7 +100,7 @@ static inline void update_peak_force(Integrator *run, int joint, double t, doubl
 
 /*
  * Update the peak force of the contact that lasts in a joint: store F (N) and time t (s) if F is larger. An open joint
- * is left unchanged. Called at evaluations between the ends of steps.
+ * is left unchanged. Called by record_force().
  */
 static inline void update_contact_peak_force(Integrator *run, int joint, double t, double F)
 {
@@ -115,13 +116,14 @@ static inline void update_largest_eccentricity(Integrator *run, int joint, doubl
     run->contacts.e_max[joint] = max_of(e, run->contacts.e_max[joint]);
 }
 
-/* Store whether the force of a joint rises at the end of the step. */
+/* Store whether the force of a joint rises at the end of the step, for the search of peaks in the next step. */
 static inline void set_force_rising(Integrator *run, int joint,
     int is_rising) { run->contacts.is_rising[joint] = is_rising; }
 
 /*
  * Begin the contact of a joint with compliant surfaces at time t (s). The approach speed deltadot (m/s), raised to
- * min_speed, is stored; internal states of the laws restart, and the onset is counted.
+ * min_speed, is stored in the contact state; the contact starts in compression with a rising force. Internal states of
+ * the laws restart at zero, and the onset is counted.
  */
 static void close_contact(Integrator *run, int joint, double t, double deltadot, double min_speed)
 {
@@ -136,7 +138,7 @@ static void close_contact(Integrator *run, int joint, double t, double deltadot,
 
 /*
  * End the contact of a joint with compliant surfaces at time t (s), reset the internal states of its laws, and append
- * the contact to the list that Python fetches.
+ * the contact to the list that Python fetches. A full list drops it without a status.
  */
 static void open_contact(Integrator *run, int joint, double t)
 {
@@ -175,8 +177,8 @@ static inline int set_rigid_contact(Integrator *run, int joint, int is_closed)
 /*
  * Close and open contacts of compliant surfaces at the start of a run from gaps and gap rates, and return whether any
  * changed. The stored approach speed of a closed contact is at least |deltadot|; estimate_approach_speed() improves it.
- * A penetration within rounding counts as open while the journal leaves the wall. Rigid contacts are left unchanged.
- * Called once, when a run begins.
+ * A penetration within rounding (compute_gap_event_threshold()) counts as open while the journal leaves the wall. Rigid
+ * contacts are left unchanged. Called once, when a run begins.
  */
 static int initialize_compliant_contacts(Integrator *run, const Parameters *p)
 {
@@ -200,8 +202,8 @@ static int initialize_compliant_contacts(Integrator *run, const Parameters *p)
 
 /*
  * Move the oldest contacts, at most `capacity`, from the list into `values` (rows of ImpactColumn) and `joints` (their
- * numbers), and return how many were moved. With `include_open`, the contacts that still last are appended once: no
- * step may follow.
+ * numbers), and return how many were moved. With `include_open`, the contacts that still last are appended once with
+ * t_off = NaN; no step may follow.
  */
 int gudgeon_run_impacts(void *integrator, int include_open, int capacity, double *values, int *joints)
 {

@@ -23,8 +23,8 @@ static double evaluate_contact_event_function(const DiscreteState *discrete, con
 }
 
 /*
- * Return whether the rigid surfaces of a joint touch: the gap is within TOUCHING_GAP_FRACTION clearances, or the
- * contact is closed. Compliant surfaces return 0.
+ * Return whether the rigid surfaces of a joint touch: the gap is at most TOUCHING_GAP_FRACTION clearances, or the
+ * contact is closed. Joints with compliant surfaces return 0.
  */
 static int is_rigid_joint_touching(const Integrator *run, int joint, const Parameters *p)
 {
@@ -34,8 +34,9 @@ static int is_rigid_joint_touching(const Integrator *run, int joint, const Param
 
 /*
  * Return the step length in s within which no open rigid joint moves by more than half its clearance. Free flight is so
- * smooth that a longer step could leave the bearing and return. Gap rates are those of the state and, if `step` is not
- * NULL, of its stages. Infinite without an open rigid joint. Called before each step, and after it with its stages.
+ * smooth that a longer step could leave the bearing and return. Gap rates are those of the run's state and, if `step`
+ * is not NULL, also of its stages. Infinite without an open rigid joint. Called before each step, and after it with its
+ * stages.
  */
 static double compute_flight_step_limit(const Integrator *run, const Step *step, const Parameters *p)
 {
@@ -52,19 +53,19 @@ static double compute_flight_step_limit(const Integrator *run, const Step *step,
 }
 
 /*
- * Compute the Delassus operator of the listed contacts at the current state of the run, count the evaluations, and
- * return a status.
+ * Compute the Delassus operator of the listed contacts at the current state of the run (response to unit contact
+ * forces). Count the evaluations; return a status.
  */
-static int compute_present_delassus(Integrator *run, const Parameters *p, Delassus *contacts)
+static int compute_current_delassus(Integrator *run, const Parameters *p, Delassus *contacts)
 {
     count_evaluations(run, 1 + contacts->n);
     return compute_delassus(evaluate_motion_with_internal_states, N_Y, run->t, run->y, &run->discrete, p, contacts);
 }
 
 /*
- * Add the velocity jumps of normal impulses (N s) and of friction impulses to the state. The energy that they dissipate
- * is subtracted from the work of the joints; the work of drives balances the kinetic energy. approach_speed: of each
- * contact before the impact, m/s.
+ * Add the velocity jumps of normal impulses (N s) and of friction impulses to run->y. The energy that they dissipate is
+ * subtracted from the work of the joints; the work of drives balances the kinetic energy. approach_speed: of each
+ * contact before the impact, m/s. Called by resolve_impact().
  */
 static void apply_impulses(Integrator *run, const Delassus *impact, const double *impulse, const double *approach_speed,
     const FrictionImpulses *friction, const Parameters *p)
@@ -119,7 +120,7 @@ static int resolve_impact(Integrator *run, const Parameters *p, int n_impacts_be
     for (int i = 0; i < N_FRICTIONS; i++)
         run->discrete.mode[i] = MODE_HELD; /* without force: friction elements have no impulse */
     disable_friction(&run->discrete);
-    int status = has_impact ? compute_present_delassus(run, p, &impact) : 0;
+    int status = has_impact ? compute_current_delassus(run, p, &impact) : 0;
     status = !status && has_impact ? solve_complementarity(&impact, rebound_sum, impulse) : status;
     status = !status && has_impact ? compute_friction_impulses(run, &impact, approach_speed, impulse, p, &friction)
         : status;
@@ -162,7 +163,7 @@ static int update_closed_contacts(Integrator *run, int opening_joint, const Para
             contacts.joint[contacts.n++] = i;
     }
     update_frozen_branches(run, p);
-    int status = contacts.n ? compute_present_delassus(run, p, &contacts) : 0;
+    int status = contacts.n ? compute_current_delassus(run, p, &contacts) : 0;
     if (!status)
         status = is_frictionally_inconsistent(&contacts, 1, p) ? FRICTION_INCONSISTENT
                                                                : solve_complementarity(&contacts, contacts.r, force);
@@ -237,8 +238,8 @@ static int resolve_impacts(Integrator *run, const Parameters *p)
 
 /*
  * Resolve impacts, update the active set of rigid contacts and the friction modes, and evaluate the right-hand side
- * after them. event: the event function that ended the step, which opens its closed contact; -1: none. Called at each
- * event and at jumps of drives. Return a status.
+ * after them. event: the event function that ended the step; if it is that of a closed rigid contact, this contact
+ * opens; -1: none. Called at each event and at jumps of drives. Return a status.
  */
 static int update_contacts(Integrator *run, int event, const Parameters *p)
 {
@@ -258,8 +259,8 @@ static int update_contacts(Integrator *run, int event, const Parameters *p)
 }
 
 /*
- * Resolve impacts and close resting rigid contacts at the start of a run, if surfaces touch. Return 0, LOST if a
- * journal is outside its bearing, or another status.
+ * Resolve impacts and close resting rigid contacts at the start of a run, if surfaces of an open contact touch. Return
+ * 0, LOST if a penetration exceeds 1e-6 clearances, or another status.
  */
 static int initialize_rigid_contacts(Integrator *run, const Parameters *p)
 {

@@ -6,9 +6,11 @@
 
 /*
  * Update the stored beginnings of steps before a step is tried: at a new step the current beginning becomes the
- * previous one. A repeated attempt leaves them unchanged. Also set the distance of both beginnings, the accuracy of
- * film forces, and whether the motion continues smoothly, so that initial guesses can be extrapolated
- * (run->newton.continues).
+ * previous one. A repeated attempt leaves them unchanged.
+ *
+ * Also set the distance of both beginnings (last_h, s; 0 unless the last step was stored), the accuracy of film forces
+ * (force_found), and newton.continues. That is whether stages can be extrapolated from the last step: last_h > 0 and no
+ * attempt at this step was rejected.
  */
 static inline void update_iteration_history(Integrator *run)
 {

@@ -13,8 +13,8 @@ enum { MAX_PARABOLAS = 20, MIN_INNER_STAGES = 2 /* with fewer stages inside, the
 #define MAX_PEAK_TOL 1e-5
 
 /*
- * Record the force F (N) of a joint at time t (s) in the envelope, and in the peaks of the run and of the lasting
- * contact. Without an envelope only the peaks are updated.
+ * Record the force F (N) of a joint at time t (s) as possible peak of the run and of a closed contact. If there is an
+ * envelope, extend it.
  */
 static void record_force(Integrator *run, int joint, double t, double F)
 {
@@ -25,9 +25,9 @@ static void record_force(Integrator *run, int joint, double t, double F)
 }
 
 /*
- * Return the force in N of a joint at a fraction of a step, from the dense output, and record it with the eccentricity.
- * If a switching function is on the wrong branch there, branches are updated for this evaluation only. Return 0 if the
- * evaluation fails.
+ * Return the force in N of a joint at a fraction of a step, from the dense output, and record it with the eccentricity
+ * as possible maxima. If a switching function is on the wrong branch there, branches are updated for this evaluation
+ * only. Return 0, without a record, if the evaluation fails. The dense output must have been computed.
  */
 static double evaluate_and_record_joint_force(
     Integrator *run, const Step *step, double fraction, int joint, const Parameters *p)
@@ -56,8 +56,8 @@ static double evaluate_and_record_joint_force(
 }
 
 /*
- * Return the node of the explicit stage inside (0, fraction) with the largest force of a joint, if it exceeds min_force
- * (N); otherwise, and for stiff methods, half of `fraction`.
+ * Return the node (fraction of the step) of the explicit stage inside (0, fraction) with the largest force of a joint,
+ * if it exceeds min_force (N). Otherwise, and for stiff methods, return half of `fraction`.
  */
 static double find_node_of_largest_force(const Step *step, double fraction, int joint, double min_force)
 {
@@ -73,7 +73,7 @@ static double find_node_of_largest_force(const Step *step, double fraction, int 
  * Find the maximum of a joint's force inside a step up to `fraction` by parabolas through three points, and record each
  * evaluated force. force_begin, force_end: the forces at both ends, N. The search ends after MAX_PARABOLAS, or where
  * the parabola predicts a gain below the tolerance (PEAK_TOL). Called if a force rose before the step and falls at its
- * end, or a stage exceeds both ends.
+ * end, or a stage exceeds both ends. The dense output must have been computed.
  */
 static void record_inner_peak(Integrator *run, const Step *step, double fraction, int joint, double force_begin,
     double force_end,
@@ -110,9 +110,10 @@ static void record_inner_peak(Integrator *run, const Step *step, double fraction
 
 #if N_RIGID
 /*
- * Return whether the stages of a complete explicit step show that the force of a contact only rises or only falls
- * between force_begin and force_end (N). Return 0 for stiff methods, too few stages, a part of a step, and terms of
- * time that may oscillate between stages.
+ * Return whether the stages of an explicit step show that the force of a contact only rises or only falls between
+ * force_begin and force_end (N). The test uses a bound on the second derivative from the stages. Return 0 for stiff
+ * methods, fewer than MIN_STAGES samples, a part of a step (fraction < 1), and terms of time that may oscillate between
+ * stages.
  */
 static int is_force_monotone(Step *step, double fraction, int joint, double force_begin, double force_end,
     const Parameters *p)
@@ -135,8 +136,10 @@ static int is_force_monotone(Step *step, double fraction, int joint, double forc
 /*
  * Find and record the largest force of a rigid contact inside a step up to `fraction`. The force may rise and fall
  * while the motion hardly changes. The step is therefore bisected (watch/forces.c) until no part can exceed the largest
- * force. force_begin, force_end: forces at both ends, N. Nothing happens if the stages show a monotone force, or
- * without dense output.
+ * force.
+ *
+ * force_begin, force_end: forces at both ends, N; the first is always recorded. The search is omitted if the stages
+ * show a monotone force, or without dense output.
  */
 static void record_rigid_peak(
     Integrator *run, Step *step, double fraction, int joint, double force_begin, double force_end, const Parameters *p)
@@ -176,8 +179,8 @@ static void record_rigid_peak(
 #endif
 
 /*
- * Return the position in (0, 1) of the maximum of a cubic, given by values and slopes at both ends. Slopes are per unit
- * interval, slope_0 > 0 > slope_1. *height: the value of the cubic at the maximum.
+ * Return the position in (0, 1) of the maximum of a cubic (Hermite interpolation), given by values and slopes at both
+ * ends. Slopes are per unit interval, slope_0 > 0 > slope_1. *height: the value of the cubic at the maximum.
  */
 static double find_cubic_maximum(double value_0, double slope_0, double value_1, double slope_1, double *height)
 {
@@ -189,9 +192,9 @@ static double find_cubic_maximum(double value_0, double slope_0, double value_1,
 }
 
 /*
- * Find the largest eccentricity of a joint inside a step up to `fraction` by at most six cubics, and record it. Nothing
- * happens unless the gap rate changes from outward to inward, if the cubic stays below the largest known eccentricity,
- * or if the evaluation fails.
+ * Find the largest eccentricity of a joint inside a step up to `fraction` by at most six cubics, and record each
+ * evaluated one in the peaks and the envelope. Nothing happens unless the gap rate changes from outward to inward, if
+ * the cubic stays more than 1 % below the largest known eccentricity, or if the evaluation fails.
  */
 static void record_largest_eccentricity(Integrator *run, Step *step, double fraction, int joint, const Parameters *p)
 {
@@ -226,8 +229,9 @@ static void record_largest_eccentricity(Integrator *run, Step *step, double frac
 
 /*
  * Return whether a joint's force (force_end, N) rises (1) or falls (-1) at a fraction of an explicit step, from the
- * last two stages before it. Return 0 if the parabola through them leaves the sign uncertain, or the method is stiff.
- * Used to find forces that pass a maximum in the step.
+ * last two stages before it. Return 0 if the sign is uncertain: the parabola's correction exceeds MAX_BEND of the
+ * slope, or the change is below MIN_FORCE_CHANGE; also for stiff methods. Used to find forces that pass a maximum in
+ * the step.
  */
 static int estimate_force_trend(const Step *step, double fraction, int joint, double force_end)
 {
@@ -251,9 +255,9 @@ static int estimate_force_trend(const Step *step, double fraction, int joint, do
 }
 
 /*
- * Set the trend of each joint whose entry in `trends` is 0 by a very short step along the motion: 1 rises, -1 falls.
- * force_end: the forces at the fraction of the step, N. Return 0 or the status of the evaluation. Called if the stages
- * leave a trend unknown.
+ * Set the trend of each joint whose entry in `trends` is 0 by one evaluation 1e-4 of the step later, along the rates at
+ * its end: 1 rises, -1 falls. force_end: the forces at the fraction of the step, N. Return 0 or the status of the
+ * evaluation; the trends are then unchanged. Called if the stages leave a trend unknown.
  */
 static int determine_force_trends(Integrator *run, const Step *step, double fraction, const double *force_end,
     int *trends,
@@ -273,7 +277,8 @@ static int determine_force_trends(Integrator *run, const Step *step, double frac
 
 /*
  * Return whether the force of a joint may exceed both end values (N) inside a step up to `fraction`. The parabola
- * through both ends and the first stage after `fraction` decides. Return 1 if there is no such stage.
+ * through both ends and the first stage after `fraction` decides; its bend is taken ERROR_SAFETY times. Return 1 if
+ * there is no such stage.
  */
 static int may_have_inner_maximum(const Step *step, double fraction, int joint, double force_begin, double force_end)
 {
@@ -289,9 +294,10 @@ static int may_have_inner_maximum(const Step *step, double fraction, int joint, 
 }
 
 /*
- * Return the largest known force in N of a joint inside a step up to `fraction`, from its stages. If a compliant
- * contact continues and few stages are inside, the force in the middle is evaluated on the dense output as well. 0:
- * none. force_begin, force_end: forces at both ends, N.
+ * Return the largest known force in N of a joint inside a step up to `fraction`, from its stages; 0 without stages
+ * inside. If a compliant contact continues, fewer than MIN_INNER_STAGES are inside and may_have_inner_maximum() is
+ * true, the force in the middle is evaluated on the dense output and recorded as well. force_begin, force_end: forces
+ * at both ends, N.
  */
 static double find_largest_force_within_step(
     Integrator *run, Step *step, double fraction, int joint, double force_begin, double force_end, const Parameters *p)
@@ -312,7 +318,8 @@ static double find_largest_force_within_step(
 }
 
 /*
- * Return whether a contact law ceases to push at the end of a step: with the contact held closed, its force would pull.
+ * Return whether the force of a joint vanishes at the end of a step: it is below 1e-6 of that at the beginning (both
+ * N). In a closed contact the law would pull there, and the force is set to zero.
  */
 static int has_tension_at_end(double force_before, double force_after) { return force_after < 1e-6 * force_before; }
 

@@ -344,7 +344,7 @@ typedef struct {
     Audit audit;
 } Integrator;
 
-/* Return whether the contact law of any joint with play has a film, whose force acts without a contact. */
+/* Return whether the contact law of any joint with play has a lubricant film, whose force acts without a contact. */
 static inline int has_films(void)
 {
     int has_any = 0;
@@ -365,7 +365,10 @@ typedef struct {
     signed char contact_codes[LISTED_EVENTS][AT_LEAST_ONE(N_CLEARANCES)];
 } EventStates;
 
-/* Return the states at the listed user-defined events, which follow the Integrator in memory. */
+/*
+ * Return the states at the listed user-defined events. They follow the Integrator in memory (gudgeon_run_size()), in
+ * scenes with user-defined events only.
+ */
 static inline EventStates *get_event_states(Integrator *run) { return (EventStates *)(run + 1); }
 #endif
 
