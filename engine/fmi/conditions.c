@@ -1,6 +1,6 @@
 /* Checks of the parameters of an FMU instance: conditions of the mechanism file, finite values, clearances. */
 
-/* Return whether `value relation bound` is true, for a relation "<", "<=", ">" or ">=". */
+/* Return whether `value relation bound` is true, for a relation "<", "<=", ">" or ">="; 0 if a number is NaN. */
 static int is_relation_satisfied(const char *relation, double value, double bound)
 {
     if (relation[1] == '=' && value == bound)
@@ -9,8 +9,9 @@ static int is_relation_satisfied(const char *relation, double value, double boun
 }
 
 /*
- * Write " with parameters.c = -0.0001 m" for a value that depends on given parameters into `text` of `size` bytes, else
- * an empty text. value_index: index of the value. Parameters that no longer fit are omitted.
+ * Write " with parameters.c = -0.0001 m" into `text` of `size` bytes: the parameters that the importer has set, if the
+ * value number value_index depends on parameters. Otherwise the text is empty. Parameters that no longer fit are
+ * omitted.
  */
 static void format_given_values(const Model *model, int value_index, char *text, size_t size)
 {
@@ -26,9 +27,9 @@ static void format_given_values(const Model *model, int value_index, char *text,
 }
 
 /*
- * Return whether all parameters of an instance are valid; otherwise log an error about the first invalid one and return
- * 0. Checked are the conditions of fmu.h, that all numbers are finite, and that clearances exceed rounding. size: the
- * mechanism's size, m.
+ * Check all parameters of an instance. Return 1 if they are valid; otherwise log an error about the first invalid one
+ * and return 0. Checked are the conditions of fmu.h, that all numbers are finite, and that clearances exceed
+ * FMU_LEAST_CLEARANCE times the mechanism's size (`size`, m). Called when a run begins.
  */
 static int validate_parameters(const Model *model, double size)
 {

@@ -25,7 +25,7 @@ FMI3_EXPORT fmi3Status fmi3GetFloat64(fmi3Instance instance, const fmi3ValueRefe
                 return fmi3Error;
             const int status = evaluate_outputs(model);
             if (status)
-                return log_error_with_status(model, "a constraint row depends on others", status);
+                return log_error_with_status(model, "a constraint equation depends on others", status);
             value[k] = get_output(model, fmu_outputs[r - VR_OUTPUTS][0], fmu_outputs[r - VR_OUTPUTS][1]);
 #if FMU_EXCHANGE
         } else if (r >= VR_STATES && r < VR_STATES + N_Y) {
@@ -44,12 +44,12 @@ FMI3_EXPORT fmi3Status fmi3GetFloat64(fmi3Instance instance, const fmi3ValueRefe
                 synchronize_states(model);
             const int status = evaluate_exchange_rates(model, dx, &rhs);
             if (status)
-                return log_error_with_status(model, "a constraint row depends on others", status);
+                return log_error_with_status(model, "a constraint equation depends on others", status);
             value[k] = r < VR_INDICATORS ? dx[r - VR_RATES]
                 : get_event_indicator(model, &rhs, (int)(r - VR_INDICATORS));
 #endif
         } else {
-            return log_error_with_status(model, "a variable that there is not", (int)r);
+            return log_error_with_status(model, "unknown variable", (int)r);
         }
     }
     return fmi3OK;
@@ -57,8 +57,8 @@ FMI3_EXPORT fmi3Status fmi3GetFloat64(fmi3Instance instance, const fmi3ValueRefe
 
 /*
  * Set parameters or the tolerance before initialization ends (FMI 3). Return an error for other variables, for values
- * outside their range and during a run. A parameter set to its default counts as not given, so that dependent defaults
- * remain dependent.
+ * outside their range and during a run. A parameter set to its default counts as not set, so that defaults that depend
+ * on other parameters are computed from them. A run that has begun must begin again.
  */
 FMI3_EXPORT fmi3Status fmi3SetFloat64(fmi3Instance instance, const fmi3ValueReference reference[], size_t n,
     const fmi3Float64 value[], size_t n_values)
@@ -72,7 +72,7 @@ FMI3_EXPORT fmi3Status fmi3SetFloat64(fmi3Instance instance, const fmi3ValueRefe
         const char *name = r == VR_RTOL ? "relative_tolerance" : slot >= 0 ? fmu_slots[slot].address : NULL;
         char text[400];
         if (!name || (slot >= 0 && fmu_slots[slot].chosen))
-            return log_error_with_status(model, "a variable that there is not, or that is not set", (int)r);
+            return log_error_with_status(model, "unknown variable, or one that cannot be set", (int)r);
         if (model->phase == RUNNING) { /* parameters are fixed during a run */
             snprintf(text, sizeof text, "%s is fixed: it is set before initialization ends", name);
             return log_error(model, text);
@@ -95,7 +95,7 @@ FMI3_EXPORT fmi3Status fmi3SetFloat64(fmi3Instance instance, const fmi3ValueRefe
 }
 
 /*
- * Copy an instance with the memory of its run into *state, which is allocated if it is NULL (FMI 3). The structs
+ * Copy an instance with the memory of its run into *state (FMI 3), which is allocated if it is NULL. The structs
  * contain no pointers to themselves. Return an error if memory is exhausted.
  */
 FMI3_EXPORT fmi3Status fmi3GetFMUState(fmi3Instance instance, fmi3FMUState *state)
@@ -105,13 +105,13 @@ FMI3_EXPORT fmi3Status fmi3GetFMUState(fmi3Instance instance, fmi3FMUState *stat
         *state = malloc(sizeof(Model) + sizeof(double));
     Model *copy = *state;
     if (!copy)
-        return log_error_with_status(model, "there is no memory", 0);
+        return log_error_with_status(model, "out of memory", 0);
     *copy = *model;
     copy->run = NULL;
     if (model->run) {
         copy->run = malloc(model->size);
         if (!copy->run)
-            return log_error_with_status(model, "there is no memory", 0);
+            return log_error_with_status(model, "out of memory", 0);
         memcpy(copy->run, model->run, model->size);
     }
     return fmi3OK;
@@ -126,7 +126,7 @@ FMI3_EXPORT fmi3Status fmi3SetFMUState(fmi3Instance instance, fmi3FMUState state
     if (copy->run && !run)
         run = malloc(copy->size);
     if (copy->run && !run)
-        return log_error_with_status(model, "there is no memory", 0);
+        return log_error_with_status(model, "out of memory", 0);
     const Model current = *model;
     *model = *copy;
     model->name = current.name;
@@ -150,7 +150,7 @@ FMI3_EXPORT fmi3Status fmi3FreeFMUState(fmi3Instance instance, fmi3FMUState *sta
     return fmi3OK;
 }
 
-/* Get the number of bytes of a serialized state; it is valid for the same library only. */
+/* Get the number of bytes of a serialized state (FMI 3); it is valid for the same library only. */
 FMI3_EXPORT fmi3Status fmi3SerializedFMUStateSize(fmi3Instance instance, fmi3FMUState state, size_t *size)
 {
     const Model *copy = state;
@@ -166,7 +166,7 @@ FMI3_EXPORT fmi3Status fmi3SerializeFMUState(fmi3Instance instance, fmi3FMUState
     size_t size = 0;
     fmi3SerializedFMUStateSize(instance, state, &size);
     if (n < size)
-        return log_error_with_status(instance, "there are fewer bytes than a state has", 0);
+        return log_error_with_status(instance, "the serialized state needs more bytes", 0);
     memcpy(bytes, copy, sizeof(Model));
     if (copy->run)
         memcpy(bytes + sizeof(Model), copy->run, copy->size);
@@ -183,13 +183,13 @@ FMI3_EXPORT fmi3Status fmi3DeserializeFMUState(fmi3Instance instance, const uint
     Model *copy = n < sizeof(Model) ? NULL : malloc(sizeof(Model));
     *state = NULL;
     if (!copy)
-        return log_error_with_status(instance, "these are not the bytes of a state", 0);
+        return log_error_with_status(instance, "the bytes are not a serialized state of this FMU", 0);
     memcpy(copy, bytes, sizeof(Model));
     if (copy->run) { /* the address is invalid; it shows only that a run existed */
         copy->run = n == sizeof(Model) + copy->size ? malloc(copy->size) : NULL;
         if (!copy->run) {
             free(copy);
-            return log_error_with_status(instance, "these are not the bytes of a state", 0);
+            return log_error_with_status(instance, "the bytes are not a serialized state of this FMU", 0);
         }
         memcpy(copy->run, bytes + sizeof(Model), copy->size);
     }
