@@ -30,7 +30,7 @@ static void load_lane_local_steps(
     local_steps->next_sample[k] = t[batch->done[i]];
     local_steps->t_end[k] = get_end_time(batch, i);
     local_steps->steps[k] = 0;
-    local_steps->max_local_steps[k] = run->control.fixed > 0.0 || run->control.attempt.again
+    local_steps->max_local_steps[k] = run->control.fixed > 0.0 || run->control.attempt.was_rejected
         || run->control.attempt.lane != BY_TAYLOR ? 0 : single->max_local_steps(run);
     local_steps->may_accept[k] = -(local_steps->max_local_steps[k] > 0);
     local_steps->has_state[k] = 1;
@@ -117,7 +117,7 @@ static void flush_lane_local_steps(
     run->counts.evaluations += 2 * steps - !!run->series.ready;
     run->progress.ended[N_EVENT_FUNCTIONS] += steps;
     run->progress.monitor.steps += steps;
-    run->choice.since += (int)steps;
+    run->choice.steps_since_change += (int)steps;
     run->choice.n_contrary_steps = run->progress.no_advance = run->progress.short_steps = run->newton.ready =
         run->series.ready = 0;
     run->discrete.is_frozen = 1;
@@ -125,7 +125,7 @@ static void flush_lane_local_steps(
     run->choice.mean_length[0] = lanes->choice.mean_length[k];
     run->series.max_step = local_steps->max_step[k];
     run->control.h = TAYLOR_AHEAD * run->series.max_step;
-    run->control.attempt = (Attempt){.h = h, .longest = h, .left = local_steps->t_end[k] - run->t,
-        .far = compute_time_scale(local_steps, lanes)[k], .open = 1};
+    run->control.attempt = (Attempt){.h = h, .first_h = h, .time_left = local_steps->t_end[k] - run->t,
+        .time_magnitude = compute_time_scale(local_steps, lanes)[k], .open = 1};
 }
 #endif

@@ -44,8 +44,8 @@ FMI3_EXPORT fmi3Status fmi3GetDirectionalDerivative(fmi3Instance instance, const
         if (largest_ratio == 0.0)
             continue;
         memcpy(x, model->x, sizeof x);
-        for (int branch = 0; branch < 2; branch++) {
-            const double h = (branch ? 1e-5 : -1e-5) / largest_ratio;
+        for (int end = 0; end < 2; end++) {
+            const double h = (end ? 1e-5 : -1e-5) / largest_ratio;
             for (int j = 0; j < N_Y; j++)
                 model->x[j] = x[j] + h * direction[j];
             model->outputs_outdated = 1;
@@ -55,7 +55,7 @@ FMI3_EXPORT fmi3Status fmi3GetDirectionalDerivative(fmi3Instance instance, const
             if (status)
                 return log_error_with_status(model, "a constraint equation depends on others", status);
             const int *const output = fmu_outputs[reference - VR_OUTPUTS];
-            end_values[branch] = get_output(model, output[0], output[1]);
+            end_values[end] = get_output(model, output[0], output[1]);
         }
         sensitivity[k] = (end_values[1] - end_values[0]) * largest_ratio / 2e-5;
     }

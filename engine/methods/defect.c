@@ -2,7 +2,7 @@
 
 /*
  * Compute the first n rates dy of the dense output at fraction theta of a step, by differentiating its polynomial. The
- * nested polynomial is y0 + w0 (d0 + w1 (d1 + ...)), each w being theta or 1 - theta (bit k of `turned`). The dense
+ * nested polynomial is y0 + w0 (d0 + w1 (d1 + ...)), each w being theta or 1 - theta (bit k of `reversed`). The dense
  * output must have been computed.
  */
 static inline void interpolate_rates(const Step *step, double theta, int n, double *restrict dy)
@@ -12,9 +12,9 @@ static inline void interpolate_rates(const Step *step, double theta, int n, doub
     for (int i = 0; i < n; i++)
         dy[i] = 0.0;
     for (int k = 0; k < method->degree; k++) {
-        const int turned = method->turned >> k & 1;
-        const double w = turned ? 1.0 - theta : theta, *coefficients = step->dense[k];
-        rate = rate * w + (turned ? -value : value);
+        const int reversed = method->reversed >> k & 1;
+        const double w = reversed ? 1.0 - theta : theta, *coefficients = step->dense[k];
+        rate = rate * w + (reversed ? -value : value);
         value *= w;
         for (int i = 0; i < n; i++)
             dy[i] += rate * coefficients[i];

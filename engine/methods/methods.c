@@ -16,9 +16,9 @@ struct Method {
     int lane;                 /* its code in lanes (BY_..., run/run.h) */
     double power;             /* exponent of the step-size control: 1 / (order of the error estimate + 1) */
     int stiff;                /* whether it uses the Jacobian */
-    double unstable, bounded; /* h rho at which steps are rejected; at which stability limits the steps */
+    double rejected_h_rho, limiting_h_rho; /* h rho above which steps are rejected; stability limits the steps */
     int stages, dense_stages; /* stages of a step, additional stages of its dense output (batch/) */
-    int degree, turned;       /* of y0 + s (d0 + (1 - s) (d1 + s (d2 + ...))); bit k: d_k comes with 1 - s, not s */
+    int degree, reversed;     /* of y0 + s (d0 + (1 - s) (d1 + s (d2 + ...))); bit k: d_k comes with 1 - s, not s */
     const double *error_nodes;      /* fractions of a step, ascending, of its error estimate */
     int n_error_nodes;
     double max_error_fraction; /* of a stiff method: fraction with the largest error of its dense output */

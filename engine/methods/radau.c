@@ -121,14 +121,14 @@ static const double radau9_error_nodes[] = {0.0, 0.057104196114517682, 0.2768430
 
 /* The method Radau IIA of order 5 with three stages. */
 static const Method radau5 = {.name = "radau5", .try = radau5_try_step, .dense = radau5_compute_dense_output,
-    .interpolate = radau_interpolate, .power = 1.0 / 4.0, .stiff = 1, .lane = BY_RADAU5, .unstable = INFINITY,
-    .bounded = INFINITY, .stages = 3, .degree = 5, .turned = 0xA, .error_nodes = radau5_error_nodes,
+    .interpolate = radau_interpolate, .power = 1.0 / 4.0, .stiff = 1, .lane = BY_RADAU5, .rejected_h_rho = INFINITY,
+    .limiting_h_rho = INFINITY, .stages = 3, .degree = 5, .reversed = 0xA, .error_nodes = radau5_error_nodes,
     .n_error_nodes = COUNT_OF(radau5_error_nodes), .max_error_fraction = 0.85,
     .end_rates = &radau5_end_rates};
 
 /* The method Radau IIA of order 9 with five stages. */
 static const Method radau9 = {.name = "radau9", .try = radau9_try_step, .dense = radau9_compute_dense_output,
-    .interpolate = radau_interpolate, .power = 1.0 / 6.0, .stiff = 1, .lane = BY_RADAU9, .unstable = INFINITY,
-    .bounded = INFINITY, .stages = 5, .degree = 5, .turned = 0xA, .error_nodes = radau9_error_nodes,
+    .interpolate = radau_interpolate, .power = 1.0 / 6.0, .stiff = 1, .lane = BY_RADAU9, .rejected_h_rho = INFINITY,
+    .limiting_h_rho = INFINITY, .stages = 5, .degree = 5, .reversed = 0xA, .error_nodes = radau9_error_nodes,
     .n_error_nodes = COUNT_OF(radau9_error_nodes), .max_error_fraction = 0.74,
     .end_rates = &radau9_end_rates};

@@ -30,7 +30,7 @@
 #define SHRINK_FLIGHT_STEP 0.5       /* ratio of the next attempt then */
 #define TRANSIENT_PART 0.5          /* of the time up to a missed transient: length of the next attempt */
 #define MIN_SEPARATION_FRACTION 0.1         /* of a step: an earlier separation does not shorten it */
-enum { PATIENCE = 8, MAX_PATIENCE = 4096,
+enum { MIN_RETURN_STEPS = 8, MAX_RETURN_STEPS = 4096,
     LASTING_STEPS = 400 /* steps with a method after which the next return to it is as easy as the first */,
     RATE_ITERATIONS = 5, RECONSIDER_STEPS = 24 /* steps until the explicit method is considered again */,
     MAX_CONTRARY_STEPS = 3 /* successive steps against the explicit method until the first change */,
@@ -69,7 +69,7 @@ static void set_method_choice(Integrator *run, int method, int stiff_method)
     run->choice.automatic = stiff_method > 0;
     run->choice.implicit = METHODS[stiff_method];
     run->choice.max_contrary_steps = MAX_CONTRARY_STEPS;
-    run->choice.patience = stiff_method && METHODS[method]->stiff ? 4 * PATIENCE : PATIENCE;
+    run->choice.return_steps = stiff_method && METHODS[method]->stiff ? 4 * MIN_RETURN_STEPS : MIN_RETURN_STEPS;
 }
 
 /*
@@ -92,8 +92,8 @@ static void change_method(Integrator *run)
 {
     const int stiff = run->choice.method->stiff;
     if (!stiff)
-        run->choice.patience = run->choice.since > LASTING_STEPS ? PATIENCE
-            : run->choice.patience < MAX_PATIENCE ? 2 * run->choice.patience : run->choice.patience;
+        run->choice.return_steps = run->choice.steps_since_change > LASTING_STEPS ? MIN_RETURN_STEPS
+            : run->choice.return_steps < MAX_RETURN_STEPS ? 2 * run->choice.return_steps : run->choice.return_steps;
     run->control.h_stiff = stiff ? run->control.h : 0.0;
     if (run->choice.method->controls_length)
         set_next_step_length(run, run->step.h); /* not the much larger limit of the next attempt */
@@ -101,14 +101,14 @@ static void change_method(Integrator *run)
     if (!stiff)
         run->choice.mean_length[1] = 0.0;
     run->choice.n_contrary_steps = 0;
-    run->choice.since = 0;
+    run->choice.steps_since_change = 0;
 }
 
 /*
- * Estimate rho, the largest rate of the motion near the run's state in 1/s, by power iteration with differences; 0:
- * unknown. The method is that of B. P. Sommeijer, L. F. Shampine, J. G. Verwer, J. Comput. Appl. Math. 88 (1998),
- * 315-326. It evaluates RATE_ITERATIONS + 1 right-hand sides. Stages of a stiff method do not show a fast mode at rest,
- * which makes an explicit step unstable.
+ * Estimate rho, the largest rate of the motion near the run's state in 1/s (spectral radius), by nonlinear power
+ * iteration with RATE_ITERATIONS + 1 right-hand sides; 0: unknown. The method is that of B. P. Sommeijer, L. F.
+ * Shampine, J. G. Verwer, J. Comput. Appl. Math. 88 (1998), 315-326. Stages of a stiff method do not show a fast mode
+ * at rest, which makes an explicit step unstable.
  */
 static double estimate_largest_rate(Integrator *run, const Parameters *p)
 {
@@ -142,36 +142,37 @@ static int detect_slow_stiff_method(MethodChoice *choice, double h)
 {
     double *mean = &choice->mean_length[!!choice->method->stiff];
     *mean = *mean > 0.0 ? LENGTH_MEMORY * *mean + (1.0 - LENGTH_MEMORY) * h : h;
-    return choice->method->stiff && choice->since % CHECK_STIFF_STEPS == MIN_COMPARE_STEPS
+    return choice->method->stiff && choice->steps_since_change % CHECK_STIFF_STEPS == MIN_COMPARE_STEPS
         && choice->mean_length[1] < STIFF_COST * choice->mean_length[0];
 }
 
 /*
  * Count whether the accepted step speaks against its method, and change the method of an automatic run after enough
  * such steps. The explicit method is left when stability limits its steps, or its steps are shorter than those of the
- * stiff one. The stiff method is left when stability would not limit explicit steps; rho is then estimated first. It is
- * also left when its steps do not pay, and the next change to it then needs twice as many steps. Called after each
- * accepted step.
+ * stiff one. The stiff method is left when stability would not limit explicit steps, by an estimate of rho, or when its
+ * steps do not pay; the next change to it then needs twice as many steps. Called after each accepted step.
  */
 static void choose_method(Integrator *run, const Parameters *p)
 {
     /* the stiff method's stages give a lower bound of rho: soon after a change, compare the step lengths too */
-    const int slower = run->choice.since > MIN_COMPARE_STEPS && run->choice.since < MAX_COMPARE_STEPS
+    const int slower = run->choice.steps_since_change > MIN_COMPARE_STEPS
+        && run->choice.steps_since_change < MAX_COMPARE_STEPS
         && run->control.h < STIFF_LENGTH_RATIO * run->control.h_stiff;
     const int stiff = run->choice.method->stiff;
     const double stability = run->choice.h_rho;
     if (detect_slow_stiff_method(&run->choice, run->step.h) && run->choice.automatic) {
         run->choice.max_contrary_steps *= run->choice.max_contrary_steps < MAX_CONTRARY_LIMIT ? 2 : 1;
-        run->choice.rate = 0.0;
+        run->choice.rho = 0.0;
         change_method(run);
         return;
     }
-    const int against = stiff ? stability < MAX_EXPLICIT_STABILITY : stability > run->choice.method->bounded || slower;
+    const int against = stiff ? stability < MAX_EXPLICIT_STABILITY
+        : stability > run->choice.method->limiting_h_rho || slower;
     run->choice.n_contrary_steps = against ? run->choice.n_contrary_steps + 1 : 0;
-    run->choice.since++;
+    run->choice.steps_since_change++;
     if (run->choice.n_contrary_steps == 1)
         run->choice.contrary_length = run->step.h;
-    const int n_needed = stiff ? run->choice.patience : run->choice.max_contrary_steps;
+    const int n_needed = stiff ? run->choice.return_steps : run->choice.max_contrary_steps;
     if (!run->choice.automatic || run->choice.n_contrary_steps < n_needed)
         return;
     if (stiff && has_films() && run->control.h > MAX_CONTRARY_GROWTH * run->choice.contrary_length) {
@@ -184,7 +185,7 @@ static void choose_method(Integrator *run, const Parameters *p)
         change_method(run);
     else
         run->choice.n_contrary_steps = -RECONSIDER_STEPS;
-    run->choice.rate = rate;
+    run->choice.rho = rate;
 }
 
 /*
@@ -212,10 +213,10 @@ static double compute_shrink_factor(Integrator *run, const Step *step)
 {
     Attempt *attempt = &run->control.attempt;
     double order = compute_error_order(run, step);
-    if (attempt->refused > attempt->h && isfinite(attempt->error) && attempt->error > step->error)
+    if (attempt->rejected_h > attempt->h && isfinite(attempt->error) && attempt->error > step->error)
         order = min_of(1.0 / step->method->power,
-            max_of(MIN_ORDER_SEEN, log(attempt->error / step->error) / log(attempt->refused / attempt->h)));
-    attempt->refused = attempt->h;
+            max_of(MIN_ORDER_SEEN, log(attempt->error / step->error) / log(attempt->rejected_h / attempt->h)));
+    attempt->rejected_h = attempt->h;
     attempt->error = step->error;
     run->control.too_long = attempt->h;
     run->control.too_long_until = run->t + attempt->h;
@@ -249,9 +250,9 @@ static void record_first_step_length(Integrator *run, const Step *step)
 static double compute_observed_growth(Integrator *run, const Step *step, int was_rejected)
 {
     const Attempt *attempt = &run->control.attempt;
-    if (was_rejected && attempt->refused > step->h && isfinite(attempt->error) && attempt->error > step->error)
+    if (was_rejected && attempt->rejected_h > step->h && isfinite(attempt->error) && attempt->error > step->error)
         run->control.observed_order =
-            min_of(MAX_ORDER_SEEN, log(attempt->error / get_bounded_error(step)) / log(attempt->refused / step->h));
+            min_of(MAX_ORDER_SEEN, log(attempt->error / get_bounded_error(step)) / log(attempt->rejected_h / step->h));
     run->control.observed_order *= ORDER_DECAY;
     const double observed_order = run->control.observed_order;
     return observed_order * step->method->power > 1.0
@@ -273,10 +274,10 @@ static void choose_next_length(Integrator *run, const Step *step, int was_reject
     const double error = get_bounded_error(step), power = step->method->power;
     double factor = SAFETY * approx_exp2(power
         * (LAST_ERROR_EXPONENT * approx_log2(run->control.error_before) - ERROR_EXPONENT * approx_log2(error)));
-    const double known = run->choice.since <= PATIENCE ? run->choice.rate * step->h : 0.0;
+    const double known = run->choice.steps_since_change <= MIN_RETURN_STEPS ? run->choice.rho * step->h : 0.0;
     const double stability = max_of(run->choice.h_rho, known);
     if (!step->method->stiff && stability > 1.0)
-        factor = min_of(factor, STABLE_GROWTH * step->method->bounded / stability);
+        factor = min_of(factor, STABLE_GROWTH * step->method->limiting_h_rho / stability);
     factor = min_of(factor, compute_observed_growth(run, step, was_rejected));
     const double max_factor = was_rejected ? 1.0 /* [1] */ : step->has_zero_bracket ? MAX_GROWTH_EVENTS : MAX_GROWTH;
     factor = min_of(max_factor, max_of(MIN_GROWTH, factor));
@@ -370,8 +371,8 @@ static void open_attempt(Integrator *run, double t_end, const Parameters *p)
                 compute_flight_step_limit(run, NULL, p))), p);
         h = h > left * EQUAL_LENGTH_RATIO ? left : h;
     }
-    run->control.attempt = (Attempt){.h = h, .longest = h, .left = left, .end = end, .far = far, .open = 1,
-        .lane = run->choice.method->lane, .film_error_norm = INFINITY};
+    run->control.attempt = (Attempt){.h = h, .first_h = h, .time_left = left, .end = end, .time_magnitude = far,
+        .open = 1, .lane = run->choice.method->lane, .film_error_norm = INFINITY};
 }
 
 /*
@@ -412,17 +413,17 @@ static int is_step_accepted(Integrator *run, int trial_status, const Parameters 
         attempt->film_error_norm = error > run->control.accept ? error : INFINITY;
     }
     const int is_good = !trial_status && step->error <= run->control.accept;
-    const double min_length = MIN_STEP_FRACTION * attempt->far;
-    if (is_good && !method->stiff && run->choice.h_rho > method->unstable) {
+    const double min_length = MIN_STEP_FRACTION * attempt->time_magnitude;
+    if (is_good && !method->stiff && run->choice.h_rho > method->rejected_h_rho) {
         count_rejected_step(run);
         if (run->choice.automatic && !attempt->methods_failed)
             change_method(run);
         else
-            attempt->h *= method->bounded / run->choice.h_rho;
+            attempt->h *= method->limiting_h_rho / run->choice.h_rho;
         return request_retry(run);
     }
     if (is_good && FLIGHT_STEP_SLACK * compute_flight_step_limit(run, step, p) < attempt->h) {
-        attempt->again = 1;
+        attempt->was_rejected = 1;
         count_rejected_step(run);
         attempt->h *= SHRINK_FLIGHT_STEP;
         return request_retry(run);
@@ -430,26 +431,26 @@ static int is_step_accepted(Integrator *run, int trial_status, const Parameters 
     const int unresolved = is_good && is_step_unresolved(run, step, p);
     if (is_good && (unresolved || has_unresolved_film_force(run, step, end_error))
         && attempt->n_shortened++ < MAX_REDUCTIONS) {
-        attempt->again = 1;
+        attempt->was_rejected = 1;
         count_rejected_step(run);
         attempt->h *= SHRINK_UNRESOLVED;
         return request_retry(run);
     }
-    const double transient = is_good && attempt->h > MIN_TRANSIENT_FRACTION * attempt->far
+    const double transient = is_good && attempt->h > MIN_TRANSIENT_FRACTION * attempt->time_magnitude
         ? find_missed_transient(run, step, p) : 0.0;
     if (transient > 0.0 && attempt->n_shortened++ < MAX_REDUCTIONS) {
-        attempt->again = 1;
+        attempt->was_rejected = 1;
         count_rejected_step(run);
         attempt->h *= max_of(SHRINK_UNRESOLVED, TRANSIENT_PART * transient);
         return request_retry(run);
     }
     if (is_good) {
-        choose_next_length(run, step, attempt->again, attempt->h < attempt->left);
-        const int is_short = attempt->h < SHORT_STEP_FRACTION * attempt->far;
+        choose_next_length(run, step, attempt->was_rejected, attempt->h < attempt->time_left);
+        const int is_short = attempt->h < SHORT_STEP_FRACTION * attempt->time_magnitude;
         *status = detect_short_step_stall(run, is_short) ? diagnose_stall(run, TOO_SMALL, p) : 0;
         return 1;
     }
-    attempt->again = 1;
+    attempt->was_rejected = 1;
     count_rejected_step(run);
     attempt->h *= trial_status == NOT_FOUND ? SHRINK_NEWTON : trial_status ? SHRINK_FAILED
         : compute_shrink_factor(run, step);
@@ -457,7 +458,7 @@ static int is_step_accepted(Integrator *run, int trial_status, const Parameters 
         return request_retry(run);
     if (N_SWITCHES > 0 && trial_status == NOT_FINITE && run->discrete.is_frozen) {
         run->discrete.is_frozen = 0;
-        attempt->h = attempt->longest;
+        attempt->h = attempt->first_h;
         return request_retry(run);
     }
     if (!run->choice.automatic || !method->stiff || attempt->methods_failed++) {
@@ -465,7 +466,7 @@ static int is_step_accepted(Integrator *run, int trial_status, const Parameters 
         return 1;
     }
     change_method(run); /* its matrix is singular with dependent constraints; the explicit method can continue */
-    attempt->h = attempt->longest;
+    attempt->h = attempt->first_h;
     return request_retry(run);
 }
 

@@ -116,8 +116,8 @@ static const Method taylor = {.name = "taylor",
     .interpolate = taylor_interpolate,
     .lane = BY_TAYLOR,
     .power = 1.0 / TAYLOR_ORDERS,
-    .unstable = INFINITY,
-    .bounded = 1.0, /* taylor_estimate_stiffness() stores larger values only */
+    .rejected_h_rho = INFINITY,
+    .limiting_h_rho = 1.0, /* taylor_estimate_stiffness() stores larger values only */
     .degree = TAYLOR_ORDERS,
     .error_nodes = taylor_error_nodes,
     .n_error_nodes = COUNT_OF(taylor_error_nodes),

@@ -9,9 +9,9 @@
 
 enum { N_SIDE_NODES = TREE ? 5 : 6, N_WIDE_PASSES = 2, N_NARROW_PASSES = 4 };
 #define MAX_CLOSING_MOVE 0.1 /* rad: largest projection of a stage onto the constraints */
-#define NODE_TURN (TREE ? 1e-2 : 2e-2) /* rad: motion of the fastest angle between nodes; doubled in later passes */
+#define NODE_ANGLE (TREE ? 1e-2 : 2e-2) /* rad: motion of the fastest angle between nodes; doubled in later passes */
 #define CONTINUATION_TOL 1e-7 /* of the accelerations: largest difference of the polynomials of the last two degrees */
-#define WIDE_TURN 4e-2 /* the same for smooth motion: rounding at distant nodes is amplified less */
+#define WIDE_NODE_ANGLE 4e-2 /* the same for smooth motion: rounding at distant nodes is amplified less */
 #define WIDE_TOL 1e-10
 
 /*
@@ -22,7 +22,7 @@ enum { N_SIDE_NODES = TREE ? 5 : 6, N_WIDE_PASSES = 2, N_NARROW_PASSES = 4 };
 static int project_and_evaluate_state(
     double t, double *y, DiscreteState *discrete, const Parameters *p, double max_step_sum, double *dy, RhsOutputs *rhs)
 {
-    double moved = 0.0, before = INFINITY;
+    double step_sum = 0.0, before = INFINITY;
     for (int pass = 0; pass < 6; pass++) {
         double dq[N_X], dv[N_X], residual, step = 0.0;
         const int status = solve_correction(t, y, discrete, p, dq, dv, &residual);
@@ -33,8 +33,8 @@ static int project_and_evaluate_state(
             y[N_X + k] -= dv[k];
             step = is_angle[k] ? max_of(step, fabs(dq[k])) : step;
         }
-        moved += step;
-        if (!(moved <= max_step_sum))
+        step_sum += step;
+        if (!(step_sum <= max_step_sum))
             return LOST;
         if (residual < 1e-15 || (residual < 1e-12 && residual > 0.5 * before))
             return evaluate_rhs(t, y, discrete, p, dy, rhs);
@@ -99,19 +99,20 @@ static int continue_motion(
     if (!(fastest > 0.0 && fastest < INFINITY))
         return 0;
     for (int pass = -N_WIDE_PASSES; pass < N_NARROW_PASSES; pass++) {
-        const double turn = pass < 0 ? WIDE_TURN * ldexp(1.0, -N_WIDE_PASSES - pass) : NODE_TURN * ldexp(1.0, pass);
+        const double node_angle =
+            pass < 0 ? WIDE_NODE_ANGLE * ldexp(1.0, -N_WIDE_PASSES - pass) : NODE_ANGLE * ldexp(1.0, pass);
         int status = discrete->token && poll_cancellation(discrete->token) ? STOPPED : 0;
         *interpolated_motion = (ContinuedMotion){0};
         for (int k = 1; k <= N_SIDE_NODES && !status; k++)
-            for (int branch = -1; branch <= 1 && !status; branch += 2) {
-                const double h = branch * k * turn / fastest;
+            for (int sign = -1; sign <= 1 && !status; sign += 2) {
+                const double h = sign * k * node_angle / fastest;
                 double projected[N_Y], dy[N_Y];
                 DiscreteState now = *discrete;
                 RhsOutputs rhs;
                 for (int i = 0; i < N_Y; i++)
                     projected[i] = y[i] + (i < N_X ? h * y[N_X + i] : 0.0);
-                status = project_and_evaluate_state(t + (N_DRIVES ? h : 0.0), projected, &now, p, 0.5 * k * turn, dy,
-                    &rhs);
+                status = project_and_evaluate_state(t + (N_DRIVES ? h : 0.0), projected, &now, p,
+                    0.5 * k * node_angle, dy, &rhs);
                 add_interpolation_node(k, projected, dy, &rhs, interpolated_motion);
             }
         if (!status && has_interpolation_converged(y, interpolated_motion, pass < 0 ? WIDE_TOL : CONTINUATION_TOL))

@@ -56,8 +56,8 @@ static void extrapolate_singular_loops(
     for (int k = 0; k < N_DEPENDENT; k++)
         fastest = max_of(fastest, fabs(discrete->chain.v[k]));
     for (double e = 1e-7; e < 0.05; e *= 10.0)
-        for (int branch = -1; branch <= 1; branch += 2) {
-            const double h = branch * e / fastest;
+        for (int sign = -1; sign <= 1; sign += 2) {
+            const double h = sign * e / fastest;
             DiscreteState now = *discrete;
             if (build_tree_state(t - h, y, &now, p, tree))
                 continue;

@@ -67,16 +67,16 @@ int gudgeon_reduced_rescue(
 double gudgeon_time_reduced(long count, double t, const double *q, const double *v, const double *discrete,
     const double *p)
 {
-    double a[N_X + 1] = {0.0}, moved[N_X + 1], sum = 0.0;
+    double a[N_X + 1] = {0.0}, q_perturbed[N_X + 1], sum = 0.0;
     DiscreteState now = {0};
     RhsOutputs rhs;
     read_discrete_state(discrete, &now);
     for (int k = 0; k < N_X; k++)
-        moved[k] = q[k];
+        q_perturbed[k] = q[k];
     for (long i = 0; i < count; i++) {
-        reduced_dynamics(t, moved, v, &now, (const Parameters *)p, a, &rhs);
+        reduced_dynamics(t, q_perturbed, v, &now, (const Parameters *)p, a, &rhs);
         sum += a[0];
-        moved[0] = q[0] + 1e-300 * sum;
+        q_perturbed[0] = q[0] + 1e-300 * sum;
     }
     return sum;
 }

@@ -33,7 +33,7 @@ static void reset_internal_states(Integrator *run, int joint)
  */
 static void start_contact_record(Integrator *run, int joint, double t, double deltadot)
 {
-    run->contacts.open[joint] = (Impact){t, NAN, deltadot, 0.0, t, joint};
+    run->contacts.lasting[joint] = (Impact){t, NAN, deltadot, 0.0, t, joint};
 }
 
 /*
@@ -104,9 +104,9 @@ static inline void update_peak_force(Integrator *run, int joint, double t, doubl
  */
 static inline void update_contact_peak_force(Integrator *run, int joint, double t, double F)
 {
-    if (run->discrete.contact[joint].closed && F > run->contacts.open[joint].F_peak) {
-        run->contacts.open[joint].F_peak = F;
-        run->contacts.open[joint].t_peak = t;
+    if (run->discrete.contact[joint].closed && F > run->contacts.lasting[joint].F_peak) {
+        run->contacts.lasting[joint].F_peak = F;
+        run->contacts.lasting[joint].t_peak = t;
     }
 }
 
@@ -144,8 +144,8 @@ static void open_contact(Integrator *run, int joint, double t)
 {
     run->discrete.contact[joint].closed = 0;
     reset_internal_states(run, joint);
-    run->contacts.open[joint].t_off = t;
-    append_contact(run, &run->contacts.open[joint]);
+    run->contacts.lasting[joint].t_off = t;
+    append_contact(run, &run->contacts.lasting[joint]);
 }
 
 /*
@@ -170,8 +170,8 @@ static inline int set_rigid_contact(Integrator *run, int joint, int is_closed)
         start_contact_record(run, joint, run->t, contact->deltadot_minus);
         return 0;
     }
-    run->contacts.open[joint].t_off = run->t;
-    return append_contact(run, &run->contacts.open[joint]);
+    run->contacts.lasting[joint].t_off = run->t;
+    return append_contact(run, &run->contacts.lasting[joint]);
 }
 
 /*
@@ -209,10 +209,10 @@ int gudgeon_run_impacts(void *integrator, int include_open, int capacity, double
 {
     const Integrator *run = integrator;
     Contacts *contacts = &((Integrator *)integrator)->contacts;
-    for (int i = 0; include_open && !contacts->open_listed && i < N_CLEARANCES; i++)
+    for (int i = 0; include_open && !contacts->lasting_listed && i < N_CLEARANCES; i++)
         if (run->discrete.contact[i].closed)
-            contacts->impacts[contacts->n_impacts++] = contacts->open[i];
-    contacts->open_listed = include_open;
+            contacts->impacts[contacts->n_impacts++] = contacts->lasting[i];
+    contacts->lasting_listed = include_open;
     const int n = contacts->n_impacts < capacity ? contacts->n_impacts : capacity;
     for (int i = 0; i < n; i++, values += N_IMPACT_COLUMNS) {
         const Impact *impact = &contacts->impacts[i];

@@ -29,7 +29,7 @@ static inline void update_iteration_history(Integrator *run)
     }
     run->newton.last_h = run->t - run->newton.before_t;
     run->newton.force_found = min_of(1e-2, FILM_FORCE_TOL / run->norm.inverse_scale[2 * N_X - 1]);
-    run->newton.continues = run->newton.last_h > 0.0 && !run->control.attempt.again;
+    run->newton.continues = run->newton.last_h > 0.0 && !run->control.attempt.was_rejected;
 }
 
 #endif

@@ -155,7 +155,7 @@ static void record_rigid_peak(
             {fraction, force_end, NAN}, INFINITY};
     for (int n = 1, samples = 1; n > 0;) {
         const SampledPart now = part[n - 1];
-        const double largest_known = max_of(run->contacts.open[joint].F_peak, force_end) * (1.0 + RIGID_FORCE_TOL);
+        const double largest_known = max_of(run->contacts.lasting[joint].F_peak, force_end) * (1.0 + RIGID_FORCE_TOL);
         const double width = now.end.s - from.s;
         const double slope = 0.5 * (now.end.f - from.f), bend = from.f - 2.0 * now.middle.f + now.end.f;
         const double top = bend < 0.0 && fabs(slope) < -bend ? now.middle.f - 0.5 * slope * slope / bend
@@ -337,7 +337,7 @@ static void record_inner_peaks(Integrator *run, Step *step, double fraction, con
     for (int i = 0; i < N_CLEARANCES; i++) {
         record_largest_eccentricity(run, step, fraction, i, p);
         const Clearance *a = &run->rhs.clearance[i], *b = &step->rhs.clearance[i];
-        const double largest_known = run->discrete.contact[i].closed ? run->contacts.open[i].F_peak
+        const double largest_known = run->discrete.contact[i].closed ? run->contacts.lasting[i].F_peak
             : run->contacts.F_peak[i];
         force_begin[i] = compute_force_magnitude(a), force_end[i] = compute_force_magnitude(b);
         /* a contact's force may double in a step, a film's grows by some percent */

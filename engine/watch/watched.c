@@ -124,7 +124,7 @@ static void expand_dense_output(const Integrator *run, const Step *step, DensePo
     for (int i = 0; i < 2 * N_X; i++) {
         double c[N_DENSE + 1] = {step->dense[degree - 1][i]};
         for (int k = degree - 1; k >= 0; k--) {
-            const int has_factor_one_minus_s = step->method->turned >> k & 1; /* times 1 - s instead of s */
+            const int has_factor_one_minus_s = step->method->reversed >> k & 1; /* times 1 - s instead of s */
             for (int j = degree - k; j > 0; j--)
                 c[j] = has_factor_one_minus_s ? c[j] - c[j - 1] : c[j - 1];
             c[0] = (has_factor_one_minus_s ? c[0] : 0.0) + (k > 0 ? step->dense[k - 1][i] : run->y[i]);

@@ -30,22 +30,22 @@ int main(void)
     CHECK(run.choice.method == METHODS[stiff]);
 
     /* a step of the other kind in between begins the count anew */
-    CHECK(steps_to_change(below, PATIENCE - 1) == 0);
+    CHECK(steps_to_change(below, MIN_RETURN_STEPS - 1) == 0);
     CHECK(steps_to_change(2.0 * MAX_EXPLICIT_STABILITY, 1) == 0);
-    CHECK(steps_to_change(below, 1000) == PATIENCE);
+    CHECK(steps_to_change(below, 1000) == MIN_RETURN_STEPS);
 
     /* a return that did not last makes the next one twice as hard, up to a limit */
-    for (int patience = 2 * PATIENCE; patience <= MAX_PATIENCE; patience *= 2) {
+    for (int return_steps = 2 * MIN_RETURN_STEPS; return_steps <= MAX_RETURN_STEPS; return_steps *= 2) {
         CHECK(steps_to_change(beyond, 1000) == MAX_CONTRARY_STEPS);
-        CHECK(steps_to_change(below, 2 * MAX_PATIENCE) == patience);
+        CHECK(steps_to_change(below, 2 * MAX_RETURN_STEPS) == return_steps);
     }
     CHECK(steps_to_change(beyond, 1000) == MAX_CONTRARY_STEPS);
-    CHECK(steps_to_change(below, 2 * MAX_PATIENCE) == MAX_PATIENCE);
+    CHECK(steps_to_change(below, 2 * MAX_RETURN_STEPS) == MAX_RETURN_STEPS);
 
     /* one that lasted makes it as easy as the first */
     CHECK(steps_to_change(below, LASTING_STEPS) == 0);
     CHECK(steps_to_change(beyond, 1000) == MAX_CONTRARY_STEPS);
-    CHECK(steps_to_change(below, 1000) == PATIENCE);
+    CHECK(steps_to_change(below, 1000) == MIN_RETURN_STEPS);
 
     /* explicit steps that are too short beside the stiff ones from before lead back as well */
     run.control.h_stiff = 1.0;
