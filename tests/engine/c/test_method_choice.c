@@ -19,7 +19,7 @@ static int steps_to_change(double stability, int most)
 int main(void)
 {
     const int explicit = gudgeon_method("dop853"), stiff = gudgeon_method("rodas5p");
-    const double beyond = 2.0 * METHODS[explicit]->bounded, below = 0.5 * MAX_EXPLICIT_STABILITY;
+    const double beyond = 2.0 * METHODS[explicit]->limiting_h_rho, below = 0.5 * MAX_EXPLICIT_STABILITY;
 
     set_method_choice(&run, explicit, 0);
     CHECK(steps_to_change(beyond, 1000) == 0); /* it may not change */
