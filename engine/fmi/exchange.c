@@ -32,9 +32,9 @@ static int evaluate_exchange_rates(Model *model, double *dx, RhsOutputs *rhs)
 {
     int status = 0, changed = 1;
     for (int pass = 0; pass < 6 && changed && !status; pass++) {
-        DiscreteState now = model->discrete;
-        status = compute_motion_rates(model->t, model->x, &now, (const Parameters *)model->p, dx, rhs);
-        changed = now.is_frozen && flip_violated_branches(model, rhs, 0);
+        DiscreteState discrete_state = model->discrete;
+        status = compute_motion_rates(model->t, model->x, &discrete_state, (const Parameters *)model->p, dx, rhs);
+        changed = discrete_state.is_frozen && flip_violated_branches(model, rhs, 0);
     }
     return status;
 }
@@ -45,12 +45,12 @@ static int evaluate_exchange_rates(Model *model, double *dx, RhsOutputs *rhs)
  */
 static int raise_nominals(Model *model)
 {
-    double mass[N_Q], all[N_S], energy = 0.0;
+    double mass[N_Q], absolute_state[N_S], energy = 0.0;
     int is_raised = 0;
     mass_matrix((const Parameters *)model->p, mass);
-    convert_to_absolute(model->t, model->x, &model->discrete, (const Parameters *)model->p, all);
+    convert_to_absolute(model->t, model->x, &model->discrete, (const Parameters *)model->p, absolute_state);
     for (int k = 0; k < N_Q; k++)
-        energy += 0.5 * mass[k] * all[N_Q + k] * all[N_Q + k];
+        energy += 0.5 * mass[k] * absolute_state[N_Q + k] * absolute_state[N_Q + k];
     for (int k = N_X; k < N_Y; k++) {
         double nominal = model->nominal[k];
         for (int i = 0; i < N_X && k < 2 * N_X; i++)
@@ -120,8 +120,8 @@ static double compute_closure_drift(Model *model, int is_projected)
     double drift = 0.0;
     for (int pass = 0; pass < (is_projected ? 3 : 1) && N_LOOPS > 0; pass++) {
         double dq[N_X], dv[N_X], residual;
-        DiscreteState now = model->discrete;
-        if (compute_correction(model->t, model->x, &now, (const Parameters *)model->p, dq, dv, &residual))
+        DiscreteState discrete_state = model->discrete;
+        if (compute_correction(model->t, model->x, &discrete_state, (const Parameters *)model->p, dq, dv, &residual))
             return -1.0;
         for (int k = 0; k < N_X; k++) {
             drift = fmax(drift, fabs(dq[k]) / (fmu_is_angle[k] ? 1.0 : model->extent));

@@ -107,11 +107,11 @@ static int continue_motion(
             for (int sign = -1; sign <= 1 && !status; sign += 2) {
                 const double h = sign * k * node_angle / fastest;
                 double projected[N_Y], dy[N_Y];
-                DiscreteState now = *discrete;
+                DiscreteState discrete_state = *discrete;
                 RhsOutputs rhs;
                 for (int i = 0; i < N_Y; i++)
                     projected[i] = y[i] + (i < N_X ? h * y[N_X + i] : 0.0);
-                status = project_and_evaluate_state(t + (N_DRIVES ? h : 0.0), projected, &now, p,
+                status = project_and_evaluate_state(t + (N_DRIVES ? h : 0.0), projected, &discrete_state, p,
                     0.5 * k * node_angle, dy, &rhs);
                 add_interpolation_node(k, projected, dy, &rhs, interpolated_motion);
             }
@@ -129,10 +129,10 @@ static int continue_motion(
  */
 static DiscreteState copy_state_with_usual_pivot_limits(const DiscreteState *discrete)
 {
-    DiscreteState now = *discrete;
-    now.least = NEARLY_SINGULAR;
-    now.least_size = VANISHING;
-    return now;
+    DiscreteState discrete_state = *discrete;
+    discrete_state.least = NEARLY_SINGULAR;
+    discrete_state.least_size = VANISHING;
+    return discrete_state;
 }
 
 /*
@@ -160,7 +160,7 @@ static int copy_continued_motion(const double *y, const ContinuedMotion *continu
 int compute_motion_rates(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dy,
     RhsOutputs *rhs)
 {
-    ContinuedMotion at;
+    ContinuedMotion continued;
     if (discrete->singular_policy == SINGULAR_PROJECT || discrete->singular_policy == SINGULAR_PROJECT_OR_IGNORE) {
         double projected[N_Y];
         memcpy(projected, y, sizeof projected);
@@ -175,12 +175,12 @@ int compute_motion_rates(double t, const double *y, DiscreteState *discrete, con
         || discrete->singular_policy == SINGULAR_PROJECT_OR_IGNORE; /* near enough that it cannot be closed */
     if (discrete->singular_policy == SINGULAR_DETECT || (status != NEAR && (status || !open)))
         return status;
-    if (continue_motion(t, y, discrete, p, &at))
-        return copy_continued_motion(y, &at, dy, rhs);
+    if (continue_motion(t, y, discrete, p, &continued))
+        return copy_continued_motion(y, &continued, dy, rhs);
     if (discrete->singular_policy == SINGULAR_PROJECT)
         return NEAR;
-    DiscreteState now = copy_state_with_usual_pivot_limits(discrete);
-    return evaluate_rhs(t, y, &now, p, dy, rhs);
+    DiscreteState discrete_state = copy_state_with_usual_pivot_limits(discrete);
+    return evaluate_rhs(t, y, &discrete_state, p, dy, rhs);
 }
 
 /*
@@ -198,15 +198,15 @@ int compute_correction(double t, const double *y, DiscreteState *discrete, const
         return status;
     double dy[N_Y];
     RhsOutputs rhs;
-    ContinuedMotion at;
-    DiscreteState now = *discrete;
-    if (evaluate_rhs(t, y, &now, p, dy, &rhs) != NEAR || !continue_motion(t, y, discrete, p, &at)) {
-        now = copy_state_with_usual_pivot_limits(discrete);
-        return solve_correction(t, y, &now, p, dq, dv, residual);
+    ContinuedMotion continued;
+    DiscreteState discrete_state = *discrete;
+    if (evaluate_rhs(t, y, &discrete_state, p, dy, &rhs) != NEAR || !continue_motion(t, y, discrete, p, &continued)) {
+        discrete_state = copy_state_with_usual_pivot_limits(discrete);
+        return solve_correction(t, y, &discrete_state, p, dq, dv, residual);
     }
     for (int k = 0; k < N_X; k++) {
-        dq[k] = y[k] - at.y[k];
-        dv[k] = y[N_X + k] - at.y[N_X + k];
+        dq[k] = y[k] - continued.y[k];
+        dv[k] = y[N_X + k] - continued.y[N_X + k];
     }
     *residual = 0.0; /* one pass is enough */
     return 0;

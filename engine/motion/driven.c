@@ -58,8 +58,8 @@ static void extrapolate_singular_loops(
     for (double e = 1e-7; e < 0.05; e *= 10.0)
         for (int sign = -1; sign <= 1; sign += 2) {
             const double h = sign * e / fastest;
-            DiscreteState now = *discrete;
-            if (build_tree_state(t - h, y, &now, p, tree))
+            DiscreteState discrete_state = *discrete;
+            if (build_tree_state(t - h, y, &discrete_state, p, tree))
                 continue;
             for (int k = 0; k < N_DEPENDENT; k++) {
                 tree->q[N_X + k] += h * (tree->v[N_X + k] + 0.5 * h * tree->v[N_X + N_DEPENDENT + k]);
@@ -79,8 +79,8 @@ void convert_to_absolute(double t, const double *y, const DiscreteState *discret
     double *absolute_state)
 {
     TreeState tree;
-    DiscreteState now = *discrete;
-    if (build_tree_state(t, y, &now, p, &tree))
+    DiscreteState discrete_state = *discrete;
+    if (build_tree_state(t, y, &discrete_state, p, &tree))
         extrapolate_singular_loops(t, y, discrete, p, &tree);
     expand(t, tree.q, tree.v, p, absolute_state, absolute_state + N_Q);
     for (int k = 0; k < N_WORK; k++)

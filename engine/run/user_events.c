@@ -23,13 +23,14 @@ static inline void set_pole_flag(Integrator *run, int is_pole) { run->events.pol
 static int record_user_event(Integrator *run, int event, double t, const double *state_vector, const Parameters *p)
 {
 #if N_USER_EVENTS
-    EventStates *at = get_event_states(run);
+    EventStates *states = get_event_states(run);
     const double t_first = t - SAME_ZERO_RESOLUTIONS * run->roots.time_resolution;
     for (int k = run->events.n - 1; k >= 0 && run->events.t[k] >= t_first; k--)
         if (run->events.number[k] == event)
             return 0; /* within the time resolution: the same zero, crossed again by rounding */
     if (run->events.n < LISTED_EVENTS)
-        store_sample(run, t, state_vector, p, run->events.n, at->y[0], at->discrete_states[0], at->contact_codes[0]);
+        store_sample(run, t, state_vector, p, run->events.n, states->y[0], states->discrete_states[0],
+            states->contact_codes[0]);
     append_user_event(run, event, t);
     return run->events.stop && event_stops[event];
 #else
