@@ -210,11 +210,12 @@ static int is_far_beyond_knot(const Integrator *run, const Step *step, double fr
 }
 
 /*
- * Find the first event of an accepted step: *event (-1: none) and its *fraction of the step (1: none). Steps without a
- * needed dense output are repeated with a quarter of their length. Four kinds of steps are repeated to end just after
- * the event, because their values beyond it are not valid. These are fixed steps, steps with periods of mod or far
- * beyond a knot, and steps with wrong film forces at the event. The next step length of the run is restored. Return 0
- * or the status.
+ * Find the first event of an accepted step: *event (-1: none) and its *fraction of the step (1: none), and repeat the
+ * step where its results are not valid. Return 0 or the status. The next step length of the run is restored.
+ *
+ * A step whose needed dense output cannot be computed is repeated with a quarter of its length. Four kinds of steps are
+ * repeated to end just after the event: fixed steps, steps with periods of mod, steps far beyond a knot, and steps with
+ * inaccurate film forces at the event.
  */
 static int find_event_of_step(
     Integrator *run, const Samples *samples, const Parameters *p, Step *step, double *fraction, int *event)

@@ -1,9 +1,9 @@
 /* Start of a run by any method: tolerances, speed scales, branches of switching functions, signs of event functions. */
 #if N_USER_EVENTS
 /*
- * Set the signs of user-defined events that are still zero at the start, from their values at 1e-6, 1e-4 and 1e-2 of
- * the first step length after it. The state is extrapolated along its rates. Return 0, or the status if already the
- * first evaluation fails. Called last when the integration begins.
+ * Set the signs of user-defined events that are still zero at the start, without recording an event. They follow from
+ * values at 1e-6, 1e-4 and 1e-2 of the first step length after it, extrapolated along the rates. Return 0, or the
+ * status if already the first evaluation fails. Called last when the integration begins.
  */
 static int set_initial_event_signs(Integrator *run, const Parameters *p)
 {
@@ -122,8 +122,8 @@ static int initialize_run_at_start(Integrator *run, const Parameters *p)
  * drives, signs of user-defined events, first step length. Contacts and branches are frozen from here on. time_left: to
  * the end of the run, s. Return 0 or the status.
  *
- * A first step length that is known already is kept; in a closed contact it is fitted as at an onset. Methods that
- * control their length begin with time_left.
+ * A first step length that is known already is kept; otherwise it is estimated and, in a closed contact, fitted as at
+ * an onset. Methods that control their length begin with time_left.
  */
 static int begin_integration(Integrator *run, double time_left, const Parameters *p)
 {

@@ -7,7 +7,7 @@ enum { MAX_DRIFT_REJECTIONS = 4 }; /* attempts of a step rejected for their dist
  * zero of the function is the event. Order of k: contacts, switching functions, friction elements, user-defined events.
  * rhs: outputs of the right-hand side at the state.
  */
-static double event_function(const DiscreteState *discrete, const RhsOutputs *rhs, int k)
+static double compute_event_value(const DiscreteState *discrete, const RhsOutputs *rhs, int k)
 {
     if (k < N_CLEARANCES)
         return evaluate_contact_event_function(discrete, rhs, k);
@@ -20,7 +20,7 @@ static double event_function(const DiscreteState *discrete, const RhsOutputs *rh
     return discrete->event_sign[k - N_FRICTIONS] * rhs->event[k - N_FRICTIONS];
 }
 
-/* Compute all event functions of a state into out (N_EVENT_FUNCTIONS), in the order of event_function(). */
+/* Compute all event functions of a state into out (N_EVENT_FUNCTIONS), in the order of compute_event_value(). */
 static void evaluate_event_functions(const DiscreteState *discrete, const RhsOutputs *rhs, double *out)
 {
     for (int i = 0; i < N_CLEARANCES; i++)
@@ -28,7 +28,7 @@ static void evaluate_event_functions(const DiscreteState *discrete, const RhsOut
     for (int k = 0; k < N_SWITCHES; k++)
         out[N_CLEARANCES + k] = discrete->branch[k] * rhs->g[k];
     for (int k = N_CLEARANCES + N_SWITCHES; k < N_EVENT_FUNCTIONS; k++)
-        out[k] = event_function(discrete, rhs, k);
+        out[k] = compute_event_value(discrete, rhs, k);
 }
 
 /* Return the relative tolerance of the steps of a run (that of the last velocity), 0 for fixed steps. */
@@ -204,10 +204,12 @@ static int is_error_not_finite(const Integrator *run, double error) { return (vo
 static int is_step_rejected(const Integrator *run, const Step *step) { return step->error > run->control.accept; }
 
 /*
- * Project the end of a tried step onto the constraints and closed contacts, and evaluate the right-hand side there. A
- * large projection counts as error of the step: the estimate of Radau, filtered by the Jacobian, may miss it near a
- * singular position. It does not count in the first step, which closes the start, and after MAX_DRIFT_REJECTIONS
- * attempts, as rounding. Return 0, NOT_FINITE, or the status of the right-hand side.
+ * Project the end of a tried step onto the constraints and closed contacts, and evaluate the right-hand side there,
+ * into step->dy and step->rhs. Return 0, NOT_FINITE, or the status of the right-hand side.
+ *
+ * A projection by more than MAX_CONSTRAINT_DRIFT counts as error of the step: the estimate of Radau, filtered by the
+ * Jacobian, may miss it near a singular position. It does not count in the first step, which closes the start, and
+ * after MAX_DRIFT_REJECTIONS attempts, as rounding.
  */
 static int finish_step(Integrator *run, Step *step, const Parameters *p)
 {

@@ -7,7 +7,7 @@
  * G. Wanner, Solving ODEs II (1996), section IV.2. Gustafsson recommends 0.7 and 0.4 for explicit methods.
  *
  * [1] E. Hairer, S. P. Norsett, G. Wanner, Solving ODEs I (1993), section II.4, and its code DOP853; [2] the code
- * RADAU5 of II, section IV.8. Constants without a source are gudgeon's own.
+ * RADAU5 of II, section IV.8. Constants without a source were chosen for gudgeon.
  */
 #define SAFETY 0.9              /* [1] */
 #define SAFETY_ONSET 0.8        /* the same for the first step of a contact, whose error has a lower order */
@@ -30,7 +30,7 @@
 #define SHRINK_FLIGHT_STEP 0.5       /* ratio of the next attempt then */
 #define TRANSIENT_PART 0.5          /* of the time up to a missed transient: length of the next attempt */
 #define MIN_SEPARATION_FRACTION 0.1         /* of a step: an earlier separation does not shorten it */
-enum { MIN_RETURN_STEPS = 8, MAX_RETURN_STEPS = 4096,
+enum { MIN_RETURN_STEPS = 8, MAX_RETURN_STEPS = 4096 /* successive steps against the stiff method until it is left */,
     LASTING_STEPS = 400 /* steps with a method after which the next return to it is as easy as the first */,
     RATE_ITERATIONS = 5, RECONSIDER_STEPS = 24 /* steps until the explicit method is considered again */,
     MAX_CONTRARY_STEPS = 3 /* successive steps against the explicit method until the first change */,
@@ -188,9 +188,7 @@ static void choose_method(Integrator *run, const Parameters *p)
     run->choice.rho = rate;
 }
 
-/*
- * Return the order of a step's error in its length: that of its method, or the lower first_step_order after an onset.
- */
+/* Return the order of a step's error in its length: that of its method, or the lower first_step_order of an onset. */
 static double compute_error_order(const Integrator *run, const Step *step)
 {
     const double order = 1.0 / step->method->power;
@@ -244,8 +242,7 @@ static void record_first_step_length(Integrator *run, const Step *step)
 /*
  * Return the largest factor on the length of the next step by the order of error growth seen in rejected attempts. In
  * stiff motion that order can be far higher than the method's. was_rejected: whether an attempt at this step was
- * rejected, which then updates the stored order. The order decays with each step; once it is not above that of the
- * method, return infinity: no limit.
+ * rejected, which updates the stored order. The order decays with each step; up to that of the method, return infinity.
  */
 static double compute_observed_growth(Integrator *run, const Step *step, int was_rejected)
 {
@@ -260,10 +257,10 @@ static double compute_observed_growth(Integrator *run, const Step *step, int was
 }
 
 /*
- * Set the length run->control.h of the next step after an accepted one, by the PI controller and its limits.
- * was_rejected: whether an attempt at this step was rejected; the length then does not grow. is_uncut: whether the step
- * ended before the end of the run. A cut step with a small error does not shorten the next one. Methods that control
- * their length only get its largest value.
+ * Set the length run->control.h of the next step after an accepted one, by the PI controller and its limits; store its
+ * error and, after an event, its length. was_rejected: whether an attempt at this step was rejected; the length then
+ * does not grow. is_uncut: whether the step ended before the end of the run. A cut step with a small error does not
+ * shorten the next one. Methods that control their length only get its largest value.
  */
 static void choose_next_length(Integrator *run, const Step *step, int was_rejected, int is_uncut)
 {
@@ -375,9 +372,7 @@ static void open_attempt(Integrator *run, double t_end, const Parameters *p)
         .open = 1, .lane = run->choice.method->lane, .film_error_norm = INFINITY};
 }
 
-/*
- * Request another attempt of length run->control.attempt.h by the method that the run now has. Return 0: not accepted.
- */
+/* Request another attempt of length run->control.attempt.h by the method that the run now has. Return 0: rejected. */
 static int request_retry(Integrator *run)
 {
     run->control.attempt.lane = run->choice.method->lane;
@@ -489,7 +484,10 @@ static int try_step(Integrator *run, const Parameters *p, Step *step)
 /* Close the attempts at a step after one of them was accepted. */
 static void close_attempt(Integrator *run) { run->control.attempt.open = 0; }
 
-/* Try steps of decreasing length until one is accepted, and close the attempts. Return 0 or the status of a failure. */
+/*
+ * Try steps (shorter, or by another method) until one is accepted or fails, and close the attempts. Return 0 or the
+ * status.
+ */
 static int find_accepted_step(Integrator *run, const Parameters *p, Step *step)
 {
     int status;

@@ -108,8 +108,8 @@ void convert_from_absolute(double t, const double *absolute_state, DiscreteState
 
 /*
  * Compute one Newton step of the projection of state y onto the loop closures: corrections dq, dv (N_X), to be
- * subtracted, and the largest residual *residual. Driven loops are solved at time t first. y is not changed.
- * Return 0 or a status.
+ * subtracted, and the largest residual *residual. Driven loops are solved at time t first. y is not changed. Return 0
+ * or a status.
  */
 int solve_correction(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dq, double *dv,
     double *residual)
@@ -162,8 +162,7 @@ int accept_state(double t, const double *y, DiscreteState *discrete, const Param
 #else
 /*
  * Compute one Newton step of the projection of state y onto the loop closures: corrections dq, dv (N_X), to be
- * subtracted, and the largest residual *residual. y is not changed.
- * Return 0 or a status.
+ * subtracted, and the largest residual *residual. y is not changed. Return 0 or a status.
  */
 int solve_correction(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dq, double *dv,
     double *residual)

@@ -11,11 +11,12 @@ enum { MAX_LOOP_ITERATIONS = 8, MAX_LOOP_PARTS = 60, SINGULAR_NODES = 4 };
 
 /*
  * Solve the closures of the driven loops at time t by Chebyshev's method, from the guess in q. Only q[N_X] and later
- * elements are replaced: the loops' coordinates and directions. An iteration consists of two Newton steps; the error
- * after it is about second_step^2/step. If the second is not much smaller than the first, no root is near (L. V.
- * Kantorovich). *step_sum: sum over iterations of the largest first step, rad or fraction of the size. Return 0 if that
- * error is below rounding, or if *step_sum < 1e-9 after all MAX_LOOP_ITERATIONS iterations; otherwise the number of a
- * closure.
+ * elements are replaced: the loops' coordinates and directions. *step_sum: sum over iterations of the largest first
+ * step, rad or fraction of the size.
+ *
+ * An iteration consists of two Newton steps; the error after it is about second_step^2/step. If the second exceeds a
+ * quarter of the first, no root is near (L. V. Kantorovich). Return 0 if that error is below rounding, or if *step_sum
+ * < 1e-9 after all MAX_LOOP_ITERATIONS iterations; otherwise the number of a closure.
  */
 static int solve_loop_closures(double t, double *q, const DiscreteState *discrete, const Parameters *p,
     double *step_sum)
@@ -146,8 +147,8 @@ static int follow_driven_loops_in_parts(double t, const DiscreteState *discrete,
 /*
  * Interpolate the driven loops at a time at which a loop is in a singular position (a dead centre: links in one line),
  * where its closures do not determine it. Polynomials in time pass through SINGULAR_NODES regular states before and as
- * many after; the result is in `loops`, without directions. Return 0, or
- * nonzero if nothing moves, a node cannot be solved or the polynomials do not agree.
+ * many after; the result is in `loops`, without directions. Return 0, or nonzero if nothing moves, a node cannot be
+ * solved or the polynomials do not agree.
  */
 static int interpolate_singular_loops(double t, const DiscreteState *discrete, const Parameters *p, DrivenLoops *loops)
 {
@@ -200,9 +201,9 @@ static int accept_driven_loops(double t, const TreeState *tree, DiscreteState *d
 }
 
 /*
- * Compute the driven loops at time t in `tree`, from the last accepted state; those found last are reused at the same
- * time. If one move fails, they are solved in parts, then interpolated. Return 0, or the number of a closure that
- * cannot be followed; a failure stored by solve_driven_loops() is returned at once.
+ * Compute the driven loops at time t in `tree`, from the last accepted state; those solved last are reused at the same
+ * time (SMOOTH_DRIVEN_LOOPS). If one move fails, they are solved in parts, then interpolated. Return 0, or the number
+ * of a closure that cannot be followed; a failure stored by solve_driven_loops() is returned at once.
  */
 static inline int follow_driven_loops(double t, const DiscreteState *discrete, const Parameters *p, TreeState *tree)
 {

@@ -285,7 +285,8 @@ static int apply_event(Integrator *run, int event, const Parameters *p)
         values_before[i] = run->rhs.event[i];
     for (int k = 0; k < N_CLEARANCES + N_SWITCHES; k++)
         if (k == event
-            || (k < N_CLEARANCES && event_function(&run->discrete, &run->rhs, k) < compute_gap_event_threshold(p, k)))
+            || (k < N_CLEARANCES
+                && compute_event_value(&run->discrete, &run->rhs, k) < compute_gap_event_threshold(p, k)))
             toggle_contact_or_branch(run, k, p);
     const int switch_index = event - N_CLEARANCES, friction = switch_index - N_SWITCHES;
     const int user_event = friction - N_FRICTIONS;

@@ -161,9 +161,10 @@ static double compute_impulse_limit(double mu, double normal_impulse, double nor
 }
 
 /*
- * Compute the tangential impulses P of all contacts by Gauss-Seidel sweeps: each contact brings its slip to rest or
- * reaches its friction limit. Afterwards one common factor scales all P, if a limit or the energy still requires that:
- * friction never adds energy.
+ * Compute the tangential impulses friction->P (N s) of all contacts by Gauss-Seidel sweeps: each contact brings its
+ * slip to rest or reaches its friction limit. Afterwards one common factor scales all P, if a limit or the energy still
+ * requires that: friction never adds energy. impulse: normal impulses without friction, N s. The sweeps end when P is
+ * steady, or after MAX_SWEEPS.
  */
 static void solve_friction_impulses(const Delassus *impact, const double *impulse, FrictionImpulses *friction)
 {

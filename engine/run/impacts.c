@@ -178,10 +178,10 @@ static int update_closed_contacts(Integrator *run, int opening_joint, const Para
 }
 
 /*
- * Project closed rigid contacts onto delta = 0 and give touching open ones a small gap, so that the next step can
- * detect their return. The gap is enlarged up to MAX_SEPARATIONS times, because separating one contact may close
- * another. The change of kinetic energy is added to the work of the joints. Return a status. Called by
- * update_contacts() after the active set is known.
+ * Project closed rigid contacts onto delta = 0 and give touching open ones a gap of compute_gap_tolerance(), so that
+ * the next step can detect their return. The gap is quadrupled in up to MAX_SEPARATIONS passes, because separating one
+ * contact may close another. The change of kinetic energy is added to the work of the joints. Return a status. Called
+ * by update_contacts() after the active set is known.
  */
 static int separate_contacts(Integrator *run, const Parameters *p)
 {

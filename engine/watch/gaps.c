@@ -93,8 +93,8 @@ static int is_gap_far_from_zero(const Integrator *run, const Step *step, int joi
     const double rate_begin = run->rhs.clearance[joint].deltadot, rate_end = step->rhs.clearance[joint].deltadot;
     const double slowest = min_of(step->rate[joint][0], min_of(rate_begin, rate_end)),
         fastest = max_of(step->rate[joint][1], max_of(rate_begin, rate_end));
-    const double begin = event_function(&run->discrete, &run->rhs, joint),
-                 end = event_function(&run->discrete, &step->rhs, joint);
+    const double begin = compute_event_value(&run->discrete, &run->rhs, joint),
+                 end = compute_event_value(&run->discrete, &step->rhs, joint);
     const double smallest = min_of(step->lowest[joint], min_of(begin, end));
     return smallest - WIDEST * step->h * (fastest - slowest) * BEND_SAFETY / 2.0 > compute_dense_output_error(run,
         joint, p);
