@@ -1,6 +1,6 @@
 /*
- * Right-hand side of scenes with driven loops, whose coordinates are functions of time. Without driven loops, this file
- * only calls the functions of the scene.
+ * Right-hand side of scenes with driven loops: loops that drives determine kinematically, whose coordinates are
+ * functions of time. Without driven loops, this file only calls the functions of the scene.
  */
 #if N_DEPENDENT
 /*

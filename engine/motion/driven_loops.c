@@ -1,7 +1,7 @@
 /*
- * Solution of driven loops: closed loops of a linkage whose coordinates are determined by drives alone. At every time
- * Chebyshev's method solves their closures, from their positions at the last accepted state. The motion thus keeps its
- * branch, and the right-hand side remains a function of time and state.
+ * Position analysis of driven loops: closed loops of a linkage whose coordinates drives alone determine. At every time
+ * Chebyshev's method solves their closures (loop-closure equations), from their positions at the last accepted state.
+ * The motion thus keeps its branch, and the right-hand side remains a function of time and state.
  */
 enum { MAX_LOOP_ITERATIONS = 8, MAX_LOOP_PARTS = 60, SINGULAR_NODES = 4 };
 #define MAX_LOOP_MOVE 0.1    /* rad, or fraction of the size: longer moves are made in parts */

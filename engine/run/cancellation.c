@@ -1,4 +1,4 @@
-/* Polling of the caller during a long computation, and the test whether time still advances (run/cancellation.h). */
+/* Polling of the cancellation token of a long computation, and the monitor whether time advances (cancellation.h). */
 #include "cancellation.h"
 #include <time.h>
 

@@ -1,6 +1,6 @@
 /*
- * Changes of discrete states at an event: contacts begin or end, functions change branch, friction changes mode. A
- * drive whose rate jumps moves the linkage by an impulse.
+ * Event handling: changes of discrete states at an event. Contacts begin or end, switching functions change branch,
+ * friction changes mode. A drive whose rate jumps moves the linkage by an impulse.
  */
 #define ONSET_ORDER 3.5 /* order of the error of a first step in a contact, whose force begins as delta^n */
 

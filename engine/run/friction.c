@@ -1,5 +1,5 @@
 /*
- * Friction elements that can stick: their modes (stick or slip), and the changes of these modes at events. A step ends
+ * Stick-slip: friction elements that can stick, their modes, and the changes of these modes at events. A step ends
  * where the slip reaches zero or the force of stick reaches its limit: at the zero of
  * evaluate_friction_event_function() on the step.
  */
