@@ -20,8 +20,8 @@ typedef struct {
     char *name;
     fmi3InstanceEnvironment environment;
     fmi3LogMessageCallback log_message;
-    double given[FMU_SLOTS], p[FMU_NUMBERS], motion[FMU_NUMBERS];
-    unsigned char is_given[FMU_SLOTS];
+    double given[FMU_PARAMETERS], p[FMU_VALUES], motion[FMU_VALUES];
+    unsigned char is_given[FMU_PARAMETERS];
     double t, t_end, rtol;
     int phase, rtol_given; /* phase of the enum; whether the tolerance was set as a parameter */
     double y[N_S], sampled_discrete[FMU_AT_LEAST(N_DISCRETE)], a[FMU_AT_LEAST(N_Q)];
@@ -87,8 +87,8 @@ static int set_initial_nominals(Model *model, const double *min_scale);
 static fmi3Status begin_instance_run(Model *model)
 {
     double residual = 0.0, size = 0.0, *q = model->y, *v = model->y + N_Q;
-    unsigned char projected[FMU_SLOTS];
-    double values_without_baumgarte[FMU_SLOTS];
+    unsigned char projected[FMU_PARAMETERS];
+    double values_without_baumgarte[FMU_PARAMETERS];
     gudgeon_prepare(model->given, model->is_given, model->p);
     for (int k = 0; k < FMU_SIZES; k++) {
         const double x = model->p[fmu_sizes[k][0]], y = fmu_sizes[k][1] < 0 ? 0.0 : model->p[fmu_sizes[k][1]];
@@ -99,9 +99,9 @@ static fmi3Status begin_instance_run(Model *model)
         return fmi3Error;
     memcpy(projected, model->is_given, sizeof projected);
     memcpy(values_without_baumgarte, model->given, sizeof values_without_baumgarte);
-    for (int k = 0; k < FMU_GAINS; k++) {
-        projected[fmu_gains[k]] = 1;
-        values_without_baumgarte[fmu_gains[k]] = 0.0;
+    for (int k = 0; k < FMU_BAUMGARTE_GAINS; k++) {
+        projected[fmu_baumgarte_gains[k]] = 1;
+        values_without_baumgarte[fmu_baumgarte_gains[k]] = 0.0;
     }
     gudgeon_prepare(values_without_baumgarte, projected, model->motion);
     memset(model->y, 0, sizeof model->y);
@@ -109,7 +109,7 @@ static fmi3Status begin_instance_run(Model *model)
         /* continue from the start with the file's parameters */
         int has_given = 0;
         memcpy(model->y, fmu_start, sizeof fmu_start);
-        for (int k = 0; k < FMU_SLOTS; k++)
+        for (int k = 0; k < FMU_PARAMETERS; k++)
             has_given |= model->is_given[k];
         if (has_given && gudgeon_continuation(model->t, model->p, size, q, v))
             return log_error_with_status(model, "the linkage does not close with these parameters", 0);
@@ -123,18 +123,18 @@ static fmi3Status begin_instance_run(Model *model)
     model->run = calloc(1, model->size);
     if (!model->run)
         return log_error_with_status(model, "out of memory", 0);
-    for (int k = 0; k < FMU_PLAYS; k++)
-        if (model->p[fmu_plays[k]] > 0.0)
-            length = fmin(length, model->p[fmu_plays[k]]);
+    for (int k = 0; k < FMU_CLEARANCES; k++)
+        if (model->p[fmu_clearances[k]] > 0.0)
+            length = fmin(length, model->p[fmu_clearances[k]]);
     length = isfinite(length) ? length : size;
     min_scale[0] = length, min_scale[1] = length / size;
     for (int k = 0; k < N_X; k++) {
         scale[k] = model->rtol * (fmu_is_angle[k] ? min_scale[1] : length);
-        scale[N_X + k] = FMU_FILM ? fmin(model->rtol, FMU_FELT * min_scale[1]) : model->rtol;
+        scale[N_X + k] = FMU_HAS_FILM ? fmin(model->rtol, FMU_FILM_VELOCITY_TOL * min_scale[1]) : model->rtol;
     }
     if (N_X == 0)
         scale[0] = model->rtol;
-    const int is_fine = model->rtol < FMU_FINE;
+    const int is_fine = model->rtol < FMU_FINE_RTOL;
     double y[N_S], sampled_discrete[FMU_AT_LEAST(N_DISCRETE)];
     memcpy(y, model->y, sizeof y);
     memcpy(sampled_discrete, model->sampled_discrete, sizeof sampled_discrete);
@@ -142,8 +142,9 @@ static fmi3Status begin_instance_run(Model *model)
     for (int start = 1; start >= 0; start--) {
         gudgeon_run_start(model->run, model->motion, model->t, y, sampled_discrete);
         gudgeon_run_stop(model->run, !start);
-        gudgeon_adaptive_setup(model->run, gudgeon_method(is_fine ? FMU_BEGINS_FINE : FMU_BEGINS),
-            FMU_AUTOMATIC ? gudgeon_method(is_fine ? FMU_STIFF_FINE : FMU_STIFF) : 0, scale, min_scale, 0.0);
+        gudgeon_adaptive_setup(model->run, gudgeon_method(is_fine ? FMU_FIRST_METHOD_FINE : FMU_FIRST_METHOD),
+            FMU_AUTOMATIC ? gudgeon_method(is_fine ? FMU_STIFF_METHOD_FINE : FMU_STIFF_METHOD) : 0, scale, min_scale,
+            0.0);
         const int status = start ? integrate_instance(model, model->t) : 0;
         if (status)
             return log_error_with_status(model, "the motion cannot begin", status);
@@ -242,13 +243,14 @@ static void synchronize_states(Model *model);
 
 /*
  * Evaluate all outputs at the current state of an instance into model->out, unless they are up to date. Return 0 or a
- * status. With mod in drives (FMU_BEYOND) they are evaluated just after the time of the instance.
+ * status. With mod in drives (FMU_EVALUATES_AFTER) they are evaluated just after the time of the instance.
  */
 static int evaluate_outputs(Model *model)
 {
     long failed = 0;
     Outputs *o = &model->out;
-    const double t = FMU_BEYOND ? model->t + fmax(32.0 * 2.220446049250313e-16 * fabs(model->t), 1e-100) : model->t;
+    const double t = FMU_EVALUATES_AFTER ? model->t + fmax(32.0 * 2.220446049250313e-16 * fabs(model->t), 1e-100)
+        : model->t;
     if (!model->outputs_outdated)
         return 0;
     model->outputs_outdated = 0;

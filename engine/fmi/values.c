@@ -17,7 +17,7 @@ FMI3_EXPORT fmi3Status fmi3GetFloat64(fmi3Instance instance, const fmi3ValueRefe
             value[k] = model->t;
         } else if (r == VR_RTOL) {
             value[k] = model->rtol;
-        } else if (r >= VR_PARAMETERS && r < VR_PARAMETERS + FMU_SLOTS_USED) {
+        } else if (r >= VR_PARAMETERS && r < VR_PARAMETERS + FMU_N_PARAMETERS) {
             const int i = (int)(r - VR_PARAMETERS);
             value[k] = model->begun ? model->p[i] : model->is_given[i] ? model->given[i] : fmu_defaults[i];
         } else if (r >= VR_OUTPUTS && r < VR_OUTPUTS + FMU_OUTPUTS) {
@@ -68,26 +68,28 @@ FMI3_EXPORT fmi3Status fmi3SetFloat64(fmi3Instance instance, const fmi3ValueRefe
         return log_error_with_status(model, "there are fewer values than variables", 0);
     for (size_t k = 0; k < n; k++) {
         const fmi3ValueReference r = reference[k];
-        const int slot = r >= VR_PARAMETERS && r < VR_PARAMETERS + FMU_SLOTS_USED ? (int)(r - VR_PARAMETERS) : -1;
-        const char *name = r == VR_RTOL ? "relative_tolerance" : slot >= 0 ? fmu_slots[slot].address : NULL;
+        const int parameter =
+            r >= VR_PARAMETERS && r < VR_PARAMETERS + FMU_N_PARAMETERS ? (int)(r - VR_PARAMETERS) : -1;
+        const char *name = r == VR_RTOL ? "relative_tolerance"
+            : parameter >= 0 ? fmu_parameters[parameter].address : NULL;
         char text[400];
-        if (!name || (slot >= 0 && fmu_slots[slot].chosen))
+        if (!name || (parameter >= 0 && fmu_parameters[parameter].chosen))
             return log_error_with_status(model, "unknown variable, or one that cannot be set", (int)r);
         if (model->phase == RUNNING) { /* parameters are fixed during a run */
             snprintf(text, sizeof text, "%s is fixed: it is set before initialization ends", name);
             return log_error(model, text);
         }
-        if (slot < 0 ? !(value[k] >= 1e-14 && value[k] < 1.0) : !isfinite(value[k])) {
+        if (parameter < 0 ? !(value[k] >= 1e-14 && value[k] < 1.0) : !isfinite(value[k])) {
             snprintf(text, sizeof text, "%s is %g: expected %s", name, value[k],
-                slot < 0 ? ">= 1e-14 and < 1" : "a finite number");
+                parameter < 0 ? ">= 1e-14 and < 1" : "a finite number");
             return log_error(model, text);
         }
-        if (slot < 0) {
+        if (parameter < 0) {
             model->rtol = value[k];
             model->rtol_given = 1;
         } else {
-            model->given[slot] = value[k];
-            model->is_given[slot] = value[k] != fmu_defaults[slot]; /* dependent defaults remain dependent */
+            model->given[parameter] = value[k];
+            model->is_given[parameter] = value[k] != fmu_defaults[parameter]; /* dependent defaults remain dependent */
         }
         model->begun = 0;
     }

@@ -47,7 +47,7 @@ static const Method *const METHODS[] = {
     &taylor,
 #endif
 };
-#define EXPLICIT (&dop853)  /* the explicit method of the automatic choice where a run begins with the stiff one */
+#define EXPLICIT_METHOD (&dop853) /* explicit method of the automatic choice if a run begins with the stiff one */
 
 /*
  * Return whether the method of a run stabilises the constraints by Baumgarte's terms instead of projecting its steps.

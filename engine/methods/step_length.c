@@ -65,7 +65,7 @@ static void relink_methods(Integrator *run)
 static void set_method_choice(Integrator *run, int method, int stiff_method)
 {
     run->choice.method = METHODS[method];
-    run->choice.explicit = METHODS[method]->stiff ? EXPLICIT : METHODS[method];
+    run->choice.explicit = METHODS[method]->stiff ? EXPLICIT_METHOD : METHODS[method];
     run->choice.automatic = stiff_method > 0;
     run->choice.implicit = METHODS[stiff_method];
     run->choice.max_contrary_steps = MAX_CONTRARY_STEPS;

@@ -151,8 +151,9 @@ static double compute_coincidence_time(const Integrator *run, double fixed_step)
 }
 
 /*
- * Compute the sign of each user-defined event function just after the current time into `signs`, 0 if it stays below
- * its uncertainty. fixed_step: see compute_coincidence_time(). Return a status.
+ * Compute the sign of each user-defined event function just after the current time into `signs`. A value below its
+ * uncertainty is evaluated again up to 1e9 coincidence times later; 0 if it then has no sign. fixed_step: see
+ * compute_coincidence_time(). Return a status.
  *
  * The signs depend on the state alone. A run that ends here records events with other signs; a run that begins here
  * starts with these signs. Each event of a run that is divided anywhere is therefore recorded once. Branches of
