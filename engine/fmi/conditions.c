@@ -13,12 +13,12 @@ static int is_relation_satisfied(const char *relation, double value, double boun
  * value number value_index depends on parameters. Otherwise the text is empty. Parameters that no longer fit are
  * omitted.
  */
-static void format_given_values(const Model *model, int value_index, char *text, size_t size)
+static void format_set_parameters(const Model *model, int value_index, char *text, size_t size)
 {
     const char *before = " with ";
     text[0] = 0;
     for (int k = 0; fmu_parameters[value_index].follows && k < FMU_N_PARAMETERS; k++)
-        if (model->is_given[k] && !strncmp(fmu_parameters[k].address, "parameters.", 11) && strlen(text) + 100 < size) {
+        if (model->is_set[k] && !strncmp(fmu_parameters[k].address, "parameters.", 11) && strlen(text) + 100 < size) {
             const size_t n = strlen(text);
             snprintf(text + n, size - n, "%s%s = %.6g%s%s", before, fmu_parameters[k].address, model->p[k],
                 fmu_parameters[k].unit[0] ? " " : "", fmu_parameters[k].unit);
@@ -33,7 +33,7 @@ static void format_given_values(const Model *model, int value_index, char *text,
  */
 static int validate_parameters(const Model *model, double size)
 {
-    char text[600], given_values[250];
+    char text[600], set_parameters[250];
     for (int k = 0; k < FMU_CONDITIONS; k++) {
         const int value_index = fmu_conditions[k].parameter;
         double bound = fmu_conditions[k].bound;
@@ -42,10 +42,10 @@ static int validate_parameters(const Model *model, double size)
         if (!isfinite(model->p[value_index]) || !isfinite(bound)
             || is_relation_satisfied(fmu_conditions[k].relation, model->p[value_index], bound))
             continue;
-        format_given_values(model, value_index, given_values, sizeof given_values);
+        format_set_parameters(model, value_index, set_parameters, sizeof set_parameters);
         const char *unit = fmu_parameters[value_index].unit;
         int n = snprintf(text, sizeof text, "%s is %.6g%s%s%s: %s", fmu_parameters[value_index].address,
-            model->p[value_index], unit[0] ? " " : "", unit, given_values, fmu_conditions[k].message);
+            model->p[value_index], unit[0] ? " " : "", unit, set_parameters, fmu_conditions[k].message);
         if (fmu_conditions[k].count && n > 0 && (size_t)n < sizeof text)
             snprintf(text + n, sizeof text - (size_t)n, ", here %s %.6g", fmu_conditions[k].relation, bound);
         return log_error(model, text), 0;
@@ -54,8 +54,9 @@ static int validate_parameters(const Model *model, double size)
         if (isfinite(model->p[k]))
             continue;
         if (k < FMU_N_PARAMETERS) {
-            format_given_values(model, k, given_values, sizeof given_values);
-            snprintf(text, sizeof text, "%s is %g%s: not finite", fmu_parameters[k].address, model->p[k], given_values);
+            format_set_parameters(model, k, set_parameters, sizeof set_parameters);
+            snprintf(text, sizeof text, "%s is %g%s: not finite", fmu_parameters[k].address, model->p[k],
+                set_parameters);
         } else {
             snprintf(text, sizeof text, "a number of the equations that follows from these parameters is %g",
                 model->p[k]);

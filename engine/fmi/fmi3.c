@@ -109,7 +109,7 @@ FMI3_EXPORT fmi3Status fmi3EnterInitializationMode(fmi3Instance instance, fmi3Bo
     if (model->phase != SETTING)
         return log_error(model, "initialization mode is entered once, after instantiation or a reset");
     model->phase = INITIALIZING;
-    model->begun = 0; /* outputs may have been requested before */
+    model->has_begun = 0; /* outputs may have been requested before */
     model->t = start;
     model->t_end = has_stop ? stop : start + TIME_CONSTANT;
     if (has_tolerance && tolerance > 0.0 && tolerance < 1.0 && !model->rtol_given)
@@ -126,7 +126,7 @@ FMI3_EXPORT fmi3Status fmi3ExitInitializationMode(fmi3Instance instance)
     Model *model = instance;
     if (model->phase != INITIALIZING)
         return log_error(model, "initialization mode was not entered");
-    if (!model->begun && begin_instance_run(model))
+    if (!model->has_begun && begin_instance_run(model))
         return fmi3Error;
     model->phase = RUNNING;
     return fmi3OK;
@@ -142,9 +142,9 @@ FMI3_EXPORT fmi3Status fmi3Terminate(fmi3Instance instance) { return (void)insta
 FMI3_EXPORT fmi3Status fmi3Reset(fmi3Instance instance)
 {
     Model *model = instance;
-    memset(model->is_given, 0, sizeof model->is_given);
+    memset(model->is_set, 0, sizeof model->is_set);
     model->rtol = FMU_RTOL;
-    model->begun = model->ended = model->rtol_given = 0;
+    model->has_begun = model->has_ended = model->rtol_given = 0;
     model->phase = SETTING;
     model->t = 0.0;
     return fmi3OK;
@@ -167,12 +167,12 @@ FMI3_EXPORT fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 t, fmi3Floa
     if (!(h > 0.0) || fabs(t - model->t) > 1e-9 * fmax(1.0, fabs(t)))
         return log_error_with_status(model, "a step must begin where the last one ended and be longer than 0", 0);
     const double end = t + h;
-    const int status = model->ended ? 0 : integrate_instance(model, end);
+    const int status = model->has_ended ? 0 : integrate_instance(model, end);
     if (status)
         return log_error_with_status(model, "the motion cannot be followed", status);
     model->t = *last_time = end;
     model->outputs_outdated = 1;
-    *terminate = model->ended;
+    *terminate = model->has_ended;
     return fmi3OK;
 }
 

@@ -20,13 +20,14 @@ typedef struct {
     char *name;
     fmi3InstanceEnvironment environment;
     fmi3LogMessageCallback log_message;
-    double given[FMU_PARAMETERS], p[FMU_VALUES], motion[FMU_VALUES];
-    unsigned char is_given[FMU_PARAMETERS];
+    /* parameters set by the importer; values of all, and of the motion, without Baumgarte's gains */
+    double set_values[FMU_PARAMETERS], p[FMU_VALUES], motion[FMU_VALUES];
+    unsigned char is_set[FMU_PARAMETERS];
     double t, t_end, rtol;
     int phase, rtol_given; /* phase of the enum; whether the tolerance was set as a parameter */
     double y[N_S], sampled_discrete[FMU_AT_LEAST(N_DISCRETE)], a[FMU_AT_LEAST(N_Q)];
     signed char contact_codes[FMU_AT_LEAST(N_CLEARANCES)];
-    int outputs_outdated, begun, ended; /* ended: by an event */
+    int outputs_outdated, has_begun, has_ended; /* has_ended: an event has ended the run */
     Outputs out;
 #if FMU_EXCHANGE
     int exchange; /* whether the importer integrates */
@@ -87,9 +88,9 @@ static int set_initial_nominals(Model *model, const double *min_scale);
 static fmi3Status begin_instance_run(Model *model)
 {
     double residual = 0.0, size = 0.0, *q = model->y, *v = model->y + N_Q;
-    unsigned char projected[FMU_PARAMETERS];
+    unsigned char is_set_without_baumgarte[FMU_PARAMETERS];
     double values_without_baumgarte[FMU_PARAMETERS];
-    gudgeon_prepare(model->given, model->is_given, model->p);
+    gudgeon_prepare(model->set_values, model->is_set, model->p);
     for (int k = 0; k < FMU_SIZES; k++) {
         const double x = model->p[fmu_sizes[k][0]], y = fmu_sizes[k][1] < 0 ? 0.0 : model->p[fmu_sizes[k][1]];
         size = fmax(size, sqrt(x * x + y * y)); /* the same bits as in sizes.py */
@@ -97,21 +98,21 @@ static fmi3Status begin_instance_run(Model *model)
     size = size > 0.0 ? size : 1.0;
     if (!validate_parameters(model, size))
         return fmi3Error;
-    memcpy(projected, model->is_given, sizeof projected);
-    memcpy(values_without_baumgarte, model->given, sizeof values_without_baumgarte);
+    memcpy(is_set_without_baumgarte, model->is_set, sizeof is_set_without_baumgarte);
+    memcpy(values_without_baumgarte, model->set_values, sizeof values_without_baumgarte);
     for (int k = 0; k < FMU_BAUMGARTE_GAINS; k++) {
-        projected[fmu_baumgarte_gains[k]] = 1;
+        is_set_without_baumgarte[fmu_baumgarte_gains[k]] = 1;
         values_without_baumgarte[fmu_baumgarte_gains[k]] = 0.0;
     }
-    gudgeon_prepare(values_without_baumgarte, projected, model->motion);
+    gudgeon_prepare(values_without_baumgarte, is_set_without_baumgarte, model->motion);
     memset(model->y, 0, sizeof model->y);
     if (gudgeon_start(model->t, model->p, size, q, v, &residual)) {
         /* continue from the start with the file's parameters */
-        int has_given = 0;
+        int has_set_parameter = 0;
         memcpy(model->y, fmu_start, sizeof fmu_start);
         for (int k = 0; k < FMU_PARAMETERS; k++)
-            has_given |= model->is_given[k];
-        if (has_given && gudgeon_continuation(model->t, model->p, size, q, v))
+            has_set_parameter |= model->is_set[k];
+        if (has_set_parameter && gudgeon_continuation(model->t, model->p, size, q, v))
             return log_error_with_status(model, "the linkage does not close with these parameters", 0);
     }
     for (int k = 0; k < N_DISCRETE; k++)
@@ -149,7 +150,7 @@ static fmi3Status begin_instance_run(Model *model)
         if (status)
             return log_error_with_status(model, "the motion cannot begin", status);
     }
-    model->ended = 0;
+    model->has_ended = 0;
 #if FMU_EXCHANGE
     model->extent = size;
     memset(&model->discrete, 0, sizeof model->discrete);
@@ -166,7 +167,7 @@ static fmi3Status begin_instance_run(Model *model)
         return log_error_with_status(model, "out of memory", 0);
     gudgeon_kinematic_begin(model->run, FMU_REACH, size, model->t_end, NULL, NULL, INFINITY);
 #endif
-    model->begun = 1;
+    model->has_begun = 1;
     model->outputs_outdated = 1;
     return fmi3OK;
 }
@@ -188,7 +189,7 @@ static void discard_contacts_and_events(void *run)
 
 /*
  * Integrate the run of an instance to time t (s), which ends a step. Return 0 or a status. Full lists of contacts and
- * events are emptied. After an event that ends the run, its state is copied, model->ended is set and 0 is returned.
+ * events are emptied. After an event that ends the run, its state is copied, model->has_ended is set and 0 is returned.
  * model->t is set by the caller.
  */
 static int integrate_instance(Model *model, double t)
@@ -205,7 +206,7 @@ static int integrate_instance(Model *model, double t)
     }
     if (status == ENDED) {
         gudgeon_run_sample(model->run, model->motion, model->y, model->sampled_discrete, model->contact_codes);
-        model->ended = 1;
+        model->has_ended = 1;
         status = 0;
     }
     return status;

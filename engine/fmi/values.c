@@ -19,9 +19,9 @@ FMI3_EXPORT fmi3Status fmi3GetFloat64(fmi3Instance instance, const fmi3ValueRefe
             value[k] = model->rtol;
         } else if (r >= VR_PARAMETERS && r < VR_PARAMETERS + FMU_N_PARAMETERS) {
             const int i = (int)(r - VR_PARAMETERS);
-            value[k] = model->begun ? model->p[i] : model->is_given[i] ? model->given[i] : fmu_defaults[i];
+            value[k] = model->has_begun ? model->p[i] : model->is_set[i] ? model->set_values[i] : fmu_defaults[i];
         } else if (r >= VR_OUTPUTS && r < VR_OUTPUTS + FMU_OUTPUTS) {
-            if (!model->begun && begin_instance_run(model)) /* in initialization mode: outputs at the start */
+            if (!model->has_begun && begin_instance_run(model)) /* in initialization mode: outputs at the start */
                 return fmi3Error;
             const int status = evaluate_outputs(model);
             if (status)
@@ -29,7 +29,7 @@ FMI3_EXPORT fmi3Status fmi3GetFloat64(fmi3Instance instance, const fmi3ValueRefe
             value[k] = get_output(model, fmu_outputs[r - VR_OUTPUTS][0], fmu_outputs[r - VR_OUTPUTS][1]);
 #if FMU_EXCHANGE
         } else if (r >= VR_STATES && r < VR_STATES + N_Y) {
-            if (!model->begun && begin_instance_run(model))
+            if (!model->has_begun && begin_instance_run(model))
                 return fmi3Error;
             if (!model->exchange)
                 synchronize_states(model);
@@ -38,7 +38,7 @@ FMI3_EXPORT fmi3Status fmi3GetFloat64(fmi3Instance instance, const fmi3ValueRefe
             || (r >= VR_INDICATORS && r < VR_INDICATORS + N_INDICATORS)) {
             double dx[N_Y];
             RhsOutputs rhs;
-            if (!model->begun && begin_instance_run(model))
+            if (!model->has_begun && begin_instance_run(model))
                 return fmi3Error;
             if (!model->exchange)
                 synchronize_states(model);
@@ -88,10 +88,10 @@ FMI3_EXPORT fmi3Status fmi3SetFloat64(fmi3Instance instance, const fmi3ValueRefe
             model->rtol = value[k];
             model->rtol_given = 1;
         } else {
-            model->given[parameter] = value[k];
-            model->is_given[parameter] = value[k] != fmu_defaults[parameter]; /* dependent defaults remain dependent */
+            model->set_values[parameter] = value[k];
+            model->is_set[parameter] = value[k] != fmu_defaults[parameter]; /* dependent defaults remain dependent */
         }
-        model->begun = 0;
+        model->has_begun = 0;
     }
     return fmi3OK;
 }

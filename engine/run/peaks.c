@@ -277,7 +277,7 @@ static int determine_force_trends(Integrator *run, const Step *step, double frac
 
 /*
  * Return whether the force of a joint may exceed both end values (N) inside a step up to `fraction`. The parabola
- * through both ends and the first stage after `fraction` decides; its bend is taken ERROR_SAFETY times. Return 1 if
+ * through both ends and the first stage after `fraction` decides; its bend is multiplied by ERROR_SAFETY. Return 1 if
  * there is no such stage.
  */
 static int may_have_inner_maximum(const Step *step, double fraction, int joint, double force_begin, double force_end)
