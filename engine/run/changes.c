@@ -269,8 +269,8 @@ static void record_onset_forces(Integrator *run)
 
 /*
  * Apply all changes at an event and evaluate the right-hand side after them. event: number of the event function that
- * ended the step. The order: every contact whose gap function is below compute_gap_event_threshold(), branches,
- * friction modes, rigid contacts, user-defined events.
+ * ended the step. The order: contact or branch of the event itself and every contact whose gap function is below
+ * compute_gap_event_threshold(), branches, friction modes, rigid contacts, user-defined events.
  *
  * A user-defined event reverses its sign and is recorded if the direction counts; poles and functions with the same
  * sign just after it are not recorded. User-defined events that the other changes lead across zero are recorded too.

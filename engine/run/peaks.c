@@ -3,7 +3,7 @@
  * time inside the step, not at its ends.
  */
 enum { MAX_PARABOLAS = 20, MIN_INNER_STAGES = 2 /* with fewer stages inside, the dense output is evaluated */ };
-#define MAX_BEND 0.25 /* of the last chord's slope: largest correction by a parabola that leaves the sign certain */
+#define MAX_SLOPE_CORRECTION 0.25 /* of the last chord's slope: with more by a parabola, the sign is uncertain */
 #define MIN_FORCE_CHANGE 0.1 /* of the force: smallest change since the last stage that shows a trend */
 #define MAXIMUM_RATIO 1.001 /* ratio of a stage's force to those at both ends that shows a maximum between */
 #define MAXIMUM_RATIO_STIFF 1.1 /* the same for stiff methods, whose stages have larger errors */
@@ -87,16 +87,16 @@ static void record_inner_peak(Integrator *run, const Step *step, double fraction
     for (int n = 0; n < MAX_PARABOLAS; n++) {
         const double width_left = x[1] - x[0], width_right = x[2] - x[1], drop_left = f[0] - f[1],
             drop_right = f[2] - f[1];
-        const double bend = drop_right * width_left + drop_left * width_right,
+        const double curvature = drop_right * width_left + drop_left * width_right,
             rise = drop_right * width_left * width_left - drop_left * width_right * width_right;
         double top = drop_left > drop_right ? x[0] : x[2];
-        if (bend < 0.0)
-            top = x[1] - 0.5 * rise / bend;
+        if (curvature < 0.0)
+            top = x[1] - 0.5 * rise / curvature;
         top = min_of(x[2] - 0.1 * width_right, max_of(x[0] + 0.1 * width_left, top));
         const double offset = top - x[1], expected = f[1]
-            + offset * (rise + bend * offset) / (width_left * width_right * (width_left + width_right));
+            + offset * (rise + curvature * offset) / (width_left * width_right * (width_left + width_right));
         const double largest = max_of(f[1], max_of(f[0], f[2]));
-        if (bend < 0.0 && expected - largest + 0.1 * error < tolerance * largest)
+        if (curvature < 0.0 && expected - largest + 0.1 * error < tolerance * largest)
             break;
         const double force = evaluate_and_record_joint_force(run, step, top, joint, p);
         const int above = top > x[1], higher = force > f[1], end = above == higher ? 0 : 2;
@@ -122,12 +122,12 @@ static int is_force_monotone(Step *step, double fraction, int joint, double forc
     const StageValues forces = get_stage_values(step, STAGE_FORCES + joint);
     const Sample begin = {0.0, force_begin * force_begin, NAN}, end = {1.0, force_end * force_end, NAN};
     const int n = collect_stage_samples(step, begin, end, forces, all);
-    const double bend = bound_second_derivative(all, n);
+    const double curvature = bound_second_derivative(all, n);
     int rises = 0, falls = 0;
     for (int k = 1; k < n; k++) {
         const double w = all[k].s - all[k - 1].s, slope = (all[k].f - all[k - 1].f) / w;
-        rises += slope - 0.5 * bend * w > 0.0;
-        falls += slope + 0.5 * bend * w < 0.0;
+        rises += slope - 0.5 * curvature * w > 0.0;
+        falls += slope + 0.5 * curvature * w < 0.0;
     }
     return fraction == 1.0 && !step->method->stiff && n >= MIN_STAGES && (rises == n - 1 || falls == n - 1)
         && !may_terms_oscillate_between_stages(step, all, n, p);
@@ -157,8 +157,8 @@ static void record_rigid_peak(
         const SampledPart now = part[n - 1];
         const double largest_known = max_of(run->contacts.lasting[joint].F_peak, force_end) * (1.0 + RIGID_FORCE_TOL);
         const double width = now.end.s - from.s;
-        const double slope = 0.5 * (now.end.f - from.f), bend = from.f - 2.0 * now.middle.f + now.end.f;
-        const double top = bend < 0.0 && fabs(slope) < -bend ? now.middle.f - 0.5 * slope * slope / bend
+        const double slope = 0.5 * (now.end.f - from.f), curvature = from.f - 2.0 * now.middle.f + now.end.f;
+        const double top = curvature < 0.0 && fabs(slope) < -curvature ? now.middle.f - 0.5 * slope * slope / curvature
             : max_of(from.f, now.end.f);
         const int is_clear = !(top + now.error > largest_known)
             && !may_terms_oscillate_between(step, from.s, now.end.s, p);
@@ -229,9 +229,9 @@ static void record_largest_eccentricity(Integrator *run, Step *step, double frac
 
 /*
  * Return whether a joint's force (force_end, N) rises (1) or falls (-1) at a fraction of an explicit step, from the
- * last two stages before it. Return 0 if the sign is uncertain: the parabola's correction exceeds MAX_BEND of the
- * slope, or the change is below MIN_FORCE_CHANGE; also for stiff methods. Used to find forces that pass a maximum in
- * the step.
+ * last two stages before it. Return 0 if the sign is uncertain: the parabola's correction exceeds MAX_SLOPE_CORRECTION
+ * of the slope, or the change is below MIN_FORCE_CHANGE; also for stiff methods. Used to find forces that pass a
+ * maximum in the step.
  */
 static int estimate_force_trend(const Step *step, double fraction, int joint, double force_end)
 {
@@ -248,8 +248,8 @@ static int estimate_force_trend(const Step *step, double fraction, int joint, do
     }
     f[0] = sqrt(f[0]), f[1] = sqrt(f[1]);
     const double slope = (force_end - f[0]) / (fraction - s[0]);
-    const double bend = (slope - (f[0] - f[1]) / (s[0] - s[1])) * (fraction - s[0]) / (fraction - s[1]);
-    const int clear = fabs(bend) < MAX_BEND * fabs(slope)
+    const double correction = (slope - (f[0] - f[1]) / (s[0] - s[1])) * (fraction - s[0]) / (fraction - s[1]);
+    const int clear = fabs(correction) < MAX_SLOPE_CORRECTION * fabs(slope)
         && fabs(slope) * (fraction - s[0]) > MIN_FORCE_CHANGE * force_end;
     return clear ? (slope > 0.0) - (slope < 0.0) : 0;
 }
@@ -277,8 +277,8 @@ static int determine_force_trends(Integrator *run, const Step *step, double frac
 
 /*
  * Return whether the force of a joint may exceed both end values (N) inside a step up to `fraction`. The parabola
- * through both ends and the first stage after `fraction` decides; its bend is multiplied by ERROR_SAFETY. Return 1 if
- * there is no such stage.
+ * through both ends and the first stage after `fraction` decides; its curvature is multiplied by ERROR_SAFETY. Return 1
+ * if there is no such stage.
  */
 static int may_have_inner_maximum(const Step *step, double fraction, int joint, double force_begin, double force_end)
 {
@@ -287,8 +287,9 @@ static int may_have_inner_maximum(const Step *step, double fraction, int joint, 
     for (int k = 0; k < step->n_stored_stages; k++)
         if (step->node[k] > fraction && step->node[k] < node)
             node = step->node[k], force = sqrt(read_stage(forces, k));
-    const double bend = 2.0 * ((force - force_begin) / node - (force_end - force_begin) / fraction) / (node - fraction);
-    const double curve = ERROR_SAFETY * fabs(bend) * fraction * fraction;
+    const double curvature =
+        2.0 * ((force - force_begin) / node - (force_end - force_begin) / fraction) / (node - fraction);
+    const double curve = ERROR_SAFETY * fabs(curvature) * fraction * fraction;
     return !(fabs(force_end - force_begin) > 0.5 * curve
         || 0.125 * curve < (MAXIMUM_RATIO - 1.0) * max_of(force_begin, force_end));
 }
