@@ -8,8 +8,8 @@
 enum { MAX_SKIPPED_LOG2 = 6 }; /* log2 of the largest number of steps without detection after failed attempts */
 
 /*
- * Set the policy near singular positions (SINGULAR_...) in the discrete state, with its limits of small pivots: those
- * that need only allow a division for SINGULAR_IGNORE, else NEARBY.
+ * Set the policy near singular positions (SINGULAR_...) in the discrete state, with its limits of small pivots: the
+ * usual ones for SINGULAR_IGNORE, else NEARBY.
  */
 static void set_singular_policy(Integrator *run, int policy)
 {
