@@ -255,7 +255,7 @@ static int advance_single_run(const Batch *batch, long i, int trial_result, void
         if (!status)
             status = accept_step(run, p, &samples);
     }
-    if (!status && prepare_step(run, 0, p, &samples, &status))
+    if (!status && begin_step(run, 0, p, &samples, &status))
         return GOES_ON;
     batch->t_last[i] = run->t;
     if (status == EVENTS_FULL)

@@ -84,7 +84,7 @@ static Lanes measure_lane_film_error(const LaneLocalSteps *local_steps, LaneInte
     project_onto_constraints(lanes, t, y, NULL, p);
     evaluate_run_rhs(lanes, t, y, p, dy, &rhs);
     *found &= ~lanes->discrete.rare;
-    differentiate_dense_output(step->h, (const Lanes (*)[N_Y])dense, RADAU_DEGREE, RADAU_TURNED, fraction, 2 * N_X,
+    differentiate_dense_output(step->h, (const Lanes (*)[N_Y])dense, RADAU_DEGREE, RADAU_REVERSED, fraction, 2 * N_X,
         rate);
     const Lanes force_at_ends =
         lanes_max_of(compute_largest_film_force(&step->rhs), compute_largest_film_force(&lanes->rhs));
@@ -343,7 +343,7 @@ static void flush_records(const LaneLocalSteps *local_steps, int k, Integrator *
     }
     for (int i = 0; i < N_SWITCHES && run->audit.level; i++) {
         run->audit.switch_scale[i] = local_steps->switch_scale[i][k];
-        run->audit.wrong[i] = 0;
+        run->audit.n_wrong_steps[i] = 0;
     }
 }
 
@@ -377,8 +377,8 @@ static void flush_lane_local_steps(
     run->control.error_before = local_steps->error_before[k];
     run->control.observed_order = local_steps->observed_order[k];
     run->control.last_step = local_steps->last_step[k];
-    run->control.attempt = (Attempt){.h = h, .longest = h, .left = local_steps->t_end[k] - run->t,
-        .end = local_steps->t_end[k], .far = compute_time_scale(local_steps, lanes)[k], .open = 1, .lane = method,
+    run->control.attempt = (Attempt){.h = h, .first_h = h, .time_left = local_steps->t_end[k] - run->t,
+        .end = local_steps->t_end[k], .time_magnitude = compute_time_scale(local_steps, lanes)[k], .open = 1, .lane = method,
         .film_error_norm = INFINITY};
 #if IMPLICIT_STAGES
     if (method >= BY_RADAU5)

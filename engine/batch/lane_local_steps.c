@@ -99,7 +99,7 @@ static void flush_state(const LaneIntegrator *lanes, int k, long steps, Integrat
     run->counts.steps += steps;
     run->progress.ended[N_EVENT_FUNCTIONS] += steps;
     run->progress.monitor.steps += steps;
-    run->choice.since += (int)steps;
+    run->choice.steps_since_change += (int)steps;
     run->progress.no_advance = run->progress.short_steps = 0;
     run->discrete.is_frozen = 1;
 }
@@ -164,8 +164,8 @@ static void flush_lane_local_steps(
     run->choice.mean_length[0] = local_steps->mean_length[k];
     run->series.max_step = local_steps->max_step[k];
     run->control.h = TAYLOR_AHEAD * run->series.max_step;
-    run->control.attempt = (Attempt){.h = h, .longest = h, .left = local_steps->t_end[k] - run->t,
-        .far = compute_time_scale(local_steps, lanes)[k], .open = 1, .lane = BY_TAYLOR};
+    run->control.attempt = (Attempt){.h = h, .first_h = h, .time_left = local_steps->t_end[k] - run->t,
+        .time_magnitude = compute_time_scale(local_steps, lanes)[k], .open = 1, .lane = BY_TAYLOR};
 }
 #else
 #include "lane_controlled_steps.c"
@@ -183,7 +183,7 @@ static void load_lane_local_steps(
     LocalStepLimits limits;
     single->get_local_step_limits(run, batch->p_motion + i * batch->numbers, &limits);
     local_steps->steps[k] = 0;
-    local_steps->max_local_steps[k] = run->control.fixed > 0.0 || run->control.attempt.again
+    local_steps->max_local_steps[k] = run->control.fixed > 0.0 || run->control.attempt.was_rejected
         || (run->control.attempt.lane == BY_TAYLOR) != LANE_SERIES ? 0 : limits.max_steps;
     local_steps->may_accept[k] = -(local_steps->max_local_steps[k] > 0);
     local_steps->has_state[k] = local_steps->max_local_steps[k] > 0;

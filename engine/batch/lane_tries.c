@@ -194,7 +194,7 @@ static void begin_stage_iteration(LaneIntegrator *run, LaneStep *step, LaneBits 
  * Store the data of a stage at fraction `node` in the active lanes; lanes that have found their stages keep theirs. y:
  * state; rhs: outputs of the right-hand side at the stage.
  */
-static void record_iterated_stage(LaneIntegrator *run, LaneStep *step, LaneBits is_active, const Lanes *y,
+static void record_newton_stage(LaneIntegrator *run, LaneStep *step, LaneBits is_active, const Lanes *y,
     const LaneRhsOutputs *rhs, double node)
 {
     Lanes event_functions[AT_LEAST_ONE(N_EVENT_FUNCTIONS)], *const values = step->stage_values[step->n_stored_stages];

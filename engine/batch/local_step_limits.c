@@ -12,7 +12,7 @@ static long count_steps_before_call(const Integrator *run)
 {
     const long steps =
         run->step_record.rows || run->envelope.rows ? 0 : count_steps_before_check(&run->progress.monitor);
-    const long unchecked_steps = run->audit.level == AUDIT_FULL ? 0 : run->audit.due - run->counts.steps;
+    const long unchecked_steps = run->audit.level == AUDIT_FULL ? 0 : run->audit.next_drawn_step - run->counts.steps;
     return run->audit.level && unchecked_steps < steps ? (unchecked_steps > 0 ? unchecked_steps : 0) : steps;
 }
 
@@ -43,11 +43,11 @@ static int is_ordinary_step(const Integrator *run)
     if (has_contact)
         return 0;
     const int is_compared = choice->method->stiff ? has_films() && choice->method->lane < BY_RADAU5
-        : (choice->since <= PATIENCE && choice->rate > 0.0)
-            || (choice->since < COMPARE_TO && run->control.h_stiff > 0.0);
+        : (choice->steps_since_change <= MIN_RETURN_STEPS && choice->rho > 0.0)
+            || (choice->steps_since_change < MAX_COMPARE_STEPS && run->control.h_stiff > 0.0);
     const int is_regular = run->near.n_undetected == 0 && run->near.n_failed == 0
         && run->discrete.singular_policy == SINGULAR_CONTINUE;
-    return !run->control.attempt.again && !run->control.first && run->roots.skip < 0 && is_regular
+    return !run->control.attempt.was_rejected && !run->control.first && run->roots.skip < 0 && is_regular
         && !is_compared && run->control.fixed <= 0.0 && run->counts.steps > 1 && run->discrete.is_frozen;
 }
 
@@ -55,7 +55,7 @@ static int is_ordinary_step(const Integrator *run)
 static long count_steps_before_comparison(const Integrator *run)
 {
     return !run->choice.method->stiff ? LONG_MAX
-        : (COMPARE_FROM - run->choice.since % CHECK_STIFF_STEPS + CHECK_STIFF_STEPS) % CHECK_STIFF_STEPS;
+        : (MIN_COMPARE_STEPS - run->choice.steps_since_change % CHECK_STIFF_STEPS + CHECK_STIFF_STEPS) % CHECK_STIFF_STEPS;
 }
 
 /*
@@ -64,7 +64,7 @@ static long count_steps_before_comparison(const Integrator *run)
  */
 static long count_steps_of_any_length(const Integrator *run)
 {
-    const double first_measured = ((double)run->audit.longer + 1.0) * compute_mean_check_interval(run->choice.method);
+    const double first_measured = ((double)run->audit.n_long_steps + 1.0) * compute_mean_check_interval(run->choice.method);
     const double left = first_measured - (double)run->counts.steps;
     return !run->audit.level || left > 1e9 ? LONG_MAX : left >= 0.0 ? (long)left + 1 : 0;
 }
@@ -90,13 +90,13 @@ static void get_local_step_limits(const void *integrator, const double *paramete
         return;
     const double checked = max_of(run->audit.record[CHECK_position].worst, 0.0), rtol = get_audit_tolerance(run);
     local->limits.power = method->power;
-    local->limits.bounded = method->bounded;
-    local->limits.unstable = method->unstable;
+    local->limits.bounded = method->limiting_h_rho;
+    local->limits.unstable = method->rejected_h_rho;
     local->limits.min_rho = method->stiff ? MAX_EXPLICIT_STABILITY : -INFINITY;
-    local->limits.max_rho = method->stiff ? INFINITY : method->bounded;
+    local->limits.max_rho = method->stiff ? INFINITY : method->limiting_h_rho;
     local->limits.max_contrary =
         !run->choice.automatic ? INFINITY : method->stiff ? run->choice.patience : run->choice.max_contrary_steps;
-    local->limits.max_length = unlimited_steps > 0 ? INFINITY : AUDIT_LONGEST * run->audit.longest;
+    local->limits.max_length = unlimited_steps > 0 ? INFINITY : AUDIT_LONGEST * run->audit.longest_measured;
     local->limits.max_ratio = unlimited_steps > 0 ? INFINITY : AUDIT_LONGER;
     local->limits.film_error = has_films() && method->stiff ? compute_film_error_limit(run) : INFINITY;
     local->limits.peak_ratio = method->stiff ? MAXIMUM_RATIO_STIFF : MAXIMUM_RATIO;

@@ -1,6 +1,6 @@
 /* Checks of the parameters of an FMU instance: conditions of the mechanism file, finite values, clearances. */
 
-/* Return whether `value relation bound` is true, for a relation "<", "<=", ">" or ">=". */
+/* Return whether `value relation bound` is true, for a relation "<", "<=", ">" or ">="; 0 if a number is NaN. */
 static int is_relation_satisfied(const char *relation, double value, double bound)
 {
     if (relation[1] == '=' && value == bound)
@@ -9,63 +9,65 @@ static int is_relation_satisfied(const char *relation, double value, double boun
 }
 
 /*
- * Write " with parameters.c = -0.0001 m" for a value that depends on given parameters into `text` of `size` bytes, else
- * an empty text. value_index: index of the value. Parameters that no longer fit are omitted.
+ * Write " with parameters.c = -0.0001 m" into `text` of `size` bytes: the parameters that the importer has set, if the
+ * value number value_index depends on parameters. Otherwise the text is empty. Parameters that no longer fit are
+ * omitted.
  */
-static void format_given_values(const Model *model, int value_index, char *text, size_t size)
+static void format_set_parameters(const Model *model, int value_index, char *text, size_t size)
 {
     const char *before = " with ";
     text[0] = 0;
-    for (int k = 0; fmu_slots[value_index].follows && k < FMU_SLOTS_USED; k++)
-        if (model->is_given[k] && !strncmp(fmu_slots[k].address, "parameters.", 11) && strlen(text) + 100 < size) {
+    for (int k = 0; fmu_parameters[value_index].follows && k < FMU_N_PARAMETERS; k++)
+        if (model->is_set[k] && !strncmp(fmu_parameters[k].address, "parameters.", 11) && strlen(text) + 100 < size) {
             const size_t n = strlen(text);
-            snprintf(text + n, size - n, "%s%s = %.6g%s%s", before, fmu_slots[k].address, model->p[k],
-                fmu_slots[k].unit[0] ? " " : "", fmu_slots[k].unit);
+            snprintf(text + n, size - n, "%s%s = %.6g%s%s", before, fmu_parameters[k].address, model->p[k],
+                fmu_parameters[k].unit[0] ? " " : "", fmu_parameters[k].unit);
             before = ", ";
         }
 }
 
 /*
- * Return whether all parameters of an instance are valid; otherwise log an error about the first invalid one and return
- * 0. Checked are the conditions of fmu.h, that all numbers are finite, and that clearances exceed rounding. size: the
- * mechanism's size, m.
+ * Check all parameters of an instance. Return 1 if they are valid; otherwise log an error about the first invalid one
+ * and return 0. Checked are the conditions of fmu.h, that all numbers are finite, and that clearances exceed
+ * FMU_MIN_RELATIVE_CLEARANCE times the mechanism's size (`size`, m). Called when a run begins.
  */
-static int are_parameters_valid(const Model *model, double size)
+static int validate_parameters(const Model *model, double size)
 {
-    char text[600], given_values[250];
+    char text[600], set_parameters[250];
     for (int k = 0; k < FMU_CONDITIONS; k++) {
-        const int value_index = fmu_conditions[k].slot;
+        const int value_index = fmu_conditions[k].parameter;
         double bound = fmu_conditions[k].bound;
         for (int i = 0; i < fmu_conditions[k].count; i++)
             bound += model->p[fmu_bounds[fmu_conditions[k].first + i]];
         if (!isfinite(model->p[value_index]) || !isfinite(bound)
             || is_relation_satisfied(fmu_conditions[k].relation, model->p[value_index], bound))
             continue;
-        format_given_values(model, value_index, given_values, sizeof given_values);
-        const char *unit = fmu_slots[value_index].unit;
-        int n = snprintf(text, sizeof text, "%s is %.6g%s%s%s: %s", fmu_slots[value_index].address,
-            model->p[value_index], unit[0] ? " " : "", unit, given_values, fmu_conditions[k].message);
+        format_set_parameters(model, value_index, set_parameters, sizeof set_parameters);
+        const char *unit = fmu_parameters[value_index].unit;
+        int n = snprintf(text, sizeof text, "%s is %.6g%s%s%s: %s", fmu_parameters[value_index].address,
+            model->p[value_index], unit[0] ? " " : "", unit, set_parameters, fmu_conditions[k].message);
         if (fmu_conditions[k].count && n > 0 && (size_t)n < sizeof text)
             snprintf(text + n, sizeof text - (size_t)n, ", here %s %.6g", fmu_conditions[k].relation, bound);
         return log_error(model, text), 0;
     }
-    for (int k = 0; k < FMU_NUMBERS && FMU_SLOTS_USED; k++) {
+    for (int k = 0; k < FMU_VALUES && FMU_N_PARAMETERS; k++) {
         if (isfinite(model->p[k]))
             continue;
-        if (k < FMU_SLOTS_USED) {
-            format_given_values(model, k, given_values, sizeof given_values);
-            snprintf(text, sizeof text, "%s is %g%s: not finite", fmu_slots[k].address, model->p[k], given_values);
+        if (k < FMU_N_PARAMETERS) {
+            format_set_parameters(model, k, set_parameters, sizeof set_parameters);
+            snprintf(text, sizeof text, "%s is %g%s: not finite", fmu_parameters[k].address, model->p[k],
+                set_parameters);
         } else {
             snprintf(text, sizeof text, "a number of the equations that follows from these parameters is %g",
                 model->p[k]);
         }
         return log_error(model, text), 0;
     }
-    for (int k = 0; k < FMU_PLAYS; k++)
-        if (model->p[fmu_plays[k]] < FMU_LEAST_CLEARANCE * size) {
+    for (int k = 0; k < FMU_CLEARANCES; k++)
+        if (model->p[fmu_clearances[k]] < FMU_MIN_RELATIVE_CLEARANCE * size) {
             snprintf(text, sizeof text, "the clearance of %s is %g m, below what doubles tell apart at the "
-                "mechanism's size (%.3g m); expected %.2g m at least", fmu_joints[k], model->p[fmu_plays[k]],
-                size, FMU_LEAST_CLEARANCE * size);
+                "mechanism's size (%.3g m); expected %.2g m at least", fmu_joints[k], model->p[fmu_clearances[k]],
+                size, FMU_MIN_RELATIVE_CLEARANCE * size);
             return log_error(model, text), 0;
         }
     return 1;

@@ -1,8 +1,9 @@
 /* Directional derivatives of rates and outputs of an FMU by its states (FMI 3). */
 
 /*
- * Compute directional derivatives by states: of rates by the exact Jacobian, of outputs by central differences (FMI 3).
- * Return an error if knowns are not states, or unknowns neither rates nor, in model exchange, outputs.
+ * Compute directional derivatives with respect to states: of rates by the exact Jacobian, of outputs by central
+ * differences (FMI 3). Return an error if knowns are not states, or unknowns neither rates nor, in model exchange,
+ * outputs.
  */
 FMI3_EXPORT fmi3Status fmi3GetDirectionalDerivative(fmi3Instance instance, const fmi3ValueReference unknowns[],
     size_t n_unknowns, const fmi3ValueReference knowns[], size_t n_knowns, const fmi3Float64 seed[], size_t n_seed,
@@ -12,10 +13,10 @@ FMI3_EXPORT fmi3Status fmi3GetDirectionalDerivative(fmi3Instance instance, const
     double J[N_Y * N_Y], f_t[N_Y], direction[N_Y] = {0.0}, x[N_Y];
     int rates = 0;
     if (n_seed < n_knowns || n_sensitivity < n_unknowns)
-        return log_failure(model, "there are fewer values than variables", 0);
+        return log_error_with_status(model, "there are fewer values than variables", 0);
     for (size_t k = 0; k < n_knowns; k++) {
         if (knowns[k] < VR_STATES || knowns[k] >= VR_STATES + N_Y)
-            return log_failure(model, "derivatives by states are what there is", (int)knowns[k]);
+            return log_error_with_status(model, "derivatives are with respect to states only", (int)knowns[k]);
         direction[knowns[k] - VR_STATES] += seed[k];
     }
     if (!model->exchange)
@@ -23,38 +24,40 @@ FMI3_EXPORT fmi3Status fmi3GetDirectionalDerivative(fmi3Instance instance, const
     for (size_t k = 0; k < n_unknowns; k++)
         rates |= unknowns[k] >= VR_RATES && unknowns[k] < VR_RATES + N_Y;
     const double *p = TREE ? model->motion : model->p; /* rates in tree coordinates have no Baumgarte terms */
-    if (rates && gudgeon_jacobian(model->t, model->x, model->latched, p, J, f_t))
-        return log_failure(model, "a constraint row depends on others", 0);
+    if (rates && gudgeon_jacobian(model->t, model->x, model->sampled_discrete, p, J, f_t))
+        return log_error_with_status(model, "a constraint equation depends on others", 0);
     for (size_t k = 0; k < n_unknowns; k++) {
-        const fmi3ValueReference r = unknowns[k];
+        const fmi3ValueReference reference = unknowns[k];
         sensitivity[k] = 0.0;
-        if (r >= VR_RATES && r < VR_RATES + N_Y) {
+        if (reference >= VR_RATES && reference < VR_RATES + N_Y) {
             for (int j = 0; j < N_Y; j++)
-                sensitivity[k] += J[(size_t)(r - VR_RATES) * N_Y + j] * direction[j];
+                sensitivity[k] += J[(size_t)(reference - VR_RATES) * N_Y + j] * direction[j];
             continue;
         }
-        if (!model->exchange || r < VR_OUTPUTS || r >= VR_OUTPUTS + FMU_OUTPUTS)
-            return log_failure(model, "derivatives of rates and outputs are what there is", (int)r);
-        double most = 0.0, end_values[2];
+        if (!model->exchange || reference < VR_OUTPUTS || reference >= VR_OUTPUTS + FMU_OUTPUTS)
+            return log_error_with_status(
+                model, "derivatives are those of rates and of exchanged outputs only", (int)reference);
+        double largest_ratio = 0.0, end_values[2];
         /* outputs are linear in works, which need no small step */
-        for (int j = 0; j < N_Y && (j < 2 * N_X || most == 0.0); j++)
-            most = fmax(most, fabs(direction[j]) / model->nominal[j]);
-        if (most == 0.0)
+        for (int j = 0; j < N_Y && (j < 2 * N_X || largest_ratio == 0.0); j++)
+            largest_ratio = fmax(largest_ratio, fabs(direction[j]) / model->nominal[j]);
+        if (largest_ratio == 0.0)
             continue;
         memcpy(x, model->x, sizeof x);
-        for (int branch = 0; branch < 2; branch++) {
-            const double h = (branch ? 1e-5 : -1e-5) / most;
+        for (int end = 0; end < 2; end++) {
+            const double h = (end ? 1e-5 : -1e-5) / largest_ratio;
             for (int j = 0; j < N_Y; j++)
                 model->x[j] = x[j] + h * direction[j];
-            model->moved = 1;
+            model->outputs_outdated = 1;
             const int status = evaluate_outputs(model);
             memcpy(model->x, x, sizeof x);
-            model->moved = 1;
+            model->outputs_outdated = 1;
             if (status)
-                return log_failure(model, "a constraint row depends on others", status);
-            end_values[branch] = get_output(model, fmu_outputs[r - VR_OUTPUTS][0], fmu_outputs[r - VR_OUTPUTS][1]);
+                return log_error_with_status(model, "a constraint equation depends on others", status);
+            const int *const output = fmu_outputs[reference - VR_OUTPUTS];
+            end_values[end] = get_output(model, output[0], output[1]);
         }
-        sensitivity[k] = (end_values[1] - end_values[0]) * most / 2e-5;
+        sensitivity[k] = (end_values[1] - end_values[0]) * largest_ratio / 2e-5;
     }
     return fmi3OK;
 }

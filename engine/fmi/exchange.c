@@ -7,10 +7,10 @@
 #define MAX_DRIFT 1e-11 /* of the mechanism's size or 1 rad: drift at which closures are projected */
 
 /*
- * Change the branches of switching functions whose values have the opposite sign: those whose branches meet, or all
- * (`includes_all`). Return whether any changed.
+ * Reverse the branches of switching functions whose values have the opposite sign: of those that are continuous at
+ * their switching point (`meets`), or of all (`includes_all`). Return whether any changed.
  */
-static int update_branches(Model *model, const RhsOutputs *rhs, int includes_all)
+static int flip_violated_branches(Model *model, const RhsOutputs *rhs, int includes_all)
 {
     int has_changed = 0;
     for (int k = 0; k < N_SWITCHES; k++)
@@ -22,44 +22,45 @@ static int update_branches(Model *model, const RhsOutputs *rhs, int includes_all
 }
 
 /*
- * Compute the rates dx and outputs rhs at the present state of an instance. Return 0 or a status. Between events,
- * contacts and branches of expressions are frozen, so that the importer integrates a smooth function. Branches of
- * contact laws meet and follow the state, in up to six passes. A slip near a switching point would otherwise cause
- * repeated events.
+ * Compute the rates dx and outputs rhs at the current state of an instance. Return 0 or a status. Between events,
+ * contacts and branches of expressions are frozen, so that the importer integrates a smooth function.
+ *
+ * Branches of contact laws, which are continuous at their switching point, follow the state in up to six passes, and
+ * stay changed. A slip near a switching point would otherwise cause repeated events.
  */
 static int evaluate_exchange_rates(Model *model, double *dx, RhsOutputs *rhs)
 {
     int status = 0, changed = 1;
     for (int pass = 0; pass < 6 && changed && !status; pass++) {
-        DiscreteState now = model->discrete;
-        status = compute_motion_rates(model->t, model->x, &now, (const Parameters *)model->p, dx, rhs);
-        changed = now.is_frozen && update_branches(model, rhs, 0);
+        DiscreteState discrete_state = model->discrete;
+        status = compute_motion_rates(model->t, model->x, &discrete_state, (const Parameters *)model->p, dx, rhs);
+        changed = discrete_state.is_frozen && flip_violated_branches(model, rhs, 0);
     }
     return status;
 }
 
 /*
- * Raise the nominal of each velocity to the largest present velocity of its kind (length or angle), and those of works
- * and internal states to the kinetic energy, J. Nominals are never lowered. Return whether any was raised.
+ * Raise the nominal of each velocity to the largest current speed of its kind (length or angle), and those of works and
+ * internal states to the kinetic energy, J. Nominals are never lowered. Return whether any was raised.
  */
 static int raise_nominals(Model *model)
 {
-    double mass[N_Q], all[N_S], energy = 0.0;
-    int more = 0;
+    double mass[N_Q], absolute_state[N_S], energy = 0.0;
+    int is_raised = 0;
     mass_matrix((const Parameters *)model->p, mass);
-    convert_to_absolute(model->t, model->x, &model->discrete, (const Parameters *)model->p, all);
+    convert_to_absolute(model->t, model->x, &model->discrete, (const Parameters *)model->p, absolute_state);
     for (int k = 0; k < N_Q; k++)
-        energy += 0.5 * mass[k] * all[N_Q + k] * all[N_Q + k];
+        energy += 0.5 * mass[k] * absolute_state[N_Q + k] * absolute_state[N_Q + k];
     for (int k = N_X; k < N_Y; k++) {
-        double most = model->nominal[k];
+        double nominal = model->nominal[k];
         for (int i = 0; i < N_X && k < 2 * N_X; i++)
             if (fmu_is_angle[i] == fmu_is_angle[k - N_X])
-                most = fmax(most, fabs(model->x[N_X + i]));
-        most = k < 2 * N_X ? most : fmax(most, energy);
-        more |= most > model->nominal[k];
-        model->nominal[k] = most;
+                nominal = fmax(nominal, fabs(model->x[N_X + i]));
+        nominal = k < 2 * N_X ? nominal : fmax(nominal, energy);
+        is_raised |= nominal > model->nominal[k];
+        model->nominal[k] = nominal;
     }
-    return more;
+    return is_raised;
 }
 
 /*
@@ -89,8 +90,11 @@ static int set_initial_nominals(Model *model, const double *min_scale)
     return status;
 }
 
-/* Read the discrete state of an instance from that of its sample. */
-static void read_sampled_discrete_state(Model *model) { read_discrete_state(model->latched, &model->discrete); }
+/* Set the discrete state of an instance (model->discrete) from the one of its last sample (model->sampled_discrete). */
+static void read_sampled_discrete_state(Model *model)
+{
+    read_discrete_state(model->sampled_discrete, &model->discrete);
+}
 
 /*
  * Convert the state of an instance: in model exchange from the integrated state x to the absolute state y, in
@@ -107,16 +111,17 @@ static void synchronize_states(Model *model)
 }
 
 /*
- * Return the largest drift of the closures, rad or relative to the mechanism's size; -1 if a closure depends on others.
- * is_projected: the state is also projected onto the closures, in three passes. Return 0 without closures.
+ * Return the largest position drift of the closures: the correction that closes them, in rad or relative to the
+ * mechanism's size. Return 0 without closures; -1 if a closure depends on others. With is_projected, positions and
+ * velocities are also projected onto the closures, in three passes.
  */
 static double compute_closure_drift(Model *model, int is_projected)
 {
     double drift = 0.0;
     for (int pass = 0; pass < (is_projected ? 3 : 1) && N_LOOPS > 0; pass++) {
         double dq[N_X], dv[N_X], residual;
-        DiscreteState now = model->discrete;
-        if (compute_correction(model->t, model->x, &now, (const Parameters *)model->p, dq, dv, &residual))
+        DiscreteState discrete_state = model->discrete;
+        if (compute_correction(model->t, model->x, &discrete_state, (const Parameters *)model->p, dq, dv, &residual))
             return -1.0;
         for (int k = 0; k < N_X; k++) {
             drift = fmax(drift, fabs(dq[k]) / (fmu_is_angle[k] ? 1.0 : model->extent));
@@ -130,20 +135,21 @@ static double compute_closure_drift(Model *model, int is_projected)
 }
 
 /*
- * Return event indicator k: a penetration (m), or the value of a switching function; its branch if it is not in use.
- * rhs: outputs of the right-hand side at the present state.
+ * Return event indicator k of model exchange: a penetration (m), or the value of a switching function with a jump; its
+ * branch if it is not in use (NaN). rhs: outputs of the right-hand side at the current state.
  */
 static double get_event_indicator(const Model *model, const RhsOutputs *rhs, int k)
 {
     if (k < N_CLEARANCES)
         return rhs->clearance[k].delta;
-    const int corner = fmu_jumps[k - N_CLEARANCES];
-    return isnan(rhs->g[corner]) ? model->discrete.branch[corner] : rhs->g[corner];
+    const int switch_index = fmu_jumps[k - N_CLEARANCES];
+    return isnan(rhs->g[switch_index]) ? model->discrete.branch[switch_index] : rhs->g[switch_index];
 }
 
 /*
- * Replace the values of switching functions that are exactly zero in rhs by their values a moment later. Return 0 or a
- * status. dx: rates of the present state, along which the state is moved for that. The instance is not changed.
+ * Replace the values of switching functions that are exactly zero in rhs by their values 1e-9 of the time later (at
+ * least 1e-12 s). Return 0 or a status. dx: rates of the current state, along which the state is extrapolated. The
+ * state and time of the instance are restored.
  */
 static int resolve_zero_branches(Model *model, const double *dx, RhsOutputs *rhs)
 {
@@ -169,9 +175,9 @@ static int resolve_zero_branches(Model *model, const double *dx, RhsOutputs *rhs
 }
 
 /*
- * Update contacts and branches of an instance at an event, including branches that change as a consequence. Return 0 or
- * a status. A contact begins where the penetration is positive; its approach speed is stored. Up to six passes are
- * made.
+ * Update contacts and branches of an instance at an event, including branches that change as a consequence, in up to
+ * six passes. Return 0 or a status. A contact is closed where the penetration is positive, or zero and not decreasing;
+ * its approach speed is stored at an onset. Contacts and branches are then frozen.
  */
 static int update_contacts_and_branches(Model *model)
 {
@@ -180,14 +186,14 @@ static int update_contacts_and_branches(Model *model)
     int status = evaluate_exchange_rates(model, dx, &rhs), changed = 1;
     for (int i = 0; i < N_CLEARANCES && !status; i++) {
         const Clearance *joint = &rhs.clearance[i];
-        const int touches = !isnan(model->latched[i]);
+        const int touches = !isnan(model->sampled_discrete[i]);
         /* at exactly zero the rate decides */
         const int within = joint->delta > 0.0 || (joint->delta == 0.0 && joint->deltadot >= 0.0);
         if (touches == within)
             continue;
         const double min_speed = min_approach_speed((const Parameters *)model->p, i);
-        model->latched[i] = within ? fmax(joint->deltadot, min_speed) : NAN;
-        model->state[i] = within ? CODE_IMPACT : CODE_FREE; /* an impact ends at a completed step */
+        model->sampled_discrete[i] = within ? fmax(joint->deltadot, min_speed) : NAN;
+        model->contact_codes[i] = within ? CODE_IMPACT : CODE_FREE; /* an impact ends at a completed step */
     }
     if (!status)
         status = resolve_zero_branches(model, dx, &rhs);
@@ -197,7 +203,7 @@ static int update_contacts_and_branches(Model *model)
     model->discrete.is_frozen = 1;
     for (int pass = 0; pass < 6 && changed && !status; pass++) {
         status = evaluate_exchange_rates(model, dx, &rhs);
-        changed = !status && update_branches(model, &rhs, 1);
+        changed = !status && flip_violated_branches(model, &rhs, 1);
     }
     return status;
 }
@@ -208,9 +214,9 @@ FMI3_EXPORT fmi3Status fmi3EnterEventMode(fmi3Instance instance) { return (void)
 FMI3_EXPORT fmi3Status fmi3EnterContinuousTimeMode(fmi3Instance instance) { return (void)instance, fmi3OK; }
 
 /*
- * Update contacts and branches, and project the closures, at an event (FMI 3). Return fmi3OK, or an error if the motion
- * cannot be followed. No further update, end or time event is requested. values_changed: whether the projection changed
- * states.
+ * Update contacts and branches, and project the closures, at an event (FMI 3). Return fmi3OK, or an error if the
+ * right-hand side cannot be evaluated. No further update, end or time event is requested. values_changed: whether the
+ * projection changed states; nominals_changed: whether nominals were raised.
  */
 FMI3_EXPORT fmi3Status fmi3UpdateDiscreteStates(fmi3Instance instance, fmi3Boolean *needs_update,
     fmi3Boolean *terminate, fmi3Boolean *nominals_changed, fmi3Boolean *values_changed,
@@ -224,13 +230,13 @@ FMI3_EXPORT fmi3Status fmi3UpdateDiscreteStates(fmi3Instance instance, fmi3Boole
     *nominals_changed = !status && raise_nominals(model);
     *next_event_time = INFINITY;
     *values_changed = drift != 0.0;
-    model->moved = 1;
-    return status ? log_failure(model, "the motion cannot be followed", status) : fmi3OK;
+    model->outputs_outdated = 1;
+    return status ? log_error_with_status(model, "the motion cannot be followed", status) : fmi3OK;
 }
 
 /*
- * End impacts whose penetration decreases, after a step of the importer, and request an event if closures have drifted
- * (FMI 3).
+ * Mark contacts whose penetration no longer grows as past compression, after a step of the importer (FMI 3). Request
+ * event mode if the closures have drifted by more than MAX_DRIFT. Always return fmi3OK.
  */
 FMI3_EXPORT fmi3Status fmi3CompletedIntegratorStep(fmi3Instance instance, fmi3Boolean cannot_return,
     fmi3Boolean *enters_event_mode, fmi3Boolean *terminate)
@@ -241,8 +247,8 @@ FMI3_EXPORT fmi3Status fmi3CompletedIntegratorStep(fmi3Instance instance, fmi3Bo
     (void)cannot_return;
     if (N_CLEARANCES && !evaluate_exchange_rates(model, dx, &rhs))
         for (int i = 0; i < N_CLEARANCES; i++)
-            if (model->state[i] == CODE_IMPACT && rhs.clearance[i].deltadot <= 0.0)
-                model->state[i] = CODE_CONTACT;
+            if (model->contact_codes[i] == CODE_IMPACT && rhs.clearance[i].deltadot <= 0.0)
+                model->contact_codes[i] = CODE_CONTACT;
     *enters_event_mode = compute_closure_drift(model, 0) > MAX_DRIFT;
     *terminate = false;
     return fmi3OK;
@@ -253,14 +259,14 @@ FMI3_EXPORT fmi3Status fmi3SetTime(fmi3Instance instance, fmi3Float64 t)
 {
     Model *model = instance;
     model->t = t;
-    model->moved = 1;
+    model->outputs_outdated = 1;
     return fmi3OK;
 }
 
 /* Return fmi3OK if n is the expected number of values; otherwise log an error and return fmi3Error. */
 static fmi3Status check_value_count(const Model *model, size_t n, size_t expected)
 {
-    return n == expected ? fmi3OK : log_failure(model, "another number of values than there are", (int)n);
+    return n == expected ? fmi3OK : log_error_with_status(model, "wrong number of values", (int)n);
 }
 
 /* Set the integrated state x, n = N_Y values (FMI 3). Outputs are evaluated again when needed. */
@@ -270,11 +276,14 @@ FMI3_EXPORT fmi3Status fmi3SetContinuousStates(fmi3Instance instance, const fmi3
     if (check_value_count(model, n, N_Y))
         return fmi3Error;
     memcpy(model->x, x, sizeof model->x);
-    model->moved = 1;
+    model->outputs_outdated = 1;
     return fmi3OK;
 }
 
-/* Copy one number of each state, N_Y of them, from `source` to `value`. Return fmi3Error if n is another number. */
+/*
+ * Copy one number of each state (N_Y) from `source` to `value`. If n is another number, log an error and return
+ * fmi3Error.
+ */
 static fmi3Status copy_state_values(const Model *model, const double *source, fmi3Float64 value[], size_t n)
 {
     if (check_value_count(model, n, N_Y))
@@ -283,7 +292,7 @@ static fmi3Status copy_state_values(const Model *model, const double *source, fm
     return fmi3OK;
 }
 
-/* Get the integrated state, N_Y values. */
+/* Get the integrated state x, n = N_Y values (FMI 3). */
 FMI3_EXPORT fmi3Status fmi3GetContinuousStates(fmi3Instance instance, fmi3Float64 x[], size_t n)
 {
     return copy_state_values(instance, ((const Model *)instance)->x, x, n);
@@ -308,8 +317,8 @@ FMI3_EXPORT fmi3Status fmi3GetContinuousStateDerivatives(fmi3Instance instance, 
 }
 
 /*
- * Get the event indicators z, n = N_INDICATORS values (FMI 3). Return fmi3Discard if the right-hand side cannot be
- * evaluated.
+ * Get the event indicators z, n = N_INDICATORS values (FMI 3): penetrations, then switching functions with a jump.
+ * Return fmi3Discard if the right-hand side cannot be evaluated.
  */
 FMI3_EXPORT fmi3Status fmi3GetEventIndicators(fmi3Instance instance, fmi3Float64 z[], size_t n)
 {
@@ -331,13 +340,13 @@ FMI3_EXPORT fmi3Status fmi3GetNominalsOfContinuousStates(fmi3Instance instance, 
     return copy_state_values(instance, ((const Model *)instance)->nominal, nominal, n);
 }
 
-/* Get the number of states, N_Y. */
+/* Get the number of continuous states, N_Y (FMI 3). */
 FMI3_EXPORT fmi3Status fmi3GetNumberOfContinuousStates(fmi3Instance instance, size_t *n)
 {
     return (void)instance, *n = N_Y, fmi3OK;
 }
 
-/* Get the number of event indicators. */
+/* Get the number of event indicators, N_INDICATORS (FMI 3). */
 FMI3_EXPORT fmi3Status fmi3GetNumberOfEventIndicators(fmi3Instance instance, size_t *n)
 {
     return (void)instance, *n = N_INDICATORS, fmi3OK;

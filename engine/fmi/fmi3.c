@@ -15,10 +15,10 @@
 
 #include "instance.c"
 
-/* Return the version of FMI. */
+/* Return the version of FMI, "3.0". */
 FMI3_EXPORT const char *fmi3GetVersion(void) { return "3.0"; }
 
-/* Accept and ignore the settings of debug logging. */
+/* Accept and ignore the settings of debug logging (FMI 3): only errors are logged. */
 FMI3_EXPORT fmi3Status fmi3SetDebugLogging(fmi3Instance instance, fmi3Boolean is_enabled, size_t n,
     const fmi3String categories[])
 {
@@ -26,15 +26,15 @@ FMI3_EXPORT fmi3Status fmi3SetDebugLogging(fmi3Instance instance, fmi3Boolean is
 }
 
 /*
- * Create an instance with default settings and a copy of its name. Return NULL if the token is wrong or memory is
- * exhausted. A wrong token is logged.
+ * Create an instance with default settings and a copy of its name. Return NULL if the instantiation token is wrong,
+ * which is logged, or memory is exhausted.
  */
 static Model *create_instance(fmi3String name, fmi3String token, fmi3InstanceEnvironment environment,
     fmi3LogMessageCallback log_message)
 {
     if (!token || strcmp(token, FMU_TOKEN)) {
         if (log_message)
-            log_message(environment, fmi3Error, "logStatusError", "the token is that of another model");
+            log_message(environment, fmi3Error, "logStatusError", "the instantiation token is that of another model");
         return NULL;
     }
     Model *model = calloc(1, sizeof(Model));
@@ -83,7 +83,7 @@ FMI3_EXPORT fmi3Instance fmi3InstantiateModelExchange(fmi3String name, fmi3Strin
 #endif
 }
 
-/* Return NULL: scheduled execution is not supported. */
+/* Return NULL: scheduled execution (FMI 3) is not supported. */
 FMI3_EXPORT fmi3Instance fmi3InstantiateScheduledExecution(fmi3String name) { return (void)name, NULL; }
 
 /* Free an instance with its run (FMI 3). NULL is ignored. */
@@ -98,9 +98,9 @@ FMI3_EXPORT void fmi3FreeInstance(fmi3Instance instance)
 }
 
 /*
- * Enter initialization mode (FMI 3): set start and end times, s, and the importer's tolerance unless one was set as a
- * parameter. Without a stop time the end is TIME_CONSTANT after the start. Return an error in any other phase than
- * after instantiation or a reset.
+ * Enter initialization mode (FMI 3): set start and end times, s, and the importer's tolerance, at least 1e-14, unless
+ * one was set as a parameter. Without a stop time the end is TIME_CONSTANT after the start. Return an error in any
+ * other phase than after instantiation or a reset.
  */
 FMI3_EXPORT fmi3Status fmi3EnterInitializationMode(fmi3Instance instance, fmi3Boolean has_tolerance,
     fmi3Float64 tolerance, fmi3Float64 start, fmi3Boolean has_stop, fmi3Float64 stop)
@@ -109,7 +109,7 @@ FMI3_EXPORT fmi3Status fmi3EnterInitializationMode(fmi3Instance instance, fmi3Bo
     if (model->phase != SETTING)
         return log_error(model, "initialization mode is entered once, after instantiation or a reset");
     model->phase = INITIALIZING;
-    model->begun = 0; /* outputs may have been requested before */
+    model->has_begun = 0; /* outputs may have been requested before */
     model->t = start;
     model->t_end = has_stop ? stop : start + TIME_CONSTANT;
     if (has_tolerance && tolerance > 0.0 && tolerance < 1.0 && !model->rtol_given)
@@ -118,39 +118,42 @@ FMI3_EXPORT fmi3Status fmi3EnterInitializationMode(fmi3Instance instance, fmi3Bo
 }
 
 /*
- * Leave initialization mode and begin the run, unless outputs were requested before (FMI 3). Return an error if it
- * cannot begin.
+ * Leave initialization mode and begin the run, unless outputs were requested before (FMI 3). Return an error if the
+ * mode was not entered or the run cannot begin.
  */
 FMI3_EXPORT fmi3Status fmi3ExitInitializationMode(fmi3Instance instance)
 {
     Model *model = instance;
     if (model->phase != INITIALIZING)
         return log_error(model, "initialization mode was not entered");
-    if (!model->begun && begin_run(model))
+    if (!model->has_begun && begin_instance_run(model))
         return fmi3Error;
     model->phase = RUNNING;
     return fmi3OK;
 }
 
-/* Accept the end of a simulation. */
+/* Accept the end of a simulation (FMI 3); nothing is freed. */
 FMI3_EXPORT fmi3Status fmi3Terminate(fmi3Instance instance) { return (void)instance, fmi3OK; }
 
-/* Reset an instance to its state after instantiation: parameters, tolerance, phase and time (FMI 3). */
+/*
+ * Reset an instance to its state after instantiation: parameters, tolerance, phase and time (FMI 3). The memory of the
+ * run is kept until the next one begins.
+ */
 FMI3_EXPORT fmi3Status fmi3Reset(fmi3Instance instance)
 {
     Model *model = instance;
-    memset(model->is_given, 0, sizeof model->is_given);
+    memset(model->is_set, 0, sizeof model->is_set);
     model->rtol = FMU_RTOL;
-    model->begun = model->ended = model->rtol_given = 0;
+    model->has_begun = model->has_ended = model->rtol_given = 0;
     model->phase = SETTING;
     model->t = 0.0;
     return fmi3OK;
 }
 
 /*
- * Integrate an instance from t, its present time, to t + h, a communication point (FMI 3). last_time: time reached.
+ * Integrate an instance from t, its current time, to t + h (s), a communication point (FMI 3). last_time: time reached.
  * terminate: whether an event ended the run; the state then no longer changes. Return an error outside a run, for h <=
- * 0 or another t, and if the motion cannot be followed.
+ * 0 or another t, and if the integration fails.
  */
 FMI3_EXPORT fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 t, fmi3Float64 h, fmi3Boolean cannot_return,
     fmi3Boolean *event_needed, fmi3Boolean *terminate, fmi3Boolean *returns_early, fmi3Float64 *last_time)
@@ -160,16 +163,16 @@ FMI3_EXPORT fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 t, fmi3Floa
     *event_needed = *terminate = *returns_early = false;
     *last_time = model->t;
     if (model->phase != RUNNING)
-        return log_error(model, "a step is made after initialization");
+        return log_error(model, "steps are allowed only after initialization");
     if (!(h > 0.0) || fabs(t - model->t) > 1e-9 * fmax(1.0, fabs(t)))
-        return log_failure(model, "a step begins where the last one ended, and is longer than 0", 0);
+        return log_error_with_status(model, "a step must begin where the last one ended and be longer than 0", 0);
     const double end = t + h;
-    const int status = model->ended ? 0 : advance_to(model, end);
+    const int status = model->has_ended ? 0 : integrate_instance(model, end);
     if (status)
-        return log_failure(model, "the motion cannot be followed", status);
+        return log_error_with_status(model, "the motion cannot be followed", status);
     model->t = *last_time = end;
-    model->moved = 1;
-    *terminate = model->ended;
+    model->outputs_outdated = 1;
+    *terminate = model->has_ended;
     return fmi3OK;
 }
 

@@ -10,26 +10,26 @@ FMI3_EXPORT fmi3Status fmi3GetFloat64(fmi3Instance instance, const fmi3ValueRefe
 {
     Model *model = instance;
     if (n_values < n)
-        return log_failure(model, "there are fewer values than variables", 0);
+        return log_error_with_status(model, "there are fewer values than variables", 0);
     for (size_t k = 0; k < n; k++) {
         const fmi3ValueReference r = reference[k];
         if (r == VR_TIME) {
             value[k] = model->t;
         } else if (r == VR_RTOL) {
             value[k] = model->rtol;
-        } else if (r >= VR_PARAMETERS && r < VR_PARAMETERS + FMU_SLOTS_USED) {
+        } else if (r >= VR_PARAMETERS && r < VR_PARAMETERS + FMU_N_PARAMETERS) {
             const int i = (int)(r - VR_PARAMETERS);
-            value[k] = model->begun ? model->p[i] : model->is_given[i] ? model->given[i] : fmu_defaults[i];
+            value[k] = model->has_begun ? model->p[i] : model->is_set[i] ? model->set_values[i] : fmu_defaults[i];
         } else if (r >= VR_OUTPUTS && r < VR_OUTPUTS + FMU_OUTPUTS) {
-            if (!model->begun && begin_run(model)) /* in initialization mode: outputs at the start */
+            if (!model->has_begun && begin_instance_run(model)) /* in initialization mode: outputs at the start */
                 return fmi3Error;
             const int status = evaluate_outputs(model);
             if (status)
-                return log_failure(model, "a constraint row depends on others", status);
+                return log_error_with_status(model, "a constraint equation depends on others", status);
             value[k] = get_output(model, fmu_outputs[r - VR_OUTPUTS][0], fmu_outputs[r - VR_OUTPUTS][1]);
 #if FMU_EXCHANGE
         } else if (r >= VR_STATES && r < VR_STATES + N_Y) {
-            if (!model->begun && begin_run(model))
+            if (!model->has_begun && begin_instance_run(model))
                 return fmi3Error;
             if (!model->exchange)
                 synchronize_states(model);
@@ -38,18 +38,18 @@ FMI3_EXPORT fmi3Status fmi3GetFloat64(fmi3Instance instance, const fmi3ValueRefe
             || (r >= VR_INDICATORS && r < VR_INDICATORS + N_INDICATORS)) {
             double dx[N_Y];
             RhsOutputs rhs;
-            if (!model->begun && begin_run(model))
+            if (!model->has_begun && begin_instance_run(model))
                 return fmi3Error;
             if (!model->exchange)
                 synchronize_states(model);
             const int status = evaluate_exchange_rates(model, dx, &rhs);
             if (status)
-                return log_failure(model, "a constraint row depends on others", status);
+                return log_error_with_status(model, "a constraint equation depends on others", status);
             value[k] = r < VR_INDICATORS ? dx[r - VR_RATES]
                 : get_event_indicator(model, &rhs, (int)(r - VR_INDICATORS));
 #endif
         } else {
-            return log_failure(model, "a variable that there is not", (int)r);
+            return log_error_with_status(model, "unknown variable", (int)r);
         }
     }
     return fmi3OK;
@@ -57,45 +57,47 @@ FMI3_EXPORT fmi3Status fmi3GetFloat64(fmi3Instance instance, const fmi3ValueRefe
 
 /*
  * Set parameters or the tolerance before initialization ends (FMI 3). Return an error for other variables, for values
- * outside their range and during a run. A parameter set to its default counts as not given, so that dependent defaults
- * remain dependent.
+ * outside their range and during a run. A parameter set to its default counts as not set, so that defaults that depend
+ * on other parameters are computed from them. A run that has begun must begin again.
  */
 FMI3_EXPORT fmi3Status fmi3SetFloat64(fmi3Instance instance, const fmi3ValueReference reference[], size_t n,
     const fmi3Float64 value[], size_t n_values)
 {
     Model *model = instance;
     if (n_values < n)
-        return log_failure(model, "there are fewer values than variables", 0);
+        return log_error_with_status(model, "there are fewer values than variables", 0);
     for (size_t k = 0; k < n; k++) {
         const fmi3ValueReference r = reference[k];
-        const int slot = r >= VR_PARAMETERS && r < VR_PARAMETERS + FMU_SLOTS_USED ? (int)(r - VR_PARAMETERS) : -1;
-        const char *name = r == VR_RTOL ? "relative_tolerance" : slot >= 0 ? fmu_slots[slot].address : NULL;
+        const int parameter =
+            r >= VR_PARAMETERS && r < VR_PARAMETERS + FMU_N_PARAMETERS ? (int)(r - VR_PARAMETERS) : -1;
+        const char *name = r == VR_RTOL ? "relative_tolerance"
+            : parameter >= 0 ? fmu_parameters[parameter].address : NULL;
         char text[400];
-        if (!name || (slot >= 0 && fmu_slots[slot].chosen))
-            return log_failure(model, "a variable that there is not, or that is not set", (int)r);
+        if (!name || (parameter >= 0 && fmu_parameters[parameter].chosen))
+            return log_error_with_status(model, "unknown variable, or one that cannot be set", (int)r);
         if (model->phase == RUNNING) { /* parameters are fixed during a run */
             snprintf(text, sizeof text, "%s is fixed: it is set before initialization ends", name);
             return log_error(model, text);
         }
-        if (slot < 0 ? !(value[k] >= 1e-14 && value[k] < 1.0) : !isfinite(value[k])) {
+        if (parameter < 0 ? !(value[k] >= 1e-14 && value[k] < 1.0) : !isfinite(value[k])) {
             snprintf(text, sizeof text, "%s is %g: expected %s", name, value[k],
-                slot < 0 ? ">= 1e-14 and < 1" : "a finite number");
+                parameter < 0 ? ">= 1e-14 and < 1" : "a finite number");
             return log_error(model, text);
         }
-        if (slot < 0) {
+        if (parameter < 0) {
             model->rtol = value[k];
             model->rtol_given = 1;
         } else {
-            model->given[slot] = value[k];
-            model->is_given[slot] = value[k] != fmu_defaults[slot]; /* dependent defaults remain dependent */
+            model->set_values[parameter] = value[k];
+            model->is_set[parameter] = value[k] != fmu_defaults[parameter]; /* dependent defaults remain dependent */
         }
-        model->begun = 0;
+        model->has_begun = 0;
     }
     return fmi3OK;
 }
 
 /*
- * Copy an instance with the memory of its run into *state, which is allocated if it is NULL (FMI 3). The structs
+ * Copy an instance with the memory of its run into *state (FMI 3), which is allocated if it is NULL. The structs
  * contain no pointers to themselves. Return an error if memory is exhausted.
  */
 FMI3_EXPORT fmi3Status fmi3GetFMUState(fmi3Instance instance, fmi3FMUState *state)
@@ -105,13 +107,13 @@ FMI3_EXPORT fmi3Status fmi3GetFMUState(fmi3Instance instance, fmi3FMUState *stat
         *state = malloc(sizeof(Model) + sizeof(double));
     Model *copy = *state;
     if (!copy)
-        return log_failure(model, "there is no memory", 0);
+        return log_error_with_status(model, "out of memory", 0);
     *copy = *model;
     copy->run = NULL;
     if (model->run) {
         copy->run = malloc(model->size);
         if (!copy->run)
-            return log_failure(model, "there is no memory", 0);
+            return log_error_with_status(model, "out of memory", 0);
         memcpy(copy->run, model->run, model->size);
     }
     return fmi3OK;
@@ -126,12 +128,12 @@ FMI3_EXPORT fmi3Status fmi3SetFMUState(fmi3Instance instance, fmi3FMUState state
     if (copy->run && !run)
         run = malloc(copy->size);
     if (copy->run && !run)
-        return log_failure(model, "there is no memory", 0);
-    const Model present = *model;
+        return log_error_with_status(model, "out of memory", 0);
+    const Model current = *model;
     *model = *copy;
-    model->name = present.name;
-    model->environment = present.environment;
-    model->log_message = present.log_message;
+    model->name = current.name;
+    model->environment = current.environment;
+    model->log_message = current.log_message;
     model->run = run;
     if (copy->run)
         memcpy(run, copy->run, copy->size);
@@ -150,7 +152,7 @@ FMI3_EXPORT fmi3Status fmi3FreeFMUState(fmi3Instance instance, fmi3FMUState *sta
     return fmi3OK;
 }
 
-/* Get the number of bytes of a serialized state; it is valid for the same library only. */
+/* Get the number of bytes of a serialized state (FMI 3); it is valid for the same library only. */
 FMI3_EXPORT fmi3Status fmi3SerializedFMUStateSize(fmi3Instance instance, fmi3FMUState state, size_t *size)
 {
     const Model *copy = state;
@@ -166,7 +168,7 @@ FMI3_EXPORT fmi3Status fmi3SerializeFMUState(fmi3Instance instance, fmi3FMUState
     size_t size = 0;
     fmi3SerializedFMUStateSize(instance, state, &size);
     if (n < size)
-        return log_failure(instance, "there are fewer bytes than a state has", 0);
+        return log_error_with_status(instance, "the serialized state needs more bytes", 0);
     memcpy(bytes, copy, sizeof(Model));
     if (copy->run)
         memcpy(bytes + sizeof(Model), copy->run, copy->size);
@@ -183,13 +185,13 @@ FMI3_EXPORT fmi3Status fmi3DeserializeFMUState(fmi3Instance instance, const uint
     Model *copy = n < sizeof(Model) ? NULL : malloc(sizeof(Model));
     *state = NULL;
     if (!copy)
-        return log_failure(instance, "these are not the bytes of a state", 0);
+        return log_error_with_status(instance, "the bytes are not a serialized state of this FMU", 0);
     memcpy(copy, bytes, sizeof(Model));
     if (copy->run) { /* the address is invalid; it shows only that a run existed */
         copy->run = n == sizeof(Model) + copy->size ? malloc(copy->size) : NULL;
         if (!copy->run) {
             free(copy);
-            return log_failure(instance, "these are not the bytes of a state", 0);
+            return log_error_with_status(instance, "the bytes are not a serialized state of this FMU", 0);
         }
         memcpy(copy->run, bytes + sizeof(Model), copy->size);
     }

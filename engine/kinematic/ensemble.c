@@ -104,7 +104,7 @@ static int accept_step(KinematicRun *run)
 {
     RunSamples *samples = &run->samples;
     samples->steps++;
-    if (has_stalled(&run->monitor, run->motion.t, run->t_end))
+    if (detect_stall(&run->monitor, run->motion.t, run->t_end))
         return STALLED;
     if (run->motion.t < samples->t[samples->done])
         return 0;
@@ -199,7 +199,7 @@ void gudgeon_kinematic_ensemble(const void *batch_data, void *integrator, long n
 /* Return the functions of a single run that a library of lanes calls. */
 const void *gudgeon_single_run_functions(void)
 {
-    static const KinematicRunFunctions single = {begin_run, advance_run, end_run, has_stalled,
+    static const KinematicRunFunctions single = {begin_run, advance_run, end_run, detect_stall,
         count_steps_before_check, has_hidden_transient};
     return &single;
 }

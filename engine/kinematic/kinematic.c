@@ -212,7 +212,7 @@ static int follow_motion_to(KinematicRun *run, double t1, Position *position, lo
             return status;
         ++*steps;
         record_position(run, position);
-        if (has_stalled(&run->monitor, position->t, run->t_end))
+        if (detect_stall(&run->monitor, position->t, run->t_end))
             return STALLED;
     }
     return complete_position(run, position);

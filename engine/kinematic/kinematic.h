@@ -82,7 +82,7 @@ typedef struct {
     int (*begin)(const KinematicBatch *batch, long i, KinematicRun *run); /* start and first sample; returns a status */
     int (*advance)(KinematicRun *run);       /* one step; returns a status */
     void (*end)(const KinematicBatch *batch, long i, KinematicRun *run, int status);
-    int (*has_stalled)(ProgressMonitor *monitor, double t, double t_end);
+    int (*detect_stall)(ProgressMonitor *monitor, double t, double t_end);
     long (*count_steps_before_check)(const ProgressMonitor *monitor);
     int (*has_transient)(double t0, double t1, const Parameters *p); /* whether the step t0 to t1 hides a transient */
 } KinematicRunFunctions;

@@ -283,7 +283,7 @@ static int accept_lane_step(RunLanes *lanes, int k)
     if (lanes->unmonitored[k] > 0) {
         lanes->unmonitored[k]--;
         run->monitor.steps++;
-    } else if (lanes->single->has_stalled(&run->monitor, t, run->t_end)) {
+    } else if (lanes->single->detect_stall(&run->monitor, t, run->t_end)) {
         return STALLED;
     } else {
         lanes->unmonitored[k] = lanes->single->count_steps_before_check(&run->monitor);

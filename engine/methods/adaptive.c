@@ -7,8 +7,10 @@ enum { N_SIGN_PARTS = 4, MAX_REPEATS = 8 /* repetitions of a step to end just af
 /*
  * Set the unset signs of user-defined events from their values at inner points of a step, before the step is committed.
  * Acts only if a contact or friction event ends the step at `fraction` and a sign is unset (0). Such an event holds the
- * user-defined one at zero at both ends. The points are at 1/4, 2/4 and 3/4 of `fraction`. It returns early without an
- * effect if the dense output or a state there cannot be computed.
+ * user-defined one at zero at both ends.
+ *
+ * The points are at 1/4, 2/4 and 3/4 of `fraction`. The function returns early if the dense output or a state there
+ * cannot be computed; signs set before remain.
  */
 static void update_event_signs_within_step(Integrator *run, Step *step, double fraction, int event, const Parameters *p)
 {
@@ -30,9 +32,11 @@ static void update_event_signs_within_step(Integrator *run, Step *step, double f
 
 /*
  * Make the end of an accepted step, or its state at `fraction` < 1 where `event` occurs, the new state of the run at
- * time t_new. Then update everything that depends on it (peaks, works, counts, error weights, step record, event
- * signs), apply the event (-1: none), and check the contacts. `fraction` < 1 needs a dense output that exists. Return 0
- * or the status: that of the state, CHATTERING, that of the event or of the contacts.
+ * time t_new (s). Then update everything that depends on it: peaks, works, counts, error weights, step record, event
+ * signs. Last, apply the event (-1: none), and check open contacts. `fraction` < 1 needs a dense output that exists.
+ *
+ * Return 0 or the status: that of the state, CHATTERING after too many events without advance, that of the event (also
+ * ENDED) or of the contacts.
  */
 static int commit_step(Integrator *run, Step *step, double fraction, double t_new, int event, const Parameters *p)
 {
@@ -41,7 +45,7 @@ static int commit_step(Integrator *run, Step *step, double fraction, double t_ne
     int status = fraction < 1.0 ? evaluate_state_at(run, step, fraction, p, step->y, step->dy, &step->rhs) : 0;
     if (status)
         return status;
-    find_inner_peaks(run, step, fraction, p);
+    record_inner_peaks(run, step, fraction, p);
     flip_ignored_branches(run, step);
     update_energy_scale(run, 1, step->y);
     for (int k = 0; k < N_Y; k++) {
@@ -67,7 +71,7 @@ static int commit_step(Integrator *run, Step *step, double fraction, double t_ne
         set_phi_dot_max(run, drift);
     if (!status && event < 0 && run->roots.skip >= 0) { /* away from the switching point, on either branch */
         clear_suppressed_switch(run);
-        status = update_branches(run, -1, p);
+        status = update_branches_at_current_state(run, -1, p);
     }
     update_event_signs(run, run->t, run->y, &run->rhs, p);
     if (!status && event >= 0)
@@ -77,7 +81,7 @@ static int commit_step(Integrator *run, Step *step, double fraction, double t_ne
 
 /*
  * Return the rounding error in s of the end time t of a fixed step, a multiple of the step length; 0 without fixed
- * steps. Samples within that difference of t are at t.
+ * steps. Samples within that difference of t are taken from the state at t.
  */
 static double compute_end_time_tolerance(const Integrator *run, double t)
 {
@@ -85,9 +89,10 @@ static double compute_end_time_tolerance(const Integrator *run, double t)
 }
 
 /*
- * Store all samples that lie before time t_new, from the dense output of a step, and increment *samples->done for each.
- * Each interpolated state is projected onto the constraints, closed contacts and sticking friction. The right-hand
- * sides evaluated here are not counted. Return 0, or the status if the dense output cannot be computed.
+ * Store all samples whose output times lie before t_new (s), from the dense output of a step, and increment
+ * *samples->done for each. Each interpolated state is projected onto the constraints, closed contacts and sticking
+ * friction. The right-hand sides evaluated here are not counted. Return 0, or the status if the dense output cannot be
+ * computed.
  */
 static int store_samples_of_step(Integrator *run, Step *step, double t_new, const Parameters *p, const Samples *samples)
 {
@@ -109,11 +114,13 @@ static int store_samples_of_step(Integrator *run, Step *step, double t_new, cons
 
 /*
  * Append inner points of a step, up to `fraction`, to the step record before the step is committed. The points divide
- * the step into RECORD_PARTS parts, with further points next to the beginning after a jump and next to the end before
- * one (`has_jump`). Points that coincide with an end are omitted. Return 0, also if no record is kept, or the status of
- * the dense output. Evaluations are not counted.
+ * the step into RECORD_PARTS parts. Further points lie next to the beginning after a jump, and next to the end before
+ * one (`has_jump`).
+ *
+ * Points that coincide with an end are omitted. Return 0, also if no record is kept, or the status of the dense output.
+ * Evaluations are not counted.
  */
-static int record_step_interior(Integrator *run, Step *step, double fraction, int has_jump, const Parameters *p)
+static int append_step_interior_rows(Integrator *run, Step *step, double fraction, int has_jump, const Parameters *p)
 {
     const long evaluations = run->counts.evaluations;
     const double event_width = max_of(64.0 * DBL_EPSILON * fabs(step->t), 4.0 * run->roots.time_resolution) / step->h;
@@ -129,29 +136,31 @@ static int record_step_interior(Integrator *run, Step *step, double fraction, in
             continue; /* so short a step has no such rows */
         interpolate(run, step, s, y);
         project_state(run, t, y, p);
-        record_state(run, t, y, p);
+        append_record_row(run, t, y, p);
     }
     restore_evaluations(run, evaluations); /* output, not integration */
     return status;
 }
 
 /*
- * Append the run's state at the end of a step to the step record. After a change there (`has_jump`) nothing is
- * appended, unless this is the last step: the next step appends the row after the jump.
+ * Append the run's state at the end of a step to the step record. If the state jumped there (`has_jump`), the next row
+ * is marked and nothing is appended: the next step appends the row after the jump. In the last step of a run
+ * (`is_last`) the state after the jump is appended here. Nothing happens without a record. Called by accept_step()
+ * after the step is committed.
  */
-static void record_step_end_state(Integrator *run, int has_jump, int is_last, const Parameters *p)
+static void append_step_end_row(Integrator *run, int has_jump, int is_last, const Parameters *p)
 {
-    mark_jump(run, has_jump);
+    mark_jump_before_next_row(run, has_jump);
     if (!has_jump || is_last)
-        record_state(run, run->t, run->y, p);
+        append_record_row(run, run->t, run->y, p);
 }
 
 /* Whether the scene has periodic functions (mod). */
 #ifndef PERIODS
 #define PERIODS 0
 #endif
-#define NEAR_END 1.02 /* times the fraction of the event: length of a repeated step that ends just after it */
-#define PERIOD_END 1.1 /* the same for scenes with periodic functions */
+#define EVENT_END_RATIO 1.02 /* times the fraction of the event: length of a repeated step that ends just after it */
+#define PERIOD_END_RATIO 1.1 /* the same for scenes with periodic functions */
 /* Whether the scene has curves with knots. */
 #ifndef KNOTS
 #define KNOTS 0
@@ -159,9 +168,9 @@ static void record_step_end_state(Integrator *run, int has_jump, int is_last, co
 #define MAX_KNOT_EXTRAPOLATION 0.4 /* of a piece of a curve, which continues beyond its knot (scene/curves.h) */
 
 /*
- * Repeat the present step with length h (s), and find its first event: *event and its *fraction of the step. Contacts
- * and branches are frozen meanwhile. Sets the run's next step length to h and replaces *step. Return 0 or the status;
- * then *event and *fraction are unchanged.
+ * Repeat the current step from its beginning with a length of at most h (s), and find its first event: *event and its
+ * *fraction of the step. Contacts and branches are frozen meanwhile. Sets the run's next step length to h and replaces
+ * *step. Return 0 or the status; then *event and *fraction are unchanged.
  */
 static int repeat_step(
     Integrator *run, double h, double t_end, const Parameters *p, Step *step, double *fraction, int *event)
@@ -176,11 +185,11 @@ static int repeat_step(
 }
 
 /*
- * Return whether an event or a sample needs the dense output of a step, and the dense output cannot be computed. It is
- * needed if its computation has failed before, or if the next sample lies inside the step. It is computed as a side
- * effect; its evaluations are not counted.
+ * Compute the dense output of a step if it is needed, and return whether that failed. It is needed if its computation
+ * has failed before, or if the next sample lies inside the step. Evaluations are not counted. Called in a loop that
+ * repeats the step with a shorter length.
  */
-static int is_dense_output_missing(Integrator *run, Step *step, const Parameters *p, const Samples *samples)
+static int compute_needed_dense_output(Integrator *run, Step *step, const Parameters *p, const Samples *samples)
 {
     const long evaluations = run->counts.evaluations; /* samples are output, not integration */
     const int needed = step->dense_ready == FAILED || samples->t[*samples->done] < step->t + step->h;
@@ -191,8 +200,8 @@ static int is_dense_output_missing(Integrator *run, Step *step, const Parameters
 
 /*
  * Return whether a step extends beyond an event at `fraction` by more than MAX_KNOT_EXTRAPOLATION times the time since
- * the last crossing. Such a step may have evaluated another piece of a curve beyond the knot. Always 0 in scenes
- * without curves.
+ * the last crossing of a switching point. Such a step may have evaluated another piece of a curve beyond the knot.
+ * Always 0 in scenes without curves.
  */
 static int is_far_beyond_knot(const Integrator *run, const Step *step, double fraction)
 {
@@ -201,20 +210,22 @@ static int is_far_beyond_knot(const Integrator *run, const Step *step, double fr
 }
 
 /*
- * Find the first event of an accepted step: *event (-1: none) and its *fraction of the step (1: none). Steps without a
- * needed dense output are repeated with a quarter of their length. Four kinds of steps are repeated to end just after
- * the event, because their values beyond it are not valid. These are fixed steps, steps with periods of mod or far
- * beyond a knot, and steps with wrong film forces at the event. The next step length of the run is restored. Return 0
- * or the status.
+ * Find the first event of an accepted step: *event (-1: none) and its *fraction of the step (1: none), and repeat the
+ * step where its results are not valid. Return 0 or the status. The next step length of the run is restored.
+ *
+ * A step whose needed dense output cannot be computed is repeated with a quarter of its length. Four kinds of steps are
+ * repeated to end just after the event: fixed steps, steps with periods of mod, steps far beyond a knot, and steps with
+ * inaccurate film forces at the event.
  */
 static int find_event_of_step(
     Integrator *run, const Samples *samples, const Parameters *p, Step *step, double *fraction, int *event)
 {
-    const double t_end = samples->t[samples->n - 1], length_factor = PERIODS ? PERIOD_END : NEAR_END;
+    const double t_end = samples->t[samples->n - 1], length_factor = PERIODS ? PERIOD_END_RATIO : EVENT_END_RATIO;
     const int is_adaptive = run->control.fixed <= 0.0;
     int status = 0;
     *fraction = find_first_event(run, step, p, event);
-    for (int k = 0; k < MAX_SHORTENED && !status && is_adaptive && is_dense_output_missing(run, step, p, samples); k++)
+    for (int k = 0;
+         k < MAX_REDUCTIONS && !status && is_adaptive && compute_needed_dense_output(run, step, p, samples); k++)
         status = repeat_step(run, 0.25 * step->h, t_end, p, step, fraction, event);
     for (int k = 0; k < MAX_REPEATS && !status && *event >= 0 && length_factor * *fraction < 1.0; k++) {
         const double next = run->control.h, h = length_factor * *fraction * step->h;
@@ -230,19 +241,21 @@ static int find_event_of_step(
 }
 
 /*
- * Prepare the next step of a run: begin the run if necessary, store samples due at its time, and open an attempt.
- * Return 1 if a step of length run->control.attempt.h must now be computed; an attempt that is open already is
- * continued. Return 0 at the last sample, or if `is_last`: the step is left to the next call. Also return 0 if *status
- * is EVENTS_FULL, STOPPED, STALLED or an error.
+ * Begin the next step of a run: begin or resume the integration if necessary, store samples due at the current time,
+ * and open an attempt. Return 1 if a step of length run->control.attempt.h must now be computed; an attempt that is
+ * open already is continued.
+ *
+ * Return 0 at the last sample, or if `is_last`: the step is left to the next call. Also return 0 if *status is
+ * EVENTS_FULL (Python must fetch the lists), STOPPED, STALLED or an error.
  */
-static int prepare_step(Integrator *run, int is_last, const Parameters *p, const Samples *samples, int *status)
+static int begin_step(Integrator *run, int is_last, const Parameters *p, const Samples *samples, int *status)
 {
     const double t_end = samples->t[samples->n - 1];
     const int is_new_step = !run->discrete.is_frozen && !run->control.attempt.open;
     *status = is_new_step ? begin_integration(run, t_end - run->t, p) : 0;
     if (!*status && is_new_step)
-        record_state_after_jump(run, p);
-    mark_jump(run, is_new_step);
+        append_row_after_jump(run, p);
+    mark_jump_before_next_row(run, is_new_step);
     if (run->control.attempt.open)
         return !is_last; /* attempts continue */
     if (*status)
@@ -257,7 +270,7 @@ static int prepare_step(Integrator *run, int is_last, const Parameters *p, const
         *status = STOPPED;
     else if (has_full_lists(run))
         *status = EVENTS_FULL;
-    else if (run->control.fixed <= 0.0 && is_stalled(run, t_end))
+    else if (run->control.fixed <= 0.0 && detect_run_stall(run, t_end))
         *status = diagnose_stall(run, STALLED, p);
     else
         open_attempt(run, t_end, p);
@@ -292,7 +305,7 @@ static int accept_step(Integrator *run, const Parameters *p, const Samples *samp
     const int may_jump = DRIVE_IMPULSES && (t_new == t_end || (run->control.fixed > 0.0 && fraction >= 1.0));
     const int has_jump = may_jump || (event >= 0 && event < N_EVENT_FUNCTIONS - N_USER_EVENTS);
     if (!status)
-        status = record_step_interior(run, step, fraction, has_jump, p);
+        status = append_step_interior_rows(run, step, fraction, has_jump, p);
     defer_stop(&run->cancellation);
     if (AUDITS && !status)
         audit_step(run, step, fraction, event, p);
@@ -308,11 +321,11 @@ static int accept_step(Integrator *run, const Parameters *p, const Samples *samp
         status = apply_drive_jumps_now(run, p);
     }
     if (!status && run->t == t_end)
-        status = record_events_at_end(run, 0.0, p);
+        status = record_user_events_at_run_end(run, 0.0, p);
     if (AUDITS && (!status || status == ENDED))
         status = audit_state(run, n_listed, p) ? AUDITED : status;
     if (!status || status == ENDED)
-        record_step_end_state(run, has_jump, status == ENDED || run->t == t_end, p);
+        append_step_end_row(run, has_jump, status == ENDED || run->t == t_end, p);
     allow_stop(&run->cancellation);
     return status;
 }
@@ -333,7 +346,7 @@ int gudgeon_adaptive_run(void *integrator, const double *parameters, long n, con
     int status;
     relink_methods(run);
     run->step.method = find_method_in_library(run->step.method);
-    for (long i = 0; prepare_step(run, i == max_steps, p, &samples, &status); i++) {
+    for (long i = 0; begin_step(run, i == max_steps, p, &samples, &status); i++) {
         status = find_accepted_step(run, p, &run->step);
         if (!status)
             status = accept_step(run, p, &samples);

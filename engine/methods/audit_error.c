@@ -2,15 +2,15 @@
 #define AUDIT_DIGITS 1e-10 /* of a state: smaller differences are rounding */
 #define AUDIT_STEP 15.0 /* tolerances: allowed error of a step */
 #define AUDIT_ORDER 1e-3 /* of the change of rates over a step: allowed mean error */
-#define AUDIT_LOOSE 1e-6 /* tolerance above which that limit grows with its root */
-#define AUDIT_SUM 100.0  /* tolerances: sum of errors of all steps from which on they count */
-#define AUDIT_FINEST 1e-9 /* smallest tolerance of the check: below, stiff forces are rounding */
-enum { AUDIT_ENOUGH = 3 }; /* measured steps for a mean error */
+#define AUDIT_LOOSE_TOL 1e-6 /* tolerance above which that limit grows with its root */
+#define AUDIT_MIN_ERROR_SUM 100.0  /* tolerances: sum of errors of all steps from which on they count */
+#define AUDIT_MIN_TOL 1e-9 /* smallest tolerance of the check: below, stiff forces are rounding */
+enum { AUDIT_MIN_MEASURED_STEPS = 3 }; /* measured steps for a mean error */
 
 /*
- * Return whether the frozen branches and contacts of a run agree with the switching functions and penetrations in
- * `rhs`. Near a switching point or a separation they may not, and a check is then omitted. Rigid joints are not
- * compared.
+ * Return whether the frozen branches and the contacts of compliant joints agree with the switching functions and
+ * penetrations in `rhs`. Near a switching point or a separation they may not, and a check is then omitted. Rigid joints
+ * are not compared.
  */
 static int is_branch_consistent(const Integrator *run, const RhsOutputs *rhs)
 {
@@ -34,7 +34,7 @@ static double compute_audit_weight(const Integrator *run, int k)
 
 /*
  * Return whether a rate of a drive jumps, or is unbounded, at the beginning or at the end of a step. Checks that fail
- * in such a step are not recorded. Always 0 without drives.
+ * in such a step are not recorded. Always 0 in scenes without drives.
  */
 static int has_drive_jump_at_ends(const Integrator *run, const Step *step, const Parameters *p)
 {
@@ -49,22 +49,25 @@ static int has_drive_jump_at_ends(const Integrator *run, const Step *step, const
 }
 
 /*
- * Add the error of a measured step to the sums of the audit, and record a failed CHECK_step if the mean error is too
- * large. The mean error must be small compared with the mean change of rates over a step. Otherwise the method has lost
- * its order, and errors of many short steps add up. error, change: of this step, in tolerances. Steps limited by
- * stability are not counted. No check is made before AUDIT_ENOUGH steps and an error sum of AUDIT_SUM tolerances.
+ * Add the error of a measured step to the sums of the audit, and record the mean error as CHECK_step. Its limit is
+ * AUDIT_ORDER of the mean change of rates over a step, more for loose tolerances. A method that has lost its order
+ * exceeds it. error, change: of this step, in tolerances.
+ *
+ * Steps limited by stability (h rho >= 1) are not counted. No check is made before AUDIT_MIN_MEASURED_STEPS steps, or
+ * while the errors extrapolated to all steps sum up to less than AUDIT_MIN_ERROR_SUM tolerances.
  */
 static void check_convergence_order(Integrator *run, double error, double change)
 {
     Audit *audit = &run->audit;
     if (!(run->choice.h_rho < 1.0 && change < INFINITY))
         return;
-    audit->measured++;
-    audit->errors += error;
-    audit->changes += change;
-    const double limit = AUDIT_ORDER * max_of(1.0, sqrt(get_rtol(run) / AUDIT_LOOSE));
-    if (audit->measured >= AUDIT_ENOUGH && audit->errors / audit->measured * (double)run->counts.steps > AUDIT_SUM)
-        record_check(audit, CHECK_step, audit->errors, limit * audit->changes, run->t, -1);
+    audit->n_measured++;
+    audit->error_sum += error;
+    audit->change_sum += change;
+    const double limit = AUDIT_ORDER * max_of(1.0, sqrt(get_rtol(run) / AUDIT_LOOSE_TOL));
+    if (audit->n_measured >= AUDIT_MIN_MEASURED_STEPS
+        && audit->error_sum / audit->n_measured * (double)run->counts.steps > AUDIT_MIN_ERROR_SUM)
+        record_check(audit, CHECK_step, audit->error_sum, limit * audit->change_sum, run->t, -1);
 }
 
 /* Nodes of Gauss quadrature of order 8 over (0, 1). */
@@ -75,8 +78,8 @@ static const double gauss_weight[] = {0.17392742256872692, 0.32607257743127307, 
     0.17392742256872692};
 
 /*
- * Return the largest component of a step's `error` (2 N_X used) as a multiple of `allowed_error` tolerances plus
- * rounding of the state. error_norm: set to the largest error less rounding, in tolerances.
+ * Return the largest component of a step's `error` (coordinates and velocities, 2 N_X) as a multiple of `allowed_error`
+ * tolerances plus rounding of the state. error_norm: set to the largest error less rounding, in tolerances, at least 0.
  */
 static double find_largest_error(const Integrator *run, const Step *step, const double *error, double allowed_error,
     double *error_norm)
@@ -111,7 +114,7 @@ static void check_step_error(Integrator *run, Step *step, const Parameters *p)
     if (run->counts.steps == 0 || run->discrete.singular_policy != SINGULAR_CONTINUE
         || compute_dense_output(run, p, step))
         return; /* the first step projects a start that violates the constraints */
-    const double limit = AUDIT_STEP * max_of(1.0, AUDIT_FINEST / get_rtol(run));
+    const double limit = AUDIT_STEP * max_of(1.0, AUDIT_MIN_TOL / get_rtol(run));
     for (int n = 0; n < COUNT_OF(gauss_node); n++) {
         interpolate(run, step, gauss_node[n], y);
         if (evaluate_run_rhs(run, step->t + gauss_node[n] * h, y, p, dy, &rhs) || !is_branch_consistent(run, &rhs))
@@ -132,7 +135,7 @@ static void check_step_error(Integrator *run, Step *step, const Parameters *p)
         worst = find_largest_error(run, step, error, limit, &error_norm);
     }
     check_convergence_order(run, error_norm, change);
-    run->audit.longest = max_of(run->audit.longest, h);
+    run->audit.longest_measured = max_of(run->audit.longest_measured, h);
     if (worst <= 1.0 || !has_drive_jump_at_ends(run, step, p))
         record_check(&run->audit, CHECK_step, worst, 1.0, step->t + h, -1);
 }

@@ -3,22 +3,22 @@
  * defect of the dense output, gaps, branches. At random points in addition: all constraint equations, accelerations by
  * the equations of all bodies, film forces.
  */
-#define AUDIT_LONGER 8.0 /* times the step before: longer steps are always checked */
+#define AUDIT_LENGTH_RATIO 8.0 /* times the step before: longer steps are always checked */
 #define AUDIT_RATE 1e-3 /* of the largest rate: allowed error of rates */
 #define AUDIT_CHANGE 0.1 /* of their change over the step: allowed error of rates */
 #define AUDIT_SLIP 1e-9 /* m/s: smaller slips of sticking friction count as zero */
 #define AUDIT_DRIFT 1e2 /* tolerances: allowed sum of errors of rates */
 #define AUDIT_BOUNDED 10.0 /* tolerances: allowed error of a step limited by stability */
 #define AUDIT_DEFECT 1e4 /* tolerances: allowed defect of the dense output */
-#define AUDIT_LONGEST 1.5 /* times the longest measured step: longer steps are measured */
-#define AUDIT_SHORT 1e-3 /* of the longest step: shorter ones near a pole do not define the scale of events */
-#define AUDIT_FIRST 0.25 /* of the interval between drawn steps: the first one */
+#define AUDIT_MEASURED_LENGTH_RATIO 1.5 /* times the longest measured step: longer steps are measured */
+#define AUDIT_MIN_LENGTH_RATIO 1e-3 /* of the longest step: shorter ones near a pole do not set the scale of events */
+#define AUDIT_FIRST_FRACTION 0.25 /* of the interval between drawn steps: the first one */
 #define AUDIT_COST_FRACTION 0.008 /* of the evaluations of a run: cost of the checks of drawn steps */
-#define AUDIT_COST 8.0   /* typical evaluations of one check */
+#define AUDIT_CHECK_EVALUATIONS 8.0   /* typical evaluations of one check */
 #define AUDIT_ITERATIONS 4.0 /* evaluations of an iterated stage */
-#define AUDIT_LEAST_STAGES 8.0 /* smallest number of evaluations of a step */
+#define AUDIT_MIN_EVALUATIONS 8.0 /* smallest number of evaluations of a step */
 /* bisections that locate a zero; points inside a step */
-enum { AUDIT_HALVINGS = 30, AUDIT_INSIDE = 4 };
+enum { AUDIT_HALVINGS = 30, AUDIT_POINTS_PER_STEP = 4 };
 
 /*
  * Return the defect of rates `rate` of the dense output against the right-hand side `dy` at state y, in multiples of
@@ -34,22 +34,22 @@ static double compute_scaled_defect(Integrator *run, const Step *step, const dou
     const ErrorNorm *norm = &run->norm;
     const double lengths = norm->speed[0] + norm->speed_floor[0], angles = norm->speed[1] + norm->speed_floor[1];
     const double fast[2] = {1.0 / lengths, 1.0 / angles};
-    double rate_error[N_Y] = {0.0}, scaled_error[N_Y] = {0.0}, defect = known, least;
+    double rate_error[N_Y] = {0.0}, scaled_error[N_Y] = {0.0}, defect = known, min_relevant_size;
     for (int k = 0; k < rows; k++) {
         rate_error[k] = rate[k] - dy[k];
         scaled_error[k] = h * rate_error[k];
     }
     for (int pass = 0; pass < 2; pass++) {
-        defect = known, least = known * AUDIT_DEFECT;
+        defect = known, min_relevant_size = known * AUDIT_DEFECT;
         for (int k = 0; k < rows; k++) {
             /* compute_audit_weight() */
             const double weight = norm->inverse_scale[k] * (k < N_X ? 1.0 : fast[is_angle[k % N_X]]);
             const double size = fabs(scaled_error[k]) * weight;
-            if (size <= least)
+            if (size <= min_relevant_size)
                 continue;
             const double limit = AUDIT_DEFECT + AUDIT_DIGITS * (fabs(y[k]) + fabs(h * dy[k])) * weight;
             if (size > defect * limit)
-                defect = size / limit, least = size * AUDIT_DEFECT / limit;
+                defect = size / limit, min_relevant_size = size * AUDIT_DEFECT / limit;
         }
         if (pass || defect <= 1.0 || !step->method->stiff || has_films() || factor_newton_matrix(run, h, p))
             break;
@@ -87,22 +87,22 @@ static void check_dense_output_rates(Integrator *run, const Step *step, double t
 
 /*
  * Check the rates that a step used at its end against a new evaluation of the right-hand side, and record CHECK_defect.
- * Nothing is checked with fixed steps or if the evaluation fails.
+ * Nothing is checked in runs with fixed steps or if the evaluation fails. Called for drawn steps that no event ends.
  */
 static void check_rates_at_step_end(Integrator *run, Step *step, const Parameters *p)
 {
     double dy[N_Y];
     RhsOutputs rhs;
-    if (has_tolerance(run) && !evaluate_run_rhs(run, step->t + step->h, step->y, p, dy, &rhs))
+    if (has_step_size_control(run) && !evaluate_run_rhs(run, step->t + step->h, step->y, p, dy, &rhs))
         record_check(&run->audit, CHECK_defect, compute_scaled_defect(run, step, step->y, step->dy, dy, p), 1.0,
             step->t + step->h, -1);
 }
 
 /*
  * Check the film forces at time t of a step by the accelerations `dy` that they cause, against those of the dense
- * output, `rate`. Recorded as CHECK_force of the joint with the largest film force, relative to that force or, if
- * larger, FILM_FADED of a peak force in the run. Omitted without films, without tolerances, in the first step, and
- * where a failure is at a jump of a drive.
+ * output, `rate`. The error is recorded as CHECK_force of the joint with the largest film force. It is relative to that
+ * force or, if larger, to MIN_FILM_FORCE_FRACTION of a peak force in the run. Omitted without films, in runs with fixed
+ * steps, in the first step, and where a failure is at a jump of a drive.
  */
 static void check_film_forces(Integrator *run, const Step *step, double t, const RhsOutputs *rhs, const double *rate,
     const double *dy, const Parameters *p)
@@ -110,21 +110,23 @@ static void check_film_forces(Integrator *run, const Step *step, double t, const
     int joint;
     if (!has_films())
         return;
-    double max_force = find_largest_film_force(rhs, &joint);
+    double max_force = find_joint_of_largest_film_force(rhs, &joint);
     for (int i = 0; i < N_CLEARANCES; i++)
-        max_force = has_film(i) ? max_of(max_force, FILM_FADED * run->contacts.F_peak[i]) : max_force;
+        max_force = has_film(i) ? max_of(max_force, MIN_FILM_FORCE_FRACTION * run->contacts.F_peak[i]) : max_force;
     const double fraction = compute_relative_film_error(run, step, rate, dy, max_force, 1.0);
     const double limit = compute_film_audit_limit(run, step);
-    if (joint >= 0 && has_tolerance(run) && run->counts.steps > 0
+    if (joint >= 0 && has_step_size_control(run) && run->counts.steps > 0
         && (fraction <= limit || !has_drive_jump_at_ends(run, step, p)))
         record_check(&run->audit, CHECK_force, fraction, limit, t, joint);
 }
 
 /*
- * Check one state y inside a step, at fraction theta. dy, rhs: rates and outputs of the right-hand side at y. With
- * tolerances, the rates of the dense output are compared with dy by compute_scaled_defect() and recorded as
- * CHECK_defect; a failure at a jump of a drive is not recorded. At random points (`is_random`) of scenes without play,
- * check_dense_output_rates() compares them too. Film forces, open gaps and frozen branches are always checked.
+ * Check one state y inside a step, at fraction theta. dy, rhs: rates and outputs of the right-hand side at y. In runs
+ * with step-size control, the rates of the dense output are compared with dy (compute_scaled_defect()) and recorded as
+ * CHECK_defect; a failure at a jump of a drive is not recorded.
+ *
+ * At random points (`is_random`) of scenes without play, check_dense_output_rates() compares them too. Film forces,
+ * open gaps and frozen branches are always checked.
  */
 static void check_interior_state(Integrator *run, Step *step, double theta, int is_random, const double *y,
     const double *dy, const RhsOutputs *rhs, const Parameters *p)
@@ -132,10 +134,10 @@ static void check_interior_state(Integrator *run, Step *step, double theta, int 
     const double t = step->t + theta * step->h;
     double rate[2 * N_X];
     interpolate_rates(step, theta, 2 * N_X, rate);
-    const double defect = has_tolerance(run) ? compute_scaled_defect(run, step, y, rate, dy, p) : 0.0;
-    if (has_tolerance(run) && (defect <= 1.0 || !has_drive_jump_at_ends(run, step, p)))
+    const double defect = has_step_size_control(run) ? compute_scaled_defect(run, step, y, rate, dy, p) : 0.0;
+    if (has_step_size_control(run) && (defect <= 1.0 || !has_drive_jump_at_ends(run, step, p)))
         record_check(&run->audit, CHECK_defect, defect, 1.0, t, -1);
-    if (is_random && has_tolerance(run) && !N_CLEARANCES) /* rates in contacts change quickly inside a step */
+    if (is_random && has_step_size_control(run) && !N_CLEARANCES) /* rates in contacts change quickly inside a step */
         check_dense_output_rates(run, step, t, y, rate, dy, p);
     check_film_forces(run, step, t, rhs, rate, dy, p);
     check_open_gaps(run, t, rhs, p);
@@ -171,9 +173,9 @@ static void check_interior_point(Integrator *run, Step *step, double theta, int 
 }
 
 /*
- * Return whether user-defined event i changes sign between the beginning of a step and `fraction` at a zero, and not at
- * a pole. Bisection of the dense output, AUDIT_HALVINGS times. It is a zero if the last value is below 0.01 of both end
- * values. Return 0 if a state cannot be evaluated.
+ * Return whether user-defined event i has a zero, not a pole, between the beginning of a step and `fraction`, at which
+ * its values have opposite signs. The dense output is bisected AUDIT_HALVINGS times. It is a zero if the last value is
+ * below 0.01 of both end values. Return 0 if a state cannot be evaluated.
  */
 static int has_event_zero(Integrator *run, Step *step, double fraction, int i, const Parameters *p)
 {
@@ -196,7 +198,7 @@ static int has_event_zero(Integrator *run, Step *step, double fraction, int i, c
 
 /*
  * Return whether the value of user-defined event i exceeds its uncertainty at the end of a step (`is_end`), else at its
- * beginning.
+ * beginning (is_above_uncertainty()).
  */
 static int is_event_resolved(Integrator *run, const Step *step, int is_end, int i, const Parameters *p)
 {
@@ -206,31 +208,31 @@ static int is_event_resolved(Integrator *run, const Step *step, int is_end, int 
 }
 
 /*
- * Store in the audit, for each user-defined event, its scale in this step and whether it crossed zero without ending
- * the step. Called before the step is committed; audit_state() reports the result after it. `event` is the one that
- * ends the step at `fraction`, -1: none. A crossing counts only if it has the requested direction and both end values
- * are resolved.
+ * Prepare the check of user-defined events (check_user_event()) before a step is committed. Store in the audit the
+ * scale of each, whether it left zero, and whether it crosses zero without ending the step (has_zero). A crossing
+ * counts only if it has the requested direction and both end values are resolved. `event` is the one that ends the step
+ * at `fraction`, -1: none.
  */
 static void check_event_zeros(Integrator *run, Step *step, double fraction, int event, const Parameters *p)
 {
     Audit *audit = &run->audit;
-    audit->ended = event - (N_EVENT_FUNCTIONS - N_USER_EVENTS);
+    audit->end_event = event - (N_EVENT_FUNCTIONS - N_USER_EVENTS);
     for (int i = 0; i < N_USER_EVENTS; i++) {
         const double before = run->rhs.event[i], after = step->rhs.event[i];
         const StageValues stages = get_stage_values(step, N_EVENT_FUNCTIONS - N_USER_EVENTS + i);
         double inside = fabs(after); /* the beginning may be a located pole */
         for (int k = 0; k < step->n_stored_stages; k++)
             inside = max_of(inside, fabs(read_stage(stages, k)));
-        if (step->h > AUDIT_SHORT * audit->longest && isfinite(inside))
+        if (step->h > AUDIT_MIN_LENGTH_RATIO * audit->longest_measured && isfinite(inside))
             audit->event_scale[i] = max_of(audit->event_scale[i], inside);
-        const double noise = AUDIT_NOISE * audit->event_scale[i];
-        audit->away[i] |= max_of(fabs(before), inside) > noise;
+        const double noise = AUDIT_NOISE_FRACTION * audit->event_scale[i];
+        audit->has_left_zero[i] |= max_of(fabs(before), inside) > noise;
         /* initialize_event_signs() set the sign already */
         const int begins_beyond = run->counts.steps == 0 && run->discrete.event_sign[i] * after > 0.0;
         /* also from a pole, near which it grows and falls at once */
         const int far = fraction * step->h > compute_event_location_tolerance(run);
-        audit->event_before[i] = audit->ended == i && far && is_event_resolved(run, step, 0, i, p) ? before : 0.0;
-        audit->crossed[i] = fraction >= 1.0 && audit->ended != i && !begins_beyond && before * after < 0.0
+        audit->event_before[i] = audit->end_event == i && far && is_event_resolved(run, step, 0, i, p) ? before : 0.0;
+        audit->has_zero[i] = fraction >= 1.0 && audit->end_event != i && !begins_beyond && before * after < 0.0
             && fabs(before) > noise && fabs(after) > noise && event_direction[i] * after >= 0.0
             && is_event_resolved(run, step, 0, i, p) && is_event_resolved(run, step, 1, i, p)
             && has_event_zero(run, step, fraction, i, p);
@@ -238,20 +240,20 @@ static void check_event_zeros(Integrator *run, Step *step, double fraction, int 
 }
 
 /*
- * Return the mean number of steps between two steps drawn for checks, which limits their cost to AUDIT_COST_FRACTION of
- * the evaluations. It depends on the method alone, so that a run in a batch is checked at the same steps.
+ * Return the mean number of steps between two steps drawn for checks. Their cost is thus limited to AUDIT_COST_FRACTION
+ * of the evaluations. The interval depends on the method alone, so that a run in a batch is checked at the same steps.
  */
 static double compute_mean_check_interval(const Method *method)
 {
     const double evaluations = method->stages * (method->lane >= BY_RADAU5 ? AUDIT_ITERATIONS : 1.0);
-    return AUDIT_COST / (AUDIT_COST_FRACTION * max_of(evaluations, AUDIT_LEAST_STAGES));
+    return AUDIT_CHECK_EVALUATIONS / (AUDIT_COST_FRACTION * max_of(evaluations, AUDIT_MIN_EVALUATIONS));
 }
 
 /*
  * Check the inside of an accepted step up to `fraction`, where `event` (-1: none) ends it, before it is committed.
  * Checked are the state at the event, drawn random points, and the local error of drawn or unusually long steps.
- * AUDIT_FULL checks every step at AUDIT_INSIDE points. Nothing is done if the audit is off. Evaluations and the dense
- * output do not count as integration, and the discrete state is restored.
+ * AUDIT_FULL checks every step at AUDIT_POINTS_PER_STEP points. Nothing is done if the audit is off. Evaluations and
+ * the dense output do not count as integration, and the discrete state is restored.
  */
 static void audit_step(Integrator *run, Step *step, double fraction, int event, const Parameters *p)
 {
@@ -261,15 +263,16 @@ static void audit_step(Integrator *run, Step *step, double fraction, int event, 
     const long evaluations = run->counts.evaluations;
     const int dense_ready = step->dense_ready;
     const double h = fraction * step->h;
-    const int checks_all = audit->level == AUDIT_FULL, is_due = run->counts.steps >= audit->due;
+    const int checks_all = audit->level == AUDIT_FULL, is_due = run->counts.steps >= audit->next_drawn_step;
     const int is_whole = fraction >= 1.0 && event < 0;
-    const int is_long = h > AUDIT_LONGER * run->control.last_step || (is_whole && h > AUDIT_LONGEST * audit->longest);
+    const int is_long = h > AUDIT_LENGTH_RATIO * run->control.last_step
+        || (is_whole && h > AUDIT_MEASURED_LENGTH_RATIO * audit->longest_measured);
     const int is_longer = is_long && !step->method->controls_length
-        && ((double)audit->longer + 1.0) * compute_mean_check_interval(step->method) < (double)run->counts.steps;
-    const int by_turn = (int)(audit->turns % 2);
+        && ((double)audit->n_long_steps + 1.0) * compute_mean_check_interval(step->method) < (double)run->counts.steps;
+    const int by_turn = (int)(audit->n_drawn % 2);
     const int is_random = checks_all || (is_due && !by_turn);
     const int is_measured = checks_all || is_longer || (is_due && by_turn);
-    const int n_points = checks_all ? AUDIT_INSIDE : is_random || (is_longer && !is_whole);
+    const int n_points = checks_all ? AUDIT_POINTS_PER_STEP : is_random || (is_longer && !is_whole);
     check_event_zeros(run, step, fraction, event, p);
     const int has_end_event = event >= 0 && fraction < 1.0;
     const int is_known = has_end_event && run->counts.steps > 0 && run->roots.samples.beyond == fraction;
@@ -284,14 +287,14 @@ static void audit_step(Integrator *run, Step *step, double fraction, int event, 
             check_interior_point(run, step, fraction * (k + draw_random_number(audit)) / n_points, is_random, p);
         if (is_random && fraction >= 1.0)
             check_rates_at_step_end(run, step, p);
-        if (is_measured && is_whole && has_tolerance(run))
+        if (is_measured && is_whole && has_step_size_control(run))
             check_step_error(run, step, p);
         if (is_random || (is_due && is_whole)) {
-            const double first = audit->turns++ ? 1.0 : AUDIT_FIRST;
-            audit->due = run->counts.steps + 1 + (long)(2.0 * draw_random_number(audit) * first
+            const double first = audit->n_drawn++ ? 1.0 : AUDIT_FIRST_FRACTION;
+            audit->next_drawn_step = run->counts.steps + 1 + (long)(2.0 * draw_random_number(audit) * first
                 * compute_mean_check_interval(step->method));
         }
-        audit->longer += is_longer;
+        audit->n_long_steps += is_longer;
         run->discrete = discrete;
     }
     /* checks do not count as integration: the dense output is computed and counted again when needed */

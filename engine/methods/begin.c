@@ -1,9 +1,9 @@
 /* Start of a run by any method: tolerances, speed scales, branches of switching functions, signs of event functions. */
 #if N_USER_EVENTS
 /*
- * Set the signs of user-defined events that are zero at the start, from their values shortly after it. The events are
- * evaluated at 1e-6, 1e-4 and 1e-2 of the first step length ahead, until all have a sign. Return 0, or the status if
- * already the first evaluation fails.
+ * Set the signs of user-defined events that are still zero at the start, without recording an event. They follow from
+ * values at 1e-6, 1e-4 and 1e-2 of the first step length after it, extrapolated along the rates. Return 0, or the
+ * status if already the first evaluation fails. Called last when the integration begins.
  */
 static int set_initial_event_signs(Integrator *run, const Parameters *p)
 {
@@ -29,15 +29,16 @@ static inline int set_initial_event_signs(Integrator *run, const Parameters *p) 
 #endif
 
 /*
- * Return the largest rate in 1/s at which the state crosses the smallest relevant length or angle, by speeds and
- * accelerations. For each coordinate: |v| / least and sqrt(|a| / least), with the accelerations in `dy`.
+ * Return the largest rate in 1/s at which the state crosses the smallest relevant length or angle (min_size), by speeds
+ * and accelerations. It is the maximum over the coordinates of |v| / min_size and sqrt(|a| / min_size), with the
+ * accelerations in `dy`.
  */
 static double find_fastest_rate(const Integrator *run, const double *dy)
 {
     double rate = 0.0;
     for (int k = 0; k < N_X; k++) {
-        const double least = run->norm.min_size[is_angle[k]], a = fabs(dy[N_X + k]);
-        rate = max_of(rate, max_of(fabs(run->y[N_X + k]) / least, sqrt(a / least)));
+        const double min_size = run->norm.min_size[is_angle[k]], a = fabs(dy[N_X + k]);
+        rate = max_of(rate, max_of(fabs(run->y[N_X + k]) / min_size, sqrt(a / min_size)));
     }
     return rate;
 }
@@ -67,7 +68,9 @@ static void set_speed_floors(Integrator *run, double time_left, const Parameters
     }
 }
 
-/* Return whether a compliant contact of any joint with play is closed at the start of a run. */
+/*
+ * Return whether any compliant contact is closed at the start of a run. The first step is then fitted as at an onset.
+ */
 static int is_starting_in_contact(const Integrator *run)
 {
     int is_closed_contact = 0;
@@ -96,11 +99,11 @@ static void set_internal_state_weights(Integrator *run, const Parameters *p)
 }
 
 /*
- * Evaluate the first right-hand side, contacts and friction modes of a run at its start. Return 0 or the status. A
- * start at or just before a jump of a drive's rate is first projected onto the constraints after the jump, without
- * work. Called once, by begin_integration().
+ * Evaluate the first right-hand side, contacts and friction modes of a new run. Return 0 or the status. A start at or
+ * just before a jump of a drive's rate is first projected onto the constraints after the jump, without work. Called
+ * once, by begin_integration(), unless the run is resumed.
  */
-static int begin_run(Integrator *run, const Parameters *p)
+static int initialize_run_at_start(Integrator *run, const Parameters *p)
 {
     if (DRIVE_IMPULSES) {
         double absolute_state[N_S];
@@ -116,18 +119,20 @@ static int begin_run(Integrator *run, const Parameters *p)
 
 /*
  * Begin the integration of a run, or resume it: first right-hand side, contacts, friction modes, tolerances, jumps of
- * drives, signs of user-defined events, first step length. Contacts and branches are frozen from here on. A first step
- * length that is known already is kept; in a closed contact it is fitted as at an onset. Methods that control their
- * length begin with time_left, the time to the end of the run, s. Return 0 or the status.
+ * drives, signs of user-defined events, first step length. Contacts and branches are frozen from here on. time_left: to
+ * the end of the run, s. Return 0 or the status.
+ *
+ * A first step length that is known already is kept; otherwise it is estimated and, in a closed contact, fitted as at
+ * an onset. Methods that control their length begin with time_left.
  */
 static int begin_integration(Integrator *run, double time_left, const Parameters *p)
 {
-    int status = run->ready ? 0 : begin_run(run, p);
+    int status = run->ready ? 0 : initialize_run_at_start(run, p);
     set_time_resolution(run, time_left);
     set_film_mass_scale(run, p);
     freeze_branches(run);
     if (!status)
-        status = update_branches(run, -1, p);
+        status = update_branches_at_current_state(run, -1, p);
     set_speed_floors(run, time_left, p);
     update_speeds(run);
     /* error weights are its inverse */
@@ -153,10 +158,11 @@ static int begin_integration(Integrator *run, double time_left, const Parameters
 }
 
 /*
- * Set the method, the tolerances and the step-size control of a run, before its first step. method: index from
- * gudgeon_method(); stiff_method: index of the one to which the run may change, 0: none. scale (2 N_X): tolerances, of
- * velocities relative to speed; without coordinates the relative tolerance alone (1). min_size: smallest relevant
- * length (m) and angle (rad). fixed_step: length of fixed steps, s; 0: step-size control.
+ * Set the method, the tolerances and the step-size control of a run, after gudgeon_run_start() and before its first
+ * step. method: index from gudgeon_method(); stiff_method: index of the one to which the run may change, 0: none.
+ *
+ * scale (2 N_X): tolerances, of velocities relative to speed; without coordinates the relative tolerance alone (1).
+ * min_size: smallest relevant length (m) and angle (rad). fixed_step: length of fixed steps, s; 0: step-size control.
  */
 void gudgeon_adaptive_setup(void *integrator, int method, int stiff_method, const double *scale,
     const double *min_size, double fixed_step)

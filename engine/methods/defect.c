@@ -6,45 +6,48 @@
  */
 static inline void interpolate_rates(const Step *step, double theta, int n, double *restrict dy)
 {
-    differentiate_dense_output(step->h, (const double (*)[N_Y])step->dense, step->method->degree, step->method->turned,
+    differentiate_dense_output(step->h, (const double (*)[N_Y])step->dense, step->method->degree, step->method->reversed,
         theta, n, dy);
 }
 
-/* Return the largest film force of all joints in `rhs`, N, and its joint in *joint; 0 and -1 if no film acts. */
-static double find_largest_film_force(const RhsOutputs *rhs, int *joint)
+/*
+ * Find the joint with the largest film force in `rhs` (magnitude, N). Return that force, and the number of the joint in
+ * *joint; 0 and -1 if no film acts. Used by the audit to name the joint.
+ */
+static double find_joint_of_largest_film_force(const RhsOutputs *rhs, int *joint)
 {
-    double most = 0.0;
+    double largest_force = 0.0;
     *joint = -1;
     for (int i = 0; i < N_CLEARANCES; i++)
-        if (has_film(i) && compute_force_magnitude(&rhs->clearance[i]) > most)
-            most = compute_force_magnitude(&rhs->clearance[i]), *joint = i;
-    return most;
+        if (has_film(i) && compute_force_magnitude(&rhs->clearance[i]) > largest_force)
+            largest_force = compute_force_magnitude(&rhs->clearance[i]), *joint = i;
+    return largest_force;
 }
 
-#define FILM_FORCE 1e4 /* times rtol: allowed relative error of a film force inside a step */
-#define RODAS5P_FILM 3.0 /* factor for rodas5p, whose dense output has errors all along the step */
-#define FILM_FADED 1e-3 /* of the largest film force of a run: smallest scale of film errors in the audit */
-#define FILM_AUDIT 1e5 /* times rtol: limit in the audit, at least 1e-3; explicit methods: tenfold, no control */
+#define FILM_ERROR_TOL 1e4 /* times rtol: allowed relative error of a film force inside a step */
+#define RODAS5P_FILM_FACTOR 3.0 /* factor for rodas5p, whose dense output has errors all along the step */
+#define MIN_FILM_FORCE_FRACTION 1e-3 /* of the largest film force of a run: smallest scale of film errors, audit */
+#define FILM_AUDIT_TOL 1e5 /* times rtol: limit in the audit, at least 1e-3; explicit methods: tenfold, no control */
 
-/* Return the allowed relative error of film forces inside a step: FILM_FORCE times rtol, between 3e-5 and 0.1. */
+/* Return the allowed relative error of film forces inside a step: FILM_ERROR_TOL times rtol, between 3e-5 and 0.1. */
 static double compute_film_error_limit(const Integrator *run)
 {
-    return min_of(0.1, max_of(3e-5, FILM_FORCE * get_rtol(run)));
+    return min_of(0.1, max_of(3e-5, FILM_ERROR_TOL * get_rtol(run)));
 }
 
 /*
- * Return the limit of the relative error of film forces in the audit: FILM_AUDIT times rtol, at least 1e-3 and at most
- * 1. It is tenfold for explicit methods, whose film errors are not controlled.
+ * Return the limit of the relative error of film forces in the audit: FILM_AUDIT_TOL times rtol, at least 1e-3 and at
+ * most 1. It is tenfold for explicit methods, whose film errors are not controlled.
  */
 static double compute_film_audit_limit(const Integrator *run, const Step *step)
 {
-    return min_of(1.0, (step->method->stiff ? 1.0 : 10.0) * max_of(1e-3, FILM_AUDIT * get_rtol(run)));
+    return min_of(1.0, (step->method->stiff ? 1.0 : 10.0) * max_of(1e-3, FILM_AUDIT_TOL * get_rtol(run)));
 }
 
 /*
  * Return the relative error of film forces at fraction theta of a step, from one right-hand side at the interpolated
- * state. Return -1 if the state is undefined. min_force: smallest film force used as scale, N. The dense output must
- * have been computed.
+ * state. Return -1 if the state cannot be evaluated. min_force: smallest film force used as scale, N. The dense output
+ * must have been computed.
  */
 static double evaluate_relative_film_error(Integrator *run, const Step *step, double theta, double min_force,
     const Parameters *p)
@@ -60,9 +63,9 @@ static double evaluate_relative_film_error(Integrator *run, const Step *step, do
 
 /*
  * Measure the error of film forces inside a step, at the fraction where its dense output is worst, in multiples of its
- * limit. The result is also stored in run->films with the step's length and number; for rodas5p it is RODAS5P_FILM
- * times as large. Return 0 if the dense output or the state there cannot be computed. A velocity within its tolerance,
- * times the damping of a thin film, may have any force.
+ * limit. The result is also stored in run->films with the step's length and number; for rodas5p it is
+ * RODAS5P_FILM_FACTOR times as large. Return 0 if the dense output or the state there cannot be computed. A velocity
+ * within its tolerance, times the damping of a thin film, may have any force.
  */
 static double measure_film_error(Integrator *run, Step *step, const Parameters *p)
 {
@@ -75,7 +78,7 @@ static double measure_film_error(Integrator *run, Step *step, const Parameters *
     run->films.h = step->h, run->films.steps = run->counts.steps;
     run->films.error = fraction / compute_film_error_limit(run);
     if (step->method->lane == BY_RODAS5P)
-        run->films.error *= RODAS5P_FILM;
+        run->films.error *= RODAS5P_FILM_FACTOR;
     return run->films.error;
 }
 
@@ -107,9 +110,12 @@ static double estimate_film_error_at_ends(const Integrator *run, const Step *ste
 }
 
 /*
- * Return whether the errors of film forces are, and were recently, so small that they need not be measured inside this
- * step. end_error: that at the ends of the step. Always 1 for explicit methods and without films. They are measured at
- * least every FILM_STEPS steps, in longer steps and in the first step after an event.
+ * Return whether the errors of film forces need not be measured inside this step. end_error: that at the ends of the
+ * step, in limits. Always 1 for explicit methods and without films.
+ *
+ * The last measured error and end_error must be below MAX_SMALL_FILM_ERROR. Errors are measured at least every
+ * MAX_UNMEASURED_FILM_STEPS steps, in steps FILM_LENGTH_RATIO longer than the last measured one, and in the first step
+ * after an event.
  */
 static int is_film_error_small(const Integrator *run, const Step *step, double end_error)
 {
@@ -129,7 +135,7 @@ static int has_unresolved_film_force(const Integrator *run, const Step *step, do
     return end_error > 1.0 && estimate_film_error_at_ends(run, step, 1.0) > 1.0;
 }
 
-/* Return the smallest non-zero mass of a body, kg; infinity if there is none. */
+/* Return the smallest non-zero mass of a body, kg; infinity if no body has mass. */
 static double find_lightest_mass(const Parameters *p)
 {
     double m[N_Q], lightest = INFINITY;
@@ -139,7 +145,10 @@ static double find_lightest_mass(const Parameters *p)
     return lightest;
 }
 
-/* Set the lightest mass of the scene, by which errors of film forces are scaled; infinity without films. */
+/*
+ * Set run->films.lightest, the lightest mass of the scene (kg), by which errors of film forces are scaled; infinity
+ * without films. Called when the integration begins.
+ */
 static void set_film_mass_scale(Integrator *run, const Parameters *p)
 {
     run->films.lightest = has_films() ? find_lightest_mass(p) : INFINITY;

@@ -24,6 +24,6 @@ static void dop853_interpolate(const Integrator *run, const Step *step, double s
  * are zeros of polynomials that follow from the coefficients.
  */
 static const Method dop853 = {.name = "dop853", .try = dop853_try_step, .dense = dop853_compute_dense_output,
-    .interpolate = dop853_interpolate, .power = 0.125, .unstable = 4.8, .bounded = 4.0, .stages = DOP853_STAGES,
-    .dense_stages = DOP853_DENSE_STAGES, .degree = 7, .turned = 0x2a,
+    .interpolate = dop853_interpolate, .power = 0.125, .rejected_h_rho = 4.8, .limiting_h_rho = 4.0,
+    .stages = DOP853_STAGES, .dense_stages = DOP853_DENSE_STAGES, .degree = 7, .reversed = 0x2a,
     .error_nodes = dop853_error_nodes, .n_error_nodes = COUNT_OF(dop853_error_nodes)};

@@ -3,7 +3,7 @@
 #define ONSET_ERROR_STIFF 80.0 /* the same for stiff methods */
 #define CHANGE_AT_SWITCH 2.0 /* relative change of accelerations over a fitting first step at a switching point */
 #define CHANGE_AT_SWITCH_STIFF 0.7 /* the same for stiff methods */
-#define LONG_TIME 1e100 /* s: changes that take longer are none */
+#define MAX_CHANGE_TIME_S 1e100 /* s: changes that take longer are none */
 #define CHANGE_AFTER_EVENT 0.5  /* the same after other events */
 #define MAX_FIRST_FRACTION 1e-2 /* of the time left: longest trial step, and first step if rates are constant */
 #define FIT_FAILED 0.1 /* factor on the length if straight motion over it is not finite */
@@ -16,7 +16,7 @@ enum { MAX_FITTED = 3 };
 
 /*
  * Estimate the length of the first step of a run from the error norms of the first two derivatives of the motion. The
- * second derivative is a difference over a trial step by Euler's method. Sets run->control.h; MAX_FIRST_FRACTION of
+ * second derivative is a difference over a trial step by Euler's method. Sets run->control.h (s): MAX_FIRST_FRACTION of
  * time_left (s, to the end) if the rates are constant. Return 0, or the status of the right-hand side.
  */
 static int estimate_initial_step(Integrator *run, double time_left, const Parameters *p)
@@ -34,7 +34,7 @@ static int estimate_initial_step(Integrator *run, double time_left, const Parame
     for (int k = 0; k < 2 * N_X; k++)
         second_norm = max_of(second_norm, fabs(dy[k] - run->dy[k]) / h * run->norm.weight[k]);
     /* rates change completely in the time one / two; passed: tolerances passed in it; two may be subnormal */
-    const double time = min_of(first_norm / second_norm, LONG_TIME), passed = max_of(1.0, time * first_norm);
+    const double time = min_of(first_norm / second_norm, MAX_CHANGE_TIME_S), passed = max_of(1.0, time * first_norm);
     run->control.h = second_norm > 0.0 ? max_of(time * pow(passed, -run->choice.method->power), h) : MAX_FIRST_FRACTION
         * time_left;
     return 0;

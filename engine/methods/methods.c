@@ -16,9 +16,9 @@ struct Method {
     int lane;                 /* its code in lanes (BY_..., run/run.h) */
     double power;             /* exponent of the step-size control: 1 / (order of the error estimate + 1) */
     int stiff;                /* whether it uses the Jacobian */
-    double unstable, bounded; /* h rho at which steps are rejected; at which stability limits the steps */
+    double rejected_h_rho, limiting_h_rho; /* h rho above which steps are rejected; stability limits the steps */
     int stages, dense_stages; /* stages of a step, additional stages of its dense output (batch/) */
-    int degree, turned;       /* of y0 + s (d0 + (1 - s) (d1 + s (d2 + ...))); bit k: d_k comes with 1 - s, not s */
+    int degree, reversed;     /* of y0 + s (d0 + (1 - s) (d1 + s (d2 + ...))); bit k: d_k comes with 1 - s, not s */
     const double *error_nodes;      /* fractions of a step, ascending, of its error estimate */
     int n_error_nodes;
     double max_error_fraction; /* of a stiff method: fraction with the largest error of its dense output */
@@ -47,14 +47,17 @@ static const Method *const METHODS[] = {
     &taylor,
 #endif
 };
-#define EXPLICIT (&dop853)  /* the explicit method of the automatic choice where a run begins with the stiff one */
+#define EXPLICIT_METHOD (&dop853) /* explicit method of the automatic choice if a run begins with the stiff one */
 
 /*
  * Return whether the method of a run stabilises the constraints by Baumgarte's terms instead of projecting its steps.
  */
 static int uses_baumgarte_terms(const Integrator *run) { return run->choice.method->uses_baumgarte_terms; }
 
-/* Return the index of the method with this name for gudgeon_adaptive_setup(), -1 if the library has no such method. */
+/*
+ * Return the index of the method with this name ("dopri5") for gudgeon_adaptive_setup(), -1 if the library has no such
+ * method.
+ */
 int gudgeon_method(const char *name)
 {
     for (int i = 0; i < COUNT_OF(METHODS); i++)
@@ -65,14 +68,14 @@ int gudgeon_method(const char *name)
 
 /*
  * Return the method of the same name in this library; NULL if `method` is NULL. A run may have begun in another library
- * of the same code, whose pointers are other ones.
+ * of the same code, whose pointers are other ones. The method must exist here.
  */
 static const Method *find_method_in_library(const Method *method)
 {
     return method ? METHODS[gudgeon_method(method->name)] : NULL;
 }
 
-/* Copy n states of one lane, stored with a stride of `lanes` numbers, into `target`. */
+/* Copy n state vectors (N_Y) of one lane, stored with a stride of `lanes` numbers, into `target`. */
 static void copy_states_from_lane(const double *lane, int lanes, int n, double (*target)[N_Y])
 {
     for (int k = 0; k < n; k++)
@@ -83,9 +86,9 @@ static void copy_states_from_lane(const double *lane, int lanes, int n, double (
 static void discard_dense_samples(Integrator *run); /* watch/roots.c */
 
 /*
- * Compute the dense output of a step unless it exists. Return 0, or the status if an additional stage is not
- * computable. A failure is stored and returned again. If the step was computed in lanes, its dense output or its stages
- * are copied from there. Stored samples of the dense output are discarded.
+ * Compute the dense output (continuous extension) of a step unless it exists. Return 0, or the status if an additional
+ * stage is not computable. A failure is stored and returned again. If the step was computed in lanes, its dense output
+ * or its stages are copied from there. Stored samples of the dense output are discarded.
  */
 static int compute_dense_output(Integrator *run, const Parameters *p, Step *step)
 {

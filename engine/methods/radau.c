@@ -12,7 +12,10 @@ static int factor_complex_matrix(Integrator *run, double eta, double eta_i, Comp
     return newton_factor_complex(eta, eta_i, matrix) ? NOT_FINITE : 0;
 }
 
-/* Update the iteration history of a run before a step, from which the first guess of the stages follows. */
+/*
+ * Update the iteration history of a run before a step, from which the first guess of the stages is extrapolated. In
+ * lanes, the function of this name copies it.
+ */
 static void load_iteration_history(Integrator *run) { update_iteration_history(run); }
 
 /*
@@ -22,8 +25,8 @@ static void load_iteration_history(Integrator *run) { update_iteration_history(r
 static void count_stage_evaluations(Integrator *run, int is_active, int n) { (void)run, (void)is_active, (void)n; }
 
 /*
- * Begin an iteration of the stages: discard what the last iteration recorded of them in `step`. The other arguments are
- * used in lanes only.
+ * Begin a Newton iteration of the stages: discard the values of the stages that the last iteration stored in `step`.
+ * The other arguments are used in lanes only.
  */
 static void begin_stage_iteration(Integrator *run, Step *step, int is_active, int n)
 {
@@ -32,10 +35,11 @@ static void begin_stage_iteration(Integrator *run, Step *step, int is_active, in
 }
 
 /*
- * Record the state y and the right-hand side's outputs `rhs` at one stage of an iteration, at fraction `node` of the
- * step. is_active is not used: it is the mask of the lanes where radau_step.h is compiled for lanes.
+ * Store the event functions, squared forces and gap rates at one stage of a Newton iteration (record_stage()), and
+ * extend the range of the stages by the state y. node: fraction of the step; rhs: outputs of the right-hand side at y.
+ * is_active is not used: it is the mask of the lanes where radau_step.h is compiled for lanes.
  */
-static void record_iterated_stage(Integrator *run, Step *step, int is_active, const double *y, const RhsOutputs *rhs,
+static void record_newton_stage(Integrator *run, Step *step, int is_active, const double *y, const RhsOutputs *rhs,
     double node)
 {
     (void)is_active;
@@ -82,13 +86,13 @@ static int radau_compute_dense_output(Integrator *run, Step *step, const RadauTa
     return 0;
 }
 
-/* Compute the dense output of a step of radau5, with three stages. Return 0. */
+/* Compute the dense output of a step of radau5, with three stages (radau_compute_dense_output()). Return 0. */
 static int radau5_compute_dense_output(Integrator *run, const Parameters *p, Step *step)
 {
     return (void)p, radau_compute_dense_output(run, step, &RADAU5, 3);
 }
 
-/* Compute the dense output of a step of radau9, with five stages. Return 0. */
+/* Compute the dense output of a step of radau9, with five stages (radau_compute_dense_output()). Return 0. */
 static int radau9_compute_dense_output(Integrator *run, const Parameters *p, Step *step)
 {
     return (void)p, radau_compute_dense_output(run, step, &RADAU9, 5);
@@ -112,14 +116,14 @@ static const double radau9_error_nodes[] = {0.0, 0.057104196114517682, 0.2768430
 
 /* The method Radau IIA of order 5 with three stages. */
 static const Method radau5 = {.name = "radau5", .try = radau5_try_step, .dense = radau5_compute_dense_output,
-    .interpolate = radau_interpolate, .power = 1.0 / 4.0, .stiff = 1, .lane = BY_RADAU5, .unstable = INFINITY,
-    .bounded = INFINITY, .stages = 3, .degree = RADAU_DEGREE, .turned = RADAU_TURNED, .error_nodes = radau5_error_nodes,
+    .interpolate = radau_interpolate, .power = 1.0 / 4.0, .stiff = 1, .lane = BY_RADAU5, .rejected_h_rho = INFINITY,
+    .limiting_h_rho = INFINITY, .stages = 3, .degree = RADAU_DEGREE, .reversed = RADAU_REVERSED, .error_nodes = radau5_error_nodes,
     .n_error_nodes = COUNT_OF(radau5_error_nodes), .max_error_fraction = RADAU5_ERROR_FRACTION,
     .end_rates = &radau5_end_rates};
 
 /* The method Radau IIA of order 9 with five stages. */
 static const Method radau9 = {.name = "radau9", .try = radau9_try_step, .dense = radau9_compute_dense_output,
-    .interpolate = radau_interpolate, .power = 1.0 / 6.0, .stiff = 1, .lane = BY_RADAU9, .unstable = INFINITY,
-    .bounded = INFINITY, .stages = 5, .degree = RADAU_DEGREE, .turned = RADAU_TURNED, .error_nodes = radau9_error_nodes,
+    .interpolate = radau_interpolate, .power = 1.0 / 6.0, .stiff = 1, .lane = BY_RADAU9, .rejected_h_rho = INFINITY,
+    .limiting_h_rho = INFINITY, .stages = 5, .degree = RADAU_DEGREE, .reversed = RADAU_REVERSED, .error_nodes = radau9_error_nodes,
     .n_error_nodes = COUNT_OF(radau9_error_nodes), .max_error_fraction = RADAU9_ERROR_FRACTION,
     .end_rates = &radau9_end_rates};

@@ -53,7 +53,10 @@ static int advance_singular_policy(Integrator *run, int status)
     return 0;
 }
 
-/* Set the policy near singular positions as after a step that met none; for steps that were computed in lanes. */
+/*
+ * Set the policy near singular positions as after a step that met none: one step less without detection, and the policy
+ * of states outside steps. Called for steps that were computed in lanes.
+ */
 static inline void reset_singular_policy(Integrator *run)
 {
     begin_singular_policy(run);

@@ -7,7 +7,7 @@ enum { MAX_DRIFT_REJECTIONS = 4 }; /* attempts of a step rejected for their dist
  * zero of the function is the event. Order of k: contacts, switching functions, friction elements, user-defined events.
  * rhs: outputs of the right-hand side at the state.
  */
-static double event_function(const DiscreteState *discrete, const RhsOutputs *rhs, int k)
+static double compute_event_value(const DiscreteState *discrete, const RhsOutputs *rhs, int k)
 {
     if (k < N_CLEARANCES)
         return evaluate_contact_event_function(discrete, rhs, k);
@@ -20,7 +20,7 @@ static double event_function(const DiscreteState *discrete, const RhsOutputs *rh
     return discrete->event_sign[k - N_FRICTIONS] * rhs->event[k - N_FRICTIONS];
 }
 
-/* Compute all event functions of a state into out (N_EVENT_FUNCTIONS), in the order of event_function(). */
+/* Compute all event functions of a state into out (N_EVENT_FUNCTIONS), in the order of compute_event_value(). */
 static void evaluate_event_functions(const DiscreteState *discrete, const RhsOutputs *rhs, double *out)
 {
     for (int i = 0; i < N_CLEARANCES; i++)
@@ -28,10 +28,10 @@ static void evaluate_event_functions(const DiscreteState *discrete, const RhsOut
     for (int k = 0; k < N_SWITCHES; k++)
         out[N_CLEARANCES + k] = discrete->branch[k] * rhs->g[k];
     for (int k = N_CLEARANCES + N_SWITCHES; k < N_EVENT_FUNCTIONS; k++)
-        out[k] = event_function(discrete, rhs, k);
+        out[k] = compute_event_value(discrete, rhs, k);
 }
 
-/* Return the relative tolerance of the steps of a run, 0 for fixed steps. */
+/* Return the relative tolerance of the steps of a run (that of the last velocity), 0 for fixed steps. */
 static double get_rtol(const Integrator *run)
 {
     return run->control.fixed > 0.0 ? 0.0 : 1.0 / run->norm.inverse_scale[2 * N_X - 1];
@@ -44,7 +44,7 @@ typedef struct {
 } StageValues;
 
 /*
- * Return the location of the values number k (an event function, or STAGE_FORCES and later) at all stages of a step.
+ * Return the location of the values number k at all stages of a step: an event function, or STAGE_FORCES and later.
  * They are in the lane if the step was computed in lanes. read_stage() reads them.
  */
 static StageValues get_stage_values(const Step *step, int k)
@@ -54,7 +54,7 @@ static StageValues get_stage_values(const Step *step, int k)
         : (StageValues){&step->stage_values[0][k], AT_LEAST_ONE(N_STAGE_VALUES)};
 }
 
-/* Return the value of the i-th stage from `values`. */
+/* Return the value of the i-th stage from `values`, a result of get_stage_values(). */
 static double read_stage(StageValues values, int i) { return values.first[i * values.stride]; }
 
 /* Return component i of stage s (a rate or an increment) of a step, from the lane if the step was computed in lanes. */
@@ -118,8 +118,8 @@ static void extend_stage_range(Step *step, const double *y)
 
 /*
  * Compute the corrections dq, dv (N_X) that close the constraints at state y, and their largest residual *residual.
- * Return whether they are finite; 0 without a computation if not `is_active`, or if the constraints cannot be solved. y
- * is not changed.
+ * Return whether they are finite. Return 0 without a computation if not `is_active`, and if the constraints cannot be
+ * solved. y is not changed. In lanes, is_active is a mask.
  */
 static int find_closure_correction(Integrator *run, int is_active, double t, const double *y, const Parameters *p,
     double *dq, double *dv, double *residual)
@@ -135,8 +135,8 @@ static int find_closure_correction(Integrator *run, int is_active, double t, con
 
 /*
  * Start the next step with the length that fitted after the previous event of this kind, *stored_length (s; 0: none
- * yet). That step then updates *stored_length. first_step_order: order of the error of such a step, 0: that of the
- * method.
+ * yet, the length stays). That step then updates *stored_length (record_first_step_length()). first_step_order: order
+ * of the error of such a step, 0: that of the method.
  */
 static void set_first_step(Integrator *run, double *stored_length, double first_step_order)
 {
@@ -146,7 +146,7 @@ static void set_first_step(Integrator *run, double *stored_length, double first_
     run->control.first_step_order = first_step_order;
 }
 
-/* Return whether the next step is the first one after a switching point. */
+/* Return whether the next step is the first one after a switching point: its stored length is one of after_switch. */
 static inline int is_first_after_switch(const Integrator *run)
 {
     return run->control.first && run->control.first >= &run->control.after_switch[0][0];
@@ -155,13 +155,13 @@ static inline int is_first_after_switch(const Integrator *run)
 /* Set the length of the next step, s. */
 static void set_next_step_length(Integrator *run, double h) { run->control.h = h; }
 
-/* Set the length of the present attempt, s. */
+/* Set the length of the current attempt, s. */
 static inline void set_attempt_step_length(Integrator *run, double h) { run->control.attempt.h = h; }
 
-/* Store the length of the last step up to its end, s. */
+/* Store the length of the last step up to its end or its event, s. */
 static void set_last_step_length(Integrator *run, double h) { run->control.last_step = h; }
 
-/* Discard the stored length of the stiff method: it does not apply after an event. */
+/* Discard the stored step length of the stiff method after an event, to which it does not apply. */
 static void discard_stiff_step_length(Integrator *run) { run->control.h_stiff = 0.0; }
 
 /*
@@ -178,8 +178,8 @@ static int uses_baumgarte_terms(const Integrator *run); /* methods/methods.c */
 static double *get_end_rounding(Integrator *run); /* methods/taylor.c */
 
 /*
- * Project state y onto the constraint equations, unless Baumgarte's terms of the method stabilise them. lost (N_Y):
- * rounding errors of y, NULL: they are not known.
+ * Project state y onto the constraint equations, unless Baumgarte stabilisation by the method replaces that. lost
+ * (N_Y): rounding errors of y, NULL: they are not known.
  */
 static void project_unless_stabilised(Integrator *run, double t, double *y, double *lost, const Parameters *p)
 {
@@ -188,8 +188,8 @@ static void project_unless_stabilised(Integrator *run, double t, double *y, doub
 }
 
 /*
- * Project state y at time t in place onto the constraint equations, unless the method stabilises them by Baumgarte's
- * terms, and onto the closed rigid contacts.
+ * Project state y at time t in place onto the constraint equations, unless the method uses Baumgarte stabilisation, and
+ * onto the closed rigid contacts. Called for samples and states between the ends of steps.
  */
 static void project_state(Integrator *run, double t, double *y, const Parameters *p)
 {
@@ -198,8 +198,8 @@ static void project_state(Integrator *run, double t, double *y, const Parameters
 }
 
 /*
- * Apply the impulse of a drive whose rate jumps: project the run's state onto the constraints after the jump. The gain
- * of kinetic energy is added to the work of the drives.
+ * Apply the impulse of a drive whose rate jumps: project the run's state onto the constraints, whose branches are those
+ * after the jump. The gain of kinetic energy is added to the work of the drives.
  */
 static inline void apply_drive_impulse(Integrator *run, const Parameters *p)
 {
@@ -208,17 +208,19 @@ static inline void apply_drive_impulse(Integrator *run, const Parameters *p)
     run->y[2 * N_X] += compute_kinetic_energy(run, p) - before;
 }
 
-/* Return whether the error norm of a step is not finite. */
+/* Return whether the error norm of a step is NaN or infinite. In lanes, the function of this name returns a mask. */
 static int is_error_not_finite(const Integrator *run, double error) { return (void)run, !isfinite(error); }
 
-/* Return whether the error norm of a step exceeds the accepted one. */
+/* Return whether the error norm of a step exceeds the accepted one: 1, or infinity for fixed steps. */
 static int is_step_rejected(const Integrator *run, const Step *step) { return step->error > run->control.accept; }
 
 /*
- * Project the end of a tried step onto the constraints and closed contacts, and evaluate the right-hand side there. A
- * large projection counts as error of the step: the estimate of Radau, filtered by the Jacobian, may miss it near a
- * singular position. It does not count in the first step, which closes the start, and after MAX_DRIFT_REJECTIONS
- * attempts, as rounding. Return 0, NOT_FINITE, or the status of the right-hand side.
+ * Project the end of a tried step onto the constraints and closed contacts, and evaluate the right-hand side there,
+ * into step->dy and step->rhs. Return 0, NOT_FINITE, or the status of the right-hand side.
+ *
+ * A projection by more than MAX_CONSTRAINT_DRIFT counts as error of the step: the estimate of Radau, filtered by the
+ * Jacobian, may miss it near a singular position. It does not count in the first step, which closes the start, and
+ * after MAX_DRIFT_REJECTIONS attempts, as rounding.
  */
 static int finish_step(Integrator *run, Step *step, const Parameters *p)
 {

@@ -7,7 +7,7 @@
  * G. Wanner, Solving ODEs II (1996), section IV.2. Gustafsson recommends 0.7 and 0.4 for explicit methods.
  *
  * [1] E. Hairer, S. P. Norsett, G. Wanner, Solving ODEs I (1993), section II.4, and its code DOP853; [2] the code
- * RADAU5 of II, section IV.8. Constants without a source are gudgeon's own.
+ * RADAU5 of II, section IV.8. Constants without a source were chosen for gudgeon.
  */
 #define SAFETY_ONSET 0.8        /* the same for the first step of a contact, whose error has a lower order */
 #define MAX_GROWTH_EVENTS 2.0   /* largest ratio if a watched function may have a zero in the step */
@@ -22,14 +22,14 @@
 #define SHRINK_FLIGHT_STEP 0.5       /* ratio of the next attempt then */
 #define TRANSIENT_PART 0.5          /* of the time up to a missed transient: length of the next attempt */
 #define MIN_SEPARATION_FRACTION 0.1         /* of a step: an earlier separation does not shorten it */
-enum { PATIENCE = 8, MAX_PATIENCE = 4096,
+enum { MIN_RETURN_STEPS = 8, MAX_RETURN_STEPS = 4096 /* successive steps against the stiff method until it is left */,
     LASTING_STEPS = 400 /* steps with a method after which the next return to it is as easy as the first */,
     RATE_ITERATIONS = 5, RECONSIDER_STEPS = 24 /* steps until the explicit method is considered again */,
     MAX_CONTRARY_STEPS = 3 /* successive steps against the explicit method until the first change */,
     MAX_CONTRARY_LIMIT = 1024 /* the same after changes that did not pay, at most about */,
     CHECK_STIFF_STEPS = 32 /* steps of the stiff method between comparisons of its length with the explicit one */,
-    COMPARE_FROM = 8, COMPARE_TO = 200 /* steps after a change in which the lengths of both methods are compared */,
-    MAX_SHORTENED = 12 /* reductions by four: what remains unresolved then is rounding */ };
+    MIN_COMPARE_STEPS = 8, MAX_COMPARE_STEPS = 200 /* steps after a change: the lengths of both methods are compared */,
+    MAX_REDUCTIONS = 12 /* reductions by four: what remains unresolved then is rounding */ };
 #define FILM_ERROR_RATIO 0.7   /* largest ratio of the film errors of a shorter and a longer step without rounding */
 #define MIN_TRANSIENT_FRACTION 1e-9     /* of the times: in shorter steps no transients are searched */
 #define STIFF_COST 1.3             /* times a step of the explicit method: processor time of a stiff step */
@@ -40,7 +40,7 @@ enum { PATIENCE = 8, MAX_PATIENCE = 4096,
 #define MAX_EXPLICIT_STABILITY 2.5     /* h rho below which the explicit method is cheaper */
 #define MAX_ORDER_SEEN 30.0 /* largest order of error growth inferred from two steps */
 
-/* Replace the methods that a run stores by those of this library, when a call continues the run. */
+/* Replace the methods that a run stores by those of this library, when a call continues a run of another library. */
 static void relink_methods(Integrator *run)
 {
     run->choice.method = find_method_in_library(run->choice.method);
@@ -49,22 +49,22 @@ static void relink_methods(Integrator *run)
 }
 
 /*
- * Set the first method of a run by its index from gudgeon_method(), and the stiff method to which it may change.
- * stiff_method: its index; 0: the method never changes.
+ * Set the first method of a run by its index from gudgeon_method(), and the stiff method to which it may change: its
+ * index, or 0 if the method never changes. A run that begins with the stiff method returns to dop853.
  */
 static void set_method_choice(Integrator *run, int method, int stiff_method)
 {
     run->choice.method = METHODS[method];
-    run->choice.explicit = METHODS[method]->stiff ? EXPLICIT : METHODS[method];
+    run->choice.explicit = METHODS[method]->stiff ? EXPLICIT_METHOD : METHODS[method];
     run->choice.automatic = stiff_method > 0;
     run->choice.implicit = METHODS[stiff_method];
     run->choice.max_contrary_steps = MAX_CONTRARY_STEPS;
-    run->choice.patience = stiff_method && METHODS[method]->stiff ? 4 * PATIENCE : PATIENCE;
+    run->choice.return_steps = stiff_method && METHODS[method]->stiff ? 4 * MIN_RETURN_STEPS : MIN_RETURN_STEPS;
 }
 
 /*
- * Start the step-size control of a run at its present time. fixed_step: length of all steps, s, which are accepted with
- * any error; 0: error norms determine the length.
+ * Start the step-size control of a run at its current time. fixed_step: length of all steps, s, which are accepted with
+ * any error; 0: error norms determine the length, and the first one is estimated later.
  */
 static void start_step_control(Integrator *run, double fixed_step)
 {
@@ -76,15 +76,14 @@ static void start_step_control(Integrator *run, double fixed_step)
 
 /*
  * Change the method of a run from the explicit to the stiff one, or back, and reset the counters of the automatic
- * choice. If the run had returned to the explicit method less than LASTING_STEPS ago, the next return needs twice as
- * many steps.
+ * choice. If the explicit method was used for at most LASTING_STEPS steps, the next return needs twice as many steps.
  */
 static void change_method(Integrator *run)
 {
     const int stiff = run->choice.method->stiff;
     if (!stiff)
-        run->choice.patience = run->choice.since > LASTING_STEPS ? PATIENCE
-            : run->choice.patience < MAX_PATIENCE ? 2 * run->choice.patience : run->choice.patience;
+        run->choice.return_steps = run->choice.steps_since_change > LASTING_STEPS ? MIN_RETURN_STEPS
+            : run->choice.return_steps < MAX_RETURN_STEPS ? 2 * run->choice.return_steps : run->choice.return_steps;
     run->control.h_stiff = stiff ? run->control.h : 0.0;
     if (run->choice.method->controls_length)
         set_next_step_length(run, run->step.h); /* not the much larger limit of the next attempt */
@@ -92,14 +91,14 @@ static void change_method(Integrator *run)
     if (!stiff)
         run->choice.mean_length[1] = 0.0;
     run->choice.n_contrary_steps = 0;
-    run->choice.since = 0;
+    run->choice.steps_since_change = 0;
 }
 
 /*
- * Estimate rho, the largest rate of the motion near the run's state in 1/s, by power iteration with differences; 0:
- * unknown. The method is that of B. P. Sommeijer, L. F. Shampine, J. G. Verwer, J. Comput. Appl. Math. 88 (1998),
- * 315-326. It evaluates RATE_ITERATIONS + 1 right-hand sides. Stages of a stiff method do not show a fast mode at rest,
- * which makes an explicit step unstable.
+ * Estimate rho, the largest rate of the motion near the run's state in 1/s (spectral radius), by nonlinear power
+ * iteration with RATE_ITERATIONS + 1 right-hand sides; 0: unknown. The method is that of B. P. Sommeijer, L. F.
+ * Shampine, J. G. Verwer, J. Comput. Appl. Math. 88 (1998), 315-326. Stages of a stiff method do not show a fast mode
+ * at rest, which makes an explicit step unstable.
  */
 static double estimate_largest_rate(Integrator *run, const Parameters *p)
 {
@@ -125,44 +124,45 @@ static double estimate_largest_rate(Integrator *run, const Parameters *p)
 }
 
 /*
- * Update the mean length of recent steps of the method with one of length h (s). Return whether the stiff method does
- * not pay: its steps are not STIFF_COST times as long as the explicit ones before. They are compared COMPARE_FROM steps
- * after the change and each CHECK_STIFF_STEPS steps.
+ * Update the mean length of recent steps of the method with one of length h (s), and return whether the stiff method
+ * does not pay: its mean is less than STIFF_COST times that of the explicit steps before. The test is made
+ * MIN_COMPARE_STEPS steps after the change and each CHECK_STIFF_STEPS steps.
  */
-static int is_stiff_method_slower(MethodChoice *choice, double h)
+static int detect_slow_stiff_method(MethodChoice *choice, double h)
 {
     double *mean = &choice->mean_length[!!choice->method->stiff];
     *mean = update_mean_length(*mean, h);
-    return choice->method->stiff && choice->since % CHECK_STIFF_STEPS == COMPARE_FROM
+    return choice->method->stiff && choice->steps_since_change % CHECK_STIFF_STEPS == MIN_COMPARE_STEPS
         && choice->mean_length[1] < STIFF_COST * choice->mean_length[0];
 }
 
 /*
  * Count whether the accepted step speaks against its method, and change the method of an automatic run after enough
  * such steps. The explicit method is left when stability limits its steps, or its steps are shorter than those of the
- * stiff one. The stiff method is left when stability would not limit explicit steps; rho is then estimated first. It is
- * also left when its steps do not pay, and the next change to it then needs twice as many steps. Called after each
- * accepted step.
+ * stiff one. The stiff method is left when stability would not limit explicit steps, by an estimate of rho, or when its
+ * steps do not pay; the next change to it then needs twice as many steps. Called after each accepted step.
  */
 static void choose_method(Integrator *run, const Parameters *p)
 {
     /* the stiff method's stages give a lower bound of rho: soon after a change, compare the step lengths too */
-    const int slower = run->choice.since > COMPARE_FROM && run->choice.since < COMPARE_TO
+    const int slower = run->choice.steps_since_change > MIN_COMPARE_STEPS
+        && run->choice.steps_since_change < MAX_COMPARE_STEPS
         && run->control.h < STIFF_LENGTH_RATIO * run->control.h_stiff;
     const int stiff = run->choice.method->stiff;
     const double stability = run->choice.h_rho;
-    if (is_stiff_method_slower(&run->choice, run->step.h) && run->choice.automatic) {
+    if (detect_slow_stiff_method(&run->choice, run->step.h) && run->choice.automatic) {
         run->choice.max_contrary_steps *= run->choice.max_contrary_steps < MAX_CONTRARY_LIMIT ? 2 : 1;
-        run->choice.rate = 0.0;
+        run->choice.rho = 0.0;
         change_method(run);
         return;
     }
-    const int against = stiff ? stability < MAX_EXPLICIT_STABILITY : stability > run->choice.method->bounded || slower;
+    const int against = stiff ? stability < MAX_EXPLICIT_STABILITY
+        : stability > run->choice.method->limiting_h_rho || slower;
     run->choice.n_contrary_steps = against ? run->choice.n_contrary_steps + 1 : 0;
-    run->choice.since++;
+    run->choice.steps_since_change++;
     if (run->choice.n_contrary_steps == 1)
         run->choice.contrary_length = run->step.h;
-    const int n_needed = stiff ? run->choice.patience : run->choice.max_contrary_steps;
+    const int n_needed = stiff ? run->choice.return_steps : run->choice.max_contrary_steps;
     if (!run->choice.automatic || run->choice.n_contrary_steps < n_needed)
         return;
     if (stiff && has_films() && run->control.h > MAX_CONTRARY_GROWTH * run->choice.contrary_length) {
@@ -175,13 +175,10 @@ static void choose_method(Integrator *run, const Parameters *p)
         change_method(run);
     else
         run->choice.n_contrary_steps = -RECONSIDER_STEPS;
-    run->choice.rate = rate;
+    run->choice.rho = rate;
 }
 
-/*
- * Return the order of a step's error in its length: that of its method, or the lower one of a first step after an
- * event.
- */
+/* Return the order of a step's error in its length: that of its method, or the lower first_step_order of an onset. */
 static double compute_error_order(const Integrator *run, const Step *step)
 {
     const double order = 1.0 / step->method->power;
@@ -197,17 +194,17 @@ static double get_bounded_error(const Step *step) { return max_of(MIN_ERROR, ste
 
 /*
  * Return the factor, MIN_SHRINK to MAX_SHRINK, from the length of a rejected step to that of the next attempt. If an
- * attempt at this step was rejected before, both errors show their order; else it is compute_error_order(). The
- * rejected length, its error and its end are stored in the run.
+ * attempt at this step was rejected before, both errors show their order, at least MIN_ORDER_SEEN; else it is
+ * compute_error_order(). The rejected length, its error and its end are stored in the run.
  */
 static double compute_shrink_factor(Integrator *run, const Step *step)
 {
     Attempt *attempt = &run->control.attempt;
     double order = compute_error_order(run, step);
-    if (attempt->refused > attempt->h && isfinite(attempt->error) && attempt->error > step->error)
+    if (attempt->rejected_h > attempt->h && isfinite(attempt->error) && attempt->error > step->error)
         order = min_of(1.0 / step->method->power,
-            max_of(MIN_ORDER_SEEN, log(attempt->error / step->error) / log(attempt->refused / attempt->h)));
-    attempt->refused = attempt->h;
+            max_of(MIN_ORDER_SEEN, log(attempt->error / step->error) / log(attempt->rejected_h / attempt->h)));
+    attempt->rejected_h = attempt->h;
     attempt->error = step->error;
     run->control.too_long = attempt->h;
     run->control.too_long_until = run->t + attempt->h;
@@ -216,7 +213,8 @@ static double compute_shrink_factor(Integrator *run, const Step *step)
 
 /*
  * Store the length that would have fitted for the first step after an event, for the next event of the same kind. Does
- * nothing if the step is not a first one. After an onset the allowed error of straight motion is stored too.
+ * nothing if the step is not a first one. After an onset the allowed error of straight motion is stored too. The mark
+ * of a first step (control.first) is then cleared.
  */
 static void record_first_step_length(Integrator *run, const Step *step)
 {
@@ -239,17 +237,17 @@ static void record_first_step_length(Integrator *run, const Step *step)
 static void update_observed_order(Integrator *run, const Step *step, int was_rejected)
 {
     const Attempt *attempt = &run->control.attempt;
-    if (was_rejected && attempt->refused > step->h && isfinite(attempt->error) && attempt->error > step->error)
+    if (was_rejected && attempt->rejected_h > step->h && isfinite(attempt->error) && attempt->error > step->error)
         run->control.observed_order =
-            min_of(MAX_ORDER_SEEN, log(attempt->error / get_bounded_error(step)) / log(attempt->refused / step->h));
+            min_of(MAX_ORDER_SEEN, log(attempt->error / get_bounded_error(step)) / log(attempt->rejected_h / step->h));
     run->control.observed_order *= ORDER_DECAY;
 }
 
 /*
- * Set the length run->control.h of the next step after an accepted one, by the PI controller and its limits.
- * was_rejected: whether an attempt at this step was rejected; the length then does not grow. is_uncut: whether the step
- * ended before the end of the run. A cut step with a small error does not shorten the next one. Methods that control
- * their length only get its largest value.
+ * Set the length run->control.h of the next step after an accepted one, by the PI controller and its limits; store its
+ * error and, after an event, its length. was_rejected: whether an attempt at this step was rejected; the length then
+ * does not grow. is_uncut: whether the step ended before the end of the run. A cut step with a small error does not
+ * shorten the next one. Methods that control their length only get its largest value.
  */
 static void choose_next_length(Integrator *run, const Step *step, int was_rejected, int is_uncut)
 {
@@ -258,10 +256,10 @@ static void choose_next_length(Integrator *run, const Step *step, int was_reject
         return;
     }
     const double error = get_bounded_error(step);
-    const double known = run->choice.since <= PATIENCE ? run->choice.rate * step->h : 0.0;
+    const double known = run->choice.steps_since_change <= MIN_RETURN_STEPS ? run->choice.rho * step->h : 0.0;
     update_observed_order(run, step, was_rejected);
     double factor = compute_length_ratio(error, run->control.error_before, max_of(run->choice.h_rho, known),
-        run->control.observed_order, step->method->power, step->method->bounded);
+        run->control.observed_order, step->method->power, step->method->limiting_h_rho);
     const double max_factor = was_rejected ? 1.0 /* [1] */ : step->has_zero_bracket ? MAX_GROWTH_EVENTS : MAX_GROWTH;
     factor = min_of(max_factor, max_of(MIN_GROWTH, factor));
     run->control.error_before = max_of(MIN_LAST_ERROR, error);
@@ -271,9 +269,9 @@ static void choose_next_length(Integrator *run, const Step *step, int was_reject
 }
 
 /*
- * Return a step length h (s), shortened to end just after the separation of a compliant contact if h would reach
- * beyond. The force is not smooth there. The time to separation follows from penetration and rate. A separation in the
- * first MIN_SEPARATION_FRACTION of h does not shorten it.
+ * Return the step length h (s), shortened to end just after the separation of a closed compliant contact if h would
+ * reach beyond. The force is not smooth there. The time to separation is estimated by delta/|deltadot|. A separation in
+ * the first MIN_SEPARATION_FRACTION of h does not shorten it.
  */
 static double limit_length_by_separation(const Integrator *run, double h)
 {
@@ -288,8 +286,8 @@ static double limit_length_by_separation(const Integrator *run, double h)
 }
 
 /*
- * Return a step length h (s) of at most MAX_FLIGHTS times the time in which a journal that leaves the wall crosses its
- * bearing. Applies to open compliant contacts whose gap grows.
+ * Return the step length h (s), limited to MAX_FLIGHTS times the time in which a journal that leaves the wall crosses
+ * its bearing. Applies to open compliant contacts whose gap grows.
  */
 static double limit_length_by_flight(const Integrator *run, double h, const Parameters *p)
 {
@@ -302,9 +300,9 @@ static double limit_length_by_flight(const Integrator *run, double h, const Para
 }
 
 /*
- * Return a step length h (s), limited just after a switching point by the length last rejected for its error. A
- * switching point of forces changes the motion little; a small estimate of such a long step would be chance. The limit
- * ends at the time that the rejected step would have reached.
+ * Return the step length h (s), limited in the first step after a switching point to the length last rejected for its
+ * error, up to the end of that step. A switching point of forces changes the motion little; a small estimate of such a
+ * long step would be chance.
  */
 static double limit_length_by_rejection(const Integrator *run, double h)
 {
@@ -314,8 +312,8 @@ static double limit_length_by_rejection(const Integrator *run, double h)
 
 /*
  * Return the length in s of a fixed step from the run's time to the next point of the grid that begins with the run.
- * end_time: set to the time at the end of that step, at most t_end. An event in between does not move the grid. A step
- * repeated to end just after an event is shorter: it has the length control.h.
+ * end_time: set to the time at the end of that step, at most t_end. An event in between does not move the grid: the
+ * step after it is shorter. A step repeated to end just after an event has the length control.h.
  */
 static double compute_fixed_step_length(Integrator *run, double t_end, double *end_time)
 {
@@ -336,8 +334,8 @@ static double compute_fixed_step_length(Integrator *run, double t_end, double *e
 /*
  * Open the attempts at the next step of a run towards t_end: set run->control.attempt with the first length to try. The
  * length is limited by contacts, flights, rejected lengths, a suppressed switching point and the end of the run. Fixed
- * steps do not freeze branches. Without an error estimate, a branch held beyond its end, as the force of a film, could
- * grow without bound.
+ * steps do not freeze branches, except in scenes with jumps of drives. Without an error estimate, a branch held beyond
+ * its end, as the force of a film, could grow without bound.
  */
 static void open_attempt(Integrator *run, double t_end, const Parameters *p)
 {
@@ -353,14 +351,12 @@ static void open_attempt(Integrator *run, double t_end, const Parameters *p)
                 compute_flight_step_limit(run, NULL, p))), p);
         h = h > left * EQUAL_LENGTH_RATIO ? left : h;
     }
-    run->control.attempt = (Attempt){.h = h, .longest = h, .left = left, .end = end, .far = far, .open = 1,
-        .lane = run->choice.method->lane, .film_error_norm = INFINITY};
+    run->control.attempt = (Attempt){.h = h, .first_h = h, .time_left = left, .end = end, .time_magnitude = far,
+        .open = 1, .lane = run->choice.method->lane, .film_error_norm = INFINITY};
 }
 
-/*
- * Prepare another attempt at the step with length run->control.attempt.h, by the method that the run now has. Return 0.
- */
-static int prepare_retry(Integrator *run)
+/* Request another attempt of length run->control.attempt.h by the method that the run now has. Return 0: rejected. */
+static int request_retry(Integrator *run)
 {
     run->control.attempt.lane = run->choice.method->lane;
     return 0;
@@ -382,7 +378,7 @@ static int is_step_accepted(Integrator *run, int trial_status, const Parameters 
     if (N_SWITCHES > 0 && is_fixed && trial_status == NOT_FINITE && run->discrete.is_frozen) {
         /* until the step is committed: a frozen branch may be NaN beyond its switching point */
         run->discrete.is_frozen = 0;
-        return prepare_retry(run);
+        return request_retry(run);
     }
     if (trial_status == STOPPED || is_fixed)
         return 1;
@@ -395,68 +391,68 @@ static int is_step_accepted(Integrator *run, int trial_status, const Parameters 
         attempt->film_error_norm = error > run->control.accept ? error : INFINITY;
     }
     const int is_good = !trial_status && step->error <= run->control.accept;
-    const double min_length = MIN_STEP_FRACTION * attempt->far;
-    if (is_good && !method->stiff && run->choice.h_rho > method->unstable) {
+    const double min_length = MIN_STEP_FRACTION * attempt->time_magnitude;
+    if (is_good && !method->stiff && run->choice.h_rho > method->rejected_h_rho) {
         count_rejected_step(run);
         if (run->choice.automatic && !attempt->methods_failed
             && ++run->choice.n_contrary_steps >= run->choice.max_contrary_steps)
             change_method(run);
         else
-            attempt->h *= method->bounded / run->choice.h_rho;
-        return prepare_retry(run);
+            attempt->h *= method->limiting_h_rho / run->choice.h_rho;
+        return request_retry(run);
     }
     if (is_good && FLIGHT_STEP_SLACK * compute_flight_step_limit(run, step, p) < attempt->h) {
-        attempt->again = 1;
+        attempt->was_rejected = 1;
         count_rejected_step(run);
         attempt->h *= SHRINK_FLIGHT_STEP;
-        return prepare_retry(run);
+        return request_retry(run);
     }
     const int unresolved = is_good && is_step_unresolved(run, step, p);
     if (is_good && (unresolved || has_unresolved_film_force(run, step, end_error))
-        && attempt->n_shortened++ < MAX_SHORTENED) {
-        attempt->again = 1;
+        && attempt->n_shortened++ < MAX_REDUCTIONS) {
+        attempt->was_rejected = 1;
         count_rejected_step(run);
         attempt->h *= SHRINK_UNRESOLVED;
-        return prepare_retry(run);
+        return request_retry(run);
     }
-    const double transient = is_good && attempt->h > MIN_TRANSIENT_FRACTION * attempt->far
+    const double transient = is_good && attempt->h > MIN_TRANSIENT_FRACTION * attempt->time_magnitude
         ? find_missed_transient(run, step, p) : 0.0;
-    if (transient > 0.0 && attempt->n_shortened++ < MAX_SHORTENED) {
-        attempt->again = 1;
+    if (transient > 0.0 && attempt->n_shortened++ < MAX_REDUCTIONS) {
+        attempt->was_rejected = 1;
         count_rejected_step(run);
         attempt->h *= max_of(SHRINK_UNRESOLVED, TRANSIENT_PART * transient);
-        return prepare_retry(run);
+        return request_retry(run);
     }
     if (is_good) {
-        choose_next_length(run, step, attempt->again, attempt->h < attempt->left);
-        const int is_short = attempt->h < SHORT_STEP_FRACTION * attempt->far;
-        *status = is_stuck_in_short_steps(run, is_short) ? diagnose_stall(run, TOO_SMALL, p) : 0;
+        choose_next_length(run, step, attempt->was_rejected, attempt->h < attempt->time_left);
+        const int is_short = attempt->h < SHORT_STEP_FRACTION * attempt->time_magnitude;
+        *status = detect_short_step_stall(run, is_short) ? diagnose_stall(run, TOO_SMALL, p) : 0;
         return 1;
     }
-    attempt->again = 1;
+    attempt->was_rejected = 1;
     count_rejected_step(run);
     attempt->h *= trial_status == NOT_FOUND ? SHRINK_NEWTON : trial_status ? SHRINK_FAILED
         : compute_shrink_factor(run, step);
     if (attempt->h > min_length)
-        return prepare_retry(run);
+        return request_retry(run);
     if (N_SWITCHES > 0 && trial_status == NOT_FINITE && run->discrete.is_frozen) {
-        /* until the step is committed: a frozen branch may be NaN beyond its switching point */
         run->discrete.is_frozen = 0;
-        attempt->h = attempt->longest;
-        return prepare_retry(run);
+        attempt->h = attempt->first_h;
+        return request_retry(run);
     }
     if (!run->choice.automatic || !method->stiff || attempt->methods_failed++) {
         *status = trial_status ? trial_status : diagnose_stall(run, TOO_SMALL, p);
         return 1;
     }
     change_method(run); /* its matrix is singular with dependent constraints; the explicit method can continue */
-    attempt->h = attempt->longest;
-    return prepare_retry(run);
+    attempt->h = attempt->first_h;
+    return request_retry(run);
 }
 
 /*
- * Compute one attempt at a step of length run->control.attempt.h by the run's method. Return 0 or the status. Near a
- * singular position it is computed again with other policies (advance_singular_policy()).
+ * Compute one attempt at a step of length run->control.attempt.h by the run's method, into `step`. Return 0 or the
+ * status; the error is not tested here. Near a singular position it is computed again with other policies
+ * (advance_singular_policy()).
  */
 static int try_step(Integrator *run, const Parameters *p, Step *step)
 {
@@ -472,7 +468,10 @@ static int try_step(Integrator *run, const Parameters *p, Step *step)
 /* Close the attempts at a step after one of them was accepted. */
 static void close_attempt(Integrator *run) { run->control.attempt.open = 0; }
 
-/* Try steps of decreasing length until one is accepted, and close the attempts. Return 0 or the status of a failure. */
+/*
+ * Try steps (shorter, or by another method) until one is accepted or fails, and close the attempts. Return 0 or the
+ * status.
+ */
 static int find_accepted_step(Integrator *run, const Parameters *p, Step *step)
 {
     int status;

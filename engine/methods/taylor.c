@@ -6,14 +6,14 @@
  */
 #if TAYLOR
 #define TAYLOR_ROUNDING 1e-14 /* of velocities: a smaller defect at the end of a step may be rounding */
-enum { TAYLOR_DEFECT = 5 /* log2 of the largest defect at the end of a step, in tolerances; less at low orders */ };
+enum { TAYLOR_DEFECT_LOG2 = 5 /* of the largest defect at the end of a step, in tolerances; less at low orders */ };
 enum { MIN_TAYLOR_ORDER = 4 };
 
 static const double taylor_error_nodes[] = {0.0};
 
 /*
- * Return the order of the series for a relative tolerance, between MIN_TAYLOR_ORDER and TAYLOR_ORDERS. Lengths, angles
- * and speeds have the same tolerance.
+ * Return the order of the Taylor series for a relative tolerance: ceil(1 - TAYLOR_EFFORT ln tolerance), between
+ * MIN_TAYLOR_ORDER and TAYLOR_ORDERS. Lengths, angles and speeds have the same tolerance.
  */
 static int choose_taylor_order(double tolerance)
 {
@@ -29,7 +29,10 @@ typedef double SeriesPart __attribute__((vector_size(REGISTER), aligned(8)));
  */
 static void reject_step_by_defect(const Integrator *run, const Step *step) { (void)run, (void)step; }
 
-/* Subtract one evaluation: the second evaluation at the end of a repeated series step does not count, as in lanes. */
+/*
+ * Subtract one evaluation from the counts: the second evaluation at the end of a repeated series step does not count,
+ * as in lanes.
+ */
 static void uncount_end_evaluation(Integrator *run) { count_evaluations(run, -1); }
 
 #include "../scalar_simd/taylor.h"
@@ -52,9 +55,9 @@ static int expand_series(Integrator *run, const Parameters *p)
 }
 
 /*
- * Compute a step of at most h (s) by the series, which sets the length of the attempt. Return 0 or the status. If the
- * series cannot be computed or is not finite, as with links in one line, the step is one of dop853, which becomes
- * step->method.
+ * Compute a step of at most h (s) by the Taylor series, which sets the length of the attempt. Return 0 or the status.
+ * If the series cannot be computed or is not finite, as with links in one line, the step is one of dop853, which
+ * becomes step->method.
  */
 static int taylor_try_step(Integrator *run, double h, const Parameters *p, Step *step)
 {
@@ -70,7 +73,10 @@ static int taylor_try_step(Integrator *run, double h, const Parameters *p, Step 
     return status_of_step;
 }
 
-/* Copy the series of a step computed in a lane into the run, when its dense output is needed; else do nothing. */
+/*
+ * Copy the series of a step computed in a lane into the run, when its dense output is needed. Nothing happens unless
+ * the series is in a lane (ready == IN_LANE).
+ */
 static void copy_series_from_lane(Integrator *run)
 {
     const double *lane_terms = run->series.lane;
@@ -83,8 +89,8 @@ static void copy_series_from_lane(Integrator *run)
 }
 
 /*
- * Compute the dense output of a series step: the coefficients by powers of the fraction of the step, as interval bounds
- * need them. Orders above that of the series are 0. Return 0.
+ * Compute the dense output of a series step: the Taylor coefficients times powers of the step length, as interval
+ * bounds need them. Orders above that of the series are 0. Return 0.
  */
 static int taylor_compute_dense_output(Integrator *run, const Parameters *p, Step *step)
 {
@@ -110,8 +116,8 @@ static const Method taylor = {.name = "taylor",
     .interpolate = taylor_interpolate,
     .lane = BY_TAYLOR,
     .power = 1.0 / TAYLOR_ORDERS,
-    .unstable = INFINITY,
-    .bounded = 1.0, /* taylor_estimate_stiffness() stores larger values only */
+    .rejected_h_rho = INFINITY,
+    .limiting_h_rho = 1.0, /* taylor_estimate_stiffness() stores larger values only */
     .degree = TAYLOR_ORDERS,
     .error_nodes = taylor_error_nodes,
     .n_error_nodes = COUNT_OF(taylor_error_nodes),
@@ -126,7 +132,7 @@ static void set_series_order(Integrator *run, double tolerance)
     run->series.strictness = run->choice.automatic ? TAYLOR_STRICTNESS : 1.0;
     tolerance /= run->series.strictness;
     run->series.order = choose_taylor_order(tolerance);
-    const int log2_defect = run->series.order - 4 < TAYLOR_DEFECT ? run->series.order - 4 : TAYLOR_DEFECT;
+    const int log2_defect = run->series.order - 4 < TAYLOR_DEFECT_LOG2 ? run->series.order - 4 : TAYLOR_DEFECT_LOG2;
     run->series.defect_weight = run->series.strictness * min_of(1.0, tolerance / TAYLOR_ROUNDING) / (1 << log2_defect);
 }
 
@@ -138,7 +144,7 @@ static double *get_end_rounding(Integrator *run)
 
 /*
  * Discard the stored series of a run, because its state changes. is_whole: whether the new state is the end of a whole
- * step, whose rounding error is kept.
+ * step, whose rounding error is kept for compensated summation; otherwise it is set to 0.
  */
 static void discard_series(Integrator *run, int is_whole)
 {
@@ -147,7 +153,10 @@ static void discard_series(Integrator *run, int is_whole)
         run->series.lost[i] = is_whole && run->choice.method == &taylor ? run->series.next_lost[i] : 0.0;
 }
 
-/* Return whether rho (1/s) of the motion confirms that stability limits the steps of the chosen method. */
+/*
+ * Return whether the largest rate rho (1/s) of the motion confirms that stability limits the steps of the chosen
+ * method: rho h exceeds TAYLOR_STABILITY times the order. Always 1 for other methods than Taylor's.
+ */
 static int is_limited_by_stability(const Integrator *run, double rho)
 {
     return run->choice.method != &taylor || rho * run->step.h > TAYLOR_STABILITY * run->series.order;

@@ -2,26 +2,28 @@
 
 /*
  * Compute tree accelerations a and multipliers of the closures by the equations of all bodies, where a pivot of the
- * tree vanishes. Return 0 or a status. Return NEAR near a singular position if such positions are to be detected. If
- * they are, and this is none, the reduced equations are solved with the usual limits of pivots.
+ * tree vanishes. Return 0 or a status.
+ *
+ * If near-singular positions are to be detected (discrete->least > NEARLY_SINGULAR), return NEAR at one of them;
+ * elsewhere the reduced equations are solved with the usual limits of pivots.
  */
 int solve_by_absolute_equations(double t, const double *q, const double *v, const DiscreteState *discrete,
     const Parameters *p, double *a, RhsOutputs *rhs)
 {
     double all_q[N_Q], all_v[N_Q], all_a[N_Q];
     RhsOutputs all_bodies;
-    DiscreteState now = *discrete;
-    now.is_frozen = 0; /* switching functions have other indices there */
+    DiscreteState discrete_state = *discrete;
+    discrete_state.is_frozen = 0; /* switching functions have other indices there */
     expand(t, q, v, p, all_q, all_v);
-    const int status = dynamics(t, all_q, all_v, &now, p, all_a, &all_bodies);
+    const int status = dynamics(t, all_q, all_v, &discrete_state, p, all_a, &all_bodies);
     if (discrete->least > NEARLY_SINGULAR && status == NEAR)
         return NEAR;
     if (discrete->least > NEARLY_SINGULAR && status != STOPPED) {
         /* not a singular position: solve with the usual limits of pivots */
-        now = *discrete;
-        now.least = NEARLY_SINGULAR;
-        now.least_size = VANISHING;
-        return reduced_dynamics(t, q, v, &now, p, a, rhs);
+        discrete_state = *discrete;
+        discrete_state.least = NEARLY_SINGULAR;
+        discrete_state.least_size = VANISHING;
+        return reduced_dynamics(t, q, v, &discrete_state, p, a, rhs);
     }
     reduce_accelerations(t, all_q, all_v, all_a, p, a);
     tree_multipliers(all_bodies.lambda, rhs->lambda);

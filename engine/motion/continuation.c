@@ -9,20 +9,20 @@
 
 enum { N_SIDE_NODES = TREE ? 5 : 6, N_WIDE_PASSES = 2, N_NARROW_PASSES = 4 };
 #define MAX_CLOSING_MOVE 0.1 /* rad: largest projection of a stage onto the constraints */
-#define NODE_TURN (TREE ? 1e-2 : 2e-2) /* rad: motion of the fastest angle between nodes; doubled in later passes */
+#define NODE_ANGLE (TREE ? 1e-2 : 2e-2) /* rad: motion of the fastest angle between nodes; doubled in later passes */
 #define CONTINUATION_TOL 1e-7 /* of the accelerations: largest difference of the polynomials of the last two degrees */
-#define WIDE_TURN 4e-2 /* the same for smooth motion: rounding at distant nodes is amplified less */
+#define WIDE_NODE_ANGLE 4e-2 /* the same for smooth motion: rounding at distant nodes is amplified less */
 #define WIDE_TOL 1e-10
 
 /*
- * Project state y in place onto the closures by Newton steps, and compute its rates dy and outputs rhs there.
- * max_step_sum: largest allowed sum of the steps, rad. Return 0 or a status; LOST if the projection is longer or does
- * not converge in six steps.
+ * Project state y in place onto the closures by at most six Newton steps, and compute its rates dy and outputs rhs
+ * there. max_step_sum: largest allowed sum of the steps of angles, rad. Return 0 or a status; LOST if the projection is
+ * longer or does not converge, with y changed.
  */
 static int project_and_evaluate_state(
     double t, double *y, DiscreteState *discrete, const Parameters *p, double max_step_sum, double *dy, RhsOutputs *rhs)
 {
-    double moved = 0.0, before = INFINITY;
+    double step_sum = 0.0, before = INFINITY;
     for (int pass = 0; pass < 6; pass++) {
         double dq[N_X], dv[N_X], residual, step = 0.0;
         const int status = solve_correction(t, y, discrete, p, dq, dv, &residual);
@@ -33,8 +33,8 @@ static int project_and_evaluate_state(
             y[N_X + k] -= dv[k];
             step = is_angle[k] ? max_of(step, fabs(dq[k])) : step;
         }
-        moved += step;
-        if (!(moved <= max_step_sum))
+        step_sum += step;
+        if (!(step_sum <= max_step_sum))
             return LOST;
         if (residual < 1e-15 || (residual < 1e-12 && residual > 0.5 * before))
             return evaluate_rhs(t, y, discrete, p, dy, rhs);
@@ -70,19 +70,19 @@ static void add_interpolation_node(
 }
 
 /*
- * Return whether the interpolated accelerations of the last two degrees agree within `tolerance` times their size.
+ * Return whether the accelerations interpolated with the last two degrees agree within `tolerance` times their size.
  * Lengths and angles are compared separately; y: the state, whose squared angular rates count as accelerations.
  */
 static int has_interpolation_converged(const double *y, const ContinuedMotion *interpolated_motion, double tolerance)
 {
-    double most[2] = {0.0, 0.0}, difference[2] = {0.0, 0.0};
+    double largest[2] = {0.0, 0.0}, difference[2] = {0.0, 0.0};
     for (int k = 0; k < N_X; k++) {
         const int kind = is_angle[k];
         const double a = interpolated_motion->dy[N_X + k], v = y[N_X + k];
-        most[kind] = max_of(most[kind], fabs(a) + (kind ? v * v : 0.0));
+        largest[kind] = max_of(largest[kind], fabs(a) + (kind ? v * v : 0.0));
         difference[kind] = max_of(difference[kind], fabs(a - interpolated_motion->lower[k]));
     }
-    return difference[0] <= tolerance * most[0] && difference[1] <= tolerance * most[1];
+    return difference[0] <= tolerance * largest[0] && difference[1] <= tolerance * largest[1];
 }
 
 /*
@@ -99,19 +99,20 @@ static int continue_motion(
     if (!(fastest > 0.0 && fastest < INFINITY))
         return 0;
     for (int pass = -N_WIDE_PASSES; pass < N_NARROW_PASSES; pass++) {
-        const double turn = pass < 0 ? WIDE_TURN * ldexp(1.0, -N_WIDE_PASSES - pass) : NODE_TURN * ldexp(1.0, pass);
+        const double node_angle =
+            pass < 0 ? WIDE_NODE_ANGLE * ldexp(1.0, -N_WIDE_PASSES - pass) : NODE_ANGLE * ldexp(1.0, pass);
         int status = discrete->token && poll_cancellation(discrete->token) ? STOPPED : 0;
         *interpolated_motion = (ContinuedMotion){0};
         for (int k = 1; k <= N_SIDE_NODES && !status; k++)
-            for (int branch = -1; branch <= 1 && !status; branch += 2) {
-                const double h = branch * k * turn / fastest;
+            for (int sign = -1; sign <= 1 && !status; sign += 2) {
+                const double h = sign * k * node_angle / fastest;
                 double projected[N_Y], dy[N_Y];
-                DiscreteState now = *discrete;
+                DiscreteState discrete_state = *discrete;
                 RhsOutputs rhs;
                 for (int i = 0; i < N_Y; i++)
                     projected[i] = y[i] + (i < N_X ? h * y[N_X + i] : 0.0);
-                status = project_and_evaluate_state(t + (N_DRIVES ? h : 0.0), projected, &now, p, 0.5 * k * turn, dy,
-                    &rhs);
+                status = project_and_evaluate_state(t + (N_DRIVES ? h : 0.0), projected, &discrete_state, p,
+                    0.5 * k * node_angle, dy, &rhs);
                 add_interpolation_node(k, projected, dy, &rhs, interpolated_motion);
             }
         if (!status && has_interpolation_converged(y, interpolated_motion, pass < 0 ? WIDE_TOL : CONTINUATION_TOL))
@@ -122,16 +123,22 @@ static int continue_motion(
     return 0;
 }
 
-/* Return a copy of a discrete state in which pivots need only be large enough for a division. */
+/*
+ * Return a copy of a discrete state with the usual limits of pivots: these need only be large enough for a division, so
+ * that near-singular positions are not detected.
+ */
 static DiscreteState copy_state_with_usual_pivot_limits(const DiscreteState *discrete)
 {
-    DiscreteState now = *discrete;
-    now.least = NEARLY_SINGULAR;
-    now.least_size = VANISHING;
-    return now;
+    DiscreteState discrete_state = *discrete;
+    discrete_state.least = NEARLY_SINGULAR;
+    discrete_state.least_size = VANISHING;
+    return discrete_state;
 }
 
-/* Copy the interpolated motion at state y into rates dy and outputs rhs (powers, multipliers). Return 0. */
+/*
+ * Copy the interpolated motion at state y into rates dy and outputs rhs (powers, multipliers). Coordinates' rates are
+ * the velocities in y. Return 0.
+ */
 static int copy_continued_motion(const double *y, const ContinuedMotion *continued_motion, double *dy, RhsOutputs *rhs)
 {
     for (int k = 0; k < N_X; k++) {
@@ -147,13 +154,13 @@ static int copy_continued_motion(const double *y, const ContinuedMotion *continu
 
 /*
  * Compute the rates dy of the integrated state y and the outputs rhs. Return 0 or a status. Near a singular position,
- * the policy in `discrete` decides. The state is projected and evaluated there, the motion is continued from both
- * sides, NEAR is returned, or the state is evaluated without treatment.
+ * discrete->singular_policy decides: the state is projected and evaluated there, the motion is continued from both
+ * sides, NEAR is returned, or the state is evaluated without treatment. y is not changed.
  */
 int compute_motion_rates(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dy,
     RhsOutputs *rhs)
 {
-    ContinuedMotion at;
+    ContinuedMotion continued;
     if (discrete->singular_policy == SINGULAR_PROJECT || discrete->singular_policy == SINGULAR_PROJECT_OR_IGNORE) {
         double projected[N_Y];
         memcpy(projected, y, sizeof projected);
@@ -168,19 +175,20 @@ int compute_motion_rates(double t, const double *y, DiscreteState *discrete, con
         || discrete->singular_policy == SINGULAR_PROJECT_OR_IGNORE; /* near enough that it cannot be closed */
     if (discrete->singular_policy == SINGULAR_DETECT || (status != NEAR && (status || !open)))
         return status;
-    if (continue_motion(t, y, discrete, p, &at))
-        return copy_continued_motion(y, &at, dy, rhs);
+    if (continue_motion(t, y, discrete, p, &continued))
+        return copy_continued_motion(y, &continued, dy, rhs);
     if (discrete->singular_policy == SINGULAR_PROJECT)
         return NEAR;
-    DiscreteState now = copy_state_with_usual_pivot_limits(discrete);
-    return evaluate_rhs(t, y, &now, p, dy, rhs);
+    DiscreteState discrete_state = copy_state_with_usual_pivot_limits(discrete);
+    return evaluate_rhs(t, y, &discrete_state, p, dy, rhs);
 }
 
 /*
- * Compute the corrections dq, dv (N_X) of state y, to be subtracted, that close the loops, and the largest residual
- * *residual. Return 0 or a status. Near a singular position, by the policy in `discrete`, they are those to the
- * continued state, with *residual = 0: one pass is enough. If the motion cannot be continued there, the usual limits of
- * pivots apply. y is not changed.
+ * Compute the corrections dq, dv (N_X) of state y, to be subtracted, that close the loops (one Newton step), and the
+ * largest residual *residual. Return 0 or a status. y is not changed.
+ *
+ * Near a singular position, by the policy in `discrete`, they are those to the continued state, with *residual = 0: one
+ * pass is enough. If the motion cannot be continued there, the usual limits of pivots apply.
  */
 int compute_correction(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dq, double *dv,
     double *residual)
@@ -190,15 +198,15 @@ int compute_correction(double t, const double *y, DiscreteState *discrete, const
         return status;
     double dy[N_Y];
     RhsOutputs rhs;
-    ContinuedMotion at;
-    DiscreteState now = *discrete;
-    if (evaluate_rhs(t, y, &now, p, dy, &rhs) != NEAR || !continue_motion(t, y, discrete, p, &at)) {
-        now = copy_state_with_usual_pivot_limits(discrete);
-        return solve_correction(t, y, &now, p, dq, dv, residual);
+    ContinuedMotion continued;
+    DiscreteState discrete_state = *discrete;
+    if (evaluate_rhs(t, y, &discrete_state, p, dy, &rhs) != NEAR || !continue_motion(t, y, discrete, p, &continued)) {
+        discrete_state = copy_state_with_usual_pivot_limits(discrete);
+        return solve_correction(t, y, &discrete_state, p, dq, dv, residual);
     }
     for (int k = 0; k < N_X; k++) {
-        dq[k] = y[k] - at.y[k];
-        dv[k] = y[N_X + k] - at.y[N_X + k];
+        dq[k] = y[k] - continued.y[k];
+        dv[k] = y[N_X + k] - continued.y[N_X + k];
     }
     *residual = 0.0; /* one pass is enough */
     return 0;

@@ -1,11 +1,11 @@
 /*
- * Right-hand side of scenes with driven loops, whose coordinates are functions of time. Without driven loops, this file
- * only calls the functions of the scene.
+ * Right-hand side of scenes with driven loops: loops that drives determine kinematically, whose coordinates are
+ * functions of time. Without driven loops, this file only calls the functions of the scene.
  */
 #if N_DEPENDENT
 /*
- * Compute the rates dy of the integrated state y: independent tree coordinates, their rates, works. Return 0 or a
- * status. Coordinates of driven loops are not in y: they are solved for at time t.
+ * Compute the rates dy of the integrated state y: independent tree coordinates, their rates, works; and the outputs
+ * rhs. Return 0 or a status. Coordinates of driven loops are not in y: they are solved for at time t.
  */
 int evaluate_rhs(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dy, RhsOutputs *rhs)
 {
@@ -29,8 +29,8 @@ int evaluate_rhs(double t, const double *y, DiscreteState *discrete, const Param
 }
 
 /*
- * Evaluate the contacts of joints with play at state y into `rhs`, without solving for accelerations. Return 0 or a
- * status. Driven loops are solved at time t first.
+ * Evaluate the contacts of joints with play at state y into rhs->clearance, without solving for accelerations. Return 0
+ * or a status. Driven loops are solved at time t first.
  */
 int evaluate_contacts(double t, const double *y, DiscreteState *discrete, const Parameters *p, RhsOutputs *rhs)
 {
@@ -56,10 +56,10 @@ static void extrapolate_singular_loops(
     for (int k = 0; k < N_DEPENDENT; k++)
         fastest = max_of(fastest, fabs(discrete->chain.v[k]));
     for (double e = 1e-7; e < 0.05; e *= 10.0)
-        for (int branch = -1; branch <= 1; branch += 2) {
-            const double h = branch * e / fastest;
-            DiscreteState now = *discrete;
-            if (build_tree_state(t - h, y, &now, p, tree))
+        for (int sign = -1; sign <= 1; sign += 2) {
+            const double h = sign * e / fastest;
+            DiscreteState discrete_state = *discrete;
+            if (build_tree_state(t - h, y, &discrete_state, p, tree))
                 continue;
             for (int k = 0; k < N_DEPENDENT; k++) {
                 tree->q[N_X + k] += h * (tree->v[N_X + k] + 0.5 * h * tree->v[N_X + N_DEPENDENT + k]);
@@ -79,8 +79,8 @@ void convert_to_absolute(double t, const double *y, const DiscreteState *discret
     double *absolute_state)
 {
     TreeState tree;
-    DiscreteState now = *discrete;
-    if (build_tree_state(t, y, &now, p, &tree))
+    DiscreteState discrete_state = *discrete;
+    if (build_tree_state(t, y, &discrete_state, p, &tree))
         extrapolate_singular_loops(t, y, discrete, p, &tree);
     expand(t, tree.q, tree.v, p, absolute_state, absolute_state + N_Q);
     for (int k = 0; k < N_WORK; k++)
@@ -88,8 +88,9 @@ void convert_to_absolute(double t, const double *y, const DiscreteState *discret
 }
 
 /*
- * Compute the integrated state y from the state of all bodies, (q, v, works) in `absolute_state`. The positions of the
- * driven loops are stored in `discrete`, from which they are followed.
+ * Compute the integrated state y, except internal states of laws, from the state of all bodies, (q, v, works) in
+ * `absolute_state`. The driven loops are solved at time t and stored in `discrete`; later times are solved from there.
+ * A failure is stored in discrete->chain.failed.
  */
 void convert_from_absolute(double t, const double *absolute_state, DiscreteState *discrete, const Parameters *p,
     double *y)
@@ -107,8 +108,8 @@ void convert_from_absolute(double t, const double *absolute_state, DiscreteState
 
 /*
  * Compute one Newton step of the projection of state y onto the loop closures: corrections dq, dv (N_X), to be
- * subtracted, and the largest residual *residual. Driven loops are solved at time t first. y is not changed.
- * Return 0 or a status.
+ * subtracted, and the largest residual *residual. Driven loops are solved at time t first. y is not changed. Return 0
+ * or a status.
  */
 int solve_correction(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dq, double *dv,
     double *residual)
@@ -119,8 +120,8 @@ int solve_correction(double t, const double *y, DiscreteState *discrete, const P
 }
 
 /*
- * Linearize the equations of motion at state y with accelerations a (N_X) into `linear`. Return 0 or the status of the
- * driven loops.
+ * Linearize the equations of motion at state y with accelerations a (N_X) into `linear`, for Newton's matrix. Return 0
+ * or the status of the driven loops.
  */
 int linearize_state(double t, const double *y, DiscreteState *discrete, const Parameters *p, const double *a,
     const RhsOutputs *rhs, Linear *linear)
@@ -136,7 +137,7 @@ int linearize_state(double t, const double *y, DiscreteState *discrete, const Pa
 
 /*
  * Accept a state: update the maxima of |Phi| and |Phi_dot| of the closures. Return 0 or a status. Driven loops are
- * stored in `discrete` and followed from here on.
+ * stored in `discrete`; later times are solved from there. Called at the start and after each accepted step.
  */
 int accept_state(double t, const double *y, DiscreteState *discrete, const Parameters *p, const RhsOutputs *rhs,
     double *phi_max, double *phi_dot_max)
@@ -161,8 +162,7 @@ int accept_state(double t, const double *y, DiscreteState *discrete, const Param
 #else
 /*
  * Compute one Newton step of the projection of state y onto the loop closures: corrections dq, dv (N_X), to be
- * subtracted, and the largest residual *residual. y is not changed.
- * Return 0 or a status.
+ * subtracted, and the largest residual *residual. y is not changed. Return 0 or a status.
  */
 int solve_correction(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dq, double *dv,
     double *residual)
@@ -170,7 +170,9 @@ int solve_correction(double t, const double *y, DiscreteState *discrete, const P
     return closing_step(t, y, y + N_X, discrete, p, dq, dv, residual);
 }
 
-/* Linearize the equations of motion at state y with accelerations a (N_X) into `linear`. Return 0. */
+/*
+ * Linearize the equations of motion at state y with accelerations a (N_X) into `linear`, for Newton's matrix. Return 0.
+ */
 int linearize_state(double t, const double *y, DiscreteState *discrete, const Parameters *p, const double *a,
     const RhsOutputs *rhs, Linear *linear)
 {

@@ -1,8 +1,9 @@
 /* Functions that Python calls to evaluate the motion in tree coordinates, for scenes with driven loops. */
 
 /*
- * Build the state `tree` that the scene's functions read from the coordinates q and rates v of a call from Python.
- * Driven loops are solved at time t from the guess in q. Return 0 or a status.
+ * Build the state `tree`, which the scene's functions read, from the coordinates q and rates v of a call from Python.
+ * Driven loops are solved at time t from the guess of their coordinates after the N_X tree coordinates in q. Return 0
+ * or a status.
  */
 static int solve_tree_state(
     double t, const double *q, const double *v, DiscreteState *discrete, const Parameters *p, TreeState *tree)
@@ -23,13 +24,16 @@ static int solve_tree_state(
  */
 void gudgeon_expand(double t, const double *q, const double *v, const double *p, double *all_q, double *all_v)
 {
-    DiscreteState now = {0};
+    DiscreteState discrete_state = {0};
     TreeState tree = {0};
-    solve_tree_state(t, q, v, &now, (const Parameters *)p, &tree);
+    solve_tree_state(t, q, v, &discrete_state, (const Parameters *)p, &tree);
     expand(t, tree.q, tree.v, (const Parameters *)p, all_q, all_v);
 }
 
-/* Compute tree coordinates q and rates v from positions and velocities of all bodies (N_Q each). */
+/*
+ * Compute tree coordinates q and rates v from positions and velocities of all bodies (N_Q each). Coordinates of driven
+ * loops follow those of the tree in q and v.
+ */
 void gudgeon_reduce(double t, const double *all_q, const double *all_v, const double *p, double *q, double *v)
 {
     reduce_state(t, all_q, all_v, (const Parameters *)p, q, v);
@@ -43,14 +47,14 @@ void gudgeon_reduce(double t, const double *all_q, const double *all_v, const do
 int gudgeon_reduced_rhs(double t, const double *q, const double *v, const double *discrete, const double *p, double *a,
     double *lambda, double *power)
 {
-    DiscreteState now = {0};
+    DiscreteState discrete_state = {0};
     RhsOutputs rhs;
     TreeState tree;
-    read_discrete_state(discrete, &now);
-    int status = solve_tree_state(t, q, v, &now, (const Parameters *)p, &tree);
+    read_discrete_state(discrete, &discrete_state);
+    int status = solve_tree_state(t, q, v, &discrete_state, (const Parameters *)p, &tree);
     if (status)
         return status;
-    status = reduced_dynamics(t, tree.q, tree.v, &now, (const Parameters *)p, a, &rhs);
+    status = reduced_dynamics(t, tree.q, tree.v, &discrete_state, (const Parameters *)p, a, &rhs);
     for (int r = 0; r < N_LOOPS; r++)
         lambda[r] = rhs.lambda[r];
     for (int k = 0; k < N_WORK; k++)
@@ -60,13 +64,13 @@ int gudgeon_reduced_rhs(double t, const double *q, const double *v, const double
 
 /*
  * Compute the residuals phi of the closures and their rates phi_dot (N_LOOPS each) at a state; driven loops are solved
- * at t.
+ * at t. A failure of that solution is ignored.
  */
 void gudgeon_closures(double t, const double *q, const double *v, const double *p, double *phi, double *phi_dot)
 {
-    DiscreteState now = {0};
+    DiscreteState discrete_state = {0};
     TreeState tree = {0};
-    solve_tree_state(t, q, v, &now, (const Parameters *)p, &tree);
+    solve_tree_state(t, q, v, &discrete_state, (const Parameters *)p, &tree);
     closures(t, tree.q, (const Parameters *)p, phi);
     closure_rates(t, tree.q, tree.v, (const Parameters *)p, phi_dot);
 }
@@ -77,9 +81,9 @@ void gudgeon_closures(double t, const double *q, const double *v, const double *
  */
 int gudgeon_reduced_project(double t, const double *q, const double *r, const double *p, double *x)
 {
-    DiscreteState now = {0};
+    DiscreteState discrete_state = {0};
     TreeState tree;
-    const int status = solve_tree_state(t, q, q, &now, (const Parameters *)p, &tree);
+    const int status = solve_tree_state(t, q, q, &discrete_state, (const Parameters *)p, &tree);
     return status ? status : reduced_project(t, tree.q, r, (const Parameters *)p, x);
 }
 
@@ -91,12 +95,13 @@ int gudgeon_reduced_project(double t, const double *q, const double *r, const do
 int gudgeon_reduced_rescue(
     double t, const double *q, const double *v, const double *discrete, const double *p, double *a)
 {
-    DiscreteState now = {0};
+    DiscreteState discrete_state = {0};
     RhsOutputs rhs;
     TreeState tree;
-    read_discrete_state(discrete, &now);
-    const int status = solve_tree_state(t, q, v, &now, (const Parameters *)p, &tree);
-    return status ? status : solve_by_absolute_equations(t, tree.q, tree.v, &now, (const Parameters *)p, a, &rhs);
+    read_discrete_state(discrete, &discrete_state);
+    const int status = solve_tree_state(t, q, v, &discrete_state, (const Parameters *)p, &tree);
+    return status ? status
+        : solve_by_absolute_equations(t, tree.q, tree.v, &discrete_state, (const Parameters *)p, a, &rhs);
 }
 
 #endif
@@ -106,13 +111,13 @@ int gudgeon_reduced_rescue(
  */
 int gudgeon_driven_loops(double t, double *q, const double *p, double *v)
 {
-    DiscreteState now = {0};
-    solve_driven_loops(t, q, &now, (const Parameters *)p);
+    DiscreteState discrete_state = {0};
+    solve_driven_loops(t, q, &discrete_state, (const Parameters *)p);
     for (int k = 0; k < N_DEPENDENT; k++)
-        q[k] = now.chain.q[k];
+        q[k] = discrete_state.chain.q[k];
     for (int k = 0; k < 3 * N_DEPENDENT; k++)
-        v[k] = now.chain.v[k];
-    return now.chain.failed;
+        v[k] = discrete_state.chain.v[k];
+    return discrete_state.chain.failed;
 }
 
 /*
@@ -125,17 +130,17 @@ double gudgeon_time_reduced(long count, double t, const double *q, const double 
 {
     const Parameters *p = (const Parameters *)parameters;
     double dy[N_Y], y[N_Y], sum = 0.0;
-    DiscreteState now = {0};
+    DiscreteState discrete_state = {0};
     RhsOutputs rhs;
-    read_discrete_state(discrete, &now);
-    solve_driven_loops(t, q + N_X, &now, p);
-    const double speed = hypot(now.chain.v[0], 1e-6), ahead = 0.1 / speed;
+    read_discrete_state(discrete, &discrete_state);
+    solve_driven_loops(t, q + N_X, &discrete_state, p);
+    const double speed = hypot(discrete_state.chain.v[0], 1e-6), ahead = 0.1 / speed;
     for (int k = 0; k < N_X; k++) {
         y[k] = q[k];
         y[N_X + k] = v[k];
     }
     for (long i = 0; i < count; i++) {
-        compute_motion_rates(t + (i % 2 ? ahead : 0.9 * ahead), y, &now, p, dy, &rhs);
+        compute_motion_rates(t + (i % 2 ? ahead : 0.9 * ahead), y, &discrete_state, p, dy, &rhs);
         sum += dy[N_X];
         y[0] = q[0] + 1e-300 * sum;
     }

@@ -1,7 +1,7 @@
 /*
- * Solution of driven loops: closed loops of a linkage whose coordinates are determined by drives alone. At every time
- * Chebyshev's method solves their closures, from their positions at the last accepted state. The motion thus keeps its
- * branch, and the right-hand side remains a function of time and state.
+ * Position analysis of driven loops: closed loops of a linkage whose coordinates drives alone determine. At every time
+ * Chebyshev's method solves their closures (loop-closure equations), from their positions at the last accepted state.
+ * The motion thus keeps its branch, and the right-hand side remains a function of time and state.
  */
 enum { MAX_LOOP_ITERATIONS = 8, MAX_LOOP_PARTS = 60, SINGULAR_NODES = 4 };
 #define MAX_LOOP_MOVE 0.1    /* rad, or fraction of the size: longer moves are made in parts */
@@ -11,11 +11,12 @@ enum { MAX_LOOP_ITERATIONS = 8, MAX_LOOP_PARTS = 60, SINGULAR_NODES = 4 };
 
 /*
  * Solve the closures of the driven loops at time t by Chebyshev's method, from the guess in q. Only q[N_X] and later
- * elements are replaced: the loops' coordinates and directions. An iteration consists of two Newton steps; the error
- * after it is about second_step^2/step. If the second is not much smaller than the first, no root is near (L. V.
- * Kantorovich). *step_sum: sum over iterations of the largest first step, rad or fraction of the size. Return 0 if that
- * error is below rounding, or if *step_sum < 1e-9 after all MAX_LOOP_ITERATIONS iterations; otherwise the number of a
- * closure.
+ * elements are replaced: the loops' coordinates and directions. *step_sum: sum over iterations of the largest first
+ * step, rad or fraction of the size.
+ *
+ * An iteration consists of two Newton steps; the error after it is about second_step^2/step. If the second exceeds a
+ * quarter of the first, no root is near (L. V. Kantorovich). Return 0 if that error is below rounding, or if *step_sum
+ * < 1e-9 after all MAX_LOOP_ITERATIONS iterations; otherwise the number of a closure.
  */
 static int solve_loop_closures(double t, double *q, const DiscreteState *discrete, const Parameters *p,
     double *step_sum)
@@ -60,9 +61,7 @@ static inline void store_driven_loops(double t, const TreeState *tree, DrivenLoo
         loops->v[k] = tree->v[N_X + k];
 }
 
-/*
- * Copy stored coordinates and two rates of the driven loops to `tree`; third rates are computed where they are needed.
- */
+/* Copy stored coordinates and two rates of the driven loops to `tree`. Third rates are not copied. */
 static void restore_driven_loops(const DrivenLoops *stored_loops, TreeState *tree)
 {
     for (int k = 0; k < N_LED; k++)
@@ -73,25 +72,29 @@ static void restore_driven_loops(const DrivenLoops *stored_loops, TreeState *tre
 
 /*
  * Return the largest difference of the driven loops' positions in tree_after from their Euler-Maclaurin integral from
- * loops_before, h (s) earlier. In rad; lengths are divided by the size of the mechanism.
+ * loops_before, h (s) earlier. In rad; lengths are divided by the size of the mechanism. Used to detect a change of
+ * branch.
  */
 static double compute_loop_position_error(double h, const DrivenLoops *loops_before, const TreeState *tree_after,
     const Parameters *p)
 {
     const double *q = tree_after->q + N_X, *rate = tree_after->v + N_X, *second = rate + N_DEPENDENT;
-    double most = 0.0;
+    double largest_error = 0.0;
     for (int k = 0; k < N_DEPENDENT; k++) {
         const double distance = 0.5 * h * (loops_before->v[k] + rate[k]
             + (1.0 / 6.0) * h * (loops_before->v[N_DEPENDENT + k] - second[k]));
-        most = max_of(most, get_loop_step_scale(p, k) * fabs(q[k] - loops_before->q[k] - distance));
+        largest_error = max_of(largest_error, get_loop_step_scale(p, k) * fabs(q[k] - loops_before->q[k] - distance));
     }
-    return most;
+    return largest_error;
 }
 
 /*
- * Solve the driven loops at time t, with two rates, from their state `loops_before` at a near time. Return 0, or the
- * number of a closure if they cannot be solved or the branch is not certain. The branch is certain if the move is short
- * and the positions agree with the integral of the rates.
+ * Solve the driven loops at time t, with two rates, from their state `loops_before` at a near time, whose Taylor series
+ * of third order is the guess. Return 0, or the number of a closure if they cannot be solved or the branch is not
+ * certain.
+ *
+ * The branch is certain if the Newton steps sum up to at most MAX_LOOP_MOVE, and the positions agree with the integral
+ * of the rates within LOOP_POSITION_TOL.
  */
 static int advance_driven_loops(double t, const DrivenLoops *loops_before, const DiscreteState *discrete,
     const Parameters *p, TreeState *tree)
@@ -111,8 +114,9 @@ static int advance_driven_loops(double t, const DrivenLoops *loops_before, const
 }
 
 /*
- * Solve the driven loops at time t from the last accepted state in parts, whose length is halved where a move is too
- * long. Return 0, or the number of a closure that cannot be followed in MAX_LOOP_PARTS parts.
+ * Solve the driven loops at time t from the last accepted state in parts. The length of a part is halved where
+ * advance_driven_loops() fails, and doubled after a success. Return 0, or the number of a closure that cannot be
+ * followed in MAX_LOOP_PARTS parts. The result is in `tree`; `discrete` is not changed.
  */
 static int follow_driven_loops_in_parts(double t, const DiscreteState *discrete, const Parameters *p, TreeState *tree)
 {
@@ -143,8 +147,8 @@ static int follow_driven_loops_in_parts(double t, const DiscreteState *discrete,
 /*
  * Interpolate the driven loops at a time at which a loop is in a singular position (a dead centre: links in one line),
  * where its closures do not determine it. Polynomials in time pass through SINGULAR_NODES regular states before and as
- * many after; the result is in `loops`, without directions. Return 0, or
- * nonzero if nothing moves, a node cannot be solved or the polynomials do not agree.
+ * many after; the result is in `loops`, without directions. Return 0, or nonzero if nothing moves, a node cannot be
+ * solved or the polynomials do not agree.
  */
 static int interpolate_singular_loops(double t, const DiscreteState *discrete, const Parameters *p, DrivenLoops *loops)
 {
@@ -178,9 +182,9 @@ static int interpolate_singular_loops(double t, const DiscreteState *discrete, c
 }
 
 /*
- * Store the driven loops of an accepted state in `discrete`, with third rates; they are followed from there. If third
- * rates cannot be solved, as in a singular position, the loops are interpolated. Return 0, or the number of a closure
- * that fails.
+ * Store the driven loops of an accepted state in `discrete`, with third rates; later times are solved from there. If
+ * third rates cannot be solved, as in a singular position, the loops are interpolated. Return 0, or the number of a
+ * closure that fails.
  */
 static int accept_driven_loops(double t, const TreeState *tree, DiscreteState *discrete, const Parameters *p)
 {
@@ -197,9 +201,9 @@ static int accept_driven_loops(double t, const TreeState *tree, DiscreteState *d
 }
 
 /*
- * Compute the driven loops at time t in `tree`, from the last accepted state; those found last are reused at the same
- * time. If one move fails, they are solved in parts, then interpolated. Return 0, or the number of a closure that
- * cannot be followed; a failure stored by solve_driven_loops() is returned at once.
+ * Compute the driven loops at time t in `tree`, from the last accepted state; those solved last are reused at the same
+ * time (SMOOTH_DRIVEN_LOOPS). If one move fails, they are solved in parts, then interpolated. Return 0, or the number
+ * of a closure that cannot be followed; a failure stored by solve_driven_loops() is returned at once.
  */
 static inline int follow_driven_loops(double t, const DiscreteState *discrete, const Parameters *p, TreeState *tree)
 {
@@ -223,9 +227,9 @@ static inline int follow_driven_loops(double t, const DiscreteState *discrete, c
 }
 
 /*
- * Build all that the scene's functions read at (t, y): driven loops solved at t, and the independent coordinates and
- * rates of y. Several stages of a method share a time. Return 0, or TREE_PIVOTS plus the number of a closure of a
- * driven loop.
+ * Build all that the scene's functions read at (t, y) in `tree`: driven loops solved at t, and the independent
+ * coordinates and rates of y. Without switching functions in the loops, they are solved once for the stages that share
+ * a time. Return 0, or TREE_PIVOTS plus the number of a closure of a driven loop.
  */
 static inline int build_tree_state(double t, const double *y, DiscreteState *discrete, const Parameters *p,
     TreeState *tree)
@@ -243,8 +247,8 @@ static inline int build_tree_state(double t, const double *y, DiscreteState *dis
 }
 
 /*
- * Solve the driven loops at time t from a guess of their coordinates (N_DEPENDENT), and store them in `discrete`. They
- * are followed from there. A failure is stored in discrete->chain.failed.
+ * Solve the driven loops at time t from a guess of their coordinates (N_DEPENDENT), and store them in `discrete`; later
+ * times are solved from there. A failure is stored in discrete->chain.failed. Called where a run starts.
  */
 void solve_driven_loops(double t, const double *guess, DiscreteState *discrete, const Parameters *p)
 {

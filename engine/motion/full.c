@@ -1,13 +1,17 @@
 /* The integrated state in absolute coordinates: right-hand side, conversions, accepted states. */
 
-/* Compute the rates dy of the state y in absolute coordinates and the outputs rhs. Return 0 or a status. */
+/*
+ * Compute the rates dy of the integrated state y in absolute coordinates (q, v, works) and the outputs rhs. Return 0 or
+ * a status.
+ */
 int evaluate_rhs(double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dy, RhsOutputs *rhs)
 {
     return compute_absolute_rates(t, y, discrete, p, dy, rhs);
 }
 
 /*
- * Evaluate the contacts of joints with play at state y into `rhs`, by the whole right-hand side. Return 0 or a status.
+ * Evaluate the contacts of joints with play at state y into rhs->clearance, by the whole right-hand side. Return 0 or a
+ * status.
  */
 int evaluate_contacts(double t, const double *y, DiscreteState *discrete, const Parameters *p, RhsOutputs *rhs)
 {
@@ -34,8 +38,8 @@ void convert_from_absolute(double t, const double *absolute_state, DiscreteState
 }
 
 /*
- * Update the maxima of the constraint violations |Phi| and |Phi_dot| with an accepted state, from its outputs rhs.
- * Return 0.
+ * Accept a state: update the maxima of the constraint violations |Phi| and |Phi_dot| by those in its outputs rhs.
+ * Return 0. Called at the start and after each accepted step.
  */
 int accept_state(double t, const double *y, DiscreteState *discrete, const Parameters *p, const RhsOutputs *rhs,
     double *phi_max, double *phi_dot_max)

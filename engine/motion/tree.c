@@ -9,8 +9,8 @@
 #include "../scalar_simd/motion.h"
 
 /*
- * Evaluate the contacts of joints with play at state y into `rhs`, without solving for accelerations. Return 0 or a
- * status.
+ * Evaluate the contacts of joints with play at state y into rhs->clearance, without solving for accelerations. Return 0
+ * or a status.
  */
 int evaluate_contacts(double t, const double *y, DiscreteState *discrete, const Parameters *p, RhsOutputs *rhs)
 {
@@ -30,7 +30,8 @@ void convert_to_absolute(double t, const double *y, const DiscreteState *discret
 }
 
 /*
- * Compute the integrated state y in tree coordinates from the state of all bodies, (q, v, works) in `absolute_state`.
+ * Compute the integrated state y in tree coordinates, except internal states of laws, from the state of all bodies, (q,
+ * v, works) in `absolute_state`.
  */
 void convert_from_absolute(double t, const double *absolute_state, DiscreteState *discrete, const Parameters *p,
     double *y)

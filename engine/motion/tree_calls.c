@@ -19,10 +19,10 @@ void gudgeon_reduce(double t, const double *all_q, const double *all_v, const do
 int gudgeon_reduced_rhs(double t, const double *q, const double *v, const double *discrete, const double *p, double *a,
     double *lambda, double *power)
 {
-    DiscreteState now = {0};
+    DiscreteState discrete_state = {0};
     RhsOutputs rhs;
-    read_discrete_state(discrete, &now);
-    const int status = reduced_dynamics(t, q, v, &now, (const Parameters *)p, a, &rhs);
+    read_discrete_state(discrete, &discrete_state);
+    const int status = reduced_dynamics(t, q, v, &discrete_state, (const Parameters *)p, a, &rhs);
     for (int r = 0; r < N_LOOPS; r++)
         lambda[r] = rhs.lambda[r];
     for (int k = 0; k < N_WORK; k++)
@@ -53,10 +53,10 @@ int gudgeon_reduced_project(double t, const double *q, const double *r, const do
 int gudgeon_reduced_rescue(
     double t, const double *q, const double *v, const double *discrete, const double *p, double *a)
 {
-    DiscreteState now = {0};
+    DiscreteState discrete_state = {0};
     RhsOutputs rhs;
-    read_discrete_state(discrete, &now);
-    return solve_by_absolute_equations(t, q, v, &now, (const Parameters *)p, a, &rhs);
+    read_discrete_state(discrete, &discrete_state);
+    return solve_by_absolute_equations(t, q, v, &discrete_state, (const Parameters *)p, a, &rhs);
 }
 
 #endif
@@ -67,16 +67,16 @@ int gudgeon_reduced_rescue(
 double gudgeon_time_reduced(long count, double t, const double *q, const double *v, const double *discrete,
     const double *p)
 {
-    double a[N_X + 1] = {0.0}, moved[N_X + 1], sum = 0.0;
-    DiscreteState now = {0};
+    double a[N_X + 1] = {0.0}, q_perturbed[N_X + 1], sum = 0.0;
+    DiscreteState discrete_state = {0};
     RhsOutputs rhs;
-    read_discrete_state(discrete, &now);
+    read_discrete_state(discrete, &discrete_state);
     for (int k = 0; k < N_X; k++)
-        moved[k] = q[k];
+        q_perturbed[k] = q[k];
     for (long i = 0; i < count; i++) {
-        reduced_dynamics(t, moved, v, &now, (const Parameters *)p, a, &rhs);
+        reduced_dynamics(t, q_perturbed, v, &discrete_state, (const Parameters *)p, a, &rhs);
         sum += a[0];
-        moved[0] = q[0] + 1e-300 * sum;
+        q_perturbed[0] = q[0] + 1e-300 * sum;
     }
     return sum;
 }

@@ -6,19 +6,19 @@
  * the inside of steps. The audit changes only its own record.
  */
 #define AUDIT_GRAZE 4e-13      /* m: contacts with less penetration carry a negligible force */
-#define AUDIT_DEPTH 10.0       /* tolerances that an open joint may penetrate */
-#define AUDIT_REST 1e-3 /* of the smallest relevant speed: slower bodies rest */
+#define AUDIT_MAX_DEPTH 10.0       /* tolerances that an open joint may penetrate */
+#define AUDIT_REST_FRACTION 1e-3 /* of the smallest relevant speed: slower bodies rest */
 #define AUDIT_ROUNDING 1e-9    /* of the size, or speed: rounding of the constraint equations */
 #define AUDIT_ACCELERATION 1e-6 /* of the largest term: allowed difference of both accelerations */
 #define AUDIT_BALANCE 1e-8     /* of force over mass: smaller accelerations are less accurate */
-#define AUDIT_CLOSURE 1e-9     /* of the size: error of positions that accelerations must not depend on */
-#define AUDIT_CLOSED 1024.0    /* roundings to which kinematically determined loops are closed */
-#define AUDIT_NOISE 1e-9       /* of its largest magnitude, below which the sign of a function is rounding */
-#define AUDIT_ZERO 1e-3        /* of the value at the step's beginning: a smaller one is a zero, not a pole */
+#define AUDIT_CLOSURE_TOL 1e-9     /* of the size: error of positions that accelerations must not depend on */
+#define AUDIT_LOOP_ULPS 1024.0    /* roundings to which kinematically determined loops are closed */
+#define AUDIT_NOISE_FRACTION 1e-9       /* of its largest magnitude, below which the sign of a function is rounding */
+#define AUDIT_ZERO_FRACTION 1e-3        /* of the value at the step's beginning: a smaller one is a zero, not a pole */
 #define AUDIT_LOCATED 4.0      /* event tolerances, and ulp of the time, within which an event is located */
-#define AUDIT_FIXED 1e-8       /* the tolerance that stands in for that of a fixed step */
+#define AUDIT_FIXED_STEP_TOL 1e-8       /* the tolerance that stands in for that of a fixed step */
 /* successive steps on a wrong branch that count; steps after which the magnitude of a function is known */
-enum { AUDIT_WRONG = 3, AUDIT_SETTLED = 20 };
+enum { AUDIT_WRONG_STEPS = 3, AUDIT_MIN_STEPS = 20 };
 
 static int is_above_uncertainty(Integrator *run, double t, const double *y, const RhsOutputs *rhs, int k,
     const Parameters *p);
@@ -33,28 +33,31 @@ static double draw_random_number(Audit *audit)
     return ((audit->random >> 8) + 0.5) / 16777216.0;
 }
 
-/* Return whether the tolerance controls the step length. */
-static int has_tolerance(const Integrator *run) { return run->control.fixed <= 0.0; }
+/* Return whether errors control the step length; 0 in runs with steps of fixed length. */
+static int has_step_size_control(const Integrator *run) { return run->control.fixed <= 0.0; }
 
 /*
- * Return the relative tolerance to which the audit refers: that of step-size control, or AUDIT_FIXED for steps of fixed
- * length. Used for the limits of all checks.
+ * Return the relative tolerance to which the audit refers: that of step-size control, or AUDIT_FIXED_STEP_TOL for steps
+ * of fixed length. Used for the limits of all checks.
  */
-static double get_audit_tolerance(const Integrator *run) { return has_tolerance(run) ? get_rtol(run)
-    : AUDIT_FIXED; }
-
-/* Return the size of the mechanism in m, which start_audit() has stored. */
-static double get_mechanism_size(const Integrator *run) { return run->audit.size; }
+static double get_audit_tolerance(const Integrator *run) { return has_step_size_control(run) ? get_rtol(run)
+    : AUDIT_FIXED_STEP_TOL; }
 
 /*
- * Replace the record of a check by a violation if value/max_value exceeds the recorded multiple. A NaN counts as
- * infinite. A multiple of zero is stored without time and index. A multiple above AUDIT_FAILS sets audit->status to
- * AUDITED. t: time in s; index: as in record_check().
+ * Return the size of the mechanism in m, as stored by start_audit(): the largest distance of a point from the origin of
+ * its body. Used as scale of lengths.
  */
-static void record_largest_violation(Audit *audit, int check, double value, double max_value, double t, int index)
+static double get_mechanism_size(const Integrator *run) { return run->audit.mechanism_size; }
+
+/*
+ * Replace the record of a check by a violation if value/limit exceeds the recorded multiple. A NaN counts as infinite.
+ * A multiple of zero is stored without time and index. A multiple above AUDIT_FAILS sets audit->status to AUDITED. t:
+ * time in s; index: as in record_check(), which calls it.
+ */
+static void record_largest_violation(Audit *audit, int check, double value, double limit, double t, int index)
 {
     AuditRecord *record = &audit->record[check];
-    const double multiple = value / max_of(max_value, 1e-300);
+    const double multiple = value / max_of(limit, 1e-300);
     if (!(multiple > record->worst) && multiple == multiple)
         return;
     *record = (AuditRecord){multiple == multiple ? multiple : INFINITY, t, index};
@@ -65,20 +68,20 @@ static void record_largest_violation(Audit *audit, int check, double value, doub
 }
 
 /*
- * Record the value of a check (CHECK_...) at time t (s) with its limit max_value, if value/max_value is the largest so
- * far. index: number of the joint, constraint equation, body coordinate, switching function or event; -1: none. A ratio
- * above AUDIT_FAILS sets the status AUDITED.
+ * Record the value of a check (CHECK_...) at time t (s) with its limit, if value/limit is the largest so far. index:
+ * number of the joint, constraint equation, body coordinate, switching function or event; -1: none. A ratio above
+ * AUDIT_FAILS sets the status AUDITED.
  */
-static void record_check(Audit *audit, int check, double value, double max_value, double t, int index)
+static void record_check(Audit *audit, int check, double value, double limit, double t, int index)
 {
-    if (!(value <= audit->record[check].worst * max_value))
-        record_largest_violation(audit, check, value, max_value, t, index);
+    if (!(value <= audit->record[check].worst * limit))
+        record_largest_violation(audit, check, value, limit, t, index);
 }
 
 /*
- * Check the largest residual |Phi| of all accepted steps so far against its limit, at the end of a step. A residual
- * that is not larger than that of the first step counts as zero. Methods without projection (uses_baumgarte_terms())
- * are not checked.
+ * Check the largest residual |Phi| of all accepted steps so far against its limit, and record CHECK_position. Called at
+ * the end of each step. A residual that is not larger than that of the start and the first step counts as zero. Methods
+ * with Baumgarte's terms instead of projection (uses_baumgarte_terms()) are not checked.
  */
 static void check_constraint_residuals(Integrator *run)
 {
@@ -122,7 +125,7 @@ static void check_constraints(Integrator *run, double t, const double *absolute_
     }
     if (!include_velocities)
         return;
-    const double min_speed = max_of(AUDIT_REST * run->norm.speed_floor[0], 1e-300); /* m/s */
+    const double min_speed = max_of(AUDIT_REST_FRACTION * run->norm.speed_floor[0], 1e-300); /* m/s */
     const double speed_scale = max_of(max_of(max_speed[0], size * max_speed[1]), min_speed),
         half_interval = 1e-5 * size / speed_scale;
     compute_velocity_residuals(t, absolute_state, absolute_state + N_Q, half_interval, p, velocity_residual, nu);
@@ -130,8 +133,9 @@ static void check_constraints(Integrator *run, double t, const double *absolute_
         const int row = kept_row[i];
         const double scale = max_of(row_is_length[row] ? speed_scale : speed_scale / max_of(size, 1e-300),
             fabs(nu[row]));
-        const double most = row_is_length[row] ? max_coordinate[0] + size * max_coordinate[1] : max_coordinate[1];
-        const double rounding = 4.0 * DBL_EPSILON * most / half_interval;
+        const double largest_coordinate =
+            row_is_length[row] ? max_coordinate[0] + size * max_coordinate[1] : max_coordinate[1];
+        const double rounding = 4.0 * DBL_EPSILON * largest_coordinate / half_interval;
         record_check(audit, CHECK_velocity, fabs(velocity_residual[row]), max_of(rtol, 1e-8) * scale + rounding, t,
             row);
     }
@@ -140,9 +144,9 @@ static void check_constraints(Integrator *run, double t, const double *absolute_
 #if TREE
 /*
  * Compute the states of all bodies at t - h and t + h (s) from the state y and its rates dy at t. Coordinates are
- * extrapolated quadratically and velocities linearly; internal states of laws stay. neighbours[0], neighbours[1]: the
- * results. Return the exact difference of both times in s, which rounding makes different from 2 h. Used by
- * check_accelerations() for central differences.
+ * extrapolated quadratically and velocities linearly; works and internal states of laws stay. neighbours[0],
+ * neighbours[1]: the results. Return the exact difference of both times in s, which rounding makes different from 2 h.
+ * Used by check_accelerations() for central differences.
  */
 static double compute_neighbouring_states(const Integrator *run, double t, const double *y, const double *dy, double h,
     const Parameters *p, double (*neighbours)[N_S])
@@ -180,8 +184,9 @@ static int is_comparison_ill_conditioned(Integrator *run, double t, const double
     const double size = get_mechanism_size(run);
     for (int k = 0; k < N_Y; k++)
         state[k] = k < N_X
-            ? y[k] + AUDIT_CLOSURE * (is_angle[k] ? 1.0 : size) * (2.0 * draw_random_number(&run->audit) - 1.0) : y[k];
-    const double t_perturbed = N_DEPENDENT ? t * (1.0 - AUDIT_CLOSED * DBL_EPSILON) : t;
+            ? y[k] + AUDIT_CLOSURE_TOL * (is_angle[k] ? 1.0 : size) * (2.0 * draw_random_number(&run->audit) - 1.0)
+            : y[k];
+    const double t_perturbed = N_DEPENDENT ? t * (1.0 - AUDIT_LOOP_ULPS * DBL_EPSILON) : t;
     convert_to_absolute(t_perturbed, state, &run->discrete, p, absolute_state);
     if (compute_absolute_accelerations(t_perturbed, absolute_state, &run->discrete, p, a_perturbed, &force))
         return 1;
@@ -251,13 +256,14 @@ static void check_accelerations(Integrator *run, double t, const double *y, cons
 }
 
 /*
- * Check that joints whose contact is open have no penetration beyond their limit at a state with outputs `rhs`.
- * Penetrations up to AUDIT_GRAZE count as zero; the limit contains the error of event location. Runs with steps of
- * fixed length are not checked. Called at the end of each step and at states inside selected steps.
+ * Check that joints whose contact is open have no penetration beyond their limit at a state with outputs `rhs`, and
+ * record CHECK_gap. Closed contacts are skipped. Penetrations up to AUDIT_GRAZE count as zero; the limit contains the
+ * error of event location. Runs with steps of fixed length are not checked. Called at the end of each step and at
+ * states inside selected steps.
  */
 static void check_open_gaps(Integrator *run, double t, const RhsOutputs *rhs, const Parameters *p)
 {
-    for (int i = 0; i < N_CLEARANCES && has_tolerance(run); i++) {
+    for (int i = 0; i < N_CLEARANCES && has_step_size_control(run); i++) {
         const Clearance *joint = &rhs->clearance[i];
         if (run->discrete.contact[i].closed)
             continue;
@@ -269,13 +275,16 @@ static void check_open_gaps(Integrator *run, double t, const RhsOutputs *rhs, co
             + 8.0 * DBL_EPSILON * fabs(t)) * fabs(joint->deltadot);
         const double min_rounding = max_of(AUDIT_GRAZE, 64.0 * DBL_EPSILON * get_mechanism_size(run));
         const double rounding = max_of(1e-9 * radial_clearance(p, i), min_rounding);
-        const double limit = max_of(AUDIT_DEPTH * get_audit_tolerance(run) * run->norm.min_size[0], rounding)
+        const double limit = max_of(AUDIT_MAX_DEPTH * get_audit_tolerance(run) * run->norm.min_size[0], rounding)
             + location_error;
         record_check(&run->audit, CHECK_gap, max_of(joint->delta, 0.0), limit, t, i);
     }
 }
 
-/* Return the time in s after its zero within which an event is located: AUDIT_LOCATED event tolerances. */
+/*
+ * Return the time in s within which an event is located: AUDIT_LOCATED times the time resolution plus 2 ulp of the
+ * time. Also the distance from an event to a state just after it.
+ */
 static double compute_event_location_tolerance(const Integrator *run)
 {
     return AUDIT_LOCATED * (run->roots.time_resolution + 2.0 * DBL_EPSILON * fabs(run->t));
@@ -287,8 +296,9 @@ static int evaluate_state_at(
 
 /*
  * Return whether a switching function has just jumped to the wrong branch at time t (s) in a step. It was then on its
- * branch, or cannot be evaluated, one location tolerance earlier. A jump has its full size at once, so that its value
- * is no violation. Computes the dense output of the step. Called only for a function that is on the wrong branch.
+ * branch, or cannot be evaluated, one location tolerance earlier; return 1 also if that is before the step. A jump has
+ * its full size at once, so that its value is no violation. Computes the dense output of the step. Called only for a
+ * function that is on the wrong branch.
  */
 static int has_jumped_at(Integrator *run, Step *step, double t, int switch_index, const Parameters *p)
 {
@@ -301,10 +311,13 @@ static int has_jumped_at(Integrator *run, Step *step, double t, int switch_index
 }
 
 /*
- * Check the frozen branches at a state inside a step: by how much each switching function is on the wrong branch. Also
- * update the largest magnitudes of the functions in the audit. Not checked: the first AUDIT_SETTLED steps, times just
- * after the beginning, functions that the step passes or suppresses, functions whose branches meet, values below their
- * uncertainty, and jumps that have just happened. Called at states inside the steps that the audit selects.
+ * Check the frozen branches at a state inside a step, and record as CHECK_branch by how much each switching function is
+ * on the wrong branch. Also update the largest magnitudes of the functions in the audit. Called at states inside the
+ * steps that the audit selects.
+ *
+ * Not checked: the first AUDIT_MIN_STEPS steps, times just after the beginning, and functions that the step passes or
+ * suppresses. Also omitted are functions that are continuous at their switching point (`meets`), values below their
+ * uncertainty, and jumps that have just happened.
  */
 static void check_frozen_branches(Integrator *run, Step *step, double t, const double *y, const RhsOutputs *rhs,
     const Parameters *p)
@@ -315,7 +328,7 @@ static void check_frozen_branches(Integrator *run, Step *step, double t, const d
         return; /* functions that change at one time, as those of one mod, do so one after the other */
     for (int k = 0; k < N_SWITCHES; k++)
         run->audit.switch_scale[k] = max_of(run->audit.switch_scale[k], fabs(rhs->g[k]));
-    for (int k = 0; k < N_SWITCHES && run->counts.steps > AUDIT_SETTLED; k++) {
+    for (int k = 0; k < N_SWITCHES && run->counts.steps > AUDIT_MIN_STEPS; k++) {
         const double g = run->discrete.branch[k] * rhs->g[k];
         if (!(g < 0.0) || step->passed[k] || k == run->roots.skip || meets[k]
             || !is_above_uncertainty(run, t, y, rhs, N_CLEARANCES + k, p))
@@ -329,8 +342,8 @@ static void check_frozen_branches(Integrator *run, Step *step, double t, const d
 }
 
 /*
- * Check that joints with compliant surfaces, without a film, exert no force while their contact is open. Called at the
- * end of each step; the limit is a fraction of the largest force so far.
+ * Check that joints with compliant surfaces and without a film exert no force while their contact is open, and record
+ * CHECK_free. The limit is 1e-6 of the joint's largest force so far. Called at the end of each step.
  */
 static void check_forces_of_open_joints(Integrator *run)
 {

@@ -19,21 +19,21 @@ typedef struct {
  */
 typedef struct {
     int level, status;             /* level: AuditLevel; status: AUDITED once a check failed */
-    long due;                      /* number of steps after which the next drawn step is checked */
-    long turns;                    /* drawn steps so far; if even, the next is checked inside, else as a whole */
-    long longer;                   /* steps checked because they were much longer than others */
-    double longest;                /* longest step whose error was measured, s */
-    double measured, errors, changes; /* number of measured steps; sums of errors and of changes of rates, tolerances */
-    double size;                   /* size of the mechanism, m */
+    long next_drawn_step;          /* number of steps after which the next drawn step is checked */
+    long n_drawn;                  /* drawn steps so far; if even, the next is checked inside, else as a whole */
+    long n_long_steps;             /* steps checked because they were much longer than others */
+    double longest_measured;       /* longest step whose error was measured, s */
+    double n_measured, error_sum, change_sum; /* measured steps; sums of errors, changes of rates, tolerances */
+    double mechanism_size;         /* m */
     unsigned random;               /* state of the random generator of steps and points in them */
     double phi_start;              /* largest |Phi| at the start */
     double switch_scale[AT_LEAST_ONE(N_SWITCHES)], event_scale[AT_LEAST_ONE(N_USER_EVENTS)]; /* largest magnitudes */
-    unsigned char wrong[AT_LEAST_ONE(N_SWITCHES)];      /* successive steps that ended on the wrong branch */
-    int ended;                     /* event that ends the step, -1: none */
+    unsigned char n_wrong_steps[AT_LEAST_ONE(N_SWITCHES)]; /* successive steps that ended on the wrong branch */
+    int end_event;                 /* event that ends the step, -1: none */
     double event_before[AT_LEAST_ONE(N_USER_EVENTS)];   /* values at the beginning of the step */
-    unsigned char crossed[AT_LEAST_ONE(N_USER_EVENTS)]; /* whether the event function has a zero in the step */
-    unsigned char away[AT_LEAST_ONE(N_USER_EVENTS)];    /* whether it exceeded rounding since its last event */
-    int noise[AT_LEAST_ONE(N_USER_EVENTS)];             /* successive events without that */
+    unsigned char has_zero[AT_LEAST_ONE(N_USER_EVENTS)]; /* whether the event function has a zero in the step */
+    unsigned char has_left_zero[AT_LEAST_ONE(N_USER_EVENTS)]; /* whether it exceeded rounding since its last event */
+    int n_noise_events[AT_LEAST_ONE(N_USER_EVENTS)];    /* successive events without that */
     AuditRecord record[N_CHECKS];
 } Audit;
 

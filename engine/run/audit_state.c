@@ -1,35 +1,37 @@
 /* The audit of a run at the end of each step (run/audit.c), and the functions that start and report the audit. */
 
 /*
- * Check a user-defined event at the end of a step. Report an infinite violation if a zero in the step is not recorded,
- * or if rounding around zero is recorded as AUDIT_WRONG successive events. n_events_before: number of events in the
- * list before the step. Resets the marks of the step. Called by audit_state() for each user-defined event.
+ * Check a user-defined event at the end of a step, and record CHECK_event. The violation is infinite if a zero in the
+ * step is not in the list of events, or if rounding around zero is listed as AUDIT_WRONG_STEPS successive events.
+ * n_events_before: number of events in the list before the step. Clears has_zero, and has_left_zero after a listed
+ * event. Called by audit_state() for each user-defined event.
  */
 static void check_user_event(Integrator *run, int event, int n_events_before)
 {
     Audit *audit = &run->audit;
     const double value_before = audit->event_before[event], value_now = run->rhs.event[event];
-    const int is_end_event = audit->ended == event && fabs(value_before) > AUDIT_NOISE * audit->event_scale[event]
-        && fabs(value_now) < AUDIT_ZERO * fabs(value_before) && event_direction[event] * value_before <= 0.0;
+    const int is_end_event = audit->end_event == event
+        && fabs(value_before) > AUDIT_NOISE_FRACTION * audit->event_scale[event]
+        && fabs(value_now) < AUDIT_ZERO_FRACTION * fabs(value_before) && event_direction[event] * value_before <= 0.0;
     int is_recorded = 0;
     for (int k = n_events_before; k < run->events.n; k++)
         is_recorded |= run->events.number[k] == event;
     record_check(audit, CHECK_event, 0.0, 1.0, run->t, event);
-    if ((is_end_event || audit->crossed[event]) && !is_recorded)
+    if ((is_end_event || audit->has_zero[event]) && !is_recorded)
         record_check(audit, CHECK_event, INFINITY, 1.0, run->t, event);
-    audit->noise[event] = is_recorded && !audit->away[event] ? audit->noise[event] + 1 : is_recorded ? 0
-        : audit->noise[event];
-    if (audit->noise[event] >= AUDIT_WRONG)
+    if (is_recorded)
+        audit->n_noise_events[event] = audit->has_left_zero[event] ? 0 : audit->n_noise_events[event] + 1;
+    if (audit->n_noise_events[event] >= AUDIT_WRONG_STEPS)
         record_check(audit, CHECK_event, INFINITY, 1.0, run->t, event);
-    audit->away[event] = is_recorded ? 0 : audit->away[event];
-    audit->crossed[event] = 0;
+    audit->has_left_zero[event] = is_recorded ? 0 : audit->has_left_zero[event];
+    audit->has_zero[event] = 0;
 }
 
 /*
  * Check the frozen branches at the end of a step, and count the successive steps that each switching function ends on
- * the wrong branch. A violation is recorded after AUDIT_WRONG such steps, if the value exceeds its uncertainty.
- * Suppressed functions and functions whose branches meet are not counted. Updates the largest magnitudes of the
- * functions.
+ * the wrong branch. CHECK_branch is recorded after AUDIT_WRONG_STEPS such steps, if the value exceeds its uncertainty
+ * and 0.001 of its largest magnitude. Suppressed functions and functions that are continuous at their switching point
+ * (`meets`) are not counted. Updates the largest magnitudes of the functions.
  */
 static void check_branches_at_step_end(Integrator *run, const Parameters *p)
 {
@@ -42,24 +44,25 @@ static void check_branches_at_step_end(Integrator *run, const Parameters *p)
     for (int k = 0; k < N_SWITCHES; k++)
         smallest = min_of(smallest, g[k]);
     if (!(smallest < 0.0)) {
-        memset(audit->wrong, 0, sizeof audit->wrong);
+        memset(audit->n_wrong_steps, 0, sizeof audit->n_wrong_steps);
         return;
     }
     for (int k = 0; k < N_SWITCHES; k++) {
         if (!(g[k] < -1e-3 * audit->switch_scale[k]) || k == run->roots.skip || meets[k]) {
-            audit->wrong[k] = 0;
+            audit->n_wrong_steps[k] = 0;
             continue;
         }
-        audit->wrong[k] = (unsigned char)min_of(audit->wrong[k] + 1, 100);
-        if (audit->wrong[k] >= AUDIT_WRONG && is_above_uncertainty(run, run->t, run->y, &run->rhs, N_CLEARANCES + k, p))
+        audit->n_wrong_steps[k] = (unsigned char)min_of(audit->n_wrong_steps[k] + 1, 100);
+        if (audit->n_wrong_steps[k] >= AUDIT_WRONG_STEPS
+            && is_above_uncertainty(run, run->t, run->y, &run->rhs, N_CLEARANCES + k, p))
             record_check(audit, CHECK_branch, -g[k], 1e-4 * audit->switch_scale[k], run->t, k);
     }
 }
 
 /*
- * Check the end of an accepted step: residuals, gaps, driven loops, forces of open joints, branches, user-defined
- * events. n_events_before: number of events in the list before the step. Return 0, also if the audit is off, or AUDITED
- * if a check has failed.
+ * Check the end of an accepted and committed step: residuals, gaps, driven loops, forces of open joints, branches (only
+ * while frozen), user-defined events. n_events_before: number of events in the list before the step. Return 0, also if
+ * the audit is off, or AUDITED once any check has failed.
  */
 static int audit_state(Integrator *run, int n_events_before, const Parameters *p)
 {
@@ -80,17 +83,17 @@ static int audit_state(Integrator *run, int n_events_before, const Parameters *p
     }
     for (int i = 0; i < N_USER_EVENTS; i++)
         check_user_event(run, i, n_events_before);
-    audit->ended = -1;
+    audit->end_event = -1;
     return audit->status;
 }
 
 /*
- * Initialize the audit of a run before its first step: no check has a record, and random numbers restart. level:
- * AuditLevel, AUDIT_OFF: no audit; size: of the mechanism, m.
+ * Initialize the audit of a run before its first step: no check has a record, and the random numbers restart, the same
+ * in every run. level: AuditLevel, AUDIT_OFF: no audit; size: of the mechanism, m.
  */
 static void start_audit(Integrator *run, int level, double size)
 {
-    run->audit = (Audit){.level = level, .size = size, .random = 1u, .due = 2};
+    run->audit = (Audit){.level = level, .mechanism_size = size, .random = 1u, .next_drawn_step = 2};
     for (int k = 0; k < N_CHECKS; k++)
         run->audit.record[k] = (AuditRecord){-1.0, 0.0, -1};
 }

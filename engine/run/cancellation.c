@@ -1,4 +1,4 @@
-/* Polling of the caller during a long computation, and the test whether time still advances (run/cancellation.h). */
+/* Polling of the cancellation token of a long computation, and the monitor whether time advances (cancellation.h). */
 #include "cancellation.h"
 #include <time.h>
 
@@ -7,7 +7,7 @@ enum { MAX_POLL_AFTER = 64, MAX_SLOW_CHECKS = 3, MIN_DOUBLED_STEPS = 1 << 18 };
 #define MAX_STEPS_LEFT 1e11  /* steps left at which any run is ended */
 #define MIN_GAIN_RATIO 1e-3     /* of the earlier gain per step: slower steps count as slow */
 
-/* Return the present time in s since the epoch, from the clock of the system. */
+/* Return the current time in s since the epoch, from the clock of the system, which may be set back. */
 double read_clock(void)
 {
     struct timespec now;
@@ -17,9 +17,12 @@ double read_clock(void)
 
 /*
  * Call the caller's function if the polling interval has passed, and return whether the computation must stop now. A
- * deferred stop (defer_stop()) returns 0 until allow_stop(). The number of right-hand sides between two readings of the
- * clock is doubled or halved according to their cost. Without a function, the clock is never read again. Called by
- * is_cancelled() after a number of right-hand sides, and within dense solvers.
+ * deferred stop (defer_stop()) returns 0 until allow_stop(). Once a stop is requested, the function is not called
+ * again.
+ *
+ * The number of right-hand sides between two readings of the clock, at most MAX_POLL_AFTER, is doubled or halved
+ * according to their cost. Without a function, the clock is never read again. Called by is_cancelled() after that
+ * number of right-hand sides, and within dense solvers.
  */
 int poll_cancellation(Cancellation *token)
 {
@@ -45,8 +48,8 @@ int poll_cancellation(Cancellation *token)
 }
 
 /*
- * Initialize a cancellation token that calls is_stop_requested(context) every `poll_interval` seconds. A nonzero return
- * value requests a stop. is_stop_requested NULL: never.
+ * Initialize a cancellation token that calls is_stop_requested(context) every `poll_interval` seconds, first at the
+ * next poll. A nonzero return value requests a stop. is_stop_requested NULL: never.
  */
 void start_polling(Cancellation *token, int (*is_stop_requested)(void *), void *context, double poll_interval)
 {
@@ -54,7 +57,7 @@ void start_polling(Cancellation *token, int (*is_stop_requested)(void *), void *
 }
 
 /*
- * Return the estimated number of steps left until t_end (s), if each MONITOR_STEPS steps gain as much time as the last
+ * Return the estimated number of steps from t to t_end (s), if each MONITOR_STEPS steps gain as much time as the last
  * ones.
  */
 static double estimate_remaining_steps(const ProgressMonitor *monitor, double t, double t_end)
@@ -63,21 +66,23 @@ static double estimate_remaining_steps(const ProgressMonitor *monitor, double t,
 }
 
 /*
- * Return whether the number of steps grows exponentially with time, so that the run never ends, as where the frequency
- * of a drive grows exponentially. The test runs
- * when the number of steps has doubled. That doubling gained no more time than the one DOUBLINGS before, and the
- * extrapolated number of steps exceeds MAX_STEPS_LEFT. Updates the monitor.
+ * Update the monitor when the number of steps has doubled, and return whether that number grows exponentially with
+ * time. The run then never ends, as where the frequency of a drive grows exponentially. Return 0 at all other steps.
+ *
+ * The criterion: the doubling gained no more time than the one N_DOUBLINGS before, steps have not become longer again,
+ * and the extrapolated number of steps up to t_end (s) exceeds MAX_STEPS_LEFT. The first MIN_DOUBLED_STEPS steps never
+ * meet it.
  */
-static int is_step_count_exponential(ProgressMonitor *monitor, double t, double t_end)
+static int detect_exponential_step_count(ProgressMonitor *monitor, double t, double t_end)
 {
     Doubling *doubling = &monitor->doubling;
     const double gain = t - doubling->t, steps = (double)monitor->steps, gain_before = doubling->gain[0];
     if (monitor->steps < doubling->next)
         return 0;
     doubling->t = t;
-    for (int k = 1; k < DOUBLINGS; k++)
+    for (int k = 1; k < N_DOUBLINGS; k++)
         doubling->gain[k - 1] = doubling->gain[k];
-    doubling->gain[DOUBLINGS - 1] = gain;
+    doubling->gain[N_DOUBLINGS - 1] = gain;
     doubling->next = doubling->next ? 2 * monitor->steps : 1024;
     /* steps have not become longer again */
     const int slows = monitor->gain * steps <= 2.0 * gain * MONITOR_STEPS;
@@ -95,10 +100,10 @@ static int is_step_count_exponential(ProgressMonitor *monitor, double t, double 
  * time: monitor->slowdown is then GROWTH_DOUBLINGS. Steps that become longer again reset the count, because a fast
  * motion may decay. Called once per step.
  */
-int has_stalled(ProgressMonitor *monitor, double t, double t_end)
+int detect_stall(ProgressMonitor *monitor, double t, double t_end)
 {
     const long n_before = monitor->steps++;
-    if (is_step_count_exponential(monitor, t, t_end)) {
+    if (detect_exponential_step_count(monitor, t, t_end)) {
         monitor->slowdown = GROWTH_DOUBLINGS;
         return 1;
     }
@@ -123,7 +128,7 @@ int has_stalled(ProgressMonitor *monitor, double t, double t_end)
 }
 
 /*
- * Return how many of the next calls of has_stalled() only count steps, without a comparison. Used by runs in lanes,
+ * Return how many of the next calls of detect_stall() only count steps, without a comparison. Used by runs in lanes,
  * which make these steps without the test.
  */
 long count_steps_before_check(const ProgressMonitor *monitor)

@@ -2,11 +2,11 @@
 #ifndef GUDGEON_CANCELLATION_H
 #define GUDGEON_CANCELLATION_H
 
-enum { MONITOR_STEPS = 32768, DOUBLINGS = 4, GROWTH_DOUBLINGS = 2 };
+enum { MONITOR_STEPS = 32768, N_DOUBLINGS = 4, GROWTH_DOUBLINGS = 2 };
 
 /* Time gained (s) by the last doublings of the number of steps, and the number of steps of the next check. */
 typedef struct {
-    double t, gain[DOUBLINGS];
+    double t, gain[N_DOUBLINGS];
     long next;
 } Doubling;
 
@@ -24,16 +24,23 @@ typedef struct {
 
 double read_clock(void);
 void start_polling(Cancellation *token, int (*is_stop_requested)(void *), void *context, double poll_interval);
-int has_stalled(ProgressMonitor *monitor, double t, double t_end);
+int detect_stall(ProgressMonitor *monitor, double t, double t_end);
 long count_steps_before_check(const ProgressMonitor *monitor);
 
-/* Defer a request to stop until the present operation is complete. */
+/*
+ * Defer requests to stop: is_cancelled() and poll_cancellation() return 0 until allow_stop(). Called before a step is
+ * committed.
+ */
 static inline void defer_stop(Cancellation *token) { token->hold = 1; }
 
-/* Obey requests to stop at once from now on. */
+/* End the deferral of defer_stop(): from now on a request to stop, also one that was deferred, is obeyed. */
 static inline void allow_stop(Cancellation *token) { token->hold = 0; }
 
-/* Count one right-hand side, poll the caller if polling is due, and return whether the computation must stop. */
+/*
+ * Count one right-hand side and return whether the computation must stop. The caller's function is polled
+ * (poll_cancellation()) only after `poll_after` right-hand sides; in between the result is 0. Called at each right-hand
+ * side.
+ */
 static inline int is_cancelled(Cancellation *token)
 {
     return ++token->count > token->poll_after && poll_cancellation(token);

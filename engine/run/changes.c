@@ -1,25 +1,28 @@
 /*
- * Changes of discrete states at an event: contacts begin or end, functions change branch, friction changes mode. A
- * drive whose rate jumps moves the linkage by an impulse.
+ * Event handling: changes of discrete states at an event. Contacts begin or end, switching functions change branch,
+ * friction changes mode. A drive whose rate jumps moves the linkage by an impulse.
  */
 #define ONSET_ORDER 3.5 /* order of the error of a first step in a contact, whose force begins as delta^n */
 
 /*
- * Update the branches of all active switching functions at the present state and evaluate the right-hand side there.
- * crossed_switch: function that was just switched and keeps its branch, -1: none. Return 0 or the status of the
- * right-hand side. Called after events and at the start of a run.
+ * Update the branches of all active switching functions at the current state until they agree with the signs, and
+ * evaluate the right-hand side there into run->dy and run->rhs (update_branches_at()). crossed_switch: function that
+ * was just switched and keeps its branch, -1: none. Return 0 or the status of the right-hand side. Called after events
+ * and at the start of a run.
  */
-static int update_branches(Integrator *run, int crossed_switch, const Parameters *p)
+static int update_branches_at_current_state(Integrator *run, int crossed_switch, const Parameters *p)
 {
     return update_branches_at(run, run->t, run->y, run->dy, &run->rhs, crossed_switch, p);
 }
 
 #if N_USER_EVENTS && N_SWITCHES
 /*
- * Update the branches of switching functions to those just after an event, at the present state extrapolated by the
- * location tolerance. crossed_switch keeps its branch, -1: none. Functions that jump at one time, as a mod of a mod,
- * have zeros of several switching functions there; between these zeros event functions have values that they never
- * take. If a branch changed, the right-hand side is evaluated again. Return a status.
+ * Update the branches of switching functions to those just after an event, at the current state extrapolated by the
+ * location tolerance. crossed_switch keeps its branch, -1: none. If a branch changed, the right-hand side at the
+ * current state is evaluated again. Return a status.
+ *
+ * Functions that jump at one time, as a mod of a mod, have zeros of several switching functions there. Between these
+ * zeros event functions have values that they never take.
  */
 static int update_branches_after_event(Integrator *run, int crossed_switch, const Parameters *p)
 {
@@ -71,9 +74,12 @@ static int count_closed_contacts(const Integrator *run)
 }
 
 /*
- * Open the contact of a joint if it is closed, else close it, at the present time. min_speed: smallest stored approach
- * speed, m/s. Also select the estimated length of the next step, by the number of closed contacts, and discard that of
- * the stiff method. Called at the zero of the event function of a compliant contact.
+ * Open the contact of a joint if it is closed, else close it, at the current time. min_speed: smallest stored approach
+ * speed, m/s.
+ *
+ * Also set the length of the next step to the one stored for this kind of event: by number of closed contacts, onset or
+ * separation. The stored length of the stiff method is discarded. Called at the zero of the event function of a
+ * compliant contact.
  */
 static void toggle_contact(Integrator *run, int joint, double min_speed)
 {
@@ -90,8 +96,9 @@ static void toggle_contact(Integrator *run, int joint, double min_speed)
 
 /*
  * Apply the change of an event function that reached zero: the contact of a joint with compliant surfaces begins or
- * ends, or a switching function changes its branch. Rigid contacts change in update_contacts(). Functions of friction
- * and user-defined events change nothing here. Called by apply_event() for each function that has reached zero.
+ * ends, or a switching function changes its branch. Also set the length of the next step to the one stored for this
+ * kind of event. Rigid contacts change in update_contacts(). Functions of friction and user-defined events change
+ * nothing here. Called by apply_event() for each function that has reached zero.
  */
 static void toggle_contact_or_branch(Integrator *run, int event_function, const Parameters *p)
 {
@@ -109,7 +116,7 @@ static void toggle_contact_or_branch(Integrator *run, int event_function, const 
 
 /*
  * Return the scale of works at the start in J: the kinetic energy plus that of all bodies at the smallest relevant
- * speeds. Called once, when a run begins.
+ * speeds (speed_floor). Called once, when a run begins.
  */
 static double compute_initial_energy_scale(const Integrator *run, const Parameters *p)
 {
@@ -122,10 +129,10 @@ static double compute_initial_energy_scale(const Integrator *run, const Paramete
 
 #if DRIVE_IMPULSES
 /*
- * Set the branches of all switching functions to their signs at time t_after (s), just after the present time, with the
- * present coordinates. crossed_switch was just switched and keeps its branch in the first pass: it changes only if
- * other functions change it; -1: none. At most six passes. Return 0 or the status of the right-hand side. Called before
- * and after the impulse of a drive.
+ * Set the branches of all switching functions to their signs at time t_after (s), just after the current time, with the
+ * current coordinates. A NaN keeps its branch. crossed_switch was just switched and keeps its branch in the first pass:
+ * it changes only if other functions change it; -1: none. At most six passes. Return 0 or the status of the right-hand
+ * side, which is not stored. Called before and after the impulse of a drive.
  */
 static int update_branches_just_after(Integrator *run, double t_after, int crossed_switch, const Parameters *p)
 {
@@ -149,9 +156,10 @@ static int update_branches_just_after(Integrator *run, double t_after, int cross
 }
 
 /*
- * Return whether the second rate of a drive is unbounded next to the present time, as that of (t - t0)^1.5 is at t0. At
- * fixed coordinates, accelerations then change far more from here to `time_offset` (s, negative: before) than from
- * there to twice as far. Return 0 if an evaluation fails. Called at jumps of drives in runs with steps of fixed length.
+ * Return whether the second time derivative of a drive is unbounded next to the current time, as that of (t - t0)^1.5
+ * is at t0. At fixed coordinates, accelerations then change more than 20 times as much from here to `time_offset` (s,
+ * negative: before) as from there to twice as far. Return 0 if an evaluation fails. Called at jumps of drives in runs
+ * with steps of fixed length.
  */
 static int is_drive_rate_unbounded(Integrator *run, double time_offset, const Parameters *p)
 {
@@ -172,10 +180,10 @@ static int is_drive_rate_unbounded(Integrator *run, double time_offset, const Pa
 }
 
 /*
- * Apply the jump of a drive at the zero of its switching function: update branches, then add the impulse that changes
- * velocities. If no velocity changes, only branches are updated; else crossed user-defined events are recorded. With
- * steps of fixed length, return UNBOUNDED if the second rate of a drive is unbounded there. Return 0, ENDED or another
- * status.
+ * Apply the jump of a drive's rate at the zero of its switching function: update branches, then add the impulse that
+ * changes velocities. If no velocity changes, only branches are updated; else crossed user-defined events are recorded.
+ * With steps of fixed length, return UNBOUNDED if the second rate of a drive is unbounded there. Return 0, ENDED if an
+ * event ends the run, or another status.
  */
 static int apply_drive_jump(Integrator *run, int switch_index, const Parameters *p)
 {
@@ -191,7 +199,7 @@ static int apply_drive_jump(Integrator *run, int switch_index, const Parameters 
     const double energy_before = compute_kinetic_energy(run, p);
     apply_drive_impulse(run, p);
     if (compute_kinetic_energy(run, p) == energy_before)
-        return update_branches(run, switch_index, p);
+        return update_branches_at_current_state(run, switch_index, p);
     status = update_branches_just_after(run, t_after, switch_index, p); /* branches that depend on the changed speeds */
     if (!status)
         status = evaluate_run_rhs(run, t, run->y, p, run->dy, &run->rhs);
@@ -199,9 +207,10 @@ static int apply_drive_jump(Integrator *run, int switch_index, const Parameters 
 }
 
 /*
- * Apply jumps of the rates of drives at the present time, called at the start and end of a run. If a branch differs
- * just after that time, apply the impulse, resolve the impacts it causes and record the user-defined events that it
- * crosses. Return 0, ENDED or another status.
+ * Apply jumps of the rates of drives at the current time. Nothing happens unless a branch differs just after that time.
+ * Otherwise apply the impulse, resolve the impacts it causes and record the user-defined events that it crosses. Return
+ * 0, ENDED if an event ends the run, or another status. Called at the start and end of a run, and at each end of fixed
+ * steps.
  */
 static int apply_drive_jumps_now(Integrator *run, const Parameters *p)
 {
@@ -228,7 +237,7 @@ static int apply_drive_jumps_now(Integrator *run, const Parameters *p)
  */
 static inline int apply_drive_jump(Integrator *run, int switch_index, const Parameters *p)
 {
-    return update_branches(run, switch_index, p);
+    return update_branches_at_current_state(run, switch_index, p);
 }
 
 /* Return 0: no drive of the scene has a rate that jumps. */
@@ -236,8 +245,9 @@ static inline int apply_drive_jumps_now(Integrator *run, const Parameters *p) { 
 #endif
 
 /*
- * Apply the jump of a drive at the zero of a switching function, update branches, and suppress a repeated zero in the
- * next step. Return 0 or a status. Called by apply_event() if a switching function ended the step.
+ * Complete the change of branch of a switching function that ended the step: apply the jump of a drive, update the
+ * other branches, and suppress a repeated zero in the next step. The branch of switch_index itself has been changed
+ * before (toggle_contact_or_branch()). Return 0 or a status. Called by apply_event().
  */
 static int change_branch(Integrator *run, int switch_index, const Parameters *p)
 {
@@ -249,20 +259,23 @@ static int change_branch(Integrator *run, int switch_index, const Parameters *p)
 }
 
 /*
- * Record the forces of compliant contacts that begin at the present time, as peaks: a force that begins with a jump may
- * be largest at its onset.
+ * Record the forces of compliant contacts that begin at the current time as peaks: a force that begins with a jump may
+ * be largest at its onset. Called by apply_event().
  */
 static void record_onset_forces(Integrator *run)
 {
     for (int i = 0; i < N_CLEARANCES; i++)
-        if (run->discrete.contact[i].closed && run->contacts.open[i].t_on == run->t && is_compliant(i))
+        if (run->discrete.contact[i].closed && run->contacts.lasting[i].t_on == run->t && is_compliant(i))
             record_force(run, i, run->t, compute_force_magnitude(&run->rhs.clearance[i]));
 }
 
 /*
  * Apply all changes at an event and evaluate the right-hand side after them. event: number of the event function that
- * ended the step. Every contact whose function has reached zero changes as well, then branches, friction modes, rigid
- * contacts and user-defined events in this order. User-defined events that these changes lead across zero are recorded.
+ * ended the step. The order: contact or branch of the event itself and every contact whose gap function is below
+ * compute_gap_event_threshold(), branches, friction modes, rigid contacts, user-defined events.
+ *
+ * A user-defined event reverses its sign and is recorded if the direction counts; poles and functions with the same
+ * sign just after it are not recorded. User-defined events that the other changes lead across zero are recorded too.
  * Return 0, ENDED if an event ends the run, or another status. Called after each accepted step that an event ended.
  */
 static int apply_event(Integrator *run, int event, const Parameters *p)
@@ -274,11 +287,13 @@ static int apply_event(Integrator *run, int event, const Parameters *p)
         values_before[i] = run->rhs.event[i];
     for (int k = 0; k < N_CLEARANCES + N_SWITCHES; k++)
         if (k == event
-            || (k < N_CLEARANCES && event_function(&run->discrete, &run->rhs, k) < compute_penetration_tolerance(p, k)))
+            || (k < N_CLEARANCES
+                && compute_event_value(&run->discrete, &run->rhs, k) < compute_gap_event_threshold(p, k)))
             toggle_contact_or_branch(run, k, p);
     const int switch_index = event - N_CLEARANCES, friction = switch_index - N_SWITCHES;
     const int user_event = friction - N_FRICTIONS;
-    int status = switch_index >= 0 && friction < 0 ? change_branch(run, switch_index, p) : update_branches(run, -1, p);
+    int status = switch_index >= 0 && friction < 0 ? change_branch(run, switch_index, p)
+        : update_branches_at_current_state(run, -1, p);
     if (!status && switch_index >= 0)
         status = update_branches_after_event(run, friction < 0 ? switch_index : -1, p);
     if (!status)
@@ -298,8 +313,8 @@ static int apply_event(Integrator *run, int event, const Parameters *p)
 }
 
 /*
- * Return LOST if an open contact has a penetration beyond its tolerance, so that contact detection has failed;
- * otherwise 0. Called at accepted states.
+ * Return LOST if an open contact has a penetration beyond 0.001 of its radial clearance plus at most 1e-9 m, so that
+ * contact detection has failed; otherwise 0. Called at accepted states.
  */
 static int check_open_contacts(const Integrator *run, const Parameters *p)
 {

@@ -1,9 +1,12 @@
 /* Projection of closed contacts of rigid surfaces onto the gap zero, delta = 0. */
 /*
- * Project positions onto delta = -gap and velocities of closed contacts onto deltadot = 0, by at most three Newton
- * steps. contacts: lists the joints, its operator is overwritten; gaps: distance of each listed contact, m. The change
- * of the state y is the smallest in the norm of the mass matrix. Friction is switched off. Return 0 or the status of
- * the motion. Called after impacts and when states of the dense output are projected.
+ * Project positions of the listed contacts onto delta = -gap, and velocities of those that are closed onto deltadot =
+ * 0, by at most three Newton steps. contacts: lists the joints, its Delassus operator is overwritten; gaps: distance of
+ * each listed contact, m.
+ *
+ * The change of the state y is the smallest in the norm of the mass matrix. Friction is switched off. Return 0 or the
+ * status of the motion; y may then be changed in part. Called after impacts and when states of the dense output are
+ * projected.
  */
 static int project_contacts(
     Integrator *run, double t, double *y, const Parameters *p, Delassus *contacts, const double *gaps)
@@ -45,8 +48,8 @@ static int project_contacts(
 }
 
 /*
- * Project a state y at time t onto delta = 0 and deltadot = 0 of all closed rigid contacts; without closed contacts y
- * stays. A failure is ignored.
+ * Project a state y at time t in place onto delta = 0 and deltadot = 0 of all closed rigid contacts. Without closed
+ * contacts y stays. A failure is ignored.
  */
 static void project_closed_contacts(Integrator *run, double t, double *y, const Parameters *p)
 {

@@ -3,20 +3,24 @@
  * file owns Contacts (run/run.h).
  */
 
-#define SHALLOW_RIGID (8.0 * DBL_EPSILON) /* times the clearance: every impact of rigid surfaces has an impulse */
+#define RIGID_GAP_ROUNDING (8.0 * DBL_EPSILON) /* times the clearance: every impact of rigid surfaces has an impulse */
 
 /*
- * Return the negative penetration in m that counts as rounding at a joint: an event function above it has no sign. It
- * is 1e-10 of the largest valid penetration, SHALLOW at most, or SHALLOW_RIGID clearances for rigid surfaces. Called in
- * the search for zeros of gaps, after events, and at the start for contacts that touch.
+ * Return the threshold in m (negative) below which the event function of a joint's gap has reached zero: above it, its
+ * sign is rounding. For compliant surfaces it is minus 1e-10 of the largest valid penetration, SHALLOW at most; for
+ * rigid ones minus RIGID_GAP_ROUNDING clearances. Used in the search for zeros of gaps, after events, and at the start
+ * for contacts that touch.
  */
-static double compute_penetration_tolerance(const Parameters *p, int joint)
+static double compute_gap_event_threshold(const Parameters *p, int joint)
 {
     return is_compliant(joint) ? -min_of(SHALLOW, 1e-10 * max_valid_penetration(p, joint))
-        : -SHALLOW_RIGID * radial_clearance(p, joint);
+        : -RIGID_GAP_ROUNDING * radial_clearance(p, joint);
 }
 
-/* Set the integrated internal states of the contact laws of a joint to zero, when its contact begins or ends. */
+/*
+ * Set the integrated internal states of the contact laws of a joint (bristle deflections) to zero in run->y, when its
+ * contact begins or ends. Nothing happens in scenes without internal states.
+ */
 static void reset_internal_states(Integrator *run, int joint)
 {
     for (int k = 0; k < LAW_STATES; k++)
@@ -29,12 +33,12 @@ static void reset_internal_states(Integrator *run, int joint)
  */
 static void start_contact_record(Integrator *run, int joint, double t, double deltadot)
 {
-    run->contacts.open[joint] = (Impact){t, NAN, deltadot, 0.0, t, joint};
+    run->contacts.lasting[joint] = (Impact){t, NAN, deltadot, 0.0, t, joint};
 }
 
 /*
- * Initialize the contacts, restitution ratios and peaks of a new run at time t (s). approach_speed (N_CLEARANCES):
- * stored approach speeds, m/s, NaN for open joints.
+ * Initialize the contact records, restitution ratios and peaks of a new run at time t (s). approach_speed
+ * (N_CLEARANCES): stored approach speeds, m/s, NaN for open joints. Contact states (closed or open) are not set here.
  */
 static void initialize_contacts(Integrator *run, double t, const double *approach_speed)
 {
@@ -47,8 +51,8 @@ static void initialize_contacts(Integrator *run, double t, const double *approac
 }
 
 /*
- * Set which contacts are still being compressed, when an earlier run is resumed. codes: the contact code of each joint
- * at the end of that run. Called when a batch resumes a run.
+ * Set is_compressing of each joint from the contact codes (N_CLEARANCES) at the end of an earlier run: 1 for
+ * CODE_IMPACT, else 0. Called whenever a batch starts or resumes a run.
  */
 static void restore_compression_flags(Integrator *run, const signed char *codes)
 {
@@ -58,7 +62,7 @@ static void restore_compression_flags(Integrator *run, const signed char *codes)
 
 /*
  * Append a contact to the list that Python fetches. For an impact without duration F_peak is the impulse in N s. Return
- * 0, or CHATTERING if the list is full.
+ * 0, or CHATTERING if the list is full; the contact is then dropped.
  */
 static int append_contact(Integrator *run, const Impact *contact)
 {
@@ -71,7 +75,7 @@ static int append_contact(Integrator *run, const Impact *contact)
 /*
  * Append an impact of rigid surfaces to the list, and count an onset if its joint was open (`is_onset`). With
  * `may_merge`, the impulse is added to the last row of the same joint at this time instead, if there is one. Return 0,
- * or CHATTERING if the list is full. Called for each contact of an impact.
+ * or CHATTERING if the list is full. Called for each contact of an impact with a positive impulse.
  */
 static inline int append_impact(Integrator *run, const Impact *impact, int may_merge, int is_onset)
 {
@@ -85,10 +89,7 @@ static inline int append_impact(Integrator *run, const Impact *impact, int may_m
     return append_contact(run, impact);
 }
 
-/*
- * Update the peak force of a joint in this run: store F (N) and time t (s) if F is larger. Called at evaluations
- * between the ends of steps.
- */
+/* Update the peak force of a joint in this run: store F (N) and time t (s) if F is larger. Called by record_force(). */
 static inline void update_peak_force(Integrator *run, int joint, double t, double F)
 {
     if (F > run->contacts.F_peak[joint]) {
@@ -99,13 +100,13 @@ static inline void update_peak_force(Integrator *run, int joint, double t, doubl
 
 /*
  * Update the peak force of the contact that lasts in a joint: store F (N) and time t (s) if F is larger. An open joint
- * is left unchanged. Called at evaluations between the ends of steps.
+ * is left unchanged. Called by record_force().
  */
 static inline void update_contact_peak_force(Integrator *run, int joint, double t, double F)
 {
-    if (run->discrete.contact[joint].closed && F > run->contacts.open[joint].F_peak) {
-        run->contacts.open[joint].F_peak = F;
-        run->contacts.open[joint].t_peak = t;
+    if (run->discrete.contact[joint].closed && F > run->contacts.lasting[joint].F_peak) {
+        run->contacts.lasting[joint].F_peak = F;
+        run->contacts.lasting[joint].t_peak = t;
     }
 }
 
@@ -115,13 +116,14 @@ static inline void update_largest_eccentricity(Integrator *run, int joint, doubl
     run->contacts.e_max[joint] = max_of(e, run->contacts.e_max[joint]);
 }
 
-/* Store whether the force of a joint rises at the end of the step. */
+/* Store whether the force of a joint rises at the end of the step, for the search of peaks in the next step. */
 static inline void set_force_rising(Integrator *run, int joint,
     int is_rising) { run->contacts.is_rising[joint] = is_rising; }
 
 /*
  * Begin the contact of a joint with compliant surfaces at time t (s). The approach speed deltadot (m/s), raised to
- * min_speed, is stored; internal states of the laws restart, and the onset is counted.
+ * min_speed, is stored in the contact state; the contact starts in compression with a rising force. Internal states of
+ * the laws restart at zero, and the onset is counted.
  */
 static void close_contact(Integrator *run, int joint, double t, double deltadot, double min_speed)
 {
@@ -136,18 +138,18 @@ static void close_contact(Integrator *run, int joint, double t, double deltadot,
 
 /*
  * End the contact of a joint with compliant surfaces at time t (s), reset the internal states of its laws, and append
- * the contact to the list that Python fetches.
+ * the contact to the list that Python fetches. A full list drops it without a status.
  */
 static void open_contact(Integrator *run, int joint, double t)
 {
     run->discrete.contact[joint].closed = 0;
     reset_internal_states(run, joint);
-    run->contacts.open[joint].t_off = t;
-    append_contact(run, &run->contacts.open[joint]);
+    run->contacts.lasting[joint].t_off = t;
+    append_contact(run, &run->contacts.lasting[joint]);
 }
 
 /*
- * Close or open the contact of a joint with rigid surfaces at the present time. A closed contact takes its approach
+ * Close or open the contact of a joint with rigid surfaces at the current time. A closed contact takes its approach
  * speed from the impact listed at this time, else 0. An opened contact is appended to the list. Nothing happens if the
  * contact does not change. Return 0, or CHATTERING if the list is full. Called by update_closed_contacts() for each
  * rigid joint.
@@ -168,15 +170,15 @@ static inline int set_rigid_contact(Integrator *run, int joint, int is_closed)
         start_contact_record(run, joint, run->t, contact->deltadot_minus);
         return 0;
     }
-    run->contacts.open[joint].t_off = run->t;
-    return append_contact(run, &run->contacts.open[joint]);
+    run->contacts.lasting[joint].t_off = run->t;
+    return append_contact(run, &run->contacts.lasting[joint]);
 }
 
 /*
  * Close and open contacts of compliant surfaces at the start of a run from gaps and gap rates, and return whether any
  * changed. The stored approach speed of a closed contact is at least |deltadot|; estimate_approach_speed() improves it.
- * A penetration within rounding counts as open while the journal leaves the wall. Rigid contacts are left unchanged.
- * Called once, when a run begins.
+ * A penetration within rounding (compute_gap_event_threshold()) counts as open while the journal leaves the wall. Rigid
+ * contacts are left unchanged. Called once, when a run begins.
  */
 static int initialize_compliant_contacts(Integrator *run, const Parameters *p)
 {
@@ -185,7 +187,7 @@ static int initialize_compliant_contacts(Integrator *run, const Parameters *p)
         const Clearance *clearance = &run->rhs.clearance[i];
         const int was_closed = run->discrete.contact[i].closed;
         const int touches = clearance->delta >= 0.0
-            && (clearance->delta > -compute_penetration_tolerance(p, i) || clearance->deltadot > 0.0);
+            && (clearance->delta > -compute_gap_event_threshold(p, i) || clearance->deltadot > 0.0);
         if (!is_compliant(i)) /* rigid contacts change at events only (run/impacts.c) */
             continue;
         if (!was_closed && touches)
@@ -200,17 +202,17 @@ static int initialize_compliant_contacts(Integrator *run, const Parameters *p)
 
 /*
  * Move the oldest contacts, at most `capacity`, from the list into `values` (rows of ImpactColumn) and `joints` (their
- * numbers), and return how many were moved. With `include_open`, the contacts that still last are appended once: no
- * step may follow.
+ * numbers), and return how many were moved. With `include_open`, the contacts that still last are appended once with
+ * t_off = NaN; no step may follow.
  */
 int gudgeon_run_impacts(void *integrator, int include_open, int capacity, double *values, int *joints)
 {
     const Integrator *run = integrator;
     Contacts *contacts = &((Integrator *)integrator)->contacts;
-    for (int i = 0; include_open && !contacts->open_listed && i < N_CLEARANCES; i++)
+    for (int i = 0; include_open && !contacts->lasting_listed && i < N_CLEARANCES; i++)
         if (run->discrete.contact[i].closed)
-            contacts->impacts[contacts->n_impacts++] = contacts->open[i];
-    contacts->open_listed = include_open;
+            contacts->impacts[contacts->n_impacts++] = contacts->lasting[i];
+    contacts->lasting_listed = include_open;
     const int n = contacts->n_impacts < capacity ? contacts->n_impacts : capacity;
     for (int i = 0; i < n; i++, values += N_IMPACT_COLUMNS) {
         const Impact *impact = &contacts->impacts[i];

@@ -1,7 +1,7 @@
 /* The envelope of forces and paths of joints with play: a bounded number of rows (EnvelopeRow) covers all steps. */
 /*
  * Extend the smallest and largest force of a joint in the current row of the envelope by F (N) at time t (s). Called at
- * ends of steps and at peaks between them.
+ * ends of steps and, by record_force(), at evaluations between them.
  */
 static void extend_force_envelope(Integrator *run, int joint, double t, double F)
 {
@@ -17,8 +17,8 @@ static void extend_force_envelope(Integrator *run, int joint, double t, double F
 }
 
 /*
- * Store the eccentricity of a joint's journal at time t (s) in the current row of the envelope. Nothing happens unless
- * its magnitude is the largest of that row.
+ * Store the position of a joint's journal (ex, ey in m) at time t (s) in the current row of the envelope. Nothing
+ * happens unless its eccentricity is the largest of that row.
  */
 static void extend_path_envelope(Integrator *run, int joint, double t, const Clearance *clearance)
 {
@@ -50,7 +50,7 @@ static void begin_envelope_row(Integrator *run)
 
 /*
  * Merge two successive rows of the envelope into `merged_row`, which may be one of them: extremes of both, end position
- * and time of the second.
+ * and time of the second. Of equal extremes the first is kept.
  */
 static void merge_envelope_rows(EnvelopeRow *merged_row, const EnvelopeRow *first_row, const EnvelopeRow *second_row)
 {
@@ -77,9 +77,9 @@ static void merge_envelope_rows(EnvelopeRow *merged_row, const EnvelopeRow *firs
 }
 
 /*
- * Extend the current row of the envelope by the present state, the end of a step, and begin the next row after `stride`
- * steps. If no row is left, each two rows are merged and the stride is doubled. Called at each accepted state of a run
- * with an envelope.
+ * Extend the current row of the envelope by the current state, the end of a step, and begin the next row after `stride`
+ * steps. If no row is left, each two rows are merged, the stride is doubled, and the row index is halved. Called at
+ * each accepted state of a run with an envelope.
  */
 static void extend_envelope(Integrator *run)
 {
@@ -113,5 +113,8 @@ static void start_envelope(Integrator *run, EnvelopeRow *rows, long n_rows)
     begin_envelope_row(run);
 }
 
-/* Return the number of rows so far; the last row may cover fewer steps than the others. */
+/*
+ * Return the number of rows so far, including the current one if it has steps; the last row may cover fewer steps than
+ * the others.
+ */
 static long count_envelope_rows(const Integrator *run) { return run->envelope.row + (run->envelope.steps > 0); }

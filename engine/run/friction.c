@@ -1,15 +1,16 @@
 /*
- * Friction elements that can stick: their modes (stick or slip), and the changes of these modes at events. A step ends
+ * Stick-slip: friction elements that can stick, their modes, and the changes of these modes at events. A step ends
  * where the slip reaches zero or the force of stick reaches its limit: at the zero of
  * evaluate_friction_event_function() on the step.
  */
 #if N_FRICTIONS
-#define ROUNDING 1e-12 /* m/s: rounding of a slip that other constraints hold at zero */
-enum { MAX_TRIES = 8 + 4 * N_FRICTIONS };
+#define SLIP_ROUNDING 1e-12 /* m/s: rounding of a slip that other constraints hold at zero */
+enum { MAX_MODE_PASSES = 8 + 4 * N_FRICTIONS };
 
 /*
- * Return the event function of a friction element, positive while its mode lasts. In stick: static limit minus |force|
- * in N; in slip: the slip in its direction, m/s; held by others (MODE_HELD): AT_REST minus |slip|, m/s.
+ * Return the event function of a friction element, positive while its mode (stick or slip) lasts. In stick: static
+ * limit minus |force| in N. In slip: the slip velocity in its direction plus SLIP_ROUNDING, m/s. Held by other
+ * constraints (MODE_HELD): AT_REST minus |slip|, m/s.
  */
 static double evaluate_friction_event_function(const DiscreteState *discrete, const RhsOutputs *rhs, int element)
 {
@@ -18,13 +19,13 @@ static double evaluate_friction_event_function(const DiscreteState *discrete, co
         return AT_REST - fabs(friction->v);
     if (discrete->mode[element] == 0.0)
         return friction->static_limit - fabs(friction->force);
-    return discrete->mode[element] * friction->v + ROUNDING;
+    return discrete->mode[element] * friction->v + SLIP_ROUNDING;
 }
 
 /*
- * Evaluate the right-hand side at the present state with the present friction modes. A sticking element whose pivot
- * vanishes is already held by a drive or another sticking element: it becomes MODE_HELD, without force, and the
- * evaluation is repeated. Return 0 or a status.
+ * Evaluate the right-hand side at the current state with the current friction modes, into run->dy and run->rhs. A
+ * sticking element whose pivot vanishes is already held by a drive or another sticking element: it becomes MODE_HELD,
+ * without force, and the evaluation is repeated. Return 0 or a status.
  */
 static int evaluate_rates_with_friction_modes(Integrator *run, const Parameters *p)
 {
@@ -37,7 +38,7 @@ static int evaluate_rates_with_friction_modes(Integrator *run, const Parameters 
 }
 
 /*
- * Remove the slip of elements that stick or start to slip, where modes change, by impulses of their friction. Otherwise
+ * Remove the slip of elements with at most AT_REST (m/s) by impulses of their friction, where modes change. Otherwise
  * rounding would decide the next mode. The discrete state is restored; velocities and the right-hand side change.
  * Return 0 or a status. Called by change_friction_modes() before the modes are iterated.
  */
@@ -56,9 +57,9 @@ static int remove_slips_at_rest(Integrator *run, const Parameters *p)
 
 /*
  * Correct the friction mode with the largest violation and return whether there was one. Violations are a sticking
- * force beyond its limit, or a slip from rest against its own rate. If an element would start to slip while another is
- * held, the held one slips instead, so that its force acts first. Called in each pass of iterate_friction_modes() after
- * the right-hand side.
+ * force beyond its limit (relative to it), or a slip from rest against its own rate (1). If an element would start to
+ * slip while another is held, the held one slips instead, so that its force acts first. Called in each pass of
+ * iterate_friction_modes() after the right-hand side.
  */
 static int correct_worst_friction_mode(Integrator *run)
 {
@@ -88,16 +89,17 @@ static int correct_worst_friction_mode(Integrator *run)
 }
 
 /*
- * Iterate the friction modes to a consistent set and evaluate the right-hand side, since a change of one mode loads or
- * unloads the others at once. Held elements at rest may stick again. Return 0, CHATTERING if MAX_TRIES passes find no
- * set, or another status. Called after each change of modes, at the start and after impacts.
+ * Iterate the friction modes to a consistent set (a complementarity problem of stick and slip) and evaluate the
+ * right-hand side. A change of one mode loads or unloads the others at once. Held elements at rest may stick again.
+ * Return 0, CHATTERING if MAX_MODE_PASSES passes find no set, or another status. Called after each change of modes, at
+ * the start and after impacts.
  */
 static int iterate_friction_modes(Integrator *run, const Parameters *p)
 {
     for (int i = 0; i < N_FRICTIONS; i++)
         if (run->discrete.mode[i] == MODE_HELD && fabs(run->rhs.friction[i].v) <= AT_REST)
             run->discrete.mode[i] = 0.0;
-    for (int i = 0; i < MAX_TRIES; i++) {
+    for (int i = 0; i < MAX_MODE_PASSES; i++) {
         const int status = evaluate_rates_with_friction_modes(run, p);
         if (status || !correct_worst_friction_mode(run))
             return status;
@@ -106,9 +108,9 @@ static int iterate_friction_modes(Integrator *run, const Parameters *p)
 }
 
 /*
- * Change the mode of each friction element whose event function has reached zero, count these changes, then update all
- * modes. Stick changes to slip against the force; slip changes to stick. Return 0 or a status. Called at an event of
- * friction.
+ * Change the mode of each friction element whose event function is not positive, count these changes, then iterate all
+ * modes to a consistent set. Stick changes to slip against the force; slip changes to stick; a held element slips.
+ * Return 0 or a status. Called at an event of friction.
  */
 static int change_friction_modes(Integrator *run, const Parameters *p)
 {
@@ -128,8 +130,8 @@ static int change_friction_modes(Integrator *run, const Parameters *p)
 }
 
 /*
- * Set the friction modes that a start does not specify (NaN): the sign of the slip, or stick at rest. If any was set,
- * iterate all modes to a consistent set. Return 0 or a status.
+ * Set the friction modes that a start does not specify (NaN): the sign of the slip, or stick if |slip| <= AT_REST. If
+ * any was set, iterate all modes to a consistent set. Return 0 or a status. Called once, when a run begins.
  */
 static int initialize_friction_modes(Integrator *run, const Parameters *p)
 {
@@ -145,11 +147,14 @@ static int initialize_friction_modes(Integrator *run, const Parameters *p)
 }
 
 #if N_RIGID
-/* Iterate the friction modes to a consistent set while rigid contacts change. */
+/*
+ * Iterate the friction modes to a consistent set after rigid contacts changed (iterate_friction_modes()). Return 0 or a
+ * status.
+ */
 static int update_friction_modes(Integrator *run, const Parameters *p) { return iterate_friction_modes(run, p); }
 
 /*
- * Evaluate the right-hand side after an impact with the present modes of friction elements, then set the modes by its
+ * Evaluate the right-hand side after an impact with the current modes of friction elements, then set the modes by its
  * slips: an element with a slip above AT_REST slips in its direction, others keep their mode. run->dy and run->rhs are
  * not evaluated again with the new modes. Return 0, or the status of the evaluation; the modes are then unchanged.
  */
@@ -166,7 +171,7 @@ static int update_modes_after_impact(Integrator *run, const Parameters *p)
 #endif
 
 #else
-/* Return 1: the scene has no friction that may stick. */
+/* Return 1, no event: the scene has no friction that may stick. */
 static inline double evaluate_friction_event_function(const DiscreteState *discrete, const RhsOutputs *rhs, int element)
 {
     (void)discrete, (void)rhs, (void)element;

@@ -25,8 +25,8 @@ typedef struct {
 } FrictionImpulses;
 
 /*
- * Switch off friction in all contacts of a discrete state and set their prescribed tangential forces to zero, for
- * impacts and the projection of contacts.
+ * Set all contacts of a discrete state to be frictionless (`smooth`), and their prescribed tangential forces (`along`)
+ * to zero. Called for impacts and the projection of contacts, on a copy or on a state that is restored.
  */
 static void disable_friction(DiscreteState *discrete)
 {
@@ -37,10 +37,12 @@ static void disable_friction(DiscreteState *discrete)
 }
 
 /*
- * Return FRICTION_INCONSISTENT if a run whose step size underflows has inconsistent contacts, else default_status.
- * Contacts are inconsistent if friction lets their forces grow without bound, or leaves them none. Their forces are
- * compared with those without friction (F. Genot, B. Brogliato, European Journal of Mechanics A/Solids 18 (1999)
- * 653-677). Called when a run stalls or its step size underflows.
+ * Return FRICTION_INCONSISTENT if a run that stalls has frictionally inconsistent contacts (Painleve paradox), else
+ * default_status. Friction then lets their forces grow without bound, or leaves them none.
+ *
+ * The criterion: with friction the largest contact force exceeds INCONSISTENT_RATIO times that without friction, or a
+ * contact loses its force (F. Genot, B. Brogliato, European Journal of Mechanics A/Solids 18 (1999) 653-677). Called
+ * when a run stalls or its step size underflows.
  */
 static int diagnose_stall(const Integrator *run, int default_status, const Parameters *p)
 {
@@ -65,8 +67,8 @@ static int diagnose_stall(const Integrator *run, int default_status, const Param
 
 /*
  * Set the frozen branch of each switching function to the sign of its value, after velocities have jumped: friction in
- * closed contacts depends on the branches. At most six passes; nothing happens if branches are not frozen. The caller's
- * next evaluation reports a failed evaluation.
+ * closed contacts depends on the branches. At most six passes. Nothing happens if branches are not frozen or the
+ * evaluation fails; the caller's next evaluation reports the failure.
  */
 static void update_frozen_branches(Integrator *run, const Parameters *p)
 {
@@ -87,8 +89,9 @@ static void update_frozen_branches(Integrator *run, const Parameters *p)
 }
 
 /*
- * Compute the slip (m/s) of each contact after normal impulses (N s), and mu = F_t/F_n of the friction laws there, 0
- * without an impulse. unit_force: normal force in N at which the laws are evaluated. Return a status.
+ * Compute the slip (m/s) of each contact after normal impulses (N s), and mu = |F_t|/F_n of the friction laws there, 0
+ * without an impulse. unit_force: normal force in N at which the laws are evaluated. Branches of friction laws follow
+ * the slip. The state of the run is not changed. Return a status.
  */
 static int compute_slips_after_impact(Integrator *run, const Delassus *impact, const double *impulse, double unit_force,
     const Parameters *p, double *slip, double *mu)
@@ -116,9 +119,9 @@ static int compute_slips_after_impact(Integrator *run, const Delassus *impact, c
 }
 
 /*
- * Compute the response of gap rates, slips and velocities to a tangential impulse in one contact, as a column of each
- * matrix in `friction`. unit_impulse: its magnitude, N s; base_rates, rhs_base: rates and outputs without it. Return a
- * status. Called for each contact with friction of an impact.
+ * Compute the change of gap rates, slips and velocities per unit of a tangential impulse in one contact, as column
+ * `contact` of each matrix in `friction`. unit_impulse: the impulse of the difference quotient, N s; base_rates,
+ * rhs_base: rates and outputs without it. Return a status. Called for each contact with friction of an impact.
  */
 static int compute_tangential_response(Integrator *run, const Delassus *impact, int contact, const double *base_rates,
     const RhsOutputs *rhs_base, double unit_impulse, const Parameters *p, FrictionImpulses *friction)
@@ -158,9 +161,10 @@ static double compute_impulse_limit(double mu, double normal_impulse, double nor
 }
 
 /*
- * Compute the tangential impulses P of all contacts by Gauss-Seidel sweeps: each contact brings its slip to rest or
- * reaches its friction limit. Afterwards one common factor scales all P, if a limit or the energy still requires that:
- * friction never adds energy.
+ * Compute the tangential impulses friction->P (N s) of all contacts by Gauss-Seidel sweeps: each contact brings its
+ * slip to rest or reaches its friction limit. Afterwards one common factor scales all P, if a limit or the energy still
+ * requires that: friction never adds energy. impulse: normal impulses without friction, N s. The sweeps end when P is
+ * steady, or after MAX_SWEEPS.
  */
 static void solve_friction_impulses(const Delassus *impact, const double *impulse, FrictionImpulses *friction)
 {
@@ -259,7 +263,7 @@ static int compute_friction_impulses(
 
 /*
  * Add the velocity changes of the tangential impulses to the state y, and return the energy in J that they dissipate.
- * impulse: normal impulses, N s. Called by apply_impulses() at each impact.
+ * impulse: normal impulses, N s, including those that friction causes. Called by apply_impulses() at each impact.
  */
 static double apply_friction_impulses(const FrictionImpulses *friction, const double *impulse, double *y)
 {

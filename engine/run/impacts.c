@@ -6,9 +6,9 @@
  * Unilateral Contacts (1996).
  */
 #if N_RIGID
-#define TOUCHING 1e-10 /* times the clearance: surfaces with a smaller gap touch */
+#define TOUCHING_GAP_FRACTION 1e-10 /* times the clearance: surfaces with a smaller gap touch */
 #define RATIO_TOL 1e-8    /* relative difference up to which ratios of successive passes are one geometric ratio */
-enum { MAX_PASSES = 1000, LISTED_PASSES = 8, MAX_SEPARATIONS = 12 };
+enum { MAX_IMPACT_PASSES = 1000, N_LISTED_PASSES = 8, MAX_SEPARATIONS = 12 };
 
 /*
  * Return the event function of a contact, non-negative while it stays open or closed: gap of an open contact in m,
@@ -23,19 +23,20 @@ static double evaluate_contact_event_function(const DiscreteState *discrete, con
 }
 
 /*
- * Return whether the rigid surfaces of a joint touch: the gap is within TOUCHING clearances, or the contact is closed.
- * Compliant surfaces return 0.
+ * Return whether the rigid surfaces of a joint touch: the gap is at most TOUCHING_GAP_FRACTION clearances, or the
+ * contact is closed. Joints with compliant surfaces return 0.
  */
 static int is_rigid_joint_touching(const Integrator *run, int joint, const Parameters *p)
 {
-    const int has_no_gap = run->rhs.clearance[joint].delta >= -TOUCHING * radial_clearance(p, joint);
+    const int has_no_gap = run->rhs.clearance[joint].delta >= -TOUCHING_GAP_FRACTION * radial_clearance(p, joint);
     return !is_compliant(joint) && (has_no_gap || run->discrete.contact[joint].closed);
 }
 
 /*
  * Return the step length in s within which no open rigid joint moves by more than half its clearance. Free flight is so
- * smooth that a longer step could leave the bearing and return. Gap rates are those of the state and, if `step` is not
- * NULL, of its stages. Infinite without an open rigid joint. Called before each step, and after it with its stages.
+ * smooth that a longer step could leave the bearing and return. Gap rates are those of the run's state and, if `step`
+ * is not NULL, also of its stages. Infinite without an open rigid joint. Called before each step, and after it with its
+ * stages.
  */
 static double compute_flight_step_limit(const Integrator *run, const Step *step, const Parameters *p)
 {
@@ -52,19 +53,19 @@ static double compute_flight_step_limit(const Integrator *run, const Step *step,
 }
 
 /*
- * Compute the Delassus operator of the listed contacts at the present state of the run, count the evaluations, and
- * return a status.
+ * Compute the Delassus operator of the listed contacts at the current state of the run (response to unit contact
+ * forces). Count the evaluations; return a status.
  */
-static int compute_present_delassus(Integrator *run, const Parameters *p, Delassus *contacts)
+static int compute_current_delassus(Integrator *run, const Parameters *p, Delassus *contacts)
 {
     count_evaluations(run, 1 + contacts->n);
     return compute_delassus(evaluate_motion_with_internal_states, N_Y, run->t, run->y, &run->discrete, p, contacts);
 }
 
 /*
- * Add the velocity jumps of normal impulses (N s) and of friction impulses to the state. The energy that they dissipate
- * is subtracted from the work of the joints; the work of drives balances the kinetic energy. approach_speed: of each
- * contact before the impact, m/s.
+ * Add the velocity jumps of normal impulses (N s) and of friction impulses to run->y. The energy that they dissipate is
+ * subtracted from the work of the joints; the work of drives balances the kinetic energy. approach_speed: of each
+ * contact before the impact, m/s. Called by resolve_impact().
  */
 static void apply_impulses(Integrator *run, const Delassus *impact, const double *impulse, const double *approach_speed,
     const FrictionImpulses *friction, const Parameters *p)
@@ -119,7 +120,7 @@ static int resolve_impact(Integrator *run, const Parameters *p, int n_impacts_be
     for (int i = 0; i < N_FRICTIONS; i++)
         run->discrete.mode[i] = MODE_HELD; /* without force: friction elements have no impulse */
     disable_friction(&run->discrete);
-    int status = has_impact ? compute_present_delassus(run, p, &impact) : 0;
+    int status = has_impact ? compute_current_delassus(run, p, &impact) : 0;
     status = !status && has_impact ? solve_complementarity(&impact, rebound_sum, impulse) : status;
     status = !status && has_impact ? compute_friction_impulses(run, &impact, approach_speed, impulse, p, &friction)
         : status;
@@ -134,7 +135,7 @@ static int resolve_impact(Integrator *run, const Parameters *p, int n_impacts_be
             : 0.0; /* 0: a resting contact */
         const Impact listed = {run->t, run->t, u, impulse[k], run->t, i};
         if (impulse[k] > 0.0)
-            status = append_impact(run, &listed, n_impacts_before >= LISTED_PASSES, !known_state.contact[i].closed);
+            status = append_impact(run, &listed, n_impacts_before >= N_LISTED_PASSES, !known_state.contact[i].closed);
         *energy += impulse[k] * u;
     }
     return status ? status : update_modes_after_impact(run, p);
@@ -162,7 +163,7 @@ static int update_closed_contacts(Integrator *run, int opening_joint, const Para
             contacts.joint[contacts.n++] = i;
     }
     update_frozen_branches(run, p);
-    int status = contacts.n ? compute_present_delassus(run, p, &contacts) : 0;
+    int status = contacts.n ? compute_current_delassus(run, p, &contacts) : 0;
     if (!status)
         status = is_frictionally_inconsistent(&contacts, 1, p) ? FRICTION_INCONSISTENT
                                                                : solve_complementarity(&contacts, contacts.r, force);
@@ -177,10 +178,10 @@ static int update_closed_contacts(Integrator *run, int opening_joint, const Para
 }
 
 /*
- * Project closed rigid contacts onto delta = 0 and give touching open ones a small gap, so that the next step can
- * detect their return. The gap is enlarged up to MAX_SEPARATIONS times, because separating one contact may close
- * another. The change of kinetic energy is added to the work of the joints. Return a status. Called by
- * update_contacts() after the active set is known.
+ * Project closed rigid contacts onto delta = 0 and give touching open ones a gap of compute_gap_tolerance(), so that
+ * the next step can detect their return. The gap is quadrupled in up to MAX_SEPARATIONS passes, because separating one
+ * contact may close another. The change of kinetic energy is added to the work of the joints. Return a status. Called
+ * by update_contacts() after the active set is known.
  */
 static int separate_contacts(Integrator *run, const Parameters *p)
 {
@@ -208,20 +209,20 @@ static int separate_contacts(Integrator *run, const Parameters *p)
 }
 
 /*
- * Resolve impacts at the present time until no rigid surfaces approach; return 0, CHATTERING or another status. One
+ * Resolve impacts at the current time until no rigid surfaces approach; return 0, CHATTERING or another status. One
  * impact may make other surfaces approach, and these the first ones again, as in a wedge. Two contacts with the
- * Delassus operator G approach in turn at chi[n+1] = (1 + c_e) kappa chi[n] - c_e chi[n-1], where kappa =
- * -G12/sqrt(G11 G22), and chi is the approach speed over sqrt(G11) or sqrt(G22). If (1 + c_e) kappa < 2 sqrt(c_e) some
- * chi is negative: the sequence ends. Otherwise the chi tend to a geometric sequence that never ends. Its limit has no
+ * Delassus operator G approach in turn at chi[n+1] = (1 + c_e) kappa chi[n] - c_e chi[n-1], where kappa = -G12/sqrt(G11
+ * G22), and chi is the approach speed over sqrt(G11) or sqrt(G22). If (1 + c_e) kappa < 2 sqrt(c_e) some chi is
+ * negative: the sequence ends. Otherwise the chi tend to a geometric sequence that never ends. Its limit has no
  * approach speed left and the impulses sum = G^-1 u: the joint impact of all touching contacts with c_e = 0. That
- * impact is solved directly once the ratio is steady, or after MAX_PASSES. Called by update_contacts() at each event,
- * also if nothing approaches.
+ * impact is solved directly once the ratio is steady, or after MAX_IMPACT_PASSES. Called by update_contacts() at each
+ * event, also if nothing approaches.
  */
 static int resolve_impacts(Integrator *run, const Parameters *p)
 {
     double energies[5] = {0.0}; /* impulse times approach speed of the last passes, J */
     int is_limit = 0, status = evaluate_run_rhs(run, run->t, run->y, p, run->dy, &run->rhs);
-    for (int pass = 0; pass < 2 * MAX_PASSES && !status; pass++) {
+    for (int pass = 0; pass < 2 * MAX_IMPACT_PASSES && !status; pass++) {
         memmove(energies, energies + 1, sizeof energies - sizeof *energies);
         status = resolve_impact(run, p, pass, is_limit, &energies[4]);
         if (status || !(energies[4] > 0.0))
@@ -229,15 +230,16 @@ static int resolve_impacts(Integrator *run, const Parameters *p)
         status = evaluate_run_rhs(run, run->t, run->y, p, run->dy, &run->rhs);
         const double ratio_before = energies[2] / energies[0],
             ratio = energies[4] / energies[2]; /* of two passes: contacts alternate */
-        is_limit |= pass >= MAX_PASSES || (pass >= 4 && ratio < 1.0 && fabs(ratio - ratio_before) < RATIO_TOL * ratio);
+        is_limit |= pass >= MAX_IMPACT_PASSES
+            || (pass >= 4 && ratio < 1.0 && fabs(ratio - ratio_before) < RATIO_TOL * ratio);
     }
     return status ? status : CHATTERING;
 }
 
 /*
  * Resolve impacts, update the active set of rigid contacts and the friction modes, and evaluate the right-hand side
- * after them. event: the event function that ended the step, which opens its closed contact; -1: none. Called at each
- * event and at jumps of drives. Return a status.
+ * after them. event: the event function that ended the step; if it is that of a closed rigid contact, this contact
+ * opens; -1: none. Called at each event and at jumps of drives. Return a status.
  */
 static int update_contacts(Integrator *run, int event, const Parameters *p)
 {
@@ -257,8 +259,8 @@ static int update_contacts(Integrator *run, int event, const Parameters *p)
 }
 
 /*
- * Resolve impacts and close resting rigid contacts at the start of a run, if surfaces touch. Return 0, LOST if a
- * journal is outside its bearing, or another status.
+ * Resolve impacts and close resting rigid contacts at the start of a run, if surfaces of an open contact touch. Return
+ * 0, LOST if a penetration exceeds 1e-6 clearances, or another status.
  */
 static int initialize_rigid_contacts(Integrator *run, const Parameters *p)
 {

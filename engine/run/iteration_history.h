@@ -1,14 +1,16 @@
-/* Starts of the present and the last step, from which implicit methods extrapolate guesses of their stages. */
+/* Starts of the current and the last step, from which implicit methods extrapolate guesses of their stages. */
 #ifndef GUDGEON_ITERATION_HISTORY_H
 #define GUDGEON_ITERATION_HISTORY_H
 
 #define FILM_FORCE_TOL 5e2 /* times rtol: relative accuracy of film forces when the iteration of stages ends */
 
 /*
- * Update the stored beginnings of steps before a step is tried: at a new step the present beginning becomes the
- * previous one. A repeated attempt leaves them unchanged. Also set the distance of both beginnings, the accuracy of
- * film forces, and whether the motion continues smoothly, so that initial guesses can be extrapolated
- * (run->newton.continues).
+ * Update the stored beginnings of steps before a step is tried: at a new step the current beginning becomes the
+ * previous one. A repeated attempt leaves them unchanged.
+ *
+ * Also set the distance of both beginnings (last_h, s; 0 unless the last step was stored), the accuracy of film forces
+ * (force_found), and newton.continues. That is whether stages can be extrapolated from the last step: last_h > 0 and no
+ * attempt at this step was rejected.
  */
 static inline void update_iteration_history(Integrator *run)
 {
@@ -27,7 +29,7 @@ static inline void update_iteration_history(Integrator *run)
     }
     run->newton.last_h = run->t - run->newton.before_t;
     run->newton.force_found = min_of(1e-2, FILM_FORCE_TOL / run->norm.inverse_scale[2 * N_X - 1]);
-    run->newton.continues = run->newton.last_h > 0.0 && !run->control.attempt.again;
+    run->newton.continues = run->newton.last_h > 0.0 && !run->control.attempt.was_rejected;
 }
 
 #endif

@@ -23,8 +23,8 @@ static inline double get_outward_coordinate(const Clearance *clearance)
 }
 
 /*
- * Mark the contact of a joint as no longer being compressed if it is closed and the penetration has stopped growing
- * (deltadot <= 0).
+ * Clear the flag is_compressing of a joint if its contact is closed and the penetration has stopped growing (deltadot
+ * <= 0, m/s). The flag is never set here. Called at each accepted state.
  */
 static inline void update_compression(Integrator *run, int joint, double deltadot)
 {
@@ -32,9 +32,9 @@ static inline void update_compression(Integrator *run, int joint, double deltado
 }
 
 /*
- * Update the peaks of a joint with play at an accepted state: largest eccentricity and force of the run, and largest
- * force of a closed contact. In compliant contacts the extremes of deltadot/deltadot_minus are updated too, and values
- * outside [-1, 1] are counted.
+ * Update the peaks of a joint with play at an accepted state: largest eccentricity (m) and force (N) of the run. A
+ * closed contact also updates its own largest force; in compliant contacts also the extremes of
+ * deltadot/deltadot_minus, whose values outside [-1, 1] are counted.
  */
 static inline void update_joint_peaks(Integrator *run, int joint)
 {
@@ -46,9 +46,9 @@ static inline void update_joint_peaks(Integrator *run, int joint)
     run->contacts.t_peak[joint] = select_value(higher, run->t, run->contacts.t_peak[joint]);
     if (!closed)
         return;
-    const int highest = closed & (F > run->contacts.open[joint].F_peak);
-    run->contacts.open[joint].F_peak = select_value(highest, F, run->contacts.open[joint].F_peak);
-    run->contacts.open[joint].t_peak = select_value(highest, run->t, run->contacts.open[joint].t_peak);
+    const int highest = closed & (F > run->contacts.lasting[joint].F_peak);
+    run->contacts.lasting[joint].F_peak = select_value(highest, F, run->contacts.lasting[joint].F_peak);
+    run->contacts.lasting[joint].t_peak = select_value(highest, run->t, run->contacts.lasting[joint].t_peak);
     if (!is_compliant(joint))
         return; /* rigid contacts have no rate */
     const double ratio = clearance->deltadot / run->discrete.contact[joint].deltadot_minus;

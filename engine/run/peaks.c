@@ -3,7 +3,7 @@
  * time inside the step, not at its ends.
  */
 enum { MAX_PARABOLAS = 20, MIN_INNER_STAGES = 2 /* with fewer stages inside, the dense output is evaluated */ };
-#define MAX_BEND 0.25 /* of the last chord's slope: largest correction by a parabola that leaves the sign certain */
+#define MAX_SLOPE_CORRECTION 0.25 /* of the last chord's slope: with more by a parabola, the sign is uncertain */
 #define MIN_FORCE_CHANGE 0.1 /* of the force: smallest change since the last stage that shows a trend */
 #define RIGID_FORCE_TOL 1e-6 /* relative accuracy of the largest force of a rigid contact */
 #define PEAK_TOL 0.1 /* times rtol: relative accuracy of a largest force, within these limits: */
@@ -11,8 +11,8 @@ enum { MAX_PARABOLAS = 20, MIN_INNER_STAGES = 2 /* with fewer stages inside, the
 #define MAX_PEAK_TOL 1e-5
 
 /*
- * Record the force F (N) of a joint at time t (s) in the envelope, and in the peaks of the run and of the lasting
- * contact. Without an envelope only the peaks are updated.
+ * Record the force F (N) of a joint at time t (s) as possible peak of the run and of a closed contact. If there is an
+ * envelope, extend it.
  */
 static void record_force(Integrator *run, int joint, double t, double F)
 {
@@ -23,11 +23,12 @@ static void record_force(Integrator *run, int joint, double t, double F)
 }
 
 /*
- * Return the force in N of a joint at a fraction of a step, from the dense output, and record it with the eccentricity.
- * If a switching function is on the wrong branch there, branches are updated for this evaluation only. Return 0 if the
- * evaluation fails.
+ * Return the force in N of a joint at a fraction of a step, from the dense output, and record it with the eccentricity
+ * as possible maxima. If a switching function is on the wrong branch there, branches are updated for this evaluation
+ * only. Return 0, without a record, if the evaluation fails. The dense output must have been computed.
  */
-static double evaluate_joint_force(Integrator *run, const Step *step, double fraction, int joint, const Parameters *p)
+static double evaluate_and_record_joint_force(
+    Integrator *run, const Step *step, double fraction, int joint, const Parameters *p)
 {
     RhsOutputs rhs;
     int has_wrong_branch = 0;
@@ -53,8 +54,8 @@ static double evaluate_joint_force(Integrator *run, const Step *step, double fra
 }
 
 /*
- * Return the node of the explicit stage inside (0, fraction) with the largest force of a joint, if it exceeds min_force
- * (N); otherwise, and for stiff methods, half of `fraction`.
+ * Return the node (fraction of the step) of the explicit stage inside (0, fraction) with the largest force of a joint,
+ * if it exceeds min_force (N). Otherwise, and for stiff methods, return half of `fraction`.
  */
 static double find_node_of_largest_force(const Step *step, double fraction, int joint, double min_force)
 {
@@ -70,32 +71,32 @@ static double find_node_of_largest_force(const Step *step, double fraction, int 
  * Find the maximum of a joint's force inside a step up to `fraction` by parabolas through three points, and record each
  * evaluated force. force_begin, force_end: the forces at both ends, N. The search ends after MAX_PARABOLAS, or where
  * the parabola predicts a gain below the tolerance (PEAK_TOL). Called if a force rose before the step and falls at its
- * end, or a stage exceeds both ends.
+ * end, or a stage exceeds both ends. The dense output must have been computed.
  */
-static void find_inner_peak(Integrator *run, const Step *step, double fraction, int joint, double force_begin,
+static void record_inner_peak(Integrator *run, const Step *step, double fraction, int joint, double force_begin,
     double force_end,
     const Parameters *p)
 {
     const double node = find_node_of_largest_force(step, fraction, joint, max_of(force_begin, force_end));
     const double tolerance = min_of(MAX_PEAK_TOL, max_of(MIN_PEAK_TOL, PEAK_TOL * get_rtol(run)));
-    double f[3] = {force_begin, evaluate_joint_force(run, step, node, joint, p), force_end};
+    double f[3] = {force_begin, evaluate_and_record_joint_force(run, step, node, joint, p), force_end};
     double x[3] = {0.0, node, fraction}, error = INFINITY;
     record_force(run, joint, step->t, force_begin);
     for (int n = 0; n < MAX_PARABOLAS; n++) {
         const double width_left = x[1] - x[0], width_right = x[2] - x[1], drop_left = f[0] - f[1],
             drop_right = f[2] - f[1];
-        const double bend = drop_right * width_left + drop_left * width_right,
+        const double curvature = drop_right * width_left + drop_left * width_right,
             rise = drop_right * width_left * width_left - drop_left * width_right * width_right;
         double top = drop_left > drop_right ? x[0] : x[2];
-        if (bend < 0.0)
-            top = x[1] - 0.5 * rise / bend;
+        if (curvature < 0.0)
+            top = x[1] - 0.5 * rise / curvature;
         top = min_of(x[2] - 0.1 * width_right, max_of(x[0] + 0.1 * width_left, top));
         const double offset = top - x[1], expected = f[1]
-            + offset * (rise + bend * offset) / (width_left * width_right * (width_left + width_right));
-        const double most = max_of(f[1], max_of(f[0], f[2]));
-        if (bend < 0.0 && expected - most + 0.1 * error < tolerance * most)
+            + offset * (rise + curvature * offset) / (width_left * width_right * (width_left + width_right));
+        const double largest = max_of(f[1], max_of(f[0], f[2]));
+        if (curvature < 0.0 && expected - largest + 0.1 * error < tolerance * largest)
             break;
-        const double force = evaluate_joint_force(run, step, top, joint, p);
+        const double force = evaluate_and_record_joint_force(run, step, top, joint, p);
         const int above = top > x[1], higher = force > f[1], end = above == higher ? 0 : 2;
         error = fabs(force - expected);
         x[end] = higher ? x[1] : top;
@@ -107,9 +108,10 @@ static void find_inner_peak(Integrator *run, const Step *step, double fraction, 
 
 #if N_RIGID
 /*
- * Return whether the stages of a complete explicit step show that the force of a contact only rises or only falls
- * between force_begin and force_end (N). Return 0 for stiff methods, too few stages, a part of a step, and terms of
- * time that may oscillate between stages.
+ * Return whether the stages of an explicit step show that the force of a contact only rises or only falls between
+ * force_begin and force_end (N). The test uses a bound on the second derivative from the stages. Return 0 for stiff
+ * methods, fewer than MIN_STAGES samples, a part of a step (fraction < 1), and terms of time that may oscillate between
+ * stages.
  */
 static int is_force_monotone(Step *step, double fraction, int joint, double force_begin, double force_end,
     const Parameters *p)
@@ -118,12 +120,12 @@ static int is_force_monotone(Step *step, double fraction, int joint, double forc
     const StageValues forces = get_stage_values(step, STAGE_FORCES + joint);
     const Sample begin = {0.0, force_begin * force_begin, NAN}, end = {1.0, force_end * force_end, NAN};
     const int n = collect_stage_samples(step, begin, end, forces, all);
-    const double bend = bound_second_derivative(all, n);
+    const double curvature = bound_second_derivative(all, n);
     int rises = 0, falls = 0;
     for (int k = 1; k < n; k++) {
         const double w = all[k].s - all[k - 1].s, slope = (all[k].f - all[k - 1].f) / w;
-        rises += slope - 0.5 * bend * w > 0.0;
-        falls += slope + 0.5 * bend * w < 0.0;
+        rises += slope - 0.5 * curvature * w > 0.0;
+        falls += slope + 0.5 * curvature * w < 0.0;
     }
     return fraction == 1.0 && !step->method->stiff && n >= MIN_STAGES && (rises == n - 1 || falls == n - 1)
         && !may_terms_oscillate_between_stages(step, all, n, p);
@@ -132,10 +134,12 @@ static int is_force_monotone(Step *step, double fraction, int joint, double forc
 /*
  * Find and record the largest force of a rigid contact inside a step up to `fraction`. The force may rise and fall
  * while the motion hardly changes. The step is therefore bisected (watch/forces.c) until no part can exceed the largest
- * force. force_begin, force_end: forces at both ends, N. Nothing happens if the stages show a monotone force, or
- * without dense output.
+ * force.
+ *
+ * force_begin, force_end: forces at both ends, N; the first is always recorded. The search is omitted if the stages
+ * show a monotone force, or without dense output.
  */
-static void find_rigid_peak(
+static void record_rigid_peak(
     Integrator *run, Step *step, double fraction, int joint, double force_begin, double force_end, const Parameters *p)
 {
     const double middle = 0.5 * fraction;
@@ -145,14 +149,14 @@ static void find_rigid_peak(
     if (is_force_monotone(step, fraction, joint, force_begin, force_end, p) || compute_dense_output(run, p, step))
         return;
     part[0] =
-        (SampledPart){{middle, evaluate_joint_force(run, step, middle, joint, p), NAN}, {fraction, force_end, NAN},
-            INFINITY};
+        (SampledPart){{middle, evaluate_and_record_joint_force(run, step, middle, joint, p), NAN},
+            {fraction, force_end, NAN}, INFINITY};
     for (int n = 1, samples = 1; n > 0;) {
         const SampledPart now = part[n - 1];
-        const double largest_known = max_of(run->contacts.open[joint].F_peak, force_end) * (1.0 + RIGID_FORCE_TOL);
+        const double largest_known = max_of(run->contacts.lasting[joint].F_peak, force_end) * (1.0 + RIGID_FORCE_TOL);
         const double width = now.end.s - from.s;
-        const double slope = 0.5 * (now.end.f - from.f), bend = from.f - 2.0 * now.middle.f + now.end.f;
-        const double top = bend < 0.0 && fabs(slope) < -bend ? now.middle.f - 0.5 * slope * slope / bend
+        const double slope = 0.5 * (now.end.f - from.f), curvature = from.f - 2.0 * now.middle.f + now.end.f;
+        const double top = curvature < 0.0 && fabs(slope) < -curvature ? now.middle.f - 0.5 * slope * slope / curvature
             : max_of(from.f, now.end.f);
         const int is_clear = !(top + now.error > largest_known)
             && !may_terms_oscillate_between(step, from.s, now.end.s, p);
@@ -162,8 +166,8 @@ static void find_rigid_peak(
             continue;
         }
         const double fractions[2] = {from.s + 0.25 * width, now.end.s - 0.25 * width};
-        const Sample left = {fractions[0], evaluate_joint_force(run, step, fractions[0], joint, p), NAN};
-        const Sample right = {fractions[1], evaluate_joint_force(run, step, fractions[1], joint, p), NAN};
+        const Sample left = {fractions[0], evaluate_and_record_joint_force(run, step, fractions[0], joint, p), NAN};
+        const Sample right = {fractions[1], evaluate_and_record_joint_force(run, step, fractions[1], joint, p), NAN};
         const double error = estimate_error_of_halves(from, now, left, right);
         part[n - 1] = (SampledPart){right, now.end, error};
         part[n++] = (SampledPart){left, now.middle, error};
@@ -173,8 +177,8 @@ static void find_rigid_peak(
 #endif
 
 /*
- * Return the position in (0, 1) of the maximum of a cubic, given by values and slopes at both ends. Slopes are per unit
- * interval, slope_0 > 0 > slope_1. *height: the value of the cubic at the maximum.
+ * Return the position in (0, 1) of the maximum of a cubic (Hermite interpolation), given by values and slopes at both
+ * ends. Slopes are per unit interval, slope_0 > 0 > slope_1. *height: the value of the cubic at the maximum.
  */
 static double find_cubic_maximum(double value_0, double slope_0, double value_1, double slope_1, double *height)
 {
@@ -186,11 +190,11 @@ static double find_cubic_maximum(double value_0, double slope_0, double value_1,
 }
 
 /*
- * Find the largest eccentricity of a joint inside a step up to `fraction` by at most six cubics, and record it. Nothing
- * happens unless the gap rate changes from outward to inward, if the cubic stays below the largest known eccentricity,
- * or if the evaluation fails.
+ * Find the largest eccentricity of a joint inside a step up to `fraction` by at most six cubics, and record each
+ * evaluated one in the peaks and the envelope. Nothing happens unless the gap rate changes from outward to inward, if
+ * the cubic stays more than 1 % below the largest known eccentricity, or if the evaluation fails.
  */
-static void find_largest_eccentricity(Integrator *run, Step *step, double fraction, int joint, const Parameters *p)
+static void record_largest_eccentricity(Integrator *run, Step *step, double fraction, int joint, const Parameters *p)
 {
     if (!(run->rhs.clearance[joint].deltadot > 0.0 && step->rhs.clearance[joint].deltadot < 0.0))
         return;
@@ -223,8 +227,9 @@ static void find_largest_eccentricity(Integrator *run, Step *step, double fracti
 
 /*
  * Return whether a joint's force (force_end, N) rises (1) or falls (-1) at a fraction of an explicit step, from the
- * last two stages before it. Return 0 if the parabola through them leaves the sign uncertain, or the method is stiff.
- * Used to find forces that pass a maximum in the step.
+ * last two stages before it. Return 0 if the sign is uncertain: the parabola's correction exceeds MAX_SLOPE_CORRECTION
+ * of the slope, or the change is below MIN_FORCE_CHANGE; also for stiff methods. Used to find forces that pass a
+ * maximum in the step.
  */
 static int estimate_force_trend(const Step *step, double fraction, int joint, double force_end)
 {
@@ -241,16 +246,16 @@ static int estimate_force_trend(const Step *step, double fraction, int joint, do
     }
     f[0] = sqrt(f[0]), f[1] = sqrt(f[1]);
     const double slope = (force_end - f[0]) / (fraction - s[0]);
-    const double bend = (slope - (f[0] - f[1]) / (s[0] - s[1])) * (fraction - s[0]) / (fraction - s[1]);
-    const int clear = fabs(bend) < MAX_BEND * fabs(slope)
+    const double correction = (slope - (f[0] - f[1]) / (s[0] - s[1])) * (fraction - s[0]) / (fraction - s[1]);
+    const int clear = fabs(correction) < MAX_SLOPE_CORRECTION * fabs(slope)
         && fabs(slope) * (fraction - s[0]) > MIN_FORCE_CHANGE * force_end;
     return clear ? (slope > 0.0) - (slope < 0.0) : 0;
 }
 
 /*
- * Set the trend of each joint whose entry in `trends` is 0 by a very short step along the motion: 1 rises, -1 falls.
- * force_end: the forces at the fraction of the step, N. Return 0 or the status of the evaluation. Called if the stages
- * leave a trend unknown.
+ * Set the trend of each joint whose entry in `trends` is 0 by one evaluation 1e-4 of the step later, along the rates at
+ * its end: 1 rises, -1 falls. force_end: the forces at the fraction of the step, N. Return 0 or the status of the
+ * evaluation; the trends are then unchanged. Called if the stages leave a trend unknown.
  */
 static int determine_force_trends(Integrator *run, const Step *step, double fraction, const double *force_end,
     int *trends,
@@ -270,7 +275,8 @@ static int determine_force_trends(Integrator *run, const Step *step, double frac
 
 /*
  * Return whether the force of a joint may exceed both end values (N) inside a step up to `fraction`. The parabola
- * through both ends and the first stage after `fraction` decides. Return 1 if there is no such stage.
+ * through both ends and the first stage after `fraction` decides; its curvature is multiplied by ERROR_SAFETY. Return 1
+ * if there is no such stage.
  */
 static int may_have_inner_maximum(const Step *step, double fraction, int joint, double force_begin, double force_end)
 {
@@ -279,37 +285,40 @@ static int may_have_inner_maximum(const Step *step, double fraction, int joint, 
     for (int k = 0; k < step->n_stored_stages; k++)
         if (step->node[k] > fraction && step->node[k] < node)
             node = step->node[k], force = sqrt(read_stage(forces, k));
-    const double bend = 2.0 * ((force - force_begin) / node - (force_end - force_begin) / fraction) / (node - fraction);
-    const double curve = ERROR_SAFETY * fabs(bend) * fraction * fraction;
+    const double curvature =
+        2.0 * ((force - force_begin) / node - (force_end - force_begin) / fraction) / (node - fraction);
+    const double curve = ERROR_SAFETY * fabs(curvature) * fraction * fraction;
     return !(fabs(force_end - force_begin) > 0.5 * curve
         || 0.125 * curve < (MAXIMUM_RATIO - 1.0) * max_of(force_begin, force_end));
 }
 
 /*
- * Return the largest known force in N of a joint inside a step up to `fraction`, from its stages. If a compliant
- * contact continues and few stages are inside, the force in the middle is evaluated on the dense output as well. 0:
- * none. force_begin, force_end: forces at both ends, N.
+ * Return the largest known force in N of a joint inside a step up to `fraction`, from its stages; 0 without stages
+ * inside. If a compliant contact continues, fewer than MIN_INNER_STAGES are inside and may_have_inner_maximum() is
+ * true, the force in the middle is evaluated on the dense output and recorded as well. force_begin, force_end: forces
+ * at both ends, N.
  */
 static double find_largest_force_within_step(
     Integrator *run, Step *step, double fraction, int joint, double force_begin, double force_end, const Parameters *p)
 {
-    double most = 0.0;
+    double largest_square = 0.0;
     int n_inner = 0;
     const StageValues forces = get_stage_values(step, STAGE_FORCES + joint);
     for (int k = 0; k < step->n_stored_stages; k++)
         if (step->node[k] > 0.0 && step->node[k] < fraction) {
-            most = max_of(most, read_stage(forces, k));
+            largest_square = max_of(largest_square, read_stage(forces, k));
             n_inner++;
         }
     if (n_inner < MIN_INNER_STAGES && run->discrete.contact[joint].closed && is_compliant(joint)
         && may_have_inner_maximum(step, fraction, joint, force_begin, force_end)
             && compute_dense_output(run, p, step) == 0)
-        return max_of(sqrt(most), evaluate_joint_force(run, step, 0.5 * fraction, joint, p));
-    return sqrt(most);
+        return max_of(sqrt(largest_square), evaluate_and_record_joint_force(run, step, 0.5 * fraction, joint, p));
+    return sqrt(largest_square);
 }
 
 /*
- * Return whether a contact law ceases to push at the end of a step: with the contact held closed, its force would pull.
+ * Return whether the force of a joint vanishes at the end of a step: it is below 1e-6 of that at the beginning (both
+ * N). In a closed contact the law would pull there, and the force is set to zero.
  */
 static int has_tension_at_end(double force_before, double force_after) { return force_after < 1e-6 * force_before; }
 
@@ -319,22 +328,22 @@ static int has_tension_at_end(double force_before, double force_after) { return 
  * falls. Store which forces rise at the end. Without trends, because an evaluation fails, the search of forces is
  * omitted. Called after each accepted step.
  */
-static void find_inner_peaks(Integrator *run, Step *step, double fraction, const Parameters *p)
+static void record_inner_peaks(Integrator *run, Step *step, double fraction, const Parameters *p)
 {
     enum { LOW = 2 }; /* a force too small to be a peak */
     double force_begin[AT_LEAST_ONE(N_CLEARANCES)], force_end[AT_LEAST_ONE(N_CLEARANCES)];
     int trends[AT_LEAST_ONE(N_CLEARANCES)], has_inner_peak[AT_LEAST_ONE(N_CLEARANCES)], has_unknown = 0;
     for (int i = 0; i < N_CLEARANCES; i++) {
-        find_largest_eccentricity(run, step, fraction, i, p);
+        record_largest_eccentricity(run, step, fraction, i, p);
         const Clearance *a = &run->rhs.clearance[i], *b = &step->rhs.clearance[i];
-        const double largest_known = run->discrete.contact[i].closed ? run->contacts.open[i].F_peak
+        const double largest_known = run->discrete.contact[i].closed ? run->contacts.lasting[i].F_peak
             : run->contacts.F_peak[i];
         force_begin[i] = compute_force_magnitude(a), force_end[i] = compute_force_magnitude(b);
         /* a contact's force may double in a step, a film's grows by some percent */
         const double min_ratio = run->discrete.contact[i].closed ? 0.9 : FILM_PEAK_RATIO;
 #if N_RIGID
         if (!is_compliant(i) && run->discrete.contact[i].closed)
-            find_rigid_peak(run, step, fraction, i, force_begin[i], force_end[i], p);
+            record_rigid_peak(run, step, fraction, i, force_begin[i], force_end[i], p);
 #endif
         const int has_force = run->discrete.contact[i].closed || has_film(i);
         const double larger_end = max_of(force_begin[i], force_end[i]);
@@ -356,7 +365,7 @@ static void find_inner_peaks(Integrator *run, Step *step, double fraction, const
         const int has_event_candidate = trends[i] != LOW, falls = has_event_candidate && trends[i] < 0;
         if (has_event_candidate && (((falls || reverses) && run->contacts.is_rising[i]) || has_inner_peak[i])
             && compute_dense_output(run, p, step) == 0)
-            find_inner_peak(run, step, fraction, i, force_begin[i], force_end[i], p);
+            record_inner_peak(run, step, fraction, i, force_begin[i], force_end[i], p);
         set_force_rising(run, i, !falls);
     }
 }

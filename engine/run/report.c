@@ -2,8 +2,8 @@
 #include <string.h>
 
 /*
- * Store the present state of all bodies y (N_S), the discrete state (N_DISCRETE) and the contact codes (N_CLEARANCES)
- * as a sample.
+ * Store the current state of all bodies y (N_S), the discrete state (N_DISCRETE) and the contact codes (N_CLEARANCES)
+ * of a run as one sample.
  */
 void gudgeon_run_sample(const void *integrator, const double *p, double *y, double *discrete, signed char *codes)
 {
@@ -12,10 +12,11 @@ void gudgeon_run_sample(const void *integrator, const double *p, double *y, doub
 }
 
 /*
- * Report the progress of a run that no longer advances. time_advance: time in s by which the last MONITOR_STEPS steps
- * advanced. steps: that number, and 1 if these steps are far shorter than earlier ones, 2 if their number grows
- * exponentially with time, else 0. ended_steps (N_STEP_ENDS): how many steps each kind of event ended since the last
- * check. Called when a run of a batch ends.
+ * Report the progress of a run for messages about a stall. Called when a run of a batch ends, whatever its status.
+ *
+ * time_advance: time in s by which the last MONITOR_STEPS steps advanced. steps[0]: MONITOR_STEPS; steps[1]: 1 if these
+ * steps are far shorter than earlier ones, 2 if their number grows exponentially with time, else 0. ended_steps
+ * (N_STEP_ENDS): how many steps each kind of event ended since the last check; steps without an event are not reported.
  */
 static void report_progress(const Integrator *run, double *time_advance, long *steps, long *ended_steps)
 {
@@ -33,10 +34,13 @@ static void report_progress(const Integrator *run, double *time_advance, long *s
     }
 }
 
-/* Return whether Python must fetch the lists and the step record before the run resumes. */
+/* Return whether Python must fetch the lists of contacts and events, or the step record, before the run resumes. */
 int gudgeon_run_full(const void *integrator) { return has_full_lists(integrator); }
 
-/* Return the number of user-defined events and contacts that wait in the lists, including contacts that still last. */
+/*
+ * Return the number of user-defined events and contacts that wait in the lists until Python fetches them, plus that of
+ * contacts that still last.
+ */
 int gudgeon_run_listed(const void *integrator)
 {
     const Integrator *run = integrator;

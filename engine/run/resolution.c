@@ -8,8 +8,8 @@
 #define GAP_RATE_ROUNDING (1024.0 * DBL_EPSILON) /* of the largest velocity: smaller gap rates are rounding errors */
 
 /*
- * Return the gap rate in m/s below which it is rounding: GAP_RATE_ROUNDING of the largest velocity of a body. Rates
- * that were just set to 0 keep such residuals.
+ * Return the gap rate in m/s below which it is rounding: GAP_RATE_ROUNDING of the largest velocity component of a body.
+ * Rates that were just set to 0 keep such residuals. Used for rigid contacts.
  */
 static double compute_gap_rate_tolerance(const Integrator *run, const Parameters *p)
 {
@@ -20,7 +20,10 @@ static double compute_gap_rate_tolerance(const Integrator *run, const Parameters
     return GAP_RATE_ROUNDING * max_speed;
 }
 
-/* Return the gap in m below which it is rounding: GAP_ROUNDING of the largest coordinate or clearance. */
+/*
+ * Return the gap in m below which it is rounding: GAP_ROUNDING of the largest coordinate of a body or clearance. Used
+ * for rigid contacts.
+ */
 static double compute_gap_tolerance(const Integrator *run, const Parameters *p)
 {
     double absolute_state[N_S], max_length = 0.0;
@@ -33,9 +36,11 @@ static double compute_gap_tolerance(const Integrator *run, const Parameters *p)
 }
 
 /*
- * Return the separation speed in m/s up to which a rigid contact closes: v_0, or that of a bounce too low or too short
- * to be resolved. An error of an impact in gap g (min_gap, m) or time t adds 2 a g or 2 a u t to u^2, a being the
- * acceleration. That must be less than the (1 - e^2) u^2 that is lost.
+ * Return the separation speed in m/s up to which a rigid contact closes: its threshold v_0, or that of a bounce too low
+ * or too short to be resolved. min_gap: resolution of gaps, m (compute_gap_tolerance()).
+ *
+ * An error of an impact in gap g or time t adds 2 a g or 2 a u t to u^2, a being the acceleration. That must be less
+ * than the (1 - e^2) u^2 that is lost.
  */
 static double compute_closing_speed_limit(const Integrator *run, const Parameters *p, int joint, double min_gap)
 {

@@ -6,9 +6,9 @@
 #include "../scalar_simd/internal_states.h"
 
 /*
- * Evaluate the right-hand side at (t, y) with the internal states of contact laws, for the rigid contact forces stored
- * in `discrete`. Internal states are copied from y into the contact states; their rates follow the works in dy. Return
- * 0 or the status.
+ * Evaluate the right-hand side at (t, y) with the internal states of contact laws (bristle deflections), for the rigid
+ * contact forces stored in `discrete`. Internal states are copied from y into the contact states of `discrete`; their
+ * rates follow the works in dy. Return 0 or the status.
  */
 static int evaluate_motion_with_internal_states(
     double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dy, RhsOutputs *rhs)
@@ -24,9 +24,9 @@ static int evaluate_motion_with_internal_states(
 #endif
 
 /*
- * Evaluate the right-hand side of a run at (t, y): rates dy and the other outputs rhs. Forces of closed rigid contacts
- * are computed first. Evaluations are counted and the caller is polled. Return 0, STOPPED after a cancellation, or the
- * number of the vanished pivot.
+ * Evaluate the right-hand side of a run at (t, y): rates dy (N_Y) and the other outputs rhs. Forces of closed rigid
+ * contacts are computed first. Evaluations are counted and the caller is polled for cancellation. Return 0, STOPPED
+ * after a cancellation, or the number of the vanished pivot.
  */
 static int evaluate_run_rhs(
     Integrator *run, double t, const double *y, const Parameters *p, double *dy, RhsOutputs *rhs)
@@ -49,7 +49,7 @@ static int evaluate_run_rhs(
 #include "envelope.c"
 
 /*
- * Return whether the penetration of any joint at the present state exceeds the range of validity of its contact laws: a
+ * Return whether the penetration of any joint at the current state exceeds the range of validity of its contact laws: a
  * tenth of the radius, unless a law states it.
  */
 static int is_outside_contact_laws(const Integrator *run, const Parameters *p)
@@ -61,8 +61,9 @@ static int is_outside_contact_laws(const Integrator *run, const Parameters *p)
 }
 
 /*
- * Update the largest residuals of the closures with those of the present state. residuals: largest |Phi| and |Phi_dot|
- * there; NULL: they are computed. Return 0 or the status of accept_state().
+ * Update the largest residuals |Phi| and |Phi_dot| of the closures so far with those of the current state. residuals:
+ * these two there, if known; NULL: accept_state() computes them and accepts the state. Return 0 or the status of
+ * accept_state().
  */
 static int update_residuals(Integrator *run, const double *residuals, const Parameters *p)
 {
@@ -75,8 +76,8 @@ static int update_residuals(Integrator *run, const double *residuals, const Para
 }
 
 /*
- * Update peaks, envelope, residuals and the ratio deltadot/deltadot_minus at an accepted state. Return 0, NOT_FINITE if
- * the state or its rates are not finite, OUTSIDE if a penetration exceeds the contact laws, or the status of
+ * Update the peaks of all joints with play, the envelope and the residuals at an accepted state. Return 0, NOT_FINITE
+ * if the state or its rates are not finite, OUTSIDE if a penetration exceeds the contact laws, or the status of
  * accept_state(). Called at the start and after each accepted step. residuals: see update_residuals().
  */
 static int record_accepted_state(Integrator *run, const double *residuals, const Parameters *p)
@@ -118,8 +119,8 @@ static void store_sample(const Integrator *run, double t, const double *state_ve
 }
 
 /*
- * Set the branches of all switching functions to their signs at the present state, and freeze them and the contacts
- * (discrete.is_frozen). Called when a run begins, and before states just after the present time are evaluated.
+ * Set the branches of all switching functions to their signs at the current state, and freeze them and the contacts
+ * (discrete.is_frozen). Called when a run begins, and before states just after the current time are evaluated.
  */
 static void freeze_branches(Integrator *run)
 {
@@ -130,9 +131,11 @@ static void freeze_branches(Integrator *run)
 
 /*
  * Update the branches of all active switching functions at (t, y) and evaluate the right-hand side there into dy and
- * rhs. Both are repeated until branches agree with the signs of the functions, at most six times. fixed_switch keeps
- * its branch, -1: none. A function that becomes active may have held the other branch, on which its value may be NaN.
- * Return the status of the last evaluation.
+ * rhs. Both are repeated until branches agree with the signs of the functions, at most six times. Inactive functions
+ * (NaN) keep their branch, and so does fixed_switch; -1: none.
+ *
+ * A function that becomes active may have held the other branch, on which its value may be NaN. Return the status of
+ * the last evaluation.
  */
 static int update_branches_at(
     Integrator *run, double t, const double *y, double *dy, RhsOutputs *rhs, int fixed_switch, const Parameters *p)
@@ -150,7 +153,7 @@ static int update_branches_at(
     return status;
 }
 
-/* Return the kinetic energy of all bodies at the present state, J. */
+/* Return the kinetic energy of all bodies at the current state, J. */
 static double compute_kinetic_energy(const Integrator *run, const Parameters *p)
 {
     double mass[N_Q], absolute_state[N_S], sum = 0.0;
@@ -279,8 +282,8 @@ static int initialize_discrete_state(Integrator *run, const Parameters *p)
 }
 
 /*
- * Return the size of the memory of a run in bytes: the Integrator, and states at events if the scene has user-defined
- * events.
+ * Return the size of the memory of a run in bytes: the Integrator and, if the scene has user-defined events,
+ * EventStates after it.
  */
 size_t gudgeon_run_size(void)
 {
@@ -293,7 +296,8 @@ size_t gudgeon_run_size(void)
 
 /*
  * Initialize the memory of a run at time t (s) for parameters p. y (N_S): state of all bodies; discrete (N_DISCRETE):
- * the discrete state as in a sample. NaN internal states, those of a new run, become zero.
+ * the discrete state as in a sample. NaN internal states, those of a new run, become zero. gudgeon_adaptive_setup() and
+ * the first call of gudgeon_adaptive_run() complete the start.
  */
 void gudgeon_run_start(void *integrator, const double *p, double t, const double *y, const double *discrete)
 {

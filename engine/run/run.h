@@ -125,10 +125,10 @@ typedef struct {
 
 /* The attempts at one step until a step is accepted (methods/step_length.c). */
 typedef struct {
-    double h, longest, left;         /* s: length tried now; of the first attempt; time left to the end of the run */
-    double far, refused;             /* s: magnitude of the times; length of the last rejected attempt */
+    double h, first_h, time_left;    /* s: length tried now; of the first attempt; time left to the end of the run */
+    double time_magnitude, rejected_h; /* s: magnitude of the times; length of the last rejected attempt */
     double error, film_error_norm, end;     /* its error norm; error of its film forces; end of a fixed step, s */
-    int open, lane, again;           /* whether attempts go on; method in lanes; whether an attempt was rejected */
+    int open, lane, was_rejected;    /* whether attempts continue; method in lanes; whether an attempt was rejected */
     int n_shortened, n_drift_rejections, methods_failed; /* attempts unresolved, or off the constraints; both failed */
 } Attempt;
 
@@ -157,12 +157,12 @@ typedef struct {
  * Written by: run/contacts.c, run/joint_maxima.h. Copied by: batch/lane_controlled_steps.c.
  */
 typedef struct {
-    Impact open[AT_LEAST_ONE(N_CLEARANCES)];       /* contact that lasts in each joint */
+    Impact lasting[AT_LEAST_ONE(N_CLEARANCES)];    /* contact that lasts in each joint: closed, not yet listed */
     int is_compressing[AT_LEAST_ONE(N_CLEARANCES)];   /* from the onset until the penetration first stops growing */
     int is_rising[AT_LEAST_ONE(N_CLEARANCES)];        /* whether a joint's force rose at the end of the last step */
     double F_peak[AT_LEAST_ONE(N_CLEARANCES)], t_peak[AT_LEAST_ONE(N_CLEARANCES)], e_max[AT_LEAST_ONE(N_CLEARANCES)];
     Impact impacts[LISTED_IMPACTS + N_CLEARANCES]; /* contacts that last at the end of the run follow */
-    int n_impacts, open_listed;
+    int n_impacts, lasting_listed;
     long onsets;
     double ratio_min, ratio_max, ratio_outside;    /* of deltadot/deltadot_minus; how often it is outside [-1, 1] */
 } Contacts;
@@ -225,11 +225,12 @@ typedef struct {
 typedef struct {
     const Method *method, *explicit, *implicit; /* method of the next step; explicit and stiff method of `auto` */
     double h_rho; /* h rho of the last tried step: its length times the largest rate of the motion */
-    double rate; /* rho, 1/s, where `auto` returned to the explicit method */
+    double rho; /* largest rate of the motion, 1/s, where `auto` returned to the explicit method */
     double mean_length[2]; /* s: of recent steps of the explicit and of the stiff method; 0: none */
     double contrary_length; /* s: of the first of the successive steps against the method */
-    int automatic, n_contrary_steps, patience, since;
-    int max_contrary_steps; /* steps against the explicit method until the change */
+    int automatic; /* whether the run may change between both methods */
+    int n_contrary_steps, steps_since_change; /* successive steps against the method; steps since the last change */
+    int return_steps, max_contrary_steps; /* steps against the stiff, and the explicit method until the change */
 } MethodChoice;
 
 /*
@@ -344,7 +345,7 @@ typedef struct {
     Audit audit;
 } Integrator;
 
-/* Return whether the contact law of any joint with play has a film, whose force acts without a contact. */
+/* Return whether the contact law of any joint with play has a lubricant film, whose force acts without a contact. */
 static inline int has_films(void)
 {
     int has_any = 0;
@@ -365,7 +366,10 @@ typedef struct {
     signed char contact_codes[LISTED_EVENTS][AT_LEAST_ONE(N_CLEARANCES)];
 } EventStates;
 
-/* Return the states at the listed user-defined events, which follow the Integrator in memory. */
+/*
+ * Return the states at the listed user-defined events. They follow the Integrator in memory (gudgeon_run_size()), in
+ * scenes with user-defined events only.
+ */
 static inline EventStates *get_event_states(Integrator *run) { return (EventStates *)(run + 1); }
 #endif
 

@@ -6,9 +6,9 @@
 #define MAX_RESIDUAL_SLIP 2e-9 /* m/s: slip up to which the beginning of stick is located */
 
 /*
- * Return the change of the rate of a slip, in m/s^2, when its friction force reverses (mode 1 to -1). dy (N_Y): set to
- * the change of all rates. Return 0 if an evaluation fails. The mode is restored. Used to compute the impulse that
- * stops a slip.
+ * Return the change of the rate of a slip, in m/s^2, when the friction force of its element reverses (mode 1 to -1). dy
+ * (N_Y): set to the change of all rates. Return 0 if an evaluation fails. The mode is restored. Used to compute the
+ * impulse that stops a slip.
  */
 static double compute_slip_response(Integrator *run, double t, const double *y, int element, const Parameters *p,
     double *dy)
@@ -27,9 +27,9 @@ static double compute_slip_response(Integrator *run, double t, const double *y, 
 }
 
 /*
- * Return whether the velocity change `factor` * `direction` (N_Y) is a residual error of a step: no velocity changes by
- * more than its tolerance or the location error of stick. The velocities are tested, not the slip, because a slip may
- * be small only because its lever arm is.
+ * Return whether the velocity change `factor` * `direction` (N_Y) is a residual error of a step. No velocity may change
+ * by more than MAX_RESIDUAL_TOLERANCES of its tolerances or the location error of stick (MAX_RESIDUAL_SLIP). The
+ * velocities are tested, not the slip, because a slip may be small only because its lever arm is.
  */
 static int is_slip_residual(const Integrator *run, const double *direction, double factor)
 {
@@ -46,8 +46,8 @@ static int is_slip_residual(const Integrator *run, const double *direction, doub
 
 /*
  * Remove the residual slips of sticking friction from the velocities in y, by impulses of that friction, and return
- * whether there were any. rhs: outputs at y. The impulse of one element leaves the others at rest. Slips that are too
- * large for an error of the step are kept.
+ * whether there were any. rhs: outputs at y. The impulse of one element leaves the others at rest. Slips up to
+ * MIN_SLIP, and those that are too large for an error of the step (is_slip_residual()), are kept.
  */
 static int remove_slip_residuals(Integrator *run, double t, double *y, const RhsOutputs *rhs, const Parameters *p)
 {
@@ -79,8 +79,8 @@ static int evaluate_rates_without_residual_slips(
 }
 
 /*
- * Remove residual slips of sticking friction from a state y at time t; without a sticking element y stays. A failure is
- * ignored.
+ * Remove residual slips of sticking friction from a state y at time t, in place; without a sticking element y stays. A
+ * failure is ignored. Called for samples between the ends of steps.
  */
 static void project_slips(Integrator *run, double t, double *y, const Parameters *p)
 {

@@ -10,7 +10,7 @@ enum {
     MAX_SHORT_STEPS = 2000 /* successive steps that are too short to advance */
 };
 
-/* Add n evaluations of the right-hand side to the counts of a run. */
+/* Add n evaluations of the right-hand side to the counts of a run; n may be negative. */
 static inline void count_evaluations(Integrator *run, long n) { run->counts.evaluations += n; }
 
 /* Restore an earlier number of evaluations: those for output do not count as integration. */
@@ -26,18 +26,21 @@ static inline void count_step(Integrator *run, int is_stiff)
 /* Count a rejected step. */
 static inline void count_rejected_step(Integrator *run) { run->counts.rejected++; }
 
-/* Count a linearization of the equations of motion. */
+/* Count a linearization (Jacobian) of the equations of motion. */
 static inline void count_jacobian(Integrator *run) { run->counts.jacobians++; }
 
-/* Count a change of the mode of friction. */
+/* Count a change between stick and slip of a friction element. */
 static inline void count_mode_change(Integrator *run) { run->counts.switches++; }
 
-/* Set the largest residual of the velocity constraints so far. */
+/*
+ * Set the largest residual |Phi_dot| of the velocity constraints so far; also to a smaller value, after the jump of a
+ * drive.
+ */
 static inline void set_phi_dot_max(Integrator *run, double phi_dot) { run->residuals.phi_dot_max = phi_dot; }
 
 /*
  * Count the event function that ended a step (-1: none). is_at_beginning: whether it ended the step at its beginning;
- * such successive steps are counted as well.
+ * such successive steps are counted as well, for is_chattering(). Any other step resets that count.
  */
 static inline void count_step_end(Integrator *run, int event, int is_at_beginning)
 {
@@ -45,26 +48,28 @@ static inline void count_step_end(Integrator *run, int event, int is_at_beginnin
     run->progress.ended[event < 0 ? N_EVENT_FUNCTIONS : event]++;
 }
 
-/* Return whether too many successive steps were ended by events at their beginning. */
+/* Return whether more than MAX_NO_ADVANCE successive steps were ended by events at their beginning. */
 static inline int is_chattering(const Integrator *run) { return run->progress.no_advance > MAX_NO_ADVANCE; }
 
 /*
- * Count successive steps that are too short to advance, and return whether they exceed MAX_SHORT_STEPS: speeds grow
- * without bound, as at a dead centre. A longer step resets the count.
+ * Count successive steps that are too short to advance (`is_short`), and return whether they exceed MAX_SHORT_STEPS.
+ * Speeds then grow without bound, as at a dead centre. A longer step resets the count. Called once for each accepted
+ * step.
  */
-static inline int is_stuck_in_short_steps(Integrator *run, int is_short)
+static inline int detect_short_step_stall(Integrator *run, int is_short)
 {
     run->progress.short_steps = is_short ? run->progress.short_steps + 1 : 0;
     return run->progress.short_steps > MAX_SHORT_STEPS;
 }
 
 /*
- * Count a step and return whether the run no longer advances towards t_end (s). Each comparison of the progress monitor
- * restarts the counts of the event functions that ended steps.
+ * Count a step in the progress monitor and return whether the run no longer advances towards t_end (s), by
+ * detect_stall(). When the monitor starts to compare MONITOR_STEPS new steps, the counts of the event functions that
+ * ended steps restart; a stall keeps them for the report. Called before each step.
  */
-static inline int is_stalled(Integrator *run, double t_end)
+static inline int detect_run_stall(Integrator *run, double t_end)
 {
-    const int stalled = has_stalled(&run->progress.monitor, run->t, t_end);
+    const int stalled = detect_stall(&run->progress.monitor, run->t, t_end);
     for (int k = 0; k < N_EVENT_FUNCTIONS && !stalled && run->progress.monitor.steps % MONITOR_STEPS == 1; k++)
         run->progress.ended[k] = 0;
     return stalled;

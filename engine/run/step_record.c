@@ -16,10 +16,10 @@ static int is_record_full(const Integrator *run)
 }
 
 /*
- * Append a state y at time t (s) to the step record: jump mark, t, state of all bodies, discrete state, contact codes.
- * Then reset the jump mark. Nothing is done without a record or if it is full.
+ * Append a row with a state y at time t (s) to the step record: jump mark, t, state of all bodies, discrete state,
+ * contact codes. Then clear the jump mark. Nothing happens without a record or if it is full.
  */
-static void record_state(Integrator *run, double t, const double *y, const Parameters *p)
+static void append_record_row(Integrator *run, double t, const double *y, const Parameters *p)
 {
     StepRecord *step_record = &run->step_record;
     signed char state[AT_LEAST_ONE(N_CLEARANCES)] = {0};
@@ -34,26 +34,32 @@ static void record_state(Integrator *run, double t, const double *y, const Param
     step_record->jumped = 0;
 }
 
-/* Mark that something jumped before the next row, if `jumped`. */
-static void mark_jump(Integrator *run, int jumped) { run->step_record.jumped |= jumped; }
+/* If `jumped`, mark that something jumped before the next row of the step record; 0 leaves an earlier mark. */
+static void mark_jump_before_next_row(Integrator *run, int jumped) { run->step_record.jumped |= jumped; }
 
-/* Append the present state to the step record, marked as the state just after a jump. */
-static void record_state_after_jump(Integrator *run, const Parameters *p)
+/*
+ * Append a row with the current state to the step record, marked as the state just after a jump. Called when a run
+ * begins or is resumed.
+ */
+static void append_row_after_jump(Integrator *run, const Parameters *p)
 {
     run->step_record.jumped = 1;
-    record_state(run, run->t, run->y, p);
+    append_record_row(run, run->t, run->y, p);
 }
 
 /*
- * Start the step record in the caller's memory `rows` for `capacity` rows, at least those of a few steps. Its first row
- * is marked as a jump.
+ * Start the step record in the caller's memory `rows` for `capacity` rows, at least MAX_ROWS_PER_STEP. Its first row is
+ * marked as a jump. rows NULL: no record.
  */
 void gudgeon_run_record(void *integrator, double *rows, long capacity)
 {
     ((Integrator *)integrator)->step_record = (StepRecord){.rows = rows, .capacity = capacity, .jumped = 1};
 }
 
-/* Return the number of rows recorded since the last call, and start again at the first row. */
+/*
+ * Return the number of rows recorded since the last call, and continue to record from the first row of the memory: the
+ * caller must read the rows first.
+ */
 long gudgeon_run_recorded(void *integrator)
 {
     Integrator *run = integrator;

@@ -6,9 +6,10 @@
 #define OBSERVED_FACTOR 16.0 /* factor on observed differences, which may consist of rounding only */
 
 /*
- * Add the constraint residual of a state to its error: the correction that closes the loops, and the velocity residuals
- * at three patterns of perturbed positions. Near a singular position these exceed rounding. error (2 N_X): m, rad and
- * their rates. Nothing is added without loops or if the correction fails. Called by estimate_state_errors().
+ * Add the constraint residual of a state to its error: CLOSING_STEPS times the correction that closes the loops, and
+ * the velocity residuals at three patterns of perturbed positions. Near a singular position these exceed rounding.
+ * error (2 N_X): m, rad and their rates. Nothing is added without loops or if the correction fails. Called by
+ * estimate_state_errors().
  */
 static void add_constraint_residuals(Integrator *run, double t, const double *y, const Parameters *p, double *error)
 {
@@ -31,8 +32,8 @@ static void add_constraint_residuals(Integrator *run, double t, const double *y,
 }
 
 /*
- * Compute the errors of coordinates and velocities of a state y: accumulated rounding (ACCUMULATED_ULPS) of the largest
- * length, angle and speed of each kind, plus constraint residuals. error (2 N_X): m, rad and their rates.
+ * Compute error bounds of coordinates and velocities of a state y: accumulated rounding (ACCUMULATED_ULPS) of the
+ * largest length, angle and speed of each kind, plus constraint residuals. error (2 N_X): m, rad and their rates.
  */
 static void estimate_state_errors(Integrator *run, double t, const double *y, const Parameters *p, double *error)
 {
@@ -79,8 +80,8 @@ static void add_residual_slips(Integrator *run, double t, const double *y, const
 #endif
 
 /*
- * Return the value of a watched function, a switching function or a user-defined event, not multiplied by its branch or
- * sign.
+ * Return the value of watched function number `index`, a switching function or a user-defined event, not multiplied by
+ * its branch or sign.
  */
 static inline double get_watched_value(const RhsOutputs *rhs, int index)
 {
@@ -90,7 +91,7 @@ static inline double get_watched_value(const RhsOutputs *rhs, int index)
 
 #if KNOWN_BOUNDS
 /*
- * Estimate how much errors of the state (2 N_X) change each watched function, by interval bounds: uncertainty
+ * Estimate how much errors of the state (2 N_X) change each watched function, by interval arithmetic: uncertainty
  * (N_WATCHED), 0 if the bounds contain a pole.
  */
 static void estimate_watched_errors(
@@ -100,9 +101,9 @@ static void estimate_watched_errors(
 }
 #else
 /*
- * Estimate how much errors of the state (2 N_X) change each watched function, from differences for four patterns of
- * error signs, because no bounds are known. uncertainty (N_WATCHED): the sum of the finite differences; zero if the
- * evaluation at y fails.
+ * Estimate how much errors of the state (2 N_X) change each watched function, because no interval bounds are known.
+ * uncertainty (N_WATCHED): the sum of finite differences for four patterns of error signs; 0 if the evaluation at y
+ * fails. A pattern whose evaluation fails is omitted.
  */
 static void estimate_watched_errors(
     Integrator *run, double t, const double *y, const double *error, const Parameters *p, double *uncertainty)
@@ -142,7 +143,8 @@ static void estimate_uncertainty(Integrator *run, double t, const double *y, con
 
 /*
  * Compute the user-defined event functions at a state y into `values` (N_USER_EVENTS), with 0 for values below their
- * uncertainty. The uncertainty is estimated only if a sign differs from the stored one. rhs: outputs at y.
+ * uncertainty. The uncertainty is estimated only if a sign differs from the stored one (event_sign); otherwise values
+ * are those of `rhs`, the outputs at y.
  */
 static void evaluate_resolved_events(
     Integrator *run, double t, const double *y, const RhsOutputs *rhs, const Parameters *p, double *values)

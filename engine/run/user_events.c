@@ -3,7 +3,7 @@
 #define COINCIDENCE_S 1e-11 /* s: events closer to the start or end of a run are at it; above the time resolution */
 #define COINCIDENCE_FRACTION 1e-9 /* of the time in which a fast motion crosses the mechanism */
 
-/* Append a user-defined event at time t (s) to the list; a full list is left unchanged. */
+/* Append a user-defined event at time t (s) to the list, without its state; a full list is left unchanged. */
 static void append_user_event(Integrator *run, int event, double t)
 {
     if (run->events.n < LISTED_EVENTS) {
@@ -12,24 +12,25 @@ static void append_user_event(Integrator *run, int event, double t)
     }
 }
 
-/* Store whether the event that ends a step is a pole instead of a zero. */
+/* Store whether the user-defined event that ends a step is a pole of its function instead of a zero. */
 static inline void set_pole_flag(Integrator *run, int is_pole) { run->events.pole = is_pole; }
 
 /*
- * Record a user-defined event at time t (s) with the integrated state there, and return whether the event ends the run.
- * A second event of the same function within the time resolution counts as the same zero: nothing is recorded and 0 is
- * returned. A full list is left unchanged.
+ * Record a user-defined event at time t (s) with the integrated state there, and return whether the event ends the run
+ * (event_stops, if events may stop it). A second event of the same function within SAME_ZERO_RESOLUTIONS of the time
+ * resolution counts as the same zero: nothing is recorded and 0 is returned. A full list is left unchanged.
  */
 static int record_user_event(Integrator *run, int event, double t, const double *state_vector, const Parameters *p)
 {
 #if N_USER_EVENTS
-    EventStates *at = get_event_states(run);
+    EventStates *states = get_event_states(run);
     const double t_first = t - SAME_ZERO_RESOLUTIONS * run->roots.time_resolution;
     for (int k = run->events.n - 1; k >= 0 && run->events.t[k] >= t_first; k--)
         if (run->events.number[k] == event)
             return 0; /* within the time resolution: the same zero, crossed again by rounding */
     if (run->events.n < LISTED_EVENTS)
-        store_sample(run, t, state_vector, p, run->events.n, at->y[0], at->discrete_states[0], at->contact_codes[0]);
+        store_sample(run, t, state_vector, p, run->events.n, states->y[0], states->discrete_states[0],
+            states->contact_codes[0]);
     append_user_event(run, event, t);
     return run->events.stop && event_stops[event];
 #else
@@ -39,8 +40,8 @@ static int record_user_event(Integrator *run, int event, double t, const double 
 }
 
 /*
- * Reverse the stored sign of a user-defined event at its zero, and return whether this direction counts as an event.
- * Called when a located zero ends a step.
+ * Reverse the stored sign of a user-defined event at its zero, and return whether this direction (rising or falling)
+ * counts as an event. Called when a located zero ends a step.
  */
 static int reverse_event_sign(Integrator *run, int event)
 {
@@ -61,8 +62,9 @@ static void record_nan_event(Integrator *run, int event, double t)
 }
 
 /*
- * Set the signs of user-defined events that began at zero, or were held there, from their values at a state. rhs:
- * outputs at y. Signs that are known stay. Called after each accepted step.
+ * Set the unset signs (0) of user-defined events that began at zero, or were held there, from their values at a state
+ * y, without recording an event. rhs: outputs at y. Signs that are known stay. Called after each accepted step, and
+ * inside a step that a contact or friction event ends.
  */
 static void update_event_signs(Integrator *run, double t, const double *y, const RhsOutputs *rhs, const Parameters *p)
 {
@@ -98,8 +100,9 @@ static int record_crossed_events(Integrator *run, const double *values_before, c
 
 #if N_USER_EVENTS
 /*
- * Evaluate the user-defined event functions `duration` seconds after a state, extrapolated along its rates dy, into
- * `values` (N_USER_EVENTS). Values below their uncertainty are 0; all are 0 if the evaluation fails. Return a status.
+ * Evaluate the user-defined event functions `duration` seconds after the state y at time t, extrapolated along its
+ * rates dy, into `values` (N_USER_EVENTS). Values below their uncertainty are 0; all are 0 if the evaluation fails.
+ * Return a status.
  */
 static int extrapolate_event_functions(Integrator *run, double t, double duration, const double *y, const double *dy,
     const Parameters *p, double *values)
@@ -117,8 +120,9 @@ static int extrapolate_event_functions(Integrator *run, double t, double duratio
 }
 
 /*
- * Evaluate the right-hand side `duration` seconds after the present time, along the present rates, and update and
- * freeze the branches that hold there. rhs_after: the outputs. Return a status.
+ * Evaluate the right-hand side `duration` seconds after the current time, along the current rates, and update and
+ * freeze the branches that hold there. rhs_after: the outputs. The discrete state of the run is changed; callers that
+ * need it restore it. Return a status.
  */
 static int evaluate_rates_just_after(Integrator *run, double duration, const Parameters *p, RhsOutputs *rhs_after)
 {
@@ -131,9 +135,9 @@ static int evaluate_rates_just_after(Integrator *run, double duration, const Par
 }
 
 /*
- * Return the time difference in s within which an event counts as at the start or end of a run: COINCIDENCE_FRACTION of
- * the time scale of the state, or of rk4's step length fixed_step in s (0: another method). It is COINCIDENCE_S at most
- * and at least 4 ulp of the time. Used where events at the start and end of a run are found.
+ * Return the time difference in s within which an event counts as at the start or end of a run. It is
+ * COINCIDENCE_FRACTION of the time scale of the state; of fixed_step (s) if that is positive. It is COINCIDENCE_S at
+ * most and at least 4 ulp of the time. Used where events at the start and end of a run are found.
  */
 static double compute_coincidence_time(const Integrator *run, double fixed_step)
 {
@@ -147,11 +151,13 @@ static double compute_coincidence_time(const Integrator *run, double fixed_step)
 }
 
 /*
- * Compute the sign of each user-defined event function just after the present time into `signs`, 0 if it stays below
- * its uncertainty. fixed_step: step length of rk4 in s, 0 for other methods. The signs depend on the state alone. A run
- * that ends here records events with other signs; a run that begins here starts with these signs. Each event of a run
- * that is divided anywhere is therefore recorded once. Branches of switching functions are updated to those just after
- * the present time. Return a status.
+ * Compute the sign of each user-defined event function just after the current time into `signs`. A value below its
+ * uncertainty is evaluated again up to 1e9 coincidence times later; 0 if it then has no sign. fixed_step: see
+ * compute_coincidence_time(). Return a status.
+ *
+ * The signs depend on the state alone. A run that ends here records events with other signs; a run that begins here
+ * starts with these signs. Each event of a run that is divided anywhere is therefore recorded once. Branches of
+ * switching functions are updated to those just after the current time, and stay so.
  */
 static int compute_event_signs_just_after(Integrator *run, double fixed_step, const Parameters *p, signed char *signs)
 {
@@ -179,11 +185,12 @@ static int compute_event_signs_just_after(Integrator *run, double fixed_step, co
 }
 
 /*
- * Record events whose zero, or jump across it, is at the end of the run; fixed_step: length of fixed steps in s, 0
- * otherwise. The discrete state is restored except for the signs. Return ENDED if one of the events ends the run, else
- * 0.
+ * Record user-defined events whose zero, or jump across it, is at the last time of a run: their sign just after it
+ * differs from the stored one. Stored signs are updated; the rest of the discrete state is restored. fixed_step: see
+ * compute_coincidence_time(). Return ENDED if one of the events ends the run, else 0, also if the signs cannot be
+ * computed. Called once, when the time loop reaches the last output time.
  */
-static int record_events_at_end(Integrator *run, double fixed_step, const Parameters *p)
+static int record_user_events_at_run_end(Integrator *run, double fixed_step, const Parameters *p)
 {
     const DiscreteState discrete_before = run->discrete;
     signed char sign[N_USER_EVENTS];
@@ -198,9 +205,10 @@ static int record_events_at_end(Integrator *run, double fixed_step, const Parame
 }
 
 /*
- * Set the signs of event functions and the branches to those just after the start of a run. For rk4, whose steps of
- * length fixed_step (s) do not freeze branches, branches stay as they were; 0: another method. If branches change, the
- * right-hand side is evaluated again. Return a status.
+ * Set the signs of user-defined event functions and the branches to those just after the start of a run. A sign of 0
+ * keeps the stored one. With a positive fixed_step (length of steps that do not freeze branches, s) branches stay as
+ * they were. If branches change, the right-hand side is evaluated again. Return a status. Called once, by
+ * begin_integration().
  */
 static int initialize_event_signs(Integrator *run, double fixed_step, const Parameters *p)
 {
@@ -217,7 +225,7 @@ static int initialize_event_signs(Integrator *run, double fixed_step, const Para
 }
 #else
 /* Return 0: the scene has no user-defined events. */
-static inline int record_events_at_end(Integrator *run, double fixed_step, const Parameters *p)
+static inline int record_user_events_at_run_end(Integrator *run, double fixed_step, const Parameters *p)
 {
     return (void)run, (void)fixed_step, (void)p, 0;
 }
@@ -240,7 +248,7 @@ typedef struct {
 
 /*
  * Return a copy of the discrete state, state, rates and event functions of a run, before an event changes them. Called
- * by apply_event() for record_arrivals_at_zero().
+ * by apply_event(), which passes it to record_arrivals_at_zero().
  */
 static StateBeforeEvent copy_state_before_event(const Integrator *run)
 {
@@ -252,8 +260,8 @@ static StateBeforeEvent copy_state_before_event(const Integrator *run)
 }
 
 /*
- * Return whether friction sticks or a rigid contact is closed in discrete_after that did not stick, or was open, in
- * discrete_before.
+ * Return whether an event has added a constraint: a friction element sticks, or a rigid contact is closed, in
+ * discrete_after but not in discrete_before.
  */
 static int has_new_constraint(const DiscreteState *discrete_before, const DiscreteState *discrete_after)
 {
@@ -321,7 +329,7 @@ static int record_arrivals_at_zero(Integrator *run, const StateBeforeEvent *stat
 }
 #endif
 
-/* Set whether user-defined events may end the run. */
+/* Set whether user-defined events that are declared to end the run may do so. */
 void gudgeon_run_stop(void *integrator, int stop) { ((Integrator *)integrator)->events.stop = stop; }
 
 /*

@@ -6,7 +6,7 @@
  * equations solved by Radau methods, J. Comput. Appl. Math. 111 (1999) 93-111.
  */
 /* degree of the dense output; its factors 1 - s (Method) */
-enum { RADAU_DEGREE = 5, RADAU_TURNED = 0xA };
+enum { RADAU_DEGREE = 5, RADAU_REVERSED = 0xA };
 enum { RADAU_MAX_STAGES = 5, RADAU_MAX_ITERATIONS = 14, RADAU_MAX_FIXED_ITERATIONS = 60 };
 #define RADAU_STAGE_TOL 3e-3   /* of a step's tolerance: error of its stages */
 #define RADAU_ROUNDED 4e-16 /* of the state: change by rounding */

@@ -107,7 +107,7 @@ static int RADAU(evaluate_stages)(IntegratorOf *run, Real h, Mask is_active, Rea
         const int status = evaluate_run_rhs(run, run->t + RADAU_TABLE.node[s] * h, y, p, f[s], &rhs);
         if (status)
             return status;
-        record_iterated_stage(run, step, is_active, y, &rhs, RADAU_TABLE.node[s]);
+        record_newton_stage(run, step, is_active, y, &rhs, RADAU_TABLE.node[s]);
         for (int i = 0; i < N_CLEARANCES; i++) {
             const Real Fx = rhs.clearance[i].Fx, Fy = rhs.clearance[i].Fy;
             if (!has_film(i))

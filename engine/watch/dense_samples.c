@@ -19,8 +19,8 @@ static void evaluate_rhs_outputs(Integrator *run, double t, const double *y, con
  */
 static int may_have_zero(const Integrator *run, const Step *step, int event, double *value_range)
 {
-    const double start = event_function(&run->discrete, &run->rhs, event),
-                 end = event_function(&run->discrete, &step->rhs, event);
+    const double start = compute_event_value(&run->discrete, &run->rhs, event),
+                 end = compute_event_value(&run->discrete, &step->rhs, event);
     double smallest = min_of(start, end), largest = max_of(start, end); /* the end may lie outside of the domain */
     const StageValues stages = get_stage_values(step, event);
     for (int i = 0; i < step->n_stored_stages; i++) {
@@ -46,7 +46,8 @@ static void estimate_event_function_uncertainty(Integrator *run, const Step *ste
     evaluate_rhs_outputs(run, step->t, y, p, &rhs);
     for (int i = 0; i < N_WATCHED; i++)
         uncertainty[i] = fabs(
-            event_function(&run->discrete, &rhs, watched[i]) - event_function(&run->discrete, &run->rhs, watched[i]));
+            compute_event_value(&run->discrete, &rhs, watched[i])
+                - compute_event_value(&run->discrete, &run->rhs, watched[i]));
 }
 
 /*
@@ -121,7 +122,7 @@ static int is_step_unresolved(Integrator *run, Step *step, const Parameters *p)
             evaluate_rhs_outputs(run, step->t + (double)sample / N_SAMPLES * step->h, y, p, &rhs);
         }
         for (int i = 0; i < N_WATCHED; i++)
-            step->sample[i][sample] = event_function(&run->discrete, &rhs, watched[i]);
+            step->sample[i][sample] = compute_event_value(&run->discrete, &rhs, watched[i]);
     }
     if (N_SAMPLES * compute_event_time_tolerance(run, step) >= 1.0)
         return 0; /* the samples are as near as times can be (a pole, many jumps) */

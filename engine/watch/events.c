@@ -51,7 +51,7 @@ static int ignore_harmless_switches(Integrator *run, Step *step, const Parameter
         const int gap_function = N_CLEARANCES + k;
         const int is_of_law = meets[k] && watched_as[gap_function] < 0 && run->control.fixed <= 0.0;
         const int may_pass = is_of_law || k == run->roots.skip; /* fixed steps have no tolerance to compare with */
-        step->passed[k] = may_pass && event_function(&run->discrete, &step->rhs, gap_function) < 0.0;
+        step->passed[k] = may_pass && compute_event_value(&run->discrete, &step->rhs, gap_function) < 0.0;
         has_passed |= step->passed[k];
     }
     if (!has_passed)
@@ -125,7 +125,7 @@ static double find_bracket_end(Integrator *run, Step *step, int event, const Par
 {
     if (watched_as[event] >= 0)
         return find_first_negative_sample(run, step, watched_as[event], p, value);
-    const double end_value = event_function(&run->discrete, &step->rhs, event);
+    const double end_value = compute_event_value(&run->discrete, &step->rhs, event);
     for (int pass = 0; pass < 2 && step->lowest[event] < 0.0; pass++) {
         const double fraction = pass ? find_stage_of_minimum(step, event)
             : find_first_negative_stage(step, event, end_value);
@@ -151,7 +151,7 @@ static int is_above_uncertainty(Integrator *run, double t, const double *y, cons
     if (watched_as[event] < 0)
         return 1;
     estimate_uncertainty(run, t, y, p, error);
-    return !(fabs(event_function(&run->discrete, rhs, event)) <= error[watched_as[event]]);
+    return !(fabs(compute_event_value(&run->discrete, rhs, event)) <= error[watched_as[event]]);
 }
 
 /*
@@ -182,7 +182,7 @@ static double find_earlier_event(Integrator *run, const Step *step, double first
         for (int k = 0; k < N_EVENT_FUNCTIONS && sample >= 0; k++)
             if (run->roots.samples.event_function[sample][k] < 0.0 && k != *event && !is_event_ignored(run, step, k)
                 && !isfinite(get_bracket_begin(run, step, k).slope)
-                    && event_function(&run->discrete, &run->rhs, k) >= 0.0
+                    && compute_event_value(&run->discrete, &run->rhs, k) >= 0.0
                 && is_event_resolved_at(run, step, first_fraction, k, p))
                 earlier = k;
         if (earlier < 0)
@@ -309,7 +309,7 @@ static double find_first_event_of_long_step(Integrator *run, Step *step, double 
     for (int k = 0; k < N_EVENT_FUNCTIONS && !is_unbounded_function; k++)
         is_unbounded_function = watched_as[k] < 0 && !isfinite(get_bracket_begin(run, step, k).slope)
             && !is_contact_force_function(run, k)
-            && event_function(&run->discrete, &run->rhs, k) >= 0.0 && !is_event_ignored(run, step, k)
+            && compute_event_value(&run->discrete, &run->rhs, k) >= 0.0 && !is_event_ignored(run, step, k)
             && (step->method->stiff || !is_clear_of_zero(run, step, k, 0.0, p));
     if (!is_unbounded_function || compute_dense_output(run, p, step))
         return fraction;

@@ -88,8 +88,8 @@ static double compute_dense_output_error(const Integrator *run, int joint, const
  */
 static int is_gap_far_from_zero(const Integrator *run, const Step *step, int joint, const Parameters *p)
 {
-    return compute_least_gap(step, joint, event_function(&run->discrete, &run->rhs, joint),
-        event_function(&run->discrete, &step->rhs, joint), run->rhs.clearance[joint].deltadot,
+    return compute_least_gap(step, joint, compute_event_value(&run->discrete, &run->rhs, joint),
+        compute_event_value(&run->discrete, &step->rhs, joint), run->rhs.clearance[joint].deltadot,
         step->rhs.clearance[joint].deltadot) > compute_dense_output_error(run, joint, p);
 }
 
@@ -117,7 +117,7 @@ static int classify_gap_by_stages(const Integrator *run, const Step *step, int j
 {
     Sample samples[N_STAGES + 2];
     const int n = collect_gap_samples(run, step, joint, p, samples);
-    const double bound = compute_penetration_tolerance(p, joint),
+    const double bound = compute_gap_event_threshold(p, joint),
         error = 16.0 * compute_dense_output_error(run, joint, p);
     double max_second_derivative = 0.0;
     int falls = 0, first = 1;
@@ -198,7 +198,7 @@ static int find_first_gap_zero(
     Sample *low,
     Sample *high)
 {
-    const double bound = compute_penetration_tolerance(p, joint),
+    const double bound = compute_gap_event_threshold(p, joint),
         min_width = 4.0 * compute_event_time_tolerance(run, step);
     PartOfStep parts[MAX_BISECTIONS + 1] = {{get_bracket_end(run, step, joint), INFINITY}};
     Sample begin = get_bracket_begin(run, step, joint);
@@ -252,7 +252,7 @@ static int has_gap_zero(Integrator *run, Step *step, int joint, const Parameters
     if (result == UNKNOWN)
         result = compute_dense_output(run, p, step) ? high->f < 0.0 ? ONE_ZERO : NO_ZERO
             : find_first_gap_zero(run, step, joint, p, max_fraction, first_negative, low, high);
-    if (low->f < 0.0 && low->f >= compute_penetration_tolerance(p, joint) && low->slope > 0.0)
+    if (low->f < 0.0 && low->f >= compute_gap_event_threshold(p, joint) && low->slope > 0.0)
         low->f = 0.0; /* within rounding, and increasing */
     return result == ONE_ZERO;
 }

@@ -117,7 +117,7 @@ static int add_dense_sample(Integrator *run, const Step *step, double fraction, 
     run->roots.samples.fraction[index] = fraction;
     run->roots.samples.has_gaps_only[index] = gaps_only;
     for (int i = 0; i < (gaps_only ? N_CLEARANCES : N_EVENT_FUNCTIONS); i++)
-        run->roots.samples.event_function[index][i] = event_function(&run->discrete, rhs, i);
+        run->roots.samples.event_function[index][i] = compute_event_value(&run->discrete, rhs, i);
     for (int i = 0; i < N_CLEARANCES; i++)
         run->roots.samples.slope[index][i] = compute_event_function_slope(run, step, rhs, i);
     return index;
@@ -193,7 +193,7 @@ static Sample evaluate_gap_point(Integrator *run, const Step *step, double fract
  */
 static Sample get_bracket_begin(const Integrator *run, const Step *step, int event)
 {
-    return (Sample){0.0, event_function(&run->discrete, &run->rhs, event),
+    return (Sample){0.0, compute_event_value(&run->discrete, &run->rhs, event),
         compute_event_function_slope(run, step, &run->rhs, event)};
 }
 
@@ -203,7 +203,7 @@ static Sample get_bracket_begin(const Integrator *run, const Step *step, int eve
  */
 static Sample get_bracket_end(const Integrator *run, const Step *step, int event)
 {
-    return (Sample){1.0, event_function(&run->discrete, &step->rhs, event),
+    return (Sample){1.0, compute_event_value(&run->discrete, &step->rhs, event),
         compute_event_function_slope(run, step, &step->rhs, event)};
 }
 
@@ -277,7 +277,7 @@ static ZeroTolerance compute_zero_tolerance(const Integrator *run, const Step *s
     if (event < N_CLEARANCES)
         return (ZeroTolerance){width, compute_max_contact_overshoot(run, event), INFINITY, 1.0};
     return (ZeroTolerance){
-        width, MAX_SWITCH_OVERSHOOT, HARMLESS_ERROR * fabs(event_function(&run->discrete, &step->rhs, event)),
+        width, MAX_SWITCH_OVERSHOOT, HARMLESS_ERROR * fabs(compute_event_value(&run->discrete, &step->rhs, event)),
             step->branch_error};
 }
 

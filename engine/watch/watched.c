@@ -108,7 +108,7 @@ static void evaluate_event_functions_at(Integrator *run, const Step *step, doubl
         watched_functions(step->t + fraction * step->h, y, y + N_X, &run->discrete, p, &rhs);
     }
     for (int i = 0; i < N_WATCHED; i++)
-        values[i] = event_function(&run->discrete, &rhs, watched[i]);
+        values[i] = compute_event_value(&run->discrete, &rhs, watched[i]);
 }
 
 #if WATCHES_STATE
@@ -124,7 +124,7 @@ static void expand_dense_output(const Integrator *run, const Step *step, DensePo
     for (int i = 0; i < 2 * N_X; i++) {
         double c[N_DENSE + 1] = {step->dense[degree - 1][i]};
         for (int k = degree - 1; k >= 0; k--) {
-            const int has_factor_one_minus_s = step->method->turned >> k & 1; /* times 1 - s instead of s */
+            const int has_factor_one_minus_s = step->method->reversed >> k & 1; /* times 1 - s instead of s */
             for (int j = degree - k; j > 0; j--)
                 c[j] = has_factor_one_minus_s ? c[j] - c[j - 1] : c[j - 1];
             c[0] = (has_factor_one_minus_s ? c[0] : 0.0) + (k > 0 ? step->dense[k - 1][i] : run->y[i]);
@@ -282,8 +282,8 @@ static int is_clear_of_zeros_by_stages(Integrator *run, const Step *step, EventU
     }
     bound_event_functions_over_box(run, t, y, p, bounds);
     for (int i = 0; i < N_WATCHED; i++) {
-        const double from = event_function(&run->discrete, &run->rhs, watched[i]);
-        const double to = event_function(&run->discrete, &step->rhs, watched[i]);
+        const double from = compute_event_value(&run->discrete, &run->rhs, watched[i]);
+        const double to = compute_event_value(&run->discrete, &step->rhs, watched[i]);
         if (bounds[i].lo >= 0.0 && !bounds[i].may_be_undefined && !(to < 0.0))
             continue;
         estimate_uncertainties(run, step, uncertainties, p);

@@ -121,7 +121,7 @@ def test_prepared_calls_and_steps_of_a_controller(damped: Simulation) -> None:
 def test_a_page_has_no_series_and_an_fmu_has(damped: Simulation) -> None:
     assert f'"begins": "{EXPLICIT}"' in build_description(damped.compiled).replace('":"', '": "')
     header = _format_header(damped)
-    assert f'#define FMU_BEGINS_FINE "{TAYLOR}"' in header and f'#define FMU_BEGINS "{EXPLICIT}"' in header
+    assert f'#define FMU_FIRST_METHOD_FINE "{TAYLOR}"' in header and f'#define FMU_FIRST_METHOD "{EXPLICIT}"' in header
 
 
 def test_an_unoptimized_library_has_the_same_bits(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

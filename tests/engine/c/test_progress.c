@@ -16,7 +16,7 @@ static long steps_to_stall(double h, double t_end, long most)
     run = (Integrator){.t = 0.0};
     for (long k = 1; k <= most; k++) {
         run.t = (double)k * h;
-        if (is_stalled(&run, t_end))
+        if (detect_run_stall(&run, t_end))
             return k;
     }
     return 0;
@@ -41,10 +41,10 @@ int main(void)
 
     /* steps that lead nowhere */
     int crawls = 0;
-    while (!is_stuck_in_short_steps(&run, ++crawls))
+    while (!detect_short_step_stall(&run, ++crawls))
         ;
     CHECK(crawls == MAX_SHORT_STEPS + 1);
-    CHECK(!is_stuck_in_short_steps(&run, 0) && !is_stuck_in_short_steps(&run, 1));
+    CHECK(!detect_short_step_stall(&run, 0) && !detect_short_step_stall(&run, 1));
 
     /* counters */
     count_step(&run, 1);

@@ -40,7 +40,7 @@ int main(void)
     step.has_zero_bracket = 0;
 
     /* stability bounds an explicit step */
-    store_stiffness_estimate(&run, 2.0 * step.method->bounded);
+    store_stiffness_estimate(&run, 2.0 * step.method->limiting_h_rho);
     CHECK(CLOSE(growth(1e-6, 1e-4), 0.5 * STABLE_GROWTH, 1e-12));
     store_stiffness_estimate(&run, 0.0);
 
