@@ -14,7 +14,7 @@
 enum { MAX_BISECTIONS = 48, MAX_SAMPLES = 400 /* of a joint in a step */ };
 
 #define BEND_SAFETY 2.0
-#define WIDEST 0.125     /* w/4 for neighbouring stages at most w of a step apart */
+#define QUARTER_STAGE_DISTANCE 0.125     /* w/4 for neighbouring stages at most w of a step apart */
 #define DENSE_ERROR 10.0 /* tolerances of a length, by which the dense output may differ from the stages */
 
 /* A part of a step: the sample at its end, and the error of the cubic between both ends. */
@@ -85,25 +85,25 @@ static double compute_dense_output_error(const Integrator *run, int joint, const
 }
 
 /*
- * Return whether the gap function of a contact cannot reach zero between its samples at beginning, stages and end. It
- * is then too far from zero for its observed rates. This test is the cheapest and decides most steps.
+ * Return whether the gap function of a contact cannot reach zero between its samples at beginning, stages and end, by a
+ * bound from the range of its observed rates. This test is the cheapest and decides most steps.
  */
 static int is_gap_far_from_zero(const Integrator *run, const Step *step, int joint, const Parameters *p)
 {
     const double rate_begin = run->rhs.clearance[joint].deltadot, rate_end = step->rhs.clearance[joint].deltadot;
-    const double slowest = min_of(step->rate[joint][0], min_of(rate_begin, rate_end)),
-        fastest = max_of(step->rate[joint][1], max_of(rate_begin, rate_end));
+    const double min_rate = min_of(step->rate[joint][0], min_of(rate_begin, rate_end)),
+        max_rate = max_of(step->rate[joint][1], max_of(rate_begin, rate_end));
     const double begin = event_function(&run->discrete, &run->rhs, joint),
                  end = event_function(&run->discrete, &step->rhs, joint);
     const double smallest = min_of(step->lowest[joint], min_of(begin, end));
-    return smallest - WIDEST * step->h * (fastest - slowest) * BEND_SAFETY / 2.0 > compute_dense_output_error(run,
-        joint, p);
+    return smallest - QUARTER_STAGE_DISTANCE * step->h * (max_rate - min_rate) * BEND_SAFETY / 2.0
+        > compute_dense_output_error(run, joint, p);
 }
 
 /*
  * Return whether a function with |f''| <= B (max_second_derivative) is at least `lower_bound` between neighbouring
  * samples a and b, w apart. It is at least min(f_a, f_b) - B w^2/8. It is also at least max(f_a + f'_a x - B x^2/2, f_b
- * - f'_b (w - x) - B (w - x)^2/2), which is least where both parabolas meet.
+ * - f'_b (w - x) - B (w - x)^2/2), whose minimum is where both parabolas meet.
  */
 static int is_above_parabolas(Sample a, Sample b, double max_second_derivative, double lower_bound)
 {
@@ -151,13 +151,13 @@ static int classify_gap_by_stages(const Integrator *run, const Step *step, int j
     return falls && samples[n - 1].f < 0.0 ? ONE_ZERO : NO_ZERO;
 }
 
-/* Return the minimum of the cubic f + u (r + u (c + u d)) for u from 0 to 1/2. */
+/* Return the minimum of the cubic f + r u + c u^2 + d u^3 for u from 0 to 1/2. */
 static double find_cubic_minimum(double f, double r, double c, double d)
 {
     const double discriminant_root = sqrt(max_of(0.0, c * c - 3.0 * d * r)), x = c > 0.0 ? -r / (c + discriminant_root)
         : (discriminant_root - c) / (3.0 * d);
-    const double least = min_of(f, f + 0.5 * (r + 0.5 * (c + 0.5 * d)));
-    return x > 0.0 && x < 0.5 ? min_of(least, f + x * (r + x * (c + x * d))) : least;
+    const double minimum = min_of(f, f + 0.5 * (r + 0.5 * (c + 0.5 * d)));
+    return x > 0.0 && x < 0.5 ? min_of(minimum, f + x * (r + x * (c + x * d))) : minimum;
 }
 
 /*
@@ -243,13 +243,13 @@ static int find_first_gap_zero(
 }
 
 /*
- * Return whether the event function of a contact has a zero in the step, and its bracket low, high. Zeros after
- * max_fraction may be omitted. The stages decide most steps; otherwise the dense output is bisected. Without dense
- * output the sign at the end decides. A value that is negative within rounding at the beginning, and increases, counts
- * as zero. Called for each joint with play of a tried step.
+ * Bracket the first zero in the step of the event function of a contact: return whether there is one, and its bracket
+ * low, high. Zeros after max_fraction may be omitted. The stages decide most steps; otherwise the dense output is
+ * bisected. Without dense output the sign at the end decides. A value that is negative within rounding at the
+ * beginning, and increases, counts as zero. Called for each joint with play of a tried step.
  */
-static int has_gap_zero(Integrator *run, Step *step, int joint, const Parameters *p, double max_fraction, Sample *low,
-    Sample *high)
+static int bracket_gap_zero(Integrator *run, Step *step, int joint, const Parameters *p, double max_fraction,
+    Sample *low, Sample *high)
 {
     double first_negative = 1.0;
     int result = is_gap_far_from_zero(run, step, joint, p) ? NO_ZERO
