@@ -6,8 +6,8 @@
  */
 static inline void set_pivot_limits(LaneDiscreteState *discrete)
 {
-    discrete->least = broadcast(HAS_CONTINUATION ? NEARBY : NEARLY_SINGULAR);
-    discrete->least_size = broadcast(HAS_CONTINUATION ? NEARBY : VANISHING);
+    discrete->least = broadcast(HAS_CONTINUATION ? NEAR_SINGULAR_PIVOT : NEARLY_SINGULAR);
+    discrete->least_size = broadcast(HAS_CONTINUATION ? NEAR_SINGULAR_PIVOT : VANISHING);
 }
 
 /*

@@ -7,8 +7,9 @@
 #define GUDGEON_CONTOUR_H
 
 /*
- * Return the depth of a bearing contour in m at an angle (rad), or its derivative by the angle of order 1 or 2. depths:
- * `count` depths at equal angles, the first at 0; they repeat after a turn. NAN if the angle is not finite.
+ * Return the depth of a bearing contour in m at an angle (rad), or its derivative by the angle of order 1 or 2, by
+ * quintic Hermite interpolation. depths: `count` depths at equal angles, the first at 0; they repeat after a turn. NAN
+ * if the angle is not finite.
  */
 static inline double evaluate_contour(const double *depths, int count, int order, double angle)
 {

@@ -1,5 +1,5 @@
 /*
- * Detection of undersampled transients (pulses): terms of time alone that are constant at all nodes of a step and active
+ * Detection of undersampled transients (pulses): terms of time alone, constant at all nodes of a step and active
  * between them. Bounds over the intervals between the nodes are known (ranges.h). A term is checked where it exceeds
  * the values at both ends of an interval by more than a quarter of its range at all nodes.
  */
