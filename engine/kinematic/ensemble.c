@@ -69,7 +69,7 @@ static void store_run_sample(KinematicRun *run, const double *q, const double *v
  * Compute the initial state (q, v) of run i, unless batch->started[i]. Return 0, STOPPED on cancellation, or NOT_CLOSED
  * if the search in Python must decide.
  */
-static int compute_run_start(const KinematicBatch *batch, long i, double t, Cancellation *cancellation)
+static int compute_kinematic_run_start(const KinematicBatch *batch, long i, double t, Cancellation *cancellation)
 {
     double *start = batch->start + i * 2 * N_Q, residual;
     if (batch->started[i])
@@ -96,7 +96,7 @@ static int begin_kinematic_run(const KinematicBatch *batch, long i, KinematicRun
         .a = batch->a + row * N_Q, .largest = batch->largest_a + row, .smallest_a = INFINITY, .are_finite = 1,
         .began = read_clock()
     };
-    int status = compute_run_start(batch, i, t[0], &run->cancellation);
+    int status = compute_kinematic_run_start(batch, i, t[0], &run->cancellation);
     batch->started[i] = !status;
     if (!status)
         status = set_initial_position(run, t[0], start, start + N_Q, &run->motion);

@@ -2,7 +2,7 @@
  * Error of film forces at both ends of a step: the accelerations of its dense output against those of the equations of
  * motion, relative to the effect of the films.
  */
-#define RATE_ROUNDED (64.0 * DBL_EPSILON) /* relative rounding of velocities in the dense output */
+#define RATE_ROUNDING (64.0 * DBL_EPSILON) /* relative rounding of velocities in the dense output */
 #define FILM_PART 0.03 /* of the largest acceleration: smaller effects of film forces are less accurate */
 
 /*
@@ -30,14 +30,14 @@ static Real compute_largest_film_force(const RhsOutputsOf *rhs)
 
 /*
  * Return the relative error of film forces: the difference of the accelerations `dy` of a state and `rate` of the dense
- * output. The scale is the acceleration of the lightest body by `film_force` (N). If larger, it is `scale_fraction` of
- * the largest acceleration of the same kind (length or angle). Rounding of velocities over the step is subtracted. The
- * result is 0 if film_force is 0.
+ * output. The scale is the acceleration of the lightest body by `film_force` (N), or `scale_fraction` of the largest
+ * acceleration of the same kind (length or angle) if that is larger. Rounding of velocities over the step is
+ * subtracted. The result is 0 if film_force is 0.
  */
 static Real compute_relative_film_error(const IntegratorOf *run, const StepOf *step, const Real *rate, const Real *dy,
     Real film_force, double scale_fraction)
 {
-    const Real rate_rounding = RATE_ROUNDED / step->h;
+    const Real rate_rounding = RATE_ROUNDING / step->h;
     Real difference[2] = {make_real(0.0), make_real(0.0)}, largest[2], fraction = make_real(0.0);
     largest[0] = film_force / run->films.lightest;
     largest[1] = largest[0] * run->norm.min_size[1] / run->norm.min_size[0];
@@ -54,8 +54,8 @@ static Real compute_relative_film_error(const IntegratorOf *run, const StepOf *s
 }
 
 /*
- * Compute the rates of the velocities (`rate` N_X ... 2 N_X - 1) of a stiff method's dense output at one end of a step.
- * They are (sum of stage_weights times the n stages + end_weight (y - y0)) / h.
+ * Compute the rates of the velocities (`rate`, N_X ... 2 N_X - 1) of a stiff method's dense output at one end of a
+ * step. They are (sum of stage_weights times the n stages + end_weight (y - y0)) / h.
  */
 static void compute_end_rates(const IntegratorOf *run, const StepOf *step, const double *stage_weights, int n,
     double end_weight, Real *rate)
@@ -69,9 +69,9 @@ static void compute_end_rates(const IntegratorOf *run, const StepOf *step, const
 }
 
 /*
- * Return the relative error of film forces at both ends of a step of a stiff method. At the beginning it is the error
- * of the dense output, at the end that of the iteration of velocities. scale_fraction: see
- * compute_relative_film_error().
+ * Return the relative error of film forces at both ends of a step of a stiff method, the maximum of both. At the
+ * beginning it is the error of the dense output, at the end that of the iteration of velocities (0 if weights->n_end is
+ * 0). scale_fraction: see compute_relative_film_error().
  */
 static Real compute_film_error_at_ends(const IntegratorOf *run, const StepOf *step, const EndRateWeights *weights,
     double scale_fraction)

@@ -7,8 +7,8 @@
  */
 enum { RADAU_MAX_STAGES = 5, RADAU_MAX_ITERATIONS = 14, RADAU_MAX_FIXED_ITERATIONS = 60 };
 #define RADAU_STAGE_TOL 3e-3   /* of a step's tolerance: error of its stages */
-#define RADAU_ROUNDED 4e-16 /* of the state: change by rounding */
-#define RADAU_NOISE 2.5e4   /* times that, at most, if rates are differences of large forces */
+#define RADAU_ROUNDING 4e-16  /* of the state: change by rounding */
+#define RADAU_MAX_NOISE_RATIO 2.5e4 /* to that: largest change by rounding if rates are differences of large forces */
 
 /*
  * The coefficients of a method. Butcher's inverse is T diag(gamma, pairs) T^-1 in real form: after the first, two

@@ -26,7 +26,7 @@ int gudgeon_evaluate(long n, const double *t, const double *q, const double *v, 
 void gudgeon_audit_samples(long n, const double *t, const double *q, const double *v, const double *discrete,
     const double *parameters, double size, double *relative_errors);
 int gudgeon_evaluate_runs(long n_runs, const long *counts, const double *t, const double *q, const double *v,
-    const double *discrete, const double *parameters, long numbers, double *a, double *lambda, double *reactions,
+    const double *discrete, const double *parameters, long n_parameters, double *a, double *lambda, double *reactions,
     double *torques, double *clearance, double *series, double *friction, double *energy, double *power, double *drift,
     long *failed_sample);
 

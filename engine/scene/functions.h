@@ -101,7 +101,7 @@ static inline double compute_power(double x, double y)
     if (is_normal(x) && fabs(y) < 0x1p60) {
         double log_error;
         const double log_x = log_with_error(x, &log_error);
-        const double x_high = keep_26_bits(log_x), y_high = keep_26_bits(y);
+        const double x_high = round_to_26_bits(log_x), y_high = round_to_26_bits(y);
         const double high = y_high * x_high;
         if (fabs(high) < 690.0)
             return exp_with_error(high, (y - y_high) * x_high + y * (log_x - x_high + log_error));

@@ -39,7 +39,7 @@ static inline PARTS_REAL PARTS_FUNCTION(cosine_near_zero)(PARTS_REAL r, PARTS_RE
 }
 
 /* Return x rounded to 26 bits of its significand: products of two such numbers are exact. */
-static inline PARTS_REAL PARTS_FUNCTION(keep_26_bits)(PARTS_REAL x)
+static inline PARTS_REAL PARTS_FUNCTION(round_to_26_bits)(PARTS_REAL x)
 {
     return PARTS_FUNCTION(from_bits)((PARTS_FUNCTION(to_bits)(x) + 0x4000000u) & 0xfffffffff8000000u);
 }
@@ -47,8 +47,8 @@ static inline PARTS_REAL PARTS_FUNCTION(keep_26_bits)(PARTS_REAL x)
 /* Return x^(3/2) from x and its square root, with a correction of the rounding errors of root and product. */
 static inline PARTS_REAL PARTS_FUNCTION(power_three_halves)(PARTS_REAL x, PARTS_REAL root)
 {
-    const PARTS_REAL x_high = PARTS_FUNCTION(keep_26_bits)(x), x_low = x - x_high, product = x * root;
-    const PARTS_REAL s_high = PARTS_FUNCTION(keep_26_bits)(root), s_low = root - s_high;
+    const PARTS_REAL x_high = PARTS_FUNCTION(round_to_26_bits)(x), x_low = x - x_high, product = x * root;
+    const PARTS_REAL s_high = PARTS_FUNCTION(round_to_26_bits)(root), s_low = root - s_high;
     const PARTS_REAL left = x - s_high * s_high - 2.0 * s_high * s_low - s_low * s_low;
     return product + (x_high * s_high - product + x_high * s_low + x_low * s_high + x_low * s_low + 0.5 * root * left);
 }
@@ -60,11 +60,11 @@ static inline PARTS_REAL PARTS_FUNCTION(log_with_error)(PARTS_REAL x, PARTS_REAL
     const PARTS_REAL c = PARTS_ENTRY(log_table, bits >> 45, 0), less = PARTS_ENTRY(log_table, bits >> 45, 1);
     const PARTS_REAL least = PARTS_ENTRY(log_table, bits >> 45, 2), k = PARTS_POWER(bits);
     const PARTS_REAL z = PARTS_FUNCTION(from_bits)(x_bits - (bits & 0xfff0000000000000u));
-    const PARTS_REAL z_high = PARTS_FUNCTION(keep_26_bits)(z);
+    const PARTS_REAL z_high = PARTS_FUNCTION(round_to_26_bits)(z);
     const PARTS_REAL r_high = z_high * c - 1.0, r_low = (z - z_high) * c, r = r_high + r_low;
     const PARTS_REAL r_rest = r_high - r + r_low;
     const PARTS_REAL sum = k * 0x1.62e42fefa38p-1 + less, near = sum + r;
-    const PARTS_REAL r_top = PARTS_FUNCTION(keep_26_bits)(r_high); /* its square is exact */
+    const PARTS_REAL r_top = PARTS_FUNCTION(round_to_26_bits)(r_high); /* its square is exact */
     const PARTS_REAL r_bottom = r_high - r_top + r_low;
     const PARTS_REAL half = -0.5 * r, square = r * half, half_top = -0.5 * r_top, square_top = r_top * half_top;
     const PARTS_REAL high = near + square_top;
