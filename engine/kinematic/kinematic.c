@@ -10,16 +10,16 @@ size_t gudgeon_kinematic_size(void) { return sizeof(KinematicRun); }
 
 /*
  * Initialize the memory of a kinematic analysis. max_correction: largest correction of a first guess, rad or fraction
- * of the size; extent: size of the mechanism, m; t_end: end of the run, s. The callback `ask` is polled with `caller`
- * every `every` seconds (0: at each step) and cancels the analysis if it returns nonzero.
+ * of the size; extent: size of the mechanism, m; t_end: end of the run, s. The callback poll(context) is called every
+ * poll_interval s (0: at each step) and cancels the analysis if it returns nonzero.
  */
 void gudgeon_kinematic_begin(
-    void *integrator, double max_correction, double extent, double t_end, int (*ask)(void *), void *caller,
-    double every)
+    void *integrator, double max_correction, double extent, double t_end, int (*poll)(void *), void *context,
+    double poll_interval)
 {
     KinematicRun *run = integrator;
     *run = (KinematicRun){.max_correction = max_correction, .extent = extent, .t_end = t_end};
-    start_polling(&run->cancellation, ask, caller, every);
+    start_polling(&run->cancellation, poll, context, poll_interval);
 }
 
 /* Let the next call of gudgeon_kinematic() begin a new motion from its row 0, instead of resuming the old one. */

@@ -126,8 +126,8 @@ const void *gudgeon_single_run_functions(void);
 #if !INTEGRATES
 size_t gudgeon_kinematic_size(void);
 void gudgeon_kinematic_begin(
-    void *integrator, double max_correction, double extent, double t_end, int (*ask)(void *), void *caller,
-    double every);
+    void *integrator, double max_correction, double extent, double t_end, int (*poll)(void *), void *context,
+    double poll_interval);
 void gudgeon_kinematic_record(void *integrator, double *rows, long capacity);
 long gudgeon_kinematic_fetch_records(void *integrator);
 void gudgeon_kinematic_restart(void *integrator);
@@ -174,8 +174,8 @@ void gudgeon_kinematic_ensemble(const void *batch, void *integrator, long n, con
 #endif
 #if !INTEGRATES && N_USER_EVENTS
 int gudgeon_kinematic_events(void *integrator, long n, const double *t, const double *parameters, const double *q,
-    const double *v, double start, int stop, signed char *branch, long capacity, double *at, int *event, long *found,
-    long *done);
+    const double *v, double start, int stop, signed char *branch, long capacity, double *event_time, int *event,
+    long *n_found, long *n_done);
 #endif
 
 #pragma GCC visibility pop

@@ -1,7 +1,7 @@
 /*
  * Search for switching points and user events in a step by interval bounds, which miss no zero. Stages of a long step
  * may miss an oscillation of such a function. Bounds of the dense output over any part of it give bounds of the
- * functions (ranges.h). Parts over which a function may be negative are bisected until it is monotone or clear of zero.
+ * functions (ranges.h). Parts over which a function may be negative are bisected until it is monotone or positive.
  * No zero of the dense output is missed.
  *
  * Watched functions are the N_WATCHED event functions that this search monitors: switching functions and user events;
