@@ -85,7 +85,7 @@ static void interpolate_position(const Position *node, double t, const Parameter
     double phi[AT_LEAST_ONE(N_ALL_ROWS)];
     *position = node[0];
     position->t = t;
-    position->interpolated = 1;
+    position->is_interpolated = 1;
     position->last_correction = 0.0;
     for (int k = 0; k < N_Q; k++) {
         position->q[k] = interpolate_at_middle(node, PASS_NODES, &node->q[k]);

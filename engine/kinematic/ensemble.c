@@ -62,7 +62,7 @@ static void store_run_sample(KinematicRun *run, const double *q, const double *v
     if (samples->done == samples->n)
         return;
     memcpy(y + N_S + 2 * N_Q, y + 2 * N_Q, N_WORK * sizeof *y);
-    samples->stride = (StepLength){samples->t[k + 1] - run->motion.t, 0};
+    samples->step_length = (StepLength){samples->t[k + 1] - run->motion.t, 0};
 }
 
 /*
@@ -131,7 +131,7 @@ static int advance_run(KinematicRun *run)
 {
     const Position before = run->motion;
     const double t1 = run->samples.t[run->samples.done];
-    int status = make_step(run, &run->samples.stride, t1, &run->motion);
+    int status = make_step(run, &run->samples.step_length, t1, &run->motion);
     if (!status && run->samples.batch->has_works)
         status = integrate_work_of_step(run, &before, &run->motion, get_current_works(&run->samples));
     return status ? status : accept_kinematic_step(run);

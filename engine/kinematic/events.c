@@ -167,9 +167,9 @@ typedef struct {
  */
 static int advance_sample(const Search *search, double t1, SampledPosition *sample)
 {
-    StepLength stride = {t1 - sample->position.t, 0};
+    StepLength step_length = {t1 - sample->position.t, 0};
     while (sample->position.t < t1) {
-        const int status = make_step(search->run, &stride, t1, &sample->position);
+        const int status = make_step(search->run, &step_length, t1, &sample->position);
         if (status)
             return status;
     }
@@ -368,11 +368,11 @@ static int classify_part(void *context, double a, double b, int is_smallest)
  */
 static int find_events_in_interval(Search *search, double t1)
 {
-    StepLength stride = {t1 - search->begin.position.t, 0};
+    StepLength step_length = {t1 - search->begin.position.t, 0};
     int status = 0;
     while (!status && search->begin.position.t < t1) {
         *search->end = search->begin;
-        status = make_step(search->run, &stride, t1, &search->end->position);
+        status = make_step(search->run, &step_length, t1, &search->end->position);
         if (status)
             return status;
         evaluate_sample_events(search->run, search->end);

@@ -75,7 +75,7 @@ static int solve_position_at(const KinematicRun *run, double t, const Position *
 {
     *correction = 0.0;
     position->t = t;
-    position->interpolated = 0;
+    position->is_interpolated = 0;
     for (int k = 0; k < N_Q; k++)
         position->q[k] = start->q[k] + (t - start->t) * start->v[k];
     const int status = solve_position_equations(run, get_time_after_jump(t), position->q, correction,
@@ -91,7 +91,7 @@ static int complete_position(KinematicRun *run, Position *position)
 {
     double phi[AT_LEAST_ONE(N_ALL_ROWS)];
     RhsOutputs rhs;
-    if (position->interpolated)
+    if (position->is_interpolated)
         return 0;
     const int status = solve_accelerations(run, position, position->a, &rhs);
     if (status)
@@ -113,7 +113,7 @@ static int initialize_position(KinematicRun *run, double t, const double *q, con
 {
     double phi[AT_LEAST_ONE(N_ALL_ROWS)], step[N_Q];
     position->t = t;
-    position->interpolated = 0;
+    position->is_interpolated = 0;
     memcpy(position->q, q, sizeof position->q);
     memcpy(position->v, v, sizeof position->v);
     constraints(get_time_after_jump(t), q, run->p, phi); /* equations may depend on each other there */

@@ -159,13 +159,13 @@ static int are_constraints_finite(double t, const Position *position, const Para
 }
 
 /*
- * Make one step of `position` along the branch, of length stride->h and to t1 at most. The step is halved while a
+ * Make one step of `position` along the branch, of length step_length->h and to t1 at most. The step is halved while a
  * corrector or branch test fails: Newton's method fails or corrects the first guess by more than run->max_correction,
  * the trapezoidal error is too large (another branch), or the step hides a transient. Change points are passed by
  * pass_change_point(). After accurate steps a halved length is doubled again. Return 0, STOPPED, or a status after
  * MAX_HALVINGS.
  */
-static int make_step(KinematicRun *run, StepLength *stride, double t1, Position *position)
+static int make_step(KinematicRun *run, StepLength *step_length, double t1, Position *position)
 {
     const double max_error = MAX_STEP_ERROR * run->max_correction;
     for (;;) {
@@ -173,7 +173,7 @@ static int make_step(KinematicRun *run, StepLength *stride, double t1, Position 
         double correction = 0.0, error = 0.0;
         if (is_cancelled(&run->cancellation))
             return STOPPED;
-        const double next = position->t + stride->h < t1 ? position->t + stride->h : t1;
+        const double next = position->t + step_length->h < t1 ? position->t + step_length->h : t1;
         const int status = next > position->t ? solve_position_at(run, next, position, &next_position, &correction)
             : NEWTON_FAILED;
         if (status == STOPPED)
@@ -188,17 +188,18 @@ static int make_step(KinematicRun *run, StepLength *stride, double t1, Position 
         if (is_near)
             error = compute_trapezoidal_error(position, &next_position, run->extent);
         if (is_near && error <= max_error
-            && (stride->halvings > PULSE_HALVINGS || !has_hidden_transient(position->t, next, run->p))) {
+            && (step_length->halvings > PULSE_HALVINGS || !has_hidden_transient(position->t, next, run->p))) {
             *position = next_position;
-            if (stride->halvings > 0 && error < STEP_DOUBLING_ERROR * max_error) { /* it is proportional to h cubed */
-                stride->h *= 2.0;
-                stride->halvings--;
+            /* the error is proportional to h cubed */
+            if (step_length->halvings > 0 && error < STEP_DOUBLING_ERROR * max_error) {
+                step_length->h *= 2.0;
+                step_length->halvings--;
             }
             return 0;
         }
-        if (++stride->halvings > MAX_HALVINGS || !(next > position->t))
+        if (++step_length->halvings > MAX_HALVINGS || !(next > position->t))
             return status ? status : NEWTON_FAILED;
-        stride->h *= 0.5;
+        step_length->h *= 0.5;
     }
 }
 
@@ -208,11 +209,11 @@ static int make_step(KinematicRun *run, StepLength *stride, double t1, Position 
  */
 static int follow_motion_to(KinematicRun *run, double t1, Position *position, long *steps)
 {
-    StepLength stride = {t1 - position->t, 0};
+    StepLength step_length = {t1 - position->t, 0};
     while (position->t < t1) {
         if (run->step_record && run->n_recorded == run->capacity)
             return EVENTS_FULL;
-        const int status = make_step(run, &stride, t1, position);
+        const int status = make_step(run, &step_length, t1, position);
         if (status)
             return status;
         ++*steps;
@@ -230,7 +231,7 @@ static int follow_motion_to(KinematicRun *run, double t1, Position *position, lo
 static void accumulate_sample_statistics(KinematicRun *run, double t, const Position *position, double *phi_max,
     double *phi_dot_max)
 {
-    if (position->interpolated && !run->n_interpolated++)
+    if (position->is_interpolated && !run->n_interpolated++)
         run->t_interpolated = t;
     *phi_max = max_of(position->phi, *phi_max);
     *phi_dot_max = max_of(position->phi_dot, *phi_dot_max);

@@ -34,7 +34,7 @@ static const double work_weight[] = {5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0};
 typedef struct {
     double t, q[N_Q], v[N_Q], a[N_Q], phi, phi_dot;
     double last_correction; /* last correction of Newton's method, rad or fraction of the mechanism's size */
-    int interpolated;       /* at or near a change point (change_point.c) */
+    int is_interpolated;       /* at or near a change point (change_point.c) */
 #if POSITIONS_IN_TREE
     double s[N_X + 1], s_rate[N_X + 1], s_second[N_X + 1]; /* the same in tree coordinates */
     double interval, s_higher[N_X + 1][N_HIGHER]; /* s since the position before, 0: none; terms (extrapolation.h) */
@@ -57,7 +57,7 @@ typedef struct {
     const double *t;
     double *y, *a, *largest, largest_a, smallest_a;
     int are_finite;
-    StepLength stride;
+    StepLength step_length;
     double phi_max, phi_dot_max, began; /* largest residuals; time of the clock, s */
 } RunSamples;
 

@@ -10,9 +10,9 @@ enum { BLOCK_ROWS = 16 };
 
 /*
  * The runs in the lanes, -1: none; has_run: their mask. t1: time of the next sample, s; h: length of the step. Works
- * are those of the next sample, J. next_state: next sample whose state is stored; unmonitored: steps until the next
- * check of progress. Maxima and extremes are those of the samples so far (RunSamples). `positions` are the current one
- * and memory for the next one.
+ * are those of the next sample, J. next_state: next sample whose state is stored; steps_before_check: steps until the
+ * next check of progress. Maxima and extremes are those of the samples so far (RunSamples). `positions` are the current
+ * one and memory for the next one.
  *
  * Steps in which all runs reach their next samples are `uniform`: n_uniform of them, limit at most, are not yet counted
  * in the runs. Their series, after the largest |a|, are the columns of `block`.
@@ -21,7 +21,7 @@ typedef struct {
     const KinematicBatch *batch;
     const KinematicRunFunctions *single;
     KinematicRun *run[LANES];
-    long index[LANES], next_state[LANES], unmonitored[LANES], n_uniform, limit;
+    long index[LANES], next_state[LANES], steps_before_check[LANES], n_uniform, limit;
     LaneParameters p;
     LanePosition positions[2], *position, *next;
     LaneBits has_run, are_finite;
@@ -68,7 +68,7 @@ static void copy_run_to_lane(RunLanes *lanes, int k)
     }
     to->t[k] = from->t;
     to->interval[k] = from->interval;
-    lanes->h[k] = samples->stride.h;
+    lanes->h[k] = samples->step_length.h;
     lanes->t1[k] = samples->t[samples->done];
     for (int j = 0; j < N_WORK; j++)
         lanes->work[j][k] = samples->y[samples->done * N_S + 2 * N_Q + j];
@@ -78,7 +78,7 @@ static void copy_run_to_lane(RunLanes *lanes, int k)
     lanes->smallest_a[k] = samples->smallest_a;
     lanes->are_finite[k] = samples->are_finite ? -1 : 0;
     lanes->next_state[k] = find_next_state(lanes->batch, samples->n, samples->done);
-    lanes->unmonitored[k] = lanes->single->count_steps_before_check(&run->monitor);
+    lanes->steps_before_check[k] = lanes->single->count_steps_before_check(&run->monitor);
 }
 
 /* Copy the extremes of the samples (residuals, accelerations, finiteness) from lane k to its run. */
@@ -99,7 +99,7 @@ static void copy_lane_to_run(const RunLanes *lanes, int k)
     Position *to = &run->motion;
     const LanePosition *from = lanes->position;
     to->t = from->t[k];
-    to->interpolated = 0;
+    to->is_interpolated = 0;
     to->phi = from->phi[k];
     to->phi_dot = from->phi_dot[k];
     to->last_correction = from->last_correction[k];
@@ -118,7 +118,7 @@ static void copy_lane_to_run(const RunLanes *lanes, int k)
     to->interval = from->interval[k];
     for (int j = 0; j < N_WORK; j++)
         run->samples.y[run->samples.done * N_S + 2 * N_Q + j] = lanes->work[j][k];
-    run->samples.stride.h = lanes->h[k];
+    run->samples.step_length.h = lanes->h[k];
     copy_extremes_to_run(lanes, k);
 }
 
@@ -212,7 +212,7 @@ static void count_uniform_steps(RunLanes *lanes)
         lanes->run[k]->samples.done += n;
         lanes->run[k]->samples.steps += n;
         lanes->run[k]->monitor.steps += n;
-        lanes->unmonitored[k] -= n;
+        lanes->steps_before_check[k] -= n;
     }
 }
 
@@ -231,8 +231,8 @@ static long find_uniform_limit(const RunLanes *lanes)
         const long to_state = lanes->next_state[k] - samples->done, to_end = samples->n - 1 - samples->done;
         limit = to_state < limit ? to_state : limit;
         limit = to_end < limit ? to_end : limit;
-        limit = lanes->unmonitored[k] < limit ? lanes->unmonitored[k] : limit;
-        limit = samples->stride.halvings ? 0 : limit;
+        limit = lanes->steps_before_check[k] < limit ? lanes->steps_before_check[k] : limit;
+        limit = samples->step_length.halvings ? 0 : limit;
     }
     return limit;
 }
@@ -300,13 +300,13 @@ static int accept_lane_step(RunLanes *lanes, int k)
     RunSamples *samples = &run->samples;
     const double t = lanes->position->t[k];
     samples->steps++;
-    if (lanes->unmonitored[k] > 0) {
-        lanes->unmonitored[k]--;
+    if (lanes->steps_before_check[k] > 0) {
+        lanes->steps_before_check[k]--;
         run->monitor.steps++;
     } else if (lanes->single->has_stalled(&run->monitor, t, run->t_end)) {
         return STALLED;
     } else {
-        lanes->unmonitored[k] = lanes->single->count_steps_before_check(&run->monitor);
+        lanes->steps_before_check[k] = lanes->single->count_steps_before_check(&run->monitor);
     }
     if (t < lanes->t1[k])
         return 0;
@@ -316,28 +316,30 @@ static int accept_lane_step(RunLanes *lanes, int k)
     if (samples->done < samples->n) {
         lanes->t1[k] = samples->t[samples->done];
         lanes->h[k] = lanes->t1[k] - t;
-        samples->stride.halvings = 0;
+        samples->step_length.halvings = 0;
     }
     return 0;
 }
+
+/* How a trial step of a lane ended. */
+enum Outcome { ACCEPTED, REJECTED, IRREGULAR };
 
 /*
  * Complete the step of lane k by its outcome: ACCEPTED: count it; REJECTED: halve it; IRREGULAR, or MAX_HALVINGS
  * reached: make it again as a scalar step of its run. A run that fails or has all samples is ended. may_double: the
  * error is so small that a halved step length is doubled again.
  */
-enum Outcome { ACCEPTED, REJECTED, IRREGULAR };
 static void complete_lane_step(RunLanes *lanes, int k, enum Outcome outcome, int may_double)
 {
-    StepLength *stride = &lanes->run[k]->samples.stride;
-    if (outcome == REJECTED && stride->halvings < MAX_HALVINGS) {
-        stride->halvings++;
+    StepLength *step_length = &lanes->run[k]->samples.step_length;
+    if (outcome == REJECTED && step_length->halvings < MAX_HALVINGS) {
+        step_length->halvings++;
         lanes->h[k] *= 0.5;
         return;
     }
-    if (outcome == ACCEPTED && stride->halvings > 0 && may_double) {
+    if (outcome == ACCEPTED && step_length->halvings > 0 && may_double) {
         lanes->h[k] *= 2.0;
-        stride->halvings--;
+        step_length->halvings--;
     }
     if (outcome != ACCEPTED)
         copy_lane_to_run(lanes, k);
@@ -402,7 +404,7 @@ static void advance_run_lanes(RunLanes *lanes)
     const Lanes error = compute_trapezoidal_error(position, next, lanes->extent);
     LaneBits is_accepted = ~is_irregular & (correction <= max_correction) & (error <= max_error);
     for (int k = 0; N_PULSES && k < LANES; k++)
-        if (lanes->index[k] >= 0 && is_accepted[k] && lanes->run[k]->samples.stride.halvings <= PULSE_HALVINGS
+        if (lanes->index[k] >= 0 && is_accepted[k] && lanes->run[k]->samples.step_length.halvings <= PULSE_HALVINGS
             && lanes->single->has_transient(position->t[k], t[k], lanes->run[k]->p))
             is_accepted[k] = 0;
     if (batch->has_works && any_of(is_accepted))

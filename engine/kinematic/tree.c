@@ -98,7 +98,7 @@ static int solve_position_at(const KinematicRun *run, double t, const Position *
     double move[N_X + 1];
     *correction = 0.0;
     position->t = t;
-    position->interpolated = 0;
+    position->is_interpolated = 0;
     compute_higher_order_move(start, h, run->extent, move);
     for (int k = 0; k < N_X; k++) {
         const double by_second_rate = half_h != 0.0 ? half_h * start->s_second[k] : 0.0;
@@ -128,7 +128,7 @@ static int initialize_position(KinematicRun *run, double t, const double *q, con
     double step[N_X + 1], rates[N_X + 1];
     position->t = t;
     position->last_correction = position->interval = 0.0;
-    position->interpolated = 0;
+    position->is_interpolated = 0;
     memset(position->s_higher, 0, sizeof position->s_higher);
     reduce_state(t, q, v, p, position->s, position->s_rate);
     if (!close_step(get_time_after_jump(t), position->s, p, step, rates, &position->phi)

@@ -131,13 +131,13 @@ int gudgeon_kinematic_works(void *integrator, long n, const double *t, const dou
     *done = 0;
     int status = run->work_begun ? 0 : set_initial_position(run, t[0], q, v, &position);
     for (long i = 0; i < n && !status; i++) {
-        StepLength stride = {t[i + 1] - t[i], 0};
+        StepLength step_length = {t[i + 1] - t[i], 0};
         double *sum = work + (i + 1) * N_WORK;
         for (int k = 0; k < N_WORK; k++)
             sum[k] = work[i * N_WORK + k];
         while (position.t < t[i + 1] && !status) {
             const Position before = position;
-            status = make_step(run, &stride, t[i + 1], &position);
+            status = make_step(run, &step_length, t[i + 1], &position);
             if (!status)
                 status = integrate_work_of_step(run, &before, &position, sum);
         }

@@ -353,9 +353,10 @@ static int evaluate_user_events_at(Integrator *run, const Step *step, double fra
 
 /*
  * Return whether a user-defined event function changes its sign at a pole instead of a zero, at a fraction of the step.
- * It does if its value is larger there than at the first later sample above its uncertainty. A function that jumps
- * between finite values is equally large at both. Samples are those of the dense output, because drives do not move
- * linearly. Return 0 if the state cannot be evaluated. Called for a user-defined event that ends a step.
+ * It does if it is infinite there, or more than twice as large as at the first later sample above its uncertainty. A
+ * function that jumps between finite values is equally large at both. Samples are those of the dense output, because
+ * drives do not move linearly. Return 0 if the state cannot be evaluated. Called for a user-defined event that ends a
+ * step.
  */
 static int is_pole(Integrator *run, const Step *step, double fraction, int user_event, const Parameters *p)
 {

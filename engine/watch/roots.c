@@ -253,9 +253,9 @@ static int may_be_located_after_zero(const Integrator *run, int event)
 }
 
 /*
- * Return the largest fraction of a step by which the event of a compliant contact may be located after its zero. An
- * onset has the stricter limit: forces may begin with a jump, and the length of a contact is not known before it. The
- * step that finds the end is a part of the contact.
+ * Return the largest fraction of a step by which the event of a compliant contact may be located after its zero: rtol^2
+ * for an onset, rtol^1.5 for an end, with the limits above. An onset has the stricter limit: forces may begin with a
+ * jump, and the length of a contact is not known before it. The step that finds the end is a part of the contact.
  */
 static double compute_max_contact_overshoot(const Integrator *run, int joint)
 {
