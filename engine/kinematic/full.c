@@ -41,8 +41,8 @@ static int solve_position_equations(const KinematicRun *run, double t, double *q
 }
 
 /*
- * Solve Phi_q v = nu at positions q for the velocities v (N_Q) of minimum norm by project(), with one step of iterative
- * refinement. Return 0 or a status.
+ * Solve Phi_q v = nu at positions q for the velocities v (N_Q) by project(), with one step of iterative refinement.
+ * Return 0 or a status.
  */
 static int solve_velocities(double t, const double *q, const Parameters *p, double *v)
 {

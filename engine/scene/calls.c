@@ -132,7 +132,7 @@ void gudgeon_gamma(double t, const double *q, const double *v, const double *p, 
 
 /*
  * Compute the values of a start from the parameters: guesses of coordinates (N_GUESS), set coordinates (N_SET) and set
- * rates (N_RATES), in the order of the tables of model.h.
+ * rates (N_RATES). The latter two are followed by those of eccentricities of journals, if any are set.
  */
 void gudgeon_start_values(const double *p, double *guesses, double *set_coordinates, double *rates)
 {

@@ -1,6 +1,6 @@
 /*
- * Closing of a linkage by Newton's method with minimum-norm steps of the linearized constraint equations. The same
- * method is in Python (closure.py). Returns 1 where equations depend on each other, or no step improves.
+ * Assembly (closing) of a linkage by Newton's method with minimum-norm steps of the linearized constraint equations.
+ * The same method is in Python (closure.py). Returns 1 where equations depend on each other, or no step improves.
  */
 #include "shortest_step.c"
 

@@ -1,7 +1,7 @@
 /*
- * The contour of a non-circular bearing: depths beyond its circle, m, given at equal angles, the first at 0. Between
- * neighbours it is the polynomial of degree five with their depths, slopes and second derivatives, which are central
- * differences. It is periodic with a continuous second derivative, and keeps the mean.
+ * The contour of a non-circular bearing: depths beyond its circle, m, at equal angles, the first at 0. Between
+ * neighbours it is the polynomial of degree five (quintic Hermite spline) with their depths, slopes and second
+ * derivatives, which are central differences. It is periodic with a continuous second derivative, and keeps the mean.
  */
 #ifndef GUDGEON_CONTOUR_H
 #define GUDGEON_CONTOUR_H

@@ -1,6 +1,6 @@
 /*
- * The start nearest to a guess: a closed configuration (closing.c), then velocities that are smallest in the norm of
- * the mass matrix. This is the regular case; 1 is returned where Newton's method leads far away or fails, and the
+ * Initial conditions (assembly) nearest to a guess: a closed configuration (closing.c), then velocities of minimum norm
+ * in the mass matrix. This is the regular case; 1 is returned where Newton's method leads far away or fails, and the
  * search in Python decides.
  */
 #include "closing.c"
