@@ -58,7 +58,7 @@ static int evaluate_run_rhs(
  * Compute the corrections dq, dv that close the constraints of all lanes, and their largest residuals. Return
  * `is_active`: which lanes are to be corrected. Active lanes without a finite correction are added to discrete.rare.
  */
-static LaneBits find_closure_correction(LaneIntegrator *run, LaneBits is_active, Lanes t, const Lanes *y,
+static LaneBits compute_closure_correction(LaneIntegrator *run, LaneBits is_active, Lanes t, const Lanes *y,
     const LaneParameters *p, Lanes *dq, Lanes *dv, Lanes *residual)
 {
     set_pivot_limits(&run->discrete);

@@ -341,11 +341,11 @@ static int may_have_hidden_zero(Search *search, SampledPosition *b)
 }
 
 /*
- * Classify the part of a step from search->begin to the last of search->end, as a callback of bisect_parts(). Return -1
- * to bisect it, 1 if a status ends the search, 0 after its events are collected. A part is bisected if it may have a
+ * Classify the part of a step from search->begin to the last of search->end, as a callback of bisect_interval(). Return
+ * -1 to bisect it, 1 if a status ends the search, 0 after its events are collected. A part is bisected if it may have a
  * hidden zero, is not smallest, and its middle can be solved. a, b: times of its ends, s.
  */
-static int classify_part(void *context, double a, double b, int is_smallest)
+static int classify_subinterval(void *context, double a, double b, int is_smallest)
 {
     Search *search = context;
     SampledPosition *end = &search->end[search->n - 1];
@@ -378,8 +378,8 @@ static int find_events_in_interval(Search *search, double t1)
         evaluate_sample_events(search->run, search->end);
         search->n = 1;
         search->h = search->end->position.t - search->begin.position.t;
-        (void)bisect_parts(search->begin.position.t, search->end->position.t, MIN_PART_FRACTION * search->h,
-            classify_part, search);
+        (void)bisect_interval(search->begin.position.t, search->end->position.t, MIN_PART_FRACTION * search->h,
+            classify_subinterval, search);
         status = search->status;
     }
     return status;

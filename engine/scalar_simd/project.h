@@ -26,7 +26,7 @@ static void project_onto_constraints(IntegratorOf *run, Real t, Real *y, Real *r
     Mask is_active = invert_mask((Mask){0});
     for (int pass = 0; pass < 3 && N_LOOPS > 0; pass++) {
         Real dq[N_X], dv[N_X], residual;
-        is_active = find_closure_correction(run, is_active, t, y, p, dq, dv, &residual);
+        is_active = compute_closure_correction(run, is_active, t, y, p, dq, dv, &residual);
         if (!any_of(is_active))
             return;
         for (int k = 0; k < N_X; k++) {

@@ -1,6 +1,7 @@
 /*
  * Events that end a step: the first zero of any event function (contacts, switching points, friction that sticks). An
  * event is a negative value, not only a change of sign, so that a contact that restarts with penetration is registered.
+ * Watched functions are the switching functions and user events that watched.c or dense_samples.c searches.
  */
 
 #define LONG_STEP_RATIO 7.0 /* to the last step: step-size control alone lets a step grow by less */

@@ -242,7 +242,8 @@ static double compute_event_time_tolerance(const Integrator *run, const Step *st
 
 /*
  * Return whether an event function may be located a little after its zero: that of a compliant contact, or of a
- * switching point whose branches meet. With steps of fixed length, and for watched functions, it may not.
+ * switching point of a contact law whose branches meet. With steps of fixed length, and for watched functions
+ * (watched.c), it may not.
  */
 static int may_be_located_after_zero(const Integrator *run, int event)
 {

@@ -228,7 +228,7 @@ static int classify_event_function(WatchedStep *search, int index, Interval boun
 }
 
 /*
- * Classify the part [begin, end] of a step, as the callback of bisect_parts(): 1 if a watched function has its first
+ * Classify the part [begin, end] of a step, as the callback of bisect_interval(): 1 if a watched function has its first
  * zero in it, 0 if none has, -1 if the part is to be halved. A zero stores its bracket in the step. User-defined events
  * that are NaN at the end of the part are recorded. context: a WatchedStep; is_small: the part is not halved further.
  */
@@ -312,7 +312,7 @@ static void bracket_first_zeros(Integrator *run, Step *step, const Parameters *p
     expand_dense_output(run, step, &search.powers);
 #endif
     evaluate_event_functions_at(run, step, 0.0, p, search.values_begin);
-    (void)bisect_parts(0.0, 1.0, 4.0 * compute_event_time_tolerance(run, step), classify_event_functions, &search);
+    (void)bisect_interval(0.0, 1.0, 4.0 * compute_event_time_tolerance(run, step), classify_event_functions, &search);
 }
 
 /* Return 0: bounds of the watched functions resolve every step. */

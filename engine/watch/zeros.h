@@ -11,14 +11,14 @@
  * All memory belongs to the caller. A status is 0, or the value with which a function of the caller ended the search.
  *
  *   locate_zero    narrows a bracket until it is at most `width` wide.
- *   bisect_parts   halves an interval until bounds decide, its first part first: finds zeros of odd order, and pairs
+ *   bisect_interval  halves an interval until bounds decide, its first part first: finds zeros of odd order, and pairs
  *                  of them (grazes) however near; a zero of even order changes no sign and is not an event.
  *   classify_zero  decides by bounds and two values: a zero, none, or to be halved.
  *   is_near_pole   distinguishes poles, at which a sign changes as well, from zeros.
  *
  * Guarantees: a bracket with f >= 0 at its lower end and f < 0 at its upper end remains one, whatever f does between.
- * From the FAST_EVALUATIONS-th one on, three evaluations at least halve it. bisect_parts misses no zero of a function
- * whose bounds hold, if parts are wider than `width` and no more than MAX_BISECTED_PARTS are needed.
+ * From the FAST_EVALUATIONS-th one on, three evaluations at least halve it. bisect_interval misses no zero of a
+ * function whose bounds hold, if parts are wider than `width` and no more than MAX_BISECTED_PARTS are needed.
  */
 #ifndef GUDGEON_ZEROS_H
 #define GUDGEON_ZEROS_H
@@ -62,7 +62,7 @@ typedef int EvaluateEventFunction(void *context, double s, Sample *now);
  * Classify the part from a to b. Return 1 if the search ends in it, 0 if the next part follows, which begins at b, and
  * -1 if it is to be halved: its first half follows, then its second half. A `small` part is never halved.
  */
-typedef int ClassifyPart(void *context, double a, double b, int small);
+typedef int ClassifySubinterval(void *context, double a, double b, int small);
 
 /*
  * Return the location at f = 0 of the polynomial s(f) through n samples of different f, at most MAX_POINTS (inverse
@@ -192,10 +192,10 @@ static inline int locate_zero(EvaluateEventFunction *evaluate, void *context, co
 
 /*
  * Classify the parts of an interval from `begin` to `end` in order, by bisection: classify(context, begin, end,
- * is_small) returns 1, 0 or -1 (ClassifyPart). Parts of at most `width`, beyond MAX_PART_HALVINGS halvings or
+ * is_small) returns 1, 0 or -1 (ClassifySubinterval). Parts of at most `width`, beyond MAX_PART_HALVINGS halvings or
  * MAX_BISECTED_PARTS parts are small: they are not halved. Return 1 if a part ends the search, else 0.
  */
-static inline int bisect_parts(double begin, double end, double width, ClassifyPart *classify, void *context)
+static inline int bisect_interval(double begin, double end, double width, ClassifySubinterval *classify, void *context)
 {
     double ends[MAX_PART_HALVINGS + 2] = {end};
     for (int n_ends = 1, n_parts = 0; n_ends > 0;) {
