@@ -108,31 +108,32 @@ static int solve_contact_subset(const Delassus *contacts, const unsigned char *i
     const int n = contacts->n;
     double A[N_RIGID][N_RIGID + 1];
     int is_inconsistent = 0, n_solved = 0, pivots[N_RIGID] = {0};
-    unsigned char is_left[N_RIGID] = {0};
+    unsigned char is_remaining[N_RIGID] = {0};
     for (int i = 0; i < n; i++) {
         for (int j = 0; j < n; j++)
             A[i][j] = contacts->D[i][j];
         A[i][n] = r[i];
-        is_left[i] = is_included ? is_included[i] : 1;
+        is_remaining[i] = is_included ? is_included[i] : 1;
         x[i] = 0.0;
     }
     for (;;) {
         int pivot = -1;
         for (int i = 0; i < n; i++)
-            if (is_left[i] && A[i][i] > DEPENDENT_PIVOT * contacts->D[i][i] && (pivot < 0 || A[i][i] > A[pivot][pivot]))
+            if (is_remaining[i] && A[i][i] > DEPENDENT_PIVOT * contacts->D[i][i]
+                && (pivot < 0 || A[i][i] > A[pivot][pivot]))
                 pivot = i;
         if (pivot < 0)
             break;
-        is_left[pivot] = 0;
+        is_remaining[pivot] = 0;
         pivots[n_solved++] = pivot;
         for (int i = 0; i < n; i++) {
-            const double fraction = is_left[i] ? A[i][pivot] / A[pivot][pivot] : 0.0;
+            const double fraction = is_remaining[i] ? A[i][pivot] / A[pivot][pivot] : 0.0;
             for (int j = 0; j <= n && fraction != 0.0; j++)
                 A[i][j] -= fraction * A[pivot][j];
         }
     }
     for (int i = 0; i < n; i++)
-        is_inconsistent |= is_left[i] && A[i][i] < -DEPENDENT_PIVOT * fabs(contacts->D[i][i]);
+        is_inconsistent |= is_remaining[i] && A[i][i] < -DEPENDENT_PIVOT * fabs(contacts->D[i][i]);
     for (int k = n_solved - 1; k >= 0; k--) {
         const int i = pivots[k];
         double sum = A[i][n];
@@ -153,13 +154,13 @@ static inline int solve_complementarity(const Delassus *contacts, const double *
 {
     unsigned char is_active[N_RIGID] = {0};
     double scale = 0.0;
-    int has_inconsistent = 0;
+    int has_inconsistent_set = 0;
     for (int k = 0; k < contacts->n; k++)
         scale = max_of(scale, fabs(r[k]));
     for (long i = 0; i < 1000L << (N_RIGID < 10 ? N_RIGID : 10); i++) {
         int changed = -1;
         const int is_inconsistent = solve_contact_subset(contacts, is_active, r, x) && HAS_FRICTION;
-        has_inconsistent |= is_inconsistent;
+        has_inconsistent_set |= is_inconsistent;
         for (int k = 0; k < contacts->n && changed < 0; k++) {
             double slack = -r[k];
             for (int j = 0; j < contacts->n; j++)
@@ -172,7 +173,7 @@ static inline int solve_complementarity(const Delassus *contacts, const double *
             return 0;
         is_active[changed] = !is_active[changed];
     }
-    return has_inconsistent ? FRICTION_INCONSISTENT : CHATTERING;
+    return has_inconsistent_set ? FRICTION_INCONSISTENT : CHATTERING;
 }
 
 #if N_RUBBED
