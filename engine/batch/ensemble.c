@@ -230,7 +230,7 @@ static int begin_single_run(const Batch *batch, long i, const long *candidates, 
 }
 
 /* Return the pointers to the times and samples of run i in the arrays of the batch. */
-static Samples get_samples(const Batch *batch, long i)
+static Samples get_sample_arrays(const Batch *batch, long i)
 {
     const long row = get_first_row(batch, i);
     return (Samples){
@@ -250,7 +250,7 @@ static int advance_single_run(const Batch *batch, long i, int trial_result, void
 {
     Integrator *run = integrator;
     const Parameters *p = (const Parameters *)(batch->p_motion + i * batch->numbers);
-    const Samples samples = get_samples(batch, i);
+    const Samples samples = get_sample_arrays(batch, i);
     int status = 0;
     if (trial_result != NO_TRIAL) {
         run->step.method = run->choice.method;

@@ -173,7 +173,7 @@ static int begin_or_resume_run(LaneGroup *group, int i)
 }
 
 /* Return the number of runs in a group. */
-static int count_runs(const LaneGroup *group)
+static int count_group_runs(const LaneGroup *group)
 {
     int count = 0;
     for (int i = 0; i < MAX_GROUP_RUNS; i++)
@@ -212,7 +212,7 @@ int gudgeon_lanes(const void *batch, const void *single, void *const *run, long 
             n_reported += begin_or_resume_run(&group, i);
     for (long steps_left = group.batch->limit; n_reported < MIN_REPORTED && !lists_full && steps_left > 0
         && !*group.batch->ending; steps_left--) {
-        if (count_runs(&group) < 2)
+        if (count_group_runs(&group) < 2)
             break;
         n_reported += advance_lane_group(&group, &lists_full);
     }
@@ -225,6 +225,6 @@ int gudgeon_lanes(const void *batch, const void *single, void *const *run, long 
             group.batch->t_last[group.run_number[i]] = group.run[i]->t;
         run_number[i] = group.run_number[i];
     }
-    const int continues = (n_reported || count_runs(&group) > 1) && !*group.batch->ending;
+    const int continues = (n_reported || count_group_runs(&group) > 1) && !*group.batch->ending;
     return lists_full ? LISTS : continues ? GOES_ON : ALL_OVER;
 }

@@ -178,7 +178,7 @@ static inline Lanes lanes_log(Lanes x)
 }
 
 /*
- * Return x^y of each lane as compute_power(): exponents 0.5 and 1.5 by square roots, others by exp(y ln x), arguments
+ * Return x^y of each lane as raise_to_power(): exponents 0.5 and 1.5 by square roots, others by exp(y ln x), arguments
  * out of range by the C library. The result is 0 for x = 0 and y > 0, as in the law of an open contact.
  */
 static inline Lanes lanes_pow(Lanes x, Lanes y)

@@ -94,7 +94,7 @@ static inline double compute_logarithm(double x)
  * Return x^y with the same bits on every platform: square roots for y = 1/2 and 3/2, else exp(y ln x) in two parts.
  * Arguments or results outside of the range use the C library.
  */
-static inline double compute_power(double x, double y)
+static inline double raise_to_power(double x, double y)
 {
     if (is_square_root_power(x, y))
         return y == 0.5 ? sqrt(x) : power_three_halves(x, sqrt(x));
@@ -139,6 +139,6 @@ static inline double compute_arcsine(double x)
 #define asin(x) compute_arcsine(x)
 #define exp(x) compute_exponential(x)
 #define log(x) compute_logarithm(x)
-#define pow(x, y) compute_power(x, y)
+#define pow(x, y) raise_to_power(x, y)
 
 #endif
