@@ -10,8 +10,8 @@
 static int is_batch_ending(void *caller) { return *((const Batch *)caller)->ending; }
 
 /*
- * Start the polling of a run's cancellation token: by the callback of the batch or, if it has none, whether the batch
- * is ending.
+ * Start the polling of a run's cancellation token: by the callback of the batch every batch->every seconds; if it has
+ * none, every POLL_INTERVAL_S whether the batch is ending.
  */
 static void start_batch_polling(const Batch *batch, Cancellation *cancellation)
 {
@@ -22,8 +22,8 @@ static void start_batch_polling(const Batch *batch, Cancellation *cancellation)
 }
 
 /*
- * Return whether the start of run j can be copied to run i: it was computed here from the same data and is closed. j =
- * -1 and j = i give 0. Time, size of the mechanism and parameters of the start are compared.
+ * Return whether the start (q, v) of run j can be copied to run i: it was computed here, is closed, and has the same
+ * data (time, size of the mechanism, start parameters). j = -1 and j = i give 0.
  */
 static int has_equal_start(const Batch *batch, long i, long j)
 {
@@ -37,8 +37,8 @@ static int has_equal_start(const Batch *batch, long i, long j)
 
 /*
  * Compute the start (q, v) of run i into batch->start. If one of n other runs (`candidates`, -1: none) has an equal
- * start, its start is copied instead. Return nonzero if the linkage cannot be closed or a velocity is not finite, else
- * 0.
+ * start, its start is copied instead. Return nonzero if the linkage cannot be closed here, a velocity is not finite, or
+ * on cancellation; else 0.
  */
 static int compute_run_start(const Batch *batch, long i, const long *candidates, int n, Cancellation *cancellation)
 {
@@ -54,9 +54,9 @@ static int compute_run_start(const Batch *batch, long i, const long *candidates,
 }
 
 /*
- * Begin run i in the memory `run`: start, discrete states, audit, envelope, cancellation, method. Return 0, STOPPED or
- * NOT_CLOSED. candidates: n runs whose start may be copied (compute_run_start()). The step record belongs to the thread
- * and is kept.
+ * Begin run i in the memory `run`: initial state, unless batch->started[i], discrete states, audit, envelope,
+ * cancellation, method. Return 0, STOPPED or NOT_CLOSED. candidates: n runs whose start may be copied
+ * (compute_run_start()). The step record belongs to the thread and is kept.
  */
 static int start_run(const Batch *batch, long i, const long *candidates, int n, Integrator *run)
 {
@@ -84,8 +84,11 @@ static int start_run(const Batch *batch, long i, const long *candidates, int n, 
     return 0;
 }
 
-/* Store the present state of `run` as sample k of run i of the batch. */
-static void store_present_sample(const Batch *batch, long i, long k, Integrator *run)
+/*
+ * Store the current state of `run` (y, discrete states, contact codes) as sample k of run i in the arrays of the batch.
+ * Called for the last sample of a run that ends early.
+ */
+static void store_current_state_as_sample(const Batch *batch, long i, long k, Integrator *run)
 {
     const long row = get_first_row(batch, i) + k;
     store_sample(run, run->t, run->y, (const Parameters *)(batch->p_motion + i * batch->numbers), 0,
@@ -94,8 +97,8 @@ static void store_present_sample(const Batch *batch, long i, long k, Integrator 
 }
 
 /*
- * Return the index of the first sample of run i that is not finite, because a force is undefined between the stages; 0:
- * none. No sample is checked twice: batch->checked is updated.
+ * Return the index k > 0 of the first sample of run i whose q or v is not finite, because a force is undefined between
+ * the stages; 0: none. No sample is checked twice: batch->checked is updated.
  */
 static long find_nonfinite_sample(const Batch *batch, long i)
 {
@@ -107,7 +110,10 @@ static long find_nonfinite_sample(const Batch *batch, long i)
     return 0;
 }
 
-/* Make at most `max_steps` steps of run i and store its samples and its time. Return that of gudgeon_adaptive_run(). */
+/*
+ * Make at most `max_steps` steps of run i, and store its samples and its time. Return the status of
+ * gudgeon_adaptive_run().
+ */
 static int make_steps(const Batch *batch, long i, long max_steps, Integrator *run)
 {
     const double *p = batch->p_motion + i * batch->numbers, *t = get_sample_times(batch, i);
@@ -131,7 +137,7 @@ static void truncate_samples(const Batch *batch, long i, long k)
 }
 
 /*
- * Store the present state as the last sample of run i, in place of samples that are not earlier. After an event that
+ * Store the current state as the last sample of run i, which replaces samples that are not earlier. After an event that
  * ends the run (status ENDED), samples within the resolution of the times are replaced too.
  */
 static void store_last_sample(const Batch *batch, long i, int status, Integrator *run)
@@ -142,13 +148,13 @@ static void store_last_sample(const Batch *batch, long i, int status, Integrator
             min_of(1e-11, 1e-10 * (t_end - times[0]))); /* resolution() of runtime/integrators/trajectory.py */
     while (batch->done[i] > 0 && times[batch->done[i] - 1] >= run->t - tolerance)
         batch->done[i]--;
-    store_present_sample(batch, i, batch->done[i]++, run);
+    store_current_state_as_sample(batch, i, batch->done[i]++, run);
 }
 
 /*
- * End run i: write its report, audit, peaks and progress, its last state, and its status into the batch. If a sample is
- * not finite, later samples are removed and the status is NOT_FINITE. If the run ended early without an error, its last
- * state becomes a sample.
+ * End run i: write its report, audit, peaks and progress, its last state, and its status into the batch; its phase
+ * becomes OVER. If a sample is not finite, later samples are removed and the status is NOT_FINITE. If the run ended
+ * early without an error (ENDED, STALLED, STOPPED), its last state becomes a sample.
  */
 static void end_run(const Batch *batch, long i, int status, Integrator *run)
 {
@@ -171,20 +177,23 @@ static void end_run(const Batch *batch, long i, int status, Integrator *run)
     batch->phase[i] = OVER;
 }
 
-/* Return whether contacts (also those that last), events or recorded states of a run wait to be fetched by Python. */
-static int has_unread_records(const Integrator *run)
+/*
+ * Return whether Python must fetch records of a run: impacts, events, recorded steps, or contacts that are still
+ * closed.
+ */
+static int has_unfetched_records(const Integrator *run)
 {
-    int is_unread = run->contacts.n_impacts > 0 || run->events.n > 0 || run->step_record.n > 0;
+    int has_records = run->contacts.n_impacts > 0 || run->events.n > 0 || run->step_record.n > 0;
     for (int k = 0; k < N_CLEARANCES; k++)
-        is_unread = is_unread || run->discrete.contact[k].closed;
-    return is_unread;
+        has_records = has_records || run->discrete.contact[k].closed;
+    return has_records;
 }
 
 /*
- * Integrate the runs *current to end - 1 of a batch, one after the other, in the memory
- * `integrator`. Return ALL_OVER; LISTS or RUN_OVER if contacts or events of run *current are to be
- * fetched, and it continues or is over; GOES_ON after `limit` steps. Call again, after RUN_OVER with
- * the next run. If the batch is ending, runs under way end at once and no run begins.
+ * Integrate the runs *current to end - 1 of a batch, one after the other, in the memory `integrator`. Return ALL_OVER;
+ * LISTS or RUN_OVER if contacts or events of run *current are to be fetched, and it continues or is over; GOES_ON after
+ * `limit` steps. Call again, after RUN_OVER with the next run. If the batch is ending, current runs end at once and no
+ * run begins.
  */
 int gudgeon_ensemble(const void *batch_data, void *integrator, long *current, long end)
 {
@@ -207,7 +216,7 @@ int gudgeon_ensemble(const void *batch_data, void *integrator, long *current, lo
         if (!is_over && !find_nonfinite_sample(batch, i))
             return status ? LISTS : GOES_ON;
         end_run(batch, i, status, run);
-        if (has_unread_records(run))
+        if (has_unfetched_records(run))
             return RUN_OVER;
     }
     return ALL_OVER;
@@ -220,8 +229,8 @@ static int begin_single_run(const Batch *batch, long i, const long *candidates, 
     return start_run(batch, i, candidates, n, run);
 }
 
-/* Return the destination of run i's samples in the arrays of the batch. */
-static Samples get_samples(const Batch *batch, long i)
+/* Return the pointers to the times and samples of run i in the arrays of the batch. */
+static Samples get_sample_arrays(const Batch *batch, long i)
 {
     const long row = get_first_row(batch, i);
     return (Samples){
@@ -232,16 +241,16 @@ static Samples get_samples(const Batch *batch, long i)
 }
 
 /*
- * Complete the last step of run i and prepare its next one, run->control.attempt, for a library of
- * lanes. trial_result: what the lanes did of run->step. NOT_TRIED: it is tried here; STAGES_FAILED:
- * its stages were not found; NO_TRIAL: there is none. A rejected step leads to the next attempt.
- * Return GOES_ON, LISTS if its lists are full, or RUN_OVER after its end.
+ * Complete the last step of run i and prepare its next one, run->control.attempt, for a library of lanes. trial_result:
+ * what the lanes did of run->step. NOT_TRIED: it is tried here; STAGES_FAILED: its stages were not found; NO_TRIAL:
+ * there is none. A rejected step leads to the next attempt. Return GOES_ON, LISTS if the lists of contacts or events
+ * are full, or RUN_OVER after its end.
  */
 static int advance_single_run(const Batch *batch, long i, int trial_result, void *integrator)
 {
     Integrator *run = integrator;
     const Parameters *p = (const Parameters *)(batch->p_motion + i * batch->numbers);
-    const Samples samples = get_samples(batch, i);
+    const Samples samples = get_sample_arrays(batch, i);
     int status = 0;
     if (trial_result != NO_TRIAL) {
         run->step.method = run->choice.method;

@@ -1,8 +1,8 @@
-/* Copying of runs to and from SIMD lanes: one lane of the vector registers holds one run during a trial step. */
+/* Copying of runs to and from SIMD lanes (gather and scatter). One lane holds one run during a trial step. */
 #include "lane_local_steps.c"
 
 /*
- * Number of runs under way. If runs may use different methods, several runs share a lane, so that most lanes contain a
+ * Number of current runs. If runs may use different methods, several runs share a lane, so that most lanes contain a
  * run that needs the most frequent method.
  */
 #if LANE_SERIES
@@ -11,7 +11,7 @@ enum { MAX_GROUP_RUNS = LANES };
 enum { MAX_GROUP_RUNS = 4 * LANES };
 #endif
 
-/* Several runs under way in lanes: their integrators, numbers and next steps, and the data of the lanes. */
+/* Several current runs in lanes: their integrators, numbers and next steps, and the data of the lanes. */
 typedef struct {
     const Batch *batch;
     const SingleRunFunctions *single_run;
@@ -38,8 +38,8 @@ typedef struct {
 static int has_run(const LaneGroup *group, int i) { return group->run_number[i] >= 0; }
 
 /*
- * Load the parameters of the group's run i into lane k, unless they are there. If entry i is free, the lane repeats
- * another run, so that its numbers are finite; its results are not used.
+ * Load the parameters of the group's run i into lane k, and set loaded_run[k]; nothing if the lane holds them. If entry
+ * i is free, the lane repeats another run, so that its numbers are finite; its results are not used.
  */
 static void load_lane_parameters(LaneGroup *group, int k, int i)
 {
@@ -55,8 +55,8 @@ static void load_lane_parameters(LaneGroup *group, int k, int i)
 
 #if IMPLICIT_STAGES && !LANE_SERIES
 /*
- * Load what methods with iterated stages need of a run into lane k: its iteration history, from which first guesses of
- * the stages follow, and the scales of film forces.
+ * Load the data of a run that methods with iterated stages (Radau IIA) need into lane k: its iteration history, from
+ * which first guesses of the stages follow, and the scales of film forces.
  */
 static void gather_history(LaneIntegrator *lanes, int k, Integrator *run)
 {
@@ -205,8 +205,8 @@ static void scatter_step(const LaneGroup *group, int k, Step *step)
 
 #if LANE_SERIES
 /*
- * Copy the counts and the series of a trial step in lane k to its run; the terms stay in the lane. `method` is not
- * used.
+ * Copy the counts, limits and rounding errors of a series step in lane k to its run; the terms of the series stay in
+ * the lane, to which the run points. `method` is not used.
  */
 static void scatter_trial(const LaneGroup *group, int k, int method, Integrator *run)
 {
@@ -222,8 +222,8 @@ static void scatter_trial(const LaneGroup *group, int k, int method, Integrator 
 }
 #else
 /*
- * Copy the counts and iteration data of a trial step by `method` in lane k to its run, as the run itself would have
- * counted them.
+ * Add the evaluations and Jacobians of a trial step by `method` in lane k to the counts of its run, as the run itself
+ * would have counted them. Implicit methods also copy the convergence rate of Newton's method.
  */
 static void scatter_trial(const LaneGroup *group, int k, int method, Integrator *run)
 {
@@ -241,7 +241,7 @@ static void scatter_trial(const LaneGroup *group, int k, int method, Integrator 
 
 /*
  * Copy the result of a trial step by `method` in lane k to its run: time, length, error norm and counts. The stiffness
- * estimate and the step itself are copied only if the lane accepted it.
+ * estimate and the step itself (scatter_step()) are copied only if the lane accepted it.
  */
 static void scatter_result(const LaneGroup *group, int k, int method)
 {

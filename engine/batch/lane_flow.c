@@ -10,8 +10,8 @@
 enum { MIN_REPORTED = MAX_GROUP_RUNS / LANES };
 
 /*
- * Store the method that the group's run i needs next, after a call for that run returned `result`. If the run is over,
- * its entry becomes free. Return whether Python must be called: unless `result` is GOES_ON.
+ * Store the method that the group's run i needs next, after a call for that run returned `result`. After RUN_OVER its
+ * entry becomes free. Return whether Python must be called: unless `result` is GOES_ON.
  */
 static int record_run_result(LaneGroup *group, int i, int result)
 {
@@ -34,9 +34,9 @@ static void flush_lane(LaneGroup *group, int i)
 }
 
 /*
- * Advance run i of the group to its next attempt at a step, by completing or trying the last one. trial_result: what
- * the lanes did of that step (NOT_TRIED, TRIED, STAGES_FAILED). *lists_full is set if the run's lists are full. Return
- * whether Python must be called.
+ * Advance run i of the group to its next attempt at a step, by completing the last one, or trying it first.
+ * trial_result: what the lanes did of that step (NOT_TRIED, TRIED, STAGES_FAILED). *lists_full is set if the run's
+ * lists of contacts or events are full. Return whether Python must be called.
  */
 static int advance_run_to_next_step(LaneGroup *group, int i, int trial_result, int *lists_full)
 {
@@ -46,7 +46,7 @@ static int advance_run_to_next_step(LaneGroup *group, int i, int trial_result, i
     return record_run_result(group, i, result);
 }
 
-/* Return whether the next step of run i of the group is by this method (BY_...). */
+/* Return whether the next step of run i of the group is by this method (BY_DOP853, ...). */
 static int needs_method(const LaneGroup *group, int i, int method) { return group->next_method[i] == method; }
 
 /*
@@ -66,14 +66,14 @@ static void count_lanes_of_methods(const LaneGroup *group, int *count)
 }
 
 /*
- * Load a run whose next step is by `method` into lane k, preferring the run that is there. Candidates are the runs k,
- * k + LANES, and so on. If none of their runs needs the method, another run is repeated in the lane. Return whether the
+ * Load a run whose next step is by `method` into lane k, preferably the run that the lane holds. Candidates are the
+ * runs k, k + LANES, and so on. If none of these needs the method, any run is repeated in the lane. Return whether the
  * lane has a run that needs the step.
  */
 static int load_run_into_lane(LaneGroup *group, int k, int method)
 {
-    const int last = group->loaded_run[k], is_own = last >= 0 && last % LANES == k && has_run(group, last);
-    int best = is_own ? last : k;
+    const int last = group->loaded_run[k], is_of_lane = last >= 0 && last % LANES == k && has_run(group, last);
+    int best = is_of_lane ? last : k;
     for (int i = k; i < MAX_GROUP_RUNS && !needs_method(group, best, method); i += LANES)
         best = needs_method(group, i, method) || !has_run(group, best) ? i : best;
     if (last >= 0 && (last != best || !needs_method(group, best, method)))
@@ -83,10 +83,10 @@ static int load_run_into_lane(LaneGroup *group, int k, int method)
 }
 
 /*
- * Return whether a fixed step of lane k contains an event: an event function is negative at its end or at a stage. Its
- * run then repeats the step with free branches. Always 0 for steps of variable length and series.
+ * Return whether a step of fixed length in lane k contains an event: an event function is negative at its end or at a
+ * stage. Its run then repeats the step and locates the event. Always 0 for steps of variable length and series.
  */
-static int passes_event(const LaneGroup *group, int k)
+static int has_event_in_fixed_step(const LaneGroup *group, int k)
 {
     int has_event = 0;
 #if !LANE_SERIES
@@ -105,7 +105,7 @@ static int passes_event(const LaneGroup *group, int k)
 /*
  * Try one step by `method` of one run in each lane, and advance those runs to their next steps. Lanes without such a
  * run are computed, but ignored. Steps that need no action of their run are accepted in the lane. Steps that fail in a
- * lane or lead over an event are left to their runs. Return the number of runs that Python must be called for.
+ * lane or contain an event are left to their runs. Return the number of runs that Python must be called for.
  * *lists_full is set if the lists of one are full.
  */
 static int try_lane_steps(LaneGroup *group, int method, int *lists_full)
@@ -127,7 +127,7 @@ static int try_lane_steps(LaneGroup *group, int method, int *lists_full)
     for (int k = 0; k < LANES; k++) {
         if (!requested[k] || local_steps[k])
             continue;
-        const int needs_single_run = group->step.is_failed[k] || passes_event(group, k);
+        const int needs_single_run = group->step.is_failed[k] || has_event_in_fixed_step(group, k);
         flush_lane(group, group->loaded_run[k]);
         if (!needs_single_run)
             scatter_result(group, k, method);
@@ -138,11 +138,11 @@ static int try_lane_steps(LaneGroup *group, int method, int *lists_full)
 }
 
 /*
- * Advance the runs that need the method for which most lanes have a run by one step; the other runs wait. If no two
+ * Advance the runs that need the most frequent method, counted by lanes, by one step; the other runs wait. If no two
  * lanes share a method, each run makes its own step outside the lanes. Return the number of runs that Python must be
  * called for. *lists_full is set if the lists of one are full.
  */
-static int advance_lanes(LaneGroup *group, int *lists_full)
+static int advance_lane_group(LaneGroup *group, int *lists_full)
 {
     int n_reported = 0, best_method = 0, count[LANE_KINDS];
     count_lanes_of_methods(group, count);
@@ -177,7 +177,7 @@ static int begin_or_resume_run(LaneGroup *group, int i)
 }
 
 /* Return the number of runs in a group. */
-static int count_runs(const LaneGroup *group)
+static int count_group_runs(const LaneGroup *group)
 {
     int count = 0;
     for (int i = 0; i < MAX_GROUP_RUNS; i++)
@@ -185,7 +185,7 @@ static int count_runs(const LaneGroup *group)
     return count;
 }
 
-/* Return the number of runs that a call of gudgeon_lanes() integrates together. */
+/* Return MAX_GROUP_RUNS, the number of runs that a call of gudgeon_lanes() integrates together. */
 int gudgeon_lane_count(void) { return MAX_GROUP_RUNS; }
 
 /*
@@ -216,9 +216,9 @@ int gudgeon_lanes(const void *batch, const void *single, void *const *run, long 
             n_reported += begin_or_resume_run(&group, i);
     for (long steps_left = group.batch->limit; n_reported < MIN_REPORTED && !lists_full && steps_left > 0
         && !*group.batch->ending; steps_left--) {
-        if (count_runs(&group) < 2)
+        if (count_group_runs(&group) < 2)
             break;
-        n_reported += advance_lanes(&group, &lists_full);
+        n_reported += advance_lane_group(&group, &lists_full);
     }
     const double fraction = (read_wall_time() - before) / (entered > 0 ? entered : 1);
     for (int i = 0; i < MAX_GROUP_RUNS; i++) {
@@ -229,6 +229,6 @@ int gudgeon_lanes(const void *batch, const void *single, void *const *run, long 
             group.batch->t_last[group.run_number[i]] = group.run[i]->t;
         run_number[i] = group.run_number[i];
     }
-    const int continues = (n_reported || count_runs(&group) > 1) && !*group.batch->ending;
+    const int continues = (n_reported || count_group_runs(&group) > 1) && !*group.batch->ending;
     return lists_full ? LISTS : continues ? GOES_ON : ALL_OVER;
 }

@@ -1,18 +1,18 @@
 /* Right-hand side, corrections of loop closures, and projection onto the constraints, in SIMD lanes. */
 
 /*
- * Set the limits of small pivots in all lanes, as for a single run with detection of singular positions. Lanes below
- * them are marked as rare: their single runs make the step.
+ * Set the limits of small pivots in all lanes, as for a single run with detection of singular positions. Lanes with
+ * smaller pivots are added to discrete->rare: their scalar runs make the step.
  */
 static inline void set_pivot_limits(LaneDiscreteState *discrete)
 {
-    discrete->least = broadcast(HAS_CONTINUATION ? NEARBY : NEARLY_SINGULAR);
-    discrete->least_size = broadcast(HAS_CONTINUATION ? NEARBY : VANISHING);
+    discrete->least = broadcast(HAS_CONTINUATION ? NEAR_SINGULAR_PIVOT : NEARLY_SINGULAR);
+    discrete->least_size = broadcast(HAS_CONTINUATION ? NEAR_SINGULAR_PIVOT : VANISHING);
 }
 
 /*
- * Compute the accelerations a and outputs rhs of all lanes by the reduced equations of motion. Return 0. Lanes with a
- * vanishing pivot are marked in discrete->rare.
+ * Compute the accelerations a and outputs rhs of all lanes by the reduced equations of motion. Always return 0: lanes
+ * with a vanishing pivot are added to the mask discrete->rare.
  */
 static inline int compute_lane_accelerations(Lanes t, const Lanes *q, const Lanes *v, LaneDiscreteState *discrete,
     const LaneParameters *p, Lanes *a, LaneRhsOutputs *rhs)
@@ -56,9 +56,9 @@ static int evaluate_run_rhs(
 
 /*
  * Compute the corrections dq, dv that close the constraints of all lanes, and their largest residuals. Return
- * `is_active`. Active lanes without a finite correction are marked as rare.
+ * `is_active`: which lanes are to be corrected. Active lanes without a finite correction are added to discrete.rare.
  */
-static LaneBits find_closure_correction(LaneIntegrator *run, LaneBits is_active, Lanes t, const Lanes *y,
+static LaneBits compute_closure_correction(LaneIntegrator *run, LaneBits is_active, Lanes t, const Lanes *y,
     const LaneParameters *p, Lanes *dq, Lanes *dv, Lanes *residual)
 {
     set_pivot_limits(&run->discrete);

@@ -4,7 +4,10 @@
 #define SeriesPart Lanes
 #include "../scalar_simd/series.h"
 
-/* Remove the lanes whose error, known only at the end of the step, is too large from the mask of accepting lanes. */
+/*
+ * Remove the lanes whose step has an error above run->control.accept from the mask step->is_accepted. Called when the
+ * defect at the end of a step is known.
+ */
 static void reject_step_by_defect(const LaneIntegrator *run, LaneStep *step)
 {
     step->is_accepted &= ~(step->error > run->control.accept);
@@ -16,9 +19,9 @@ static void uncount_end_evaluation(const LaneIntegrator *run) { (void)run; }
 #include "../scalar_simd/taylor.h"
 
 /*
- * Try a step of length h (s), or of the longest valid length if that is shorter, by Taylor series in all lanes. Return
- * 0 or a status. Lanes at singular positions or with series that are not finite are added to the mask
- * run->discrete.rare: the single runs must make their step. `method` is not used.
+ * Try a step by Taylor series in all lanes, of length h (s) or of the longest valid length if that is shorter. Return 0
+ * or a status. Lanes at singular positions or with series that are not finite are added to run->discrete.rare: their
+ * scalar runs make the step. `method` is not used.
  */
 static int try_method(LaneIntegrator *run, int method, Lanes h, const LaneParameters *p, LaneStep *step)
 {

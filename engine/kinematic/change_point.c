@@ -10,8 +10,8 @@ enum { PASS_NODES = 4 /* on either side */, PASS_TRIES = 3, PASS_HALVINGS = 8 };
 #define PASS_RATE_TOL 1e-5  /* of the fastest rate: largest difference of a start from a branch */
 
 /*
- * Return whether the last correction of Newton's method is larger than rounding of the coordinates, as near a change
- * point.
+ * Return whether a position is ill-conditioned, as near a change point: the last Newton correction exceeds
+ * MIN_PASS_CORRECTION DBL_EPSILON max(1, |angles|), or is NaN.
  */
 static int is_ill_conditioned(const Position *position)
 {
@@ -22,9 +22,9 @@ static int is_ill_conditioned(const Position *position)
 }
 
 /*
- * Follow the branch from the regular position `start` to time t, forwards or backwards, and compute all of `position`
- * there. The step is halved, up to PASS_HALVINGS times, while a solution fails, is too far from its guess, or does not
- * agree with the velocities. Return 0 or a status.
+ * Follow the branch from the regular position `start` to time t, forwards or backwards, and compute `position` there,
+ * complete as for a sample. The step is halved, up to PASS_HALVINGS times, while a solution fails, is too far from its
+ * guess, or misses the trapezoidal rule of the velocities. Return 0 or a status.
  */
 static int follow_branch(KinematicRun *run, double t, const Position *start, Position *position)
 {
@@ -64,8 +64,8 @@ static int compute_branch_nodes(KinematicRun *run, double t, double d, const Pos
 }
 
 /*
- * Return the value at the middle of the polynomial through one number of the first n nodes on either side. first:
- * address of that number in node[0]; in the other nodes it has the same offset.
+ * Return the value at the middle time of the polynomial (Lagrange) through one component of the first n nodes on either
+ * side. first: address of that component in node[0]; in the other nodes it has the same offset.
  */
 static double interpolate_at_middle(const Position *node, int n, const double *first)
 {
@@ -77,15 +77,15 @@ static double interpolate_at_middle(const Position *node, int n, const double *f
 }
 
 /*
- * Interpolate `position` at time t, the middle of the nodes on both sides, with its largest |Phi|, and mark it as
- * interpolated.
+ * Interpolate `position` at time t, the middle of the 2 PASS_NODES nodes, and mark it as interpolated. phi is its
+ * largest |Phi|; phi_dot is that of node[0]; last_correction is 0.
  */
 static void interpolate_position(const Position *node, double t, const Parameters *p, Position *position)
 {
     double phi[AT_LEAST_ONE(N_ALL_ROWS)];
     *position = node[0];
     position->t = t;
-    position->interpolated = 1;
+    position->is_interpolated = 1;
     position->last_correction = 0.0;
     for (int k = 0; k < N_Q; k++) {
         position->q[k] = interpolate_at_middle(node, PASS_NODES, &node->q[k]);
@@ -107,9 +107,10 @@ static void interpolate_position(const Position *node, double t, const Parameter
 }
 
 /*
- * Compute the position at time t, at or near a change point, on the smooth branch that leads there from `start`. Up to
- * PASS_TRIES node distances are tried. Return 0, or a status if `start` is far or at rest, no branch continues, or the
- * polynomials do not agree.
+ * Compute the position at time t, at or near a change point, by interpolation on the smooth branch that leads there
+ * from `start`. Up to PASS_TRIES node distances are tried. Return 0, STOPPED, or the status of the last attempt.
+ * NEWTON_FAILED: `start` is at rest or more than PASS_NODES nodes away, or the polynomials of two degrees differ by
+ * more than PASS_POSITION_TOL.
  */
 static int pass_change_point(KinematicRun *run, double t, const Position *start, Position *position)
 {
@@ -135,10 +136,11 @@ static int pass_change_point(KinematicRun *run, double t, const Position *start,
 }
 
 /*
- * Solve the position at time t from a near one, also at a change point; then *correction is 0. Return 0 or a status.
- * correction: set to the correction of the first guess.
+ * Solve the position at time t from the near position `start`; if that fails, interpolate it over a change point by
+ * pass_change_point(). correction: set to the sum of Newton's corrections; 0 if interpolated. Return 0, or the status
+ * of Newton's method if both fail.
  */
-static int solve_position_near(KinematicRun *run, double t, const Position *start, Position *position,
+static int solve_position_over_change_point(KinematicRun *run, double t, const Position *start, Position *position,
     double *correction)
 {
     const int status = solve_position_at(run, t, start, position, correction);
@@ -149,14 +151,15 @@ static int solve_position_near(KinematicRun *run, double t, const Position *star
 }
 
 /*
- * Set `position` at time t to given q and v (N_Q), also at a change point. Return 0 or a status. At a change point the
- * smooth branch replaces it if the given velocities agree with that branch.
+ * Set `position` at time t to a state q, v (N_Q each), also at a change point. Also sets run->is_start_ill_conditioned.
+ * If it is, the smooth branch replaces the state, provided that its velocities agree with v to PASS_RATE_TOL. Return 0
+ * or a status. Called before the first step, and before each search for events.
  */
 static int set_initial_position(KinematicRun *run, double t, const double *q, const double *v, Position *position)
 {
     Position branch_position;
     double difference[N_Q];
-    const int status = set_position(run, t, q, v, position);
+    const int status = initialize_position(run, t, q, v, position);
     run->is_start_ill_conditioned = is_ill_conditioned(position);
     if (status < 0 || !run->is_start_ill_conditioned || pass_change_point(run, t, position, &branch_position))
         return status;

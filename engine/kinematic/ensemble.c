@@ -6,18 +6,20 @@
 #define ENDING_POLL_INTERVAL_S 0.02 /* s between two polls whether the batch is ending */
 #define STEEP_RATIO 100.0 /* accelerations: largest over median (_yield_unbounded_sample_note in result_builder.py) */
 
-/* Return whether the batch is ending; called as the poll of a cancellation token. */
-/* Return whether a run ends at this poll: the batch is ending, or Python computes runs that are not short. */
+/*
+ * Return whether a run is cancelled: the batch is ending, or it must be short (KinematicBatch.must_be_short). Called as
+ * the poll of its cancellation token.
+ */
 static int is_batch_ending(void *caller)
 {
     const KinematicBatch *batch = caller;
     return *batch->ending || batch->must_be_short;
 }
 
-/* Return the row of present works in the samples of a run, J: that of the next sample. */
-static double *get_present_works(const RunSamples *samples) { return samples->y + samples->done * N_S + 2 * N_Q; }
+/* Return the row in which works accumulate, J: those of the next sample of a run. */
+static double *get_current_works(const RunSamples *samples) { return samples->y + samples->done * N_S + 2 * N_Q; }
 
-/* Return the largest |a|, of N_Q accelerations. */
+/* Return the largest |a| of N_Q accelerations; NaN components are skipped. */
 static double find_largest_acceleration(const double *a)
 {
     double largest = 0.0;
@@ -26,28 +28,29 @@ static double find_largest_acceleration(const double *a)
     return largest;
 }
 
-/* Store the requested series of sample k, with the position q, v, a (N_Q each). */
+/* Evaluate the requested series of motion at sample k, with the position q, v, a (N_Q each), into batch->values. */
 static void store_series(const KinematicRun *run, long k, const double *q, const double *v, const double *a)
 {
     const KinematicBatch *batch = run->samples.batch;
-    const long one = 1, place = run->samples.index * batch->samples + k;
+    const long one = 1, row = run->samples.index * batch->samples + k;
     for (long j = 0; j < batch->n_series; j++) {
         const long body = batch->series[j].body < 0 ? 0 : batch->series[j].body;
         gudgeon_motion_series(&batch->series[j], 1, &one, q + body, v + body, a + body, (const double *)run->p,
-            batch->numbers, batch->values[j] + place);
+            batch->numbers, batch->values[j] + row);
     }
 }
 
 /*
- * Store the position as the next sample, whose works are stored already. The next step begins with the length that
- * leads to the sample after it. q, v: those of the position, or the given ones of the start.
+ * Store the current position as the next sample of the run (state, accelerations, series, extremes), whose works are
+ * stored already. The works continue in the next row, and the next step is as long as the time to the next sample. q,
+ * v: those of the position; at the start, the initial ones.
  */
-static void store_sample(KinematicRun *run, const double *q, const double *v)
+static void store_run_sample(KinematicRun *run, const double *q, const double *v)
 {
     RunSamples *samples = &run->samples;
     const long k = samples->done++;
     double *y = samples->y + k * N_S, *a = samples->a + k * N_Q;
-    add_sample(run, samples->t[k], &run->motion, &samples->phi_max, &samples->phi_dot_max);
+    accumulate_sample_statistics(run, samples->t[k], &run->motion, &samples->phi_max, &samples->phi_dot_max);
     memcpy(y, q, N_Q * sizeof *q);
     memcpy(y + N_Q, v, N_Q * sizeof *v);
     memcpy(a, run->motion.a, N_Q * sizeof *a);
@@ -59,11 +62,14 @@ static void store_sample(KinematicRun *run, const double *q, const double *v)
     if (samples->done == samples->n)
         return;
     memcpy(y + N_S + 2 * N_Q, y + 2 * N_Q, N_WORK * sizeof *y);
-    samples->stride = (StepLength){samples->t[k + 1] - run->motion.t, 0};
+    samples->step_length = (StepLength){samples->t[k + 1] - run->motion.t, 0};
 }
 
-/* Compute the start (q, v) of run i, unless it is given. Return 0, STOPPED, or NOT_CLOSED if Python must decide. */
-static int compute_run_start(const KinematicBatch *batch, long i, double t, Cancellation *cancellation)
+/*
+ * Compute the initial state (q, v) of run i, unless batch->started[i]. Return 0, STOPPED on cancellation, or NOT_CLOSED
+ * if the search in Python must decide.
+ */
+static int compute_kinematic_run_start(const KinematicBatch *batch, long i, double t, Cancellation *cancellation)
 {
     double *start = batch->start + i * 2 * N_Q, residual;
     if (batch->started[i])
@@ -74,8 +80,11 @@ static int compute_run_start(const KinematicBatch *batch, long i, double t, Canc
     return cancellation->stop ? STOPPED : NOT_CLOSED;
 }
 
-/* Begin run i in the memory `run`: start and first sample. Return 0 or a status. */
-static int begin_run(const KinematicBatch *batch, long i, KinematicRun *run)
+/*
+ * Begin run i in the memory `run`: compute the initial state, set batch->started[i], store the first sample. Return 0
+ * or a status.
+ */
+static int begin_kinematic_run(const KinematicBatch *batch, long i, KinematicRun *run)
 {
     const long row = batch->sample_block[i] * batch->samples;
     const double *t = batch->t + i * batch->time_stride, *start = batch->start + i * 2 * N_Q;
@@ -87,20 +96,23 @@ static int begin_run(const KinematicBatch *batch, long i, KinematicRun *run)
         .a = batch->a + row * N_Q, .largest = batch->largest_a + row, .smallest_a = INFINITY, .are_finite = 1,
         .began = read_clock()
     };
-    int status = compute_run_start(batch, i, t[0], &run->cancellation);
+    int status = compute_kinematic_run_start(batch, i, t[0], &run->cancellation);
     batch->started[i] = !status;
     if (!status)
         status = set_initial_position(run, t[0], start, start + N_Q, &run->motion);
     if (status)
         return status;
     for (int j = 0; j < N_WORK; j++)
-        get_present_works(&run->samples)[j] = 0.0;
-    store_sample(run, start, start + N_Q);
+        get_current_works(&run->samples)[j] = 0.0;
+    store_run_sample(run, start, start + N_Q);
     return 0;
 }
 
-/* Count a step of a run, and store its end as a sample if it is one. Return 0 or a status. */
-static int accept_step(KinematicRun *run)
+/*
+ * Count a step of a run, check its progress, and store its end as a sample if it reaches the time of the next one.
+ * Return 0, STALLED or a status.
+ */
+static int accept_kinematic_step(KinematicRun *run)
 {
     RunSamples *samples = &run->samples;
     samples->steps++;
@@ -110,7 +122,7 @@ static int accept_step(KinematicRun *run)
         return 0;
     const int status = complete_position(run, &run->motion);
     if (!status)
-        store_sample(run, run->motion.q, run->motion.v);
+        store_run_sample(run, run->motion.q, run->motion.v);
     return status;
 }
 
@@ -119,10 +131,10 @@ static int advance_run(KinematicRun *run)
 {
     const Position before = run->motion;
     const double t1 = run->samples.t[run->samples.done];
-    int status = make_step(run, &run->samples.stride, t1, &run->motion);
+    int status = make_step(run, &run->samples.step_length, t1, &run->motion);
     if (!status && run->samples.batch->has_works)
-        status = integrate_work_of_step(run, &before, &run->motion, get_present_works(&run->samples));
-    return status ? status : accept_step(run);
+        status = integrate_work_of_step(run, &before, &run->motion, get_current_works(&run->samples));
+    return status ? status : accept_kinematic_step(run);
 }
 
 /* Return whether the largest |a| of a sample may be more than STEEP_RATIO times the median of all samples. */
@@ -136,7 +148,10 @@ static int has_steep_sample(const RunSamples *samples)
     return 2 * n_small >= samples->n;
 }
 
-/* Return whether a check of the audit finds an error beyond its limit in one of the drawn samples of run i. */
+/*
+ * Return whether a check of the audit finds an error beyond its limit in one of the drawn samples of run i. Errors that
+ * are NaN or infinite do not count: other checks report them.
+ */
 static int has_audit_finding(const KinematicBatch *batch, long i, const RunSamples *samples)
 {
     const double no_memory[AT_LEAST_ONE(N_DISCRETE)] = {NAN};
@@ -155,10 +170,11 @@ static int has_audit_finding(const KinematicBatch *batch, long i, const RunSampl
 }
 
 /*
- * End run i: write its counts and its status into the batch, and whether Python must check it. A run that was stopped
- * before its first sample has not begun.
+ * End run i: write its counts, residuals, status and phase into the batch. is_suspect is set if Python must check the
+ * run: a failure, an interpolated or steep sample, or a finding of the audit. A run that was stopped before its first
+ * sample becomes NEW again.
  */
-static void end_run(const KinematicBatch *batch, long i, KinematicRun *run, int status)
+static void end_kinematic_run(const KinematicBatch *batch, long i, KinematicRun *run, int status)
 {
     const RunSamples *samples = &run->samples;
     batch->n_interpolated[i] = gudgeon_kinematic_count_interpolated(run, batch->t_interpolated + i);
@@ -178,8 +194,8 @@ static void end_run(const KinematicBatch *batch, long i, KinematicRun *run, int 
 }
 
 /*
- * Compute n runs of a batch, whose indices are given, one after the other, in the memory `integrator`. Runs that are
- * over are skipped. If the batch is ending, the present run ends at once, and no run begins.
+ * Compute n runs of a batch, whose indices are given, one after the other, in the memory `integrator`. Runs whose phase
+ * is not NEW are skipped. If the batch is ending, the current run ends at once, and no run begins.
  */
 void gudgeon_kinematic_ensemble(const void *batch_data, void *integrator, long n, const long *indices)
 {
@@ -188,10 +204,10 @@ void gudgeon_kinematic_ensemble(const void *batch_data, void *integrator, long n
     for (long k = 0; k < n && !*batch->ending; k++) {
         if (batch->phase[indices[k]] != NEW)
             continue;
-        int status = begin_run(batch, indices[k], run);
+        int status = begin_kinematic_run(batch, indices[k], run);
         while (!status && run->samples.done < run->samples.n)
             status = advance_run(run);
-        end_run(batch, indices[k], run, status);
+        end_kinematic_run(batch, indices[k], run, status);
     }
 }
 #if HAS_LANES
@@ -199,7 +215,7 @@ void gudgeon_kinematic_ensemble(const void *batch_data, void *integrator, long n
 /* Return the functions of a single run that a library of lanes calls. */
 const void *gudgeon_single_run_functions(void)
 {
-    static const KinematicRunFunctions single = {begin_run, advance_run, end_run, detect_stall,
+    static const KinematicRunFunctions single = {begin_kinematic_run, advance_run, end_kinematic_run, detect_stall,
         count_steps_before_check, has_hidden_transient};
     return &single;
 }

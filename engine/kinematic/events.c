@@ -5,7 +5,7 @@
  */
 #include "../watch/zeros.h"
 
-#define SMALLEST_PART 1.5e-11 /* of a step: 36 halvings */
+#define MIN_PART_FRACTION 1.5e-11 /* of a step: 36 halvings */
 #define MAX_UNCERTAINTY_RATIO 1e4 /* uncertainties: error of bounds over a cubic */
 
 /* A position with the values of event functions and, if has_error, their uncertainties. */
@@ -16,11 +16,11 @@ typedef struct {
 } SampledPosition;
 
 /*
- * Evaluate the user-defined event functions of a sample: solve the accelerations at its position, then store the values
- * in sample->event. A failure of that solution is ignored, because it was reported before. The uncertainties of the
- * sample become invalid (has_error = 0).
+ * Evaluate the user-defined event functions at the position of a sample into sample->event, by solving the
+ * accelerations. A failure of that solution is ignored, because it was reported before. The uncertainties of the sample
+ * become invalid (has_error = 0).
  */
-static void evaluate_events(KinematicRun *run, SampledPosition *sample)
+static void evaluate_sample_events(KinematicRun *run, SampledPosition *sample)
 {
     RhsOutputs rhs = {0};
     double a[N_Q];
@@ -36,8 +36,8 @@ enum { N_COORDINATES = N_X };
 #define is_angle_coordinate(k) is_angle[k]
 
 /*
- * Compute the remaining Newton step at a position, and store the velocities of the position as it is. Return 0 or a
- * status.
+ * Compute the remaining Newton step (N_X) at a position, in tree coordinates; also set its rates s_rate and phi. Return
+ * 0 or a status.
  */
 static int compute_newton_step(Position *position, const Parameters *p, double *step)
 {
@@ -50,8 +50,8 @@ enum { N_COORDINATES = N_Q };
 #define is_angle_coordinate(k) ((k) % 3 == 2)
 
 /*
- * Compute the remaining Newton step at a position, and store the velocities of the position as it is. Return 0 or a
- * status.
+ * Compute the remaining Newton step (N_Q) at a position, in absolute coordinates; also set its velocities v. Return 0
+ * or a status.
  */
 static int compute_newton_step(Position *position, const Parameters *p, double *step)
 {
@@ -76,9 +76,9 @@ static void compute_largest_speeds(const Position *position, double extent, doub
 }
 
 /*
- * Perturb a position by its rounding errors, with signs by the bits of `mask`, and compute its velocities, in
- * `perturbed_position`. Newton's last step is added: it is large near a singular position. If the velocities cannot be
- * solved, they are kept.
+ * Copy `position` to `perturbed_position`, change its coordinates by their rounding errors, and compute its velocities
+ * there. Bit k of `mask` selects the sign of coordinate k. Newton's remaining step is added: it is large near a
+ * singular position. If the velocities cannot be solved, those of `position` are kept.
  */
 static void perturb_position(const KinematicRun *run, const Position *position, int mask, Position *perturbed_position)
 {
@@ -86,8 +86,8 @@ static void perturb_position(const KinematicRun *run, const Position *position, 
     *perturbed_position = *position;
     const int is_solved = !compute_newton_step(perturbed_position, run->p, step);
     for (int k = 0; k < N_COORDINATES; k++) {
-        const double least = is_angle_coordinate(k) ? 1.0 : run->extent;
-        const double size = ACCUMULATED_ULPS * DBL_EPSILON * max_of(least, fabs(q[k]));
+        const double min_size = is_angle_coordinate(k) ? 1.0 : run->extent;
+        const double size = ACCUMULATED_ULPS * DBL_EPSILON * max_of(min_size, fabs(q[k]));
         const double correction = is_solved && isfinite(step[k]) ? CLOSING_STEPS * fabs(step[k]) : 0.0;
         q[k] += (k & mask ? -1.0 : 1.0) * (size + correction);
     }
@@ -162,24 +162,24 @@ typedef struct {
 } Search;
 
 /*
- * Follow the motion from the position of `sample` to time t1 in steps, and evaluate the event functions there. Return 0
- * or a status.
+ * Advance `sample` to time t1: follow the motion from its position in steps, and evaluate the event functions at t1.
+ * Return 0 or a status.
  */
-static int follow_motion(const Search *search, double t1, SampledPosition *sample)
+static int advance_sample(const Search *search, double t1, SampledPosition *sample)
 {
-    StepLength stride = {t1 - sample->position.t, 0};
+    StepLength step_length = {t1 - sample->position.t, 0};
     while (sample->position.t < t1) {
-        const int status = make_step(search->run, &stride, t1, &sample->position);
+        const int status = make_step(search->run, &step_length, t1, &sample->position);
         if (status)
             return status;
     }
-    evaluate_events(search->run, sample);
+    evaluate_sample_events(search->run, sample);
     return 0;
 }
 
 /*
- * Return a value that is negative if `value` has the sign of `end_value`, or is undefined (NaN) as end_value is. If
- * only one of both is undefined, it is positive.
+ * Return `value` with the sign that makes it negative after the zero: where it has the sign of `end_value`, or is NaN
+ * as end_value is. If only one of both is NaN, return 1.
  */
 static double orient_event_value(double end_value, double value)
 {
@@ -196,15 +196,15 @@ static int evaluate_event(void *context, double t, Sample *out)
 {
     Search *search = context;
     SampledPosition sample = search->low;
-    const int status = follow_motion(search, t, &sample);
+    const int status = advance_sample(search, t, &sample);
     out->f = orient_event_value(search->high.event[search->i], sample.event[search->i]);
     *(out->f < 0.0 ? &search->high : &search->low) = sample;
     return status;
 }
 
 /*
- * Locate the time *t before sample b at which event function i gets its sign at b, or becomes undefined as there.
- * is_pole: set to whether this is a pole, where the values exceed their uncertainty. Return 0 or a status.
+ * Locate the time *t before sample b at which event function i gets its sign at b, or becomes NaN as there, from
+ * search->begin on. is_pole: set to 1 for a pole instead of a zero. Return 0 or a status.
  */
 static int locate_event(Search *search, int i, const SampledPosition *b, double *t, int *is_pole)
 {
@@ -218,7 +218,7 @@ static int locate_event(Search *search, int i, const SampledPosition *b, double 
     if (status)
         return status;
     *t = bracket.at[1].s;
-    const int is_undefined = follow_motion(search, *t + POLE_DISTANCE * tolerance.width, &search->low);
+    const int is_undefined = advance_sample(search, *t + POLE_DISTANCE * tolerance.width, &search->low);
     *is_pole = is_near_pole(search->high.event[i], is_undefined ? INFINITY : search->low.event[i])
         && get_resolved_value(search->run, &search->high, i, 0) != 0.0;
     return 0;
@@ -244,9 +244,9 @@ static int insert_event(Search *search, long first, double t, int event)
 }
 
 /*
- * Locate and collect all events of the part from search->begin to b, and update the last signs. Return 0 or a status.
- * Events that become undefined are reported once. Zeros at the start of the run do not count. After an event that ends
- * the run (EVENT_STOPS) later ones are discarded.
+ * Locate and collect all events of the part from search->begin to b, and update the last signs. Poles and zeros at the
+ * start of the run are not events. A function that becomes undefined is reported once. Return 0 or a status;
+ * EVENT_STOPS after an event that ends the run, of which later ones are discarded.
  */
 static int collect_events(Search *search, SampledPosition *b)
 {
@@ -279,41 +279,45 @@ static int collect_events(Search *search, SampledPosition *b)
 }
 
 /*
- * Return whether event function i is zero within rounding up to b, like a velocity that a constraint holds at zero. It
- * is at both ends, and its bounds f are near zero or narrow with the part.
+ * Return whether event function i is identically zero up to b, like a velocity that a constraint holds at zero. It is
+ * zero within its uncertainty at both ends. Its bounds f are within MAX_UNCERTAINTY_RATIO uncertainties, or narrow with
+ * the length of the part.
  */
 static int is_zero_by_constraint(Search *search, SampledPosition *b, int i, Interval f)
 {
-    const double part = (b->position.t - search->begin.position.t) / search->h, most = max_of(-f.lo, f.hi);
+    const double fraction = (b->position.t - search->begin.position.t) / search->h, bound = max_of(-f.lo, f.hi);
     const double error = estimate_event_uncertainty(search->run, &search->begin, i);
     return !f.may_be_undefined && fabs(search->begin.event[i]) <= error
-        && (most <= MAX_UNCERTAINTY_RATIO * error || is_bound_narrowing(-most, part, -search->max_bound[i]))
+        && (bound <= MAX_UNCERTAINTY_RATIO * error || is_bound_narrowing(-bound, fraction, -search->max_bound[i]))
         && get_resolved_value(search->run, b, i, 0) == 0.0;
 }
 
 /*
- * Compute bounds of positions q and velocities v over the cubic between positions a and b, and of their slopes over the
- * part. Slopes are by the fraction of the part. q, v: N_Q intervals each.
+ * Compute bounds of positions q and velocities v (N_Q intervals each) over the cubic Hermite interpolant between
+ * positions a and b. Their slopes are by the fraction of the part.
  */
 static void bound_motion(const Position *a, const Position *b, Interval *q, Interval *v)
 {
     const double h = b->t - a->t;
     for (int k = 0; k < N_Q; k++) {
-        const double way = b->q[k] - a->q[k], from = h * a->v[k], to = h * b->v[k];
-        /* q = q0 + from s + two s^2 + three s^3, 0 <= s <= 1 */
-        const double two = 3.0 * way - 2.0 * from - to, three = from + to - 2.0 * way;
-        const double end = 2.0 * two + 6.0 * three, turn = -two / (3.0 * three);
-        const double top = turn > 0.0 && turn < 1.0 ? from + turn * (2.0 * two + 3.0 * turn * three) : from;
-        const double least = min_of(top, min_of(from, to)), most = max_of(top, max_of(from, to));
-        q[k] = (Interval){max_of(a->q[k] + min_of(least, 0.0), b->q[k] - max_of(most, 0.0)),
-            min_of(a->q[k] + max_of(most, 0.0), b->q[k] - min_of(least, 0.0)), least, most, 0};
-        v[k] = (Interval){least / h, most / h, min_of(2.0 * two, end) / h, max_of(2.0 * two, end) / h, 0};
+        const double change = b->q[k] - a->q[k], slope_0 = h * a->v[k], slope_1 = h * b->v[k];
+        /* q = q0 + slope_0 s + c2 s^2 + c3 s^3, 0 <= s <= 1 */
+        const double c2 = 3.0 * change - 2.0 * slope_0 - slope_1, c3 = slope_0 + slope_1 - 2.0 * change;
+        const double end_curvature = 2.0 * c2 + 6.0 * c3, s_extremum = -c2 / (3.0 * c3);
+        const double extremum = s_extremum > 0.0 && s_extremum < 1.0
+            ? slope_0 + s_extremum * (2.0 * c2 + 3.0 * s_extremum * c3) : slope_0;
+        const double min_slope = min_of(extremum, min_of(slope_0, slope_1));
+        const double max_slope = max_of(extremum, max_of(slope_0, slope_1));
+        q[k] = (Interval){max_of(a->q[k] + min_of(min_slope, 0.0), b->q[k] - max_of(max_slope, 0.0)),
+            min_of(a->q[k] + max_of(max_slope, 0.0), b->q[k] - min_of(min_slope, 0.0)), min_slope, max_slope, 0};
+        v[k] = (Interval){min_slope / h, max_slope / h, min_of(2.0 * c2, end_curvature) / h,
+            max_of(2.0 * c2, end_curvature) / h, 0};
     }
 }
 
 /*
- * Return whether bounds do not exclude a zero of some event function before b that the signs at both ends do not show.
- * Called for parts of a step from search->begin; for a whole step the largest bounds are stored.
+ * Return whether interval bounds leave open a zero of some event function between search->begin and b that the signs at
+ * both ends do not show. For a whole step, the largest bounds are stored in search->max_bound.
  */
 static int may_have_hidden_zero(Search *search, SampledPosition *b)
 {
@@ -337,17 +341,17 @@ static int may_have_hidden_zero(Search *search, SampledPosition *b)
 }
 
 /*
- * Classify the part from search->begin to the last of search->end for bisect_parts(): 1 if a status ends the search, -1
- * to halve it. If the part has no hidden zero, is smallest (`is_smallest`), or its middle cannot be solved, its events
- * are collected and 0 is returned. a, b: times of its ends, s.
+ * Classify the part of a step from search->begin to the last of search->end, as a callback of bisect_interval(). Return
+ * -1 to bisect it, 1 if a status ends the search, 0 after its events are collected. A part is bisected if it may have a
+ * hidden zero, is not smallest, and its middle can be solved. a, b: times of its ends, s.
  */
-static int classify_part(void *context, double a, double b, int is_smallest)
+static int classify_subinterval(void *context, double a, double b, int is_smallest)
 {
     Search *search = context;
     SampledPosition *end = &search->end[search->n - 1];
     if (!is_smallest && may_have_hidden_zero(search, end)) {
         end[1] = search->begin;
-        if (!follow_motion(search, a + 0.5 * (b - a), &end[1])) {
+        if (!advance_sample(search, a + 0.5 * (b - a), &end[1])) {
             search->n++;
             return -1;
         }
@@ -358,21 +362,24 @@ static int classify_part(void *context, double a, double b, int is_smallest)
     return search->status != 0;
 }
 
-/* Find the events from search->begin to time t1, the next sample, step by step. Return 0 or a status. */
+/*
+ * Find the events from search->begin to time t1, the next sample, step by step. search->begin becomes the sample at t1.
+ * Return 0 or a status.
+ */
 static int find_events_in_interval(Search *search, double t1)
 {
-    StepLength stride = {t1 - search->begin.position.t, 0};
+    StepLength step_length = {t1 - search->begin.position.t, 0};
     int status = 0;
     while (!status && search->begin.position.t < t1) {
         *search->end = search->begin;
-        status = make_step(search->run, &stride, t1, &search->end->position);
+        status = make_step(search->run, &step_length, t1, &search->end->position);
         if (status)
             return status;
-        evaluate_events(search->run, search->end);
+        evaluate_sample_events(search->run, search->end);
         search->n = 1;
         search->h = search->end->position.t - search->begin.position.t;
-        (void)bisect_parts(search->begin.position.t, search->end->position.t, SMALLEST_PART * search->h, classify_part,
-            search);
+        (void)bisect_interval(search->begin.position.t, search->end->position.t, MIN_PART_FRACTION * search->h,
+            classify_subinterval, search);
         status = search->status;
     }
     return status;
@@ -400,7 +407,7 @@ int gudgeon_kinematic_events(void *integrator, long n, const double *t, const do
         int status = set_initial_position(run, t[*n_done], q + row, v + row, &search.begin.position);
         if (status)
             return status;
-        evaluate_events(run, &search.begin);
+        evaluate_sample_events(run, &search.begin);
         for (int i = 0; i < N_USER_EVENTS; i++) {
             (void)detect_event_crossing(i, &branch[i], branch[i] ? 0.0 : get_resolved_value(run, &search.begin, i, 0));
             signs[i] = branch[i]; /* the first sign, if there was none */

@@ -1,8 +1,9 @@
-/* Positions, velocities and accelerations in absolute coordinates of a linkage that drives determine. */
+/* Kinematic analysis in absolute coordinates q: Newton's method for positions, velocities and accelerations. */
 
 /*
- * Compute accelerations a and powers at a position by the equations of motion. Return 0 or a status. A positive status
- * is a constraint equation, numbered after the N_ROWS equations of project().
+ * Compute the accelerations a (N_Q) and the outputs rhs (powers, event functions, Phi_dot) of a position by the
+ * equations of motion. They are right limits in time: just after a jump of a drive. Discrete states are zero. Return 0,
+ * a negative status, or N_ROWS plus the number of a dependent constraint equation.
  */
 static int solve_accelerations(KinematicRun *run, const Position *position, double *a, RhsOutputs *rhs)
 {
@@ -12,9 +13,9 @@ static int solve_accelerations(KinematicRun *run, const Position *position, doub
 }
 
 /*
- * Solve Phi(q, t) = 0 by Newton's method from the guess in q, until the correction no longer decreases. Return 0 or a
- * status. correction: incremented by the corrections; last_correction: the last one; both in rad or fractions of the
- * size.
+ * Solve Phi(q, t) = 0 by Newton's method from the guess in q. It ends when the correction is below 1e-9 and no longer
+ * halved, or below 1e-15. correction: incremented by the corrections; last_correction: the last one; both in rad or
+ * fractions of the size. Return 0, the status of project(), or NEWTON_FAILED after MAX_NEWTON iterations or NaN.
  */
 static int solve_position_equations(const KinematicRun *run, double t, double *q, double *correction,
     double *last_correction)
@@ -40,8 +41,8 @@ static int solve_position_equations(const KinematicRun *run, double t, double *q
 }
 
 /*
- * Solve Phi_q v = nu at positions q for the velocities v (N_Q) by projection, with one step of refinement. Return 0 or
- * a status.
+ * Solve Phi_q v = nu at positions q for the velocities v (N_Q) by project(), with one step of iterative refinement.
+ * Return 0 or a status.
  */
 static int solve_velocities(double t, const double *q, const Parameters *p, double *v)
 {
@@ -64,16 +65,17 @@ static int solve_velocities(double t, const double *q, const Parameters *p, doub
 }
 
 /*
- * Solve the position and velocities at time t from the near position `start`, moved along its velocities as first
- * guess. complete_position() adds the accelerations. correction: set to the correction of the first guess. Return 0 or
- * a status.
+ * Solve the constraint equations at time t for the coordinates and velocities of `position`. The first guess is `start`
+ * moved along its velocities. At a jump of a drive the values just after it count. Also sets position->last_correction;
+ * complete_position() adds the accelerations. correction: set to the sum of Newton's corrections, rad or fraction of
+ * the size. Return 0 or a status.
  */
 static int solve_position_at(const KinematicRun *run, double t, const Position *start, Position *position,
     double *correction)
 {
     *correction = 0.0;
     position->t = t;
-    position->interpolated = 0;
+    position->is_interpolated = 0;
     for (int k = 0; k < N_Q; k++)
         position->q[k] = start->q[k] + (t - start->t) * start->v[k];
     const int status = solve_position_equations(run, get_time_after_jump(t), position->q, correction,
@@ -82,14 +84,14 @@ static int solve_position_at(const KinematicRun *run, double t, const Position *
 }
 
 /*
- * Complete a position for a sample: accelerations and the largest |Phi| and |Phi_dot|. Return 0 or a status. An
- * interpolated position is complete already.
+ * Compute the accelerations and the largest |Phi| and |Phi_dot| of a position that becomes a sample. Return 0 or a
+ * status. An interpolated position is complete already and is left unchanged.
  */
 static int complete_position(KinematicRun *run, Position *position)
 {
     double phi[AT_LEAST_ONE(N_ALL_ROWS)];
     RhsOutputs rhs;
-    if (position->interpolated)
+    if (position->is_interpolated)
         return 0;
     const int status = solve_accelerations(run, position, position->a, &rhs);
     if (status)
@@ -104,14 +106,14 @@ static int complete_position(KinematicRun *run, Position *position)
 }
 
 /*
- * Set the position at time t to given q and v (N_Q), and complete it. Return 0 or a status. Where constraint equations
- * depend on each other, its last correction is set to infinity.
+ * Set the position at time t to a state q, v (N_Q each), unchanged, and complete it. Return 0 or a status.
+ * last_correction is set to 0, or to infinity where constraint equations depend on each other.
  */
-static int set_position(KinematicRun *run, double t, const double *q, const double *v, Position *position)
+static int initialize_position(KinematicRun *run, double t, const double *q, const double *v, Position *position)
 {
     double phi[AT_LEAST_ONE(N_ALL_ROWS)], step[N_Q];
     position->t = t;
-    position->interpolated = 0;
+    position->is_interpolated = 0;
     memcpy(position->q, q, sizeof position->q);
     memcpy(position->v, v, sizeof position->v);
     constraints(get_time_after_jump(t), q, run->p, phi); /* equations may depend on each other there */

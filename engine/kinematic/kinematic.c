@@ -1,6 +1,7 @@
 /*
  * Kinematic analysis of a linkage without degrees of freedom: drives determine its position at every time. Nothing is
- * integrated. The motion is followed in steps from sample to sample, so that it remains on its branch.
+ * integrated. The motion is followed by numerical continuation, in steps with a predictor and Newton's method as
+ * corrector, so that it remains on its branch.
  */
 #include "kinematic.h"
 
@@ -8,24 +9,24 @@
 size_t gudgeon_kinematic_size(void) { return sizeof(KinematicRun); }
 
 /*
- * Initialize the memory of a kinematic analysis. max_correction: largest correction of a first guess; extent: size of
- * the mechanism, m. `ask` is called with `caller` every `every` seconds (0: at each step) and cancels the analysis if
- * it returns nonzero.
+ * Initialize the memory of a kinematic analysis. max_correction: largest correction of a first guess, rad or fraction
+ * of the size; extent: size of the mechanism, m; t_end: end of the run, s. The callback poll(context) is called every
+ * poll_interval s (0: at each step) and cancels the analysis if it returns nonzero.
  */
 void gudgeon_kinematic_begin(
-    void *integrator, double max_correction, double extent, double t_end, int (*ask)(void *), void *caller,
-    double every)
+    void *integrator, double max_correction, double extent, double t_end, int (*poll)(void *), void *context,
+    double poll_interval)
 {
     KinematicRun *run = integrator;
     *run = (KinematicRun){.max_correction = max_correction, .extent = extent, .t_end = t_end};
-    start_polling(&run->cancellation, ask, caller, every);
+    start_polling(&run->cancellation, poll, context, poll_interval);
 }
 
-/* Begin the motion anew at the next call of gudgeon_kinematic(), from the position given there. */
+/* Let the next call of gudgeon_kinematic() begin a new motion from its row 0, instead of resuming the old one. */
 void gudgeon_kinematic_restart(void *integrator) { ((KinematicRun *)integrator)->motion_begun = 0; }
 
 /*
- * Report the progress of a kinematic analysis: times of motion and works (t[2], s; NaN: works not begun). time_advance:
+ * Return the progress of a kinematic analysis: times of motion and works (t[2], s; NaN: works not begun). time_advance:
  * time by which the last steps advanced, s. steps[0]: the number of these steps; steps[1]: 1 if they are far shorter
  * than earlier ones, 2 if their number grows exponentially with time, else 0. Called after a failure.
  */
@@ -47,7 +48,7 @@ long gudgeon_kinematic_count_interpolated(const void *integrator, double *t)
     return run->n_interpolated;
 }
 
-/* Record positions at the ends of steps into `rows` of (t, q, v), `capacity` of them; NULL: stop recording. */
+/* Record t, q, v at the ends of the following steps into `rows`, an array for `capacity` rows; NULL: stop recording. */
 void gudgeon_kinematic_record(void *integrator, double *rows, long capacity)
 {
     KinematicRun *run = integrator;
@@ -56,7 +57,7 @@ void gudgeon_kinematic_record(void *integrator, double *rows, long capacity)
     run->n_recorded = 0;
 }
 
-/* Return the number of rows recorded since the last call, and let the next row be written to the first one. */
+/* Return the number of rows recorded since the last call, and reset it: the next row overwrites the first one. */
 long gudgeon_kinematic_fetch_records(void *integrator)
 {
     KinematicRun *run = integrator;
@@ -76,7 +77,7 @@ static void record_position(KinematicRun *run, const Position *position)
     memcpy(row + N_Q, position->v, sizeof position->v);
 }
 
-/* Return the larger number; NaN if `value` is NaN. */
+/* Return the maximum of two numbers; NaN if `value` is NaN. */
 static double get_larger_or_nan(double largest, double value)
 {
     return value > largest || isnan(value) ? value : largest;
@@ -100,8 +101,8 @@ static double compute_angle_norm(const double *change, double extent)
 #include "full.c"
 #endif
 /*
- * Return the largest difference of positions b from a plus the trapezoidal rule of their velocities, rad. Lengths are
- * divided by the mechanism's size `extent`, m. It shows whether both are on one branch.
+ * Return the largest difference of positions b from a plus the trapezoidal rule of their velocities, rad; lengths are
+ * divided by the mechanism's size `extent`, m. A large error shows that b is on another branch. NaN is propagated.
  */
 static double compute_trapezoidal_error(const Position *a, const Position *b, double extent)
 {
@@ -119,23 +120,23 @@ static double compute_trapezoidal_error(const Position *a, const Position *b, do
 
 #if N_PULSES
 /*
- * Return whether a missed term of time can be ignored: its excess is known by bounds only, not for certain
- * (`is_certain`). A callback of find_undersampled_term().
+ * Return whether a missed term of time can be ignored: only bounds show its excess, no sample does (is_certain = 0). A
+ * callback of find_undersampled_term().
  */
-static int is_uncertain_term(void *context, double fraction, int is_certain)
+static int is_term_negligible(void *context, double fraction, int is_certain)
 {
     (void)context, (void)fraction;
     return !is_certain;
 }
 
 /*
- * Return whether a term of time alone acts between t0 and t1 only where neither the ends nor the quadrature evaluate
- * it.
+ * Return whether the step from t0 to t1 hides a transient: a term of time alone acts only between the five times at
+ * which ends and quadrature of works evaluate it.
  */
 static int has_hidden_transient(double t0, double t1, const Parameters *p)
 {
     static const double node[] = {0.0, 0.1127016653792583, 0.5, 0.8872983346207417, 1.0};
-    return find_undersampled_term(t0, t1 - t0, node, 5, is_uncertain_term, NULL, p) > 0.0;
+    return find_undersampled_term(t0, t1 - t0, node, 5, is_term_negligible, NULL, p) > 0.0;
 }
 #else
 /* Return 0: the scene has no terms of time alone. */
@@ -146,7 +147,10 @@ static int has_hidden_transient(double t0, double t1, const Parameters *p)
 }
 #endif
 
-/* Return whether all constraint equations are finite at time t; an expression of a drive may be undefined there. */
+/*
+ * Return whether all constraint equations are finite at time t and the coordinates of `position`; an expression of a
+ * drive may be undefined there.
+ */
 static int are_constraints_finite(double t, const Position *position, const Parameters *p)
 {
     double phi[N_ALL_ROWS];
@@ -155,12 +159,13 @@ static int are_constraints_finite(double t, const Position *position, const Para
 }
 
 /*
- * Make one step of `position` along the branch, of length stride->h and to t1 at most. Return 0 or a status. The step
- * is halved if Newton's method corrects the first guess by more than `max_correction` or the positions do not agree
- * with the velocities. Near a dead centre, another branch appears as such a jump. A step that hides a transient is
- * halved too. Change points are passed. After accurate steps a halved length is doubled again.
+ * Make one step of `position` along the branch, of length step_length->h and to t1 at most. The step is halved while a
+ * corrector or branch test fails: Newton's method fails or corrects the first guess by more than run->max_correction,
+ * the trapezoidal error is too large (another branch), or the step hides a transient. Change points are passed by
+ * pass_change_point(). After accurate steps a halved length is doubled again. Return 0, STOPPED, or a status after
+ * MAX_HALVINGS.
  */
-static int make_step(KinematicRun *run, StepLength *stride, double t1, Position *position)
+static int make_step(KinematicRun *run, StepLength *step_length, double t1, Position *position)
 {
     const double max_error = MAX_STEP_ERROR * run->max_correction;
     for (;;) {
@@ -168,7 +173,7 @@ static int make_step(KinematicRun *run, StepLength *stride, double t1, Position 
         double correction = 0.0, error = 0.0;
         if (is_cancelled(&run->cancellation))
             return STOPPED;
-        const double next = position->t + stride->h < t1 ? position->t + stride->h : t1;
+        const double next = position->t + step_length->h < t1 ? position->t + step_length->h : t1;
         const int status = next > position->t ? solve_position_at(run, next, position, &next_position, &correction)
             : NEWTON_FAILED;
         if (status == STOPPED)
@@ -183,31 +188,32 @@ static int make_step(KinematicRun *run, StepLength *stride, double t1, Position 
         if (is_near)
             error = compute_trapezoidal_error(position, &next_position, run->extent);
         if (is_near && error <= max_error
-            && (stride->halvings > PULSE_HALVINGS || !has_hidden_transient(position->t, next, run->p))) {
+            && (step_length->halvings > PULSE_HALVINGS || !has_hidden_transient(position->t, next, run->p))) {
             *position = next_position;
-            if (stride->halvings > 0 && error < HARMLESS_STEP_ERROR * max_error) { /* it is proportional to h cubed */
-                stride->h *= 2.0;
-                stride->halvings--;
+            /* the error is proportional to h cubed */
+            if (step_length->halvings > 0 && error < STEP_DOUBLING_ERROR * max_error) {
+                step_length->h *= 2.0;
+                step_length->halvings--;
             }
             return 0;
         }
-        if (++stride->halvings > MAX_HALVINGS || !(next > position->t))
+        if (++step_length->halvings > MAX_HALVINGS || !(next > position->t))
             return status ? status : NEWTON_FAILED;
-        stride->h *= 0.5;
+        step_length->h *= 0.5;
     }
 }
 
 /*
- * Follow the motion to time t1 in steps, record their ends and monitor progress. Return 0, EVENTS_FULL, STALLED or a
- * status. steps: incremented by their number. The position at t1 is completed for a sample.
+ * Follow the motion to time t1 in steps, record their ends, monitor progress, and complete the position at t1 for a
+ * sample. steps: incremented by their number. Return 0, STALLED or a status, or EVENTS_FULL if the step record is full.
  */
 static int follow_motion_to(KinematicRun *run, double t1, Position *position, long *steps)
 {
-    StepLength stride = {t1 - position->t, 0};
+    StepLength step_length = {t1 - position->t, 0};
     while (position->t < t1) {
         if (run->step_record && run->n_recorded == run->capacity)
             return EVENTS_FULL;
-        const int status = make_step(run, &stride, t1, position);
+        const int status = make_step(run, &step_length, t1, position);
         if (status)
             return status;
         ++*steps;
@@ -218,20 +224,24 @@ static int follow_motion_to(KinematicRun *run, double t1, Position *position, lo
     return complete_position(run, position);
 }
 
-/* Add the present position, the sample at time t (s), to the interpolated ones and to the largest residuals. */
-static void add_sample(KinematicRun *run, double t, const Position *position, double *phi_max, double *phi_dot_max)
+/*
+ * Update the statistics of a run by the sample at time t (s): maxima of |Phi| and |Phi_dot|, number and first time of
+ * interpolated samples.
+ */
+static void accumulate_sample_statistics(KinematicRun *run, double t, const Position *position, double *phi_max,
+    double *phi_dot_max)
 {
-    if (position->interpolated && !run->n_interpolated++)
+    if (position->is_interpolated && !run->n_interpolated++)
         run->t_interpolated = t;
     *phi_max = max_of(position->phi, *phi_max);
     *phi_dot_max = max_of(position->phi_dot, *phi_dot_max);
 }
 
 /*
- * Compute the motion at n samples. t: n + 1 times, s; q, v, a: n + 1 rows of N_Q. Row 0 of q and v holds the start, or
- * the last sample of the previous call. phi_max, phi_dot_max: updated maxima. steps: incremented. done: the last
- * complete row, whatever status is returned. Return 0 or a status; after EVENTS_FULL the caller fetches the records and
- * calls again.
+ * Compute the motion at n samples. t: n + 1 times, s; q, v, a: n + 1 rows of N_Q. Row 0 of q and v holds the initial
+ * state, or the last sample of the previous call. phi_max, phi_dot_max: updated maxima. steps: incremented. done: the
+ * last complete row, whatever status is returned. Return 0 or a status; after EVENTS_FULL the caller fetches the
+ * records and calls again.
  */
 int gudgeon_kinematic(void *integrator, long n, const double *t, const double *parameters, double *q, double *v,
     double *a, double *phi_max, double *phi_dot_max, long *steps, long *done)
@@ -246,7 +256,7 @@ int gudgeon_kinematic(void *integrator, long n, const double *t, const double *p
         if (status)
             return status;
         run->motion_begun = 1;
-        add_sample(run, t[i], position, phi_max, phi_dot_max);
+        accumulate_sample_statistics(run, t[i], position, phi_max, phi_dot_max);
         if (i > 0) {
             memcpy(q + i * N_Q, position->q, sizeof position->q);
             memcpy(v + i * N_Q, position->v, sizeof position->v);

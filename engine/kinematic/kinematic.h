@@ -8,12 +8,16 @@
 #include "../run/cancellation.h"
 
 enum { N_HIGHER = 3 }; /* terms of the third to fifth order */
+/*
+ * Newton iterations; halvings of a step; halvings of a step at velocity jumps, for its works; halvings of a step up to
+ * which it is tested for transients.
+ */
 enum { MAX_NEWTON = 12, MAX_HALVINGS = 40, MAX_SPLITS = 400, PULSE_HALVINGS = 30 };
 #define MAX_SECOND_RATE_MOVE 0.05 /* rad, or fraction of the size: largest effect of second rates on a first guess */
 #define MAX_HIGHER_MOVE 1e-3      /* the same: largest effect of terms of higher order */
-#define MIN_PASS_CORRECTION 1e3   /* ulp of a coordinate: smallest last correction near a change point */
+#define MIN_PASS_CORRECTION 1e3   /* in DBL_EPSILON of the largest angle: larger last corrections are ill-conditioned */
 #define MAX_STEP_ERROR 0.002      /* of the largest correction: largest difference from the trapezoidal rule */
-#define HARMLESS_STEP_ERROR 0.1   /* of the largest error: smaller ones let halved steps grow again */
+#define STEP_DOUBLING_ERROR 0.1   /* of the error limit: below it, a halved step is doubled again */
 #define NEWTON_ROUNDING 4e-15     /* rad, or fraction of the size: corrections that are rounding */
 #define NEWTON_CLOSED 1e-9        /* the same: largest correction before the last one */
 #define NEWTON_NEARLY_CLOSED 1e-8 /* the same: after such a correction, the next one is probably rounding */
@@ -30,7 +34,7 @@ static const double work_weight[] = {5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0};
 typedef struct {
     double t, q[N_Q], v[N_Q], a[N_Q], phi, phi_dot;
     double last_correction; /* last correction of Newton's method, rad or fraction of the mechanism's size */
-    int interpolated;       /* at or near a change point (change_point.c) */
+    int is_interpolated;       /* at or near a change point (change_point.c) */
 #if POSITIONS_IN_TREE
     double s[N_X + 1], s_rate[N_X + 1], s_second[N_X + 1]; /* the same in tree coordinates */
     double interval, s_higher[N_X + 1][N_HIGHER]; /* s since the position before, 0: none; terms (extrapolation.h) */
@@ -53,7 +57,7 @@ typedef struct {
     const double *t;
     double *y, *a, *largest, largest_a, smallest_a;
     int are_finite;
-    StepLength stride;
+    StepLength step_length;
     double phi_max, phi_dot_max, began; /* largest residuals; time of the clock, s */
 } RunSamples;
 

@@ -12,7 +12,7 @@ typedef struct {
     Lanes interval, s_higher[N_X + 1][N_HIGHER];
 } LanePosition;
 
-/* Return the larger number of each lane; NaN if `value` is NaN. */
+/* Return the maximum of two numbers in each lane; NaN if `value` is NaN. */
 static inline Lanes get_larger_or_nan(Lanes largest, Lanes value)
 {
     return select_value((value > largest) | (value != value), value, largest);
@@ -27,21 +27,22 @@ static Lanes compute_angle_norm(const Lanes *change, Lanes extent)
     return largest;
 }
 
-/* Return the size of a change of tree coordinate k, rad or fraction of the mechanism's size. */
+/* Return the absolute change of tree coordinate k, in rad or as a fraction of the mechanism's size `extent`. */
 static inline Lanes compute_coordinate_size(Lanes change, int k, Lanes extent)
 {
     return is_angle[k] ? lanes_fabs(change) : lanes_fabs(change) / extent;
 }
 
-/* Return the time at which the drives are evaluated: just after t if their rates may jump. */
+/* Return the time at which the drives are evaluated in each lane: just after t if their rates may jump, else t. */
 static inline Lanes get_lane_time_after_jump(Lanes t)
 {
     return RATE_JUMPS ? t + lanes_max_of(32.0 * DBL_EPSILON * lanes_fabs(t), broadcast(1e-100)) : t;
 }
 
 /*
- * Compute Newton's step of the closures at times t (s), largest |Phi| and rates, and the motion of all bodies. Inlined,
- * both functions share sines and factors. Lanes in which a pivot vanishes are added to the mask `rare`.
+ * Compute Newton's step of the closures at times t (s), with the rates and the largest |Phi|, and the motion of all
+ * bodies. Inlined, both functions share sines and factors. Lanes in which a pivot vanishes are added to the mask
+ * `rare`: they need their scalar run.
  */
 __attribute__((flatten)) static void evaluate_position(const LaneParameters *p, Lanes t, LanePosition *position,
     Lanes *step, LaneBits *rare)
@@ -52,9 +53,9 @@ __attribute__((flatten)) static void evaluate_position(const LaneParameters *p, 
 }
 
 /*
- * Solve the closures at times t by Newton's method from the guess in `position`, and compute the motion there. Return
- * the lanes in which it failed. Lanes that are solved are evaluated again with the others, with the same result. The
- * motion of all bodies is evaluated where Newton's step is expected to be the last. correction: incremented by the
+ * Solve the closures at times t by Newton's method from the guess in `position`, and compute the motion of all bodies
+ * there. Return the lanes in which it failed. Solved lanes are evaluated again with the others, with the same result.
+ * The motion is evaluated only where Newton's step is expected to be the last. correction: incremented by the
  * corrections, in rad or fractions of the size.
  */
 static LaneBits solve_lane_equations(const LaneParameters *p, Lanes extent, Lanes t, LanePosition *position,
@@ -108,8 +109,9 @@ static void guess_lane_positions(Lanes extent, Lanes t, const LanePosition *star
 }
 
 /*
- * Solve the whole positions at times t from the near positions `start`. Return the lanes in which that failed.
- * correction: set to the corrections of the first guesses.
+ * Solve the closures at times t for whole positions, from the near positions `start`, as solve_position_at() of a
+ * single run. Return the lanes in which that failed. correction: set to the sums of Newton's corrections, rad or
+ * fraction of the size.
  */
 static LaneBits solve_lane_positions(const LaneParameters *p, Lanes extent, Lanes t, const LanePosition *start,
     LanePosition *position, Lanes *correction)
@@ -126,7 +128,10 @@ static LaneBits solve_lane_positions(const LaneParameters *p, Lanes extent, Lane
     return is_failed;
 }
 
-/* Return the largest difference of positions b from a plus the trapezoidal rule, as in a single run, rad. */
+/*
+ * Return the largest difference of positions b from a plus the trapezoidal rule of their velocities in each lane, as in
+ * a single run, rad; lengths are divided by `extent` (m).
+ */
 static Lanes compute_trapezoidal_error(const LanePosition *a, const LanePosition *b, Lanes extent)
 {
     const Lanes half = 0.5 * (b->t - a->t), fraction = 1.0 / extent;
@@ -137,7 +142,10 @@ static Lanes compute_trapezoidal_error(const LanePosition *a, const LanePosition
     return get_larger_or_nan(largest[1], largest[0] * fraction);
 }
 
-/* Return the lanes in which the last correction of Newton's method is larger than rounding of the coordinates. */
+/*
+ * Return the lanes with an ill-conditioned position, as is_ill_conditioned() of a single run: the last Newton
+ * correction exceeds MIN_PASS_CORRECTION DBL_EPSILON max(1, |angles|), or is NaN.
+ */
 static LaneBits find_ill_conditioned_lanes(const LanePosition *position)
 {
     Lanes size = broadcast(1.0);
@@ -147,8 +155,8 @@ static LaneBits find_ill_conditioned_lanes(const LanePosition *position)
 }
 
 /*
- * Add the works between positions a and b, one step apart, to `work`, J, in the lanes of `is_accepted`. Return the
- * lanes in which that failed, a power is not finite, or velocities jump.
+ * Add the works between positions a and b, one step apart, to `work`, J, by Gauss-Legendre quadrature, in the regular
+ * lanes of `is_accepted`. Return the irregular lanes, where that failed, a power is not finite, or velocities jump.
  */
 static LaneBits integrate_lane_works(const LaneParameters *p, Lanes extent, const LanePosition *a,
     const LanePosition *b, LaneBits is_accepted, Lanes *work)

@@ -1,6 +1,6 @@
 /*
  * Kinematic runs of a batch in SIMD lanes, one run per lane, each with its own steps (lane_positions.c). A step that is
- * not regular is made again by its run alone.
+ * not regular (fails, is at a change point, has a velocity jump) is made again by its run with scalar code.
  */
 #include "lane_positions.c"
 #include "../batch/lane_calls.h"
@@ -10,9 +10,9 @@ enum { BLOCK_ROWS = 16 };
 
 /*
  * The runs in the lanes, -1: none; has_run: their mask. t1: time of the next sample, s; h: length of the step. Works
- * are those of the next sample, J. next_state: next sample whose state is stored; unmonitored: steps until the next
- * check of progress. Maxima and extremes are those of the samples so far (RunSamples). `positions` are the present one
- * and memory for the next one.
+ * are those of the next sample, J. next_state: next sample whose state is stored; steps_before_check: steps until the
+ * next check of progress. Maxima and extremes are those of the samples so far (RunSamples). `positions` are the current
+ * one and memory for the next one.
  *
  * Steps in which all runs reach their next samples are `uniform`: n_uniform of them, limit at most, are not yet counted
  * in the runs. Their series, after the largest |a|, are the columns of `block`.
@@ -21,7 +21,7 @@ typedef struct {
     const KinematicBatch *batch;
     const KinematicRunFunctions *single;
     KinematicRun *run[LANES];
-    long index[LANES], next_state[LANES], unmonitored[LANES], n_uniform, limit;
+    long index[LANES], next_state[LANES], steps_before_check[LANES], n_uniform, limit;
     LaneParameters p;
     LanePosition positions[2], *position, *next;
     LaneBits has_run, are_finite;
@@ -29,7 +29,10 @@ typedef struct {
     Lanes block[MAX_MOTION_SERIES + 1][BLOCK_ROWS];
 } RunLanes;
 
-/* Return the first sample from k on, of n, whose state is stored: each one, or one of the audit or the last one. */
+/*
+ * Return the first sample from k on, of n, whose state is stored. It is k if all states are requested; else the next
+ * sample that the audit draws, or the last one.
+ */
 static long find_next_state(const KinematicBatch *batch, long n, long k)
 {
     long next = n - 1;
@@ -42,8 +45,11 @@ static long find_next_state(const KinematicBatch *batch, long n, long k)
     return next;
 }
 
-/* Copy the position of run k to its lane, the extremes of its samples, and what its next sample needs. */
-static void load_lane(RunLanes *lanes, int k)
+/*
+ * Copy the run in lane k to the lane: position, step length, works and extremes of its samples, time of the next
+ * sample. Also set the next stored state and the steps until the next check of progress. Called after each scalar step.
+ */
+static void copy_run_to_lane(RunLanes *lanes, int k)
 {
     const KinematicRun *run = lanes->run[k];
     const RunSamples *samples = &run->samples;
@@ -62,7 +68,7 @@ static void load_lane(RunLanes *lanes, int k)
     }
     to->t[k] = from->t;
     to->interval[k] = from->interval;
-    lanes->h[k] = samples->stride.h;
+    lanes->h[k] = samples->step_length.h;
     lanes->t1[k] = samples->t[samples->done];
     for (int j = 0; j < N_WORK; j++)
         lanes->work[j][k] = samples->y[samples->done * N_S + 2 * N_Q + j];
@@ -72,11 +78,11 @@ static void load_lane(RunLanes *lanes, int k)
     lanes->smallest_a[k] = samples->smallest_a;
     lanes->are_finite[k] = samples->are_finite ? -1 : 0;
     lanes->next_state[k] = find_next_state(lanes->batch, samples->n, samples->done);
-    lanes->unmonitored[k] = lanes->single->count_steps_before_check(&run->monitor);
+    lanes->steps_before_check[k] = lanes->single->count_steps_before_check(&run->monitor);
 }
 
-/* Copy the extremes of the samples from lane k to its run. */
-static void store_lane_extremes(const RunLanes *lanes, int k)
+/* Copy the extremes of the samples (residuals, accelerations, finiteness) from lane k to its run. */
+static void copy_extremes_to_run(const RunLanes *lanes, int k)
 {
     RunSamples *samples = &lanes->run[k]->samples;
     samples->phi_max = lanes->phi_max[k];
@@ -86,14 +92,14 @@ static void store_lane_extremes(const RunLanes *lanes, int k)
     samples->are_finite = lanes->are_finite[k] != 0;
 }
 
-/* Copy the whole position of lane k and the extremes of the samples to its run, which goes on alone. */
-static void store_lane(const RunLanes *lanes, int k)
+/* Copy lane k to its run, which continues with scalar steps: position, works, step length, extremes of the samples. */
+static void copy_lane_to_run(const RunLanes *lanes, int k)
 {
     KinematicRun *run = lanes->run[k];
     Position *to = &run->motion;
     const LanePosition *from = lanes->position;
     to->t = from->t[k];
-    to->interpolated = 0;
+    to->is_interpolated = 0;
     to->phi = from->phi[k];
     to->phi_dot = from->phi_dot[k];
     to->last_correction = from->last_correction[k];
@@ -112,12 +118,15 @@ static void store_lane(const RunLanes *lanes, int k)
     to->interval = from->interval[k];
     for (int j = 0; j < N_WORK; j++)
         run->samples.y[run->samples.done * N_S + 2 * N_Q + j] = lanes->work[j][k];
-    run->samples.stride.h = lanes->h[k];
-    store_lane_extremes(lanes, k);
+    run->samples.step_length.h = lanes->h[k];
+    copy_extremes_to_run(lanes, k);
 }
 
-/* Store the position in lane k as the next sample of its run, if the state of that sample is stored. */
-static void store_lane_state(RunLanes *lanes, int k)
+/*
+ * Store q, v, works and a of lane k as the next sample of its run, if the state of that sample is stored: if it has
+ * reached next_state[k], which then moves on.
+ */
+static void store_lane_sample_state(RunLanes *lanes, int k)
 {
     const RunSamples *samples = &lanes->run[k]->samples;
     const LanePosition *from = lanes->position;
@@ -136,8 +145,9 @@ static void store_lane_state(RunLanes *lanes, int k)
 }
 
 /*
- * Write the requested series of the position and the largest |a| to a row of the block, and update the extremes of the
- * samples of the runs in the lanes of `is_sample`. Accepted positions and velocities are finite.
+ * Write the largest |a| and the requested series of the current positions to row `row` of the block. Update the
+ * extremes of the samples in the lanes of `is_sample`. Accepted positions and velocities are finite; only accelerations
+ * and works are tested.
  */
 static void add_lane_samples(RunLanes *lanes, LaneBits is_sample, long row)
 {
@@ -165,7 +175,7 @@ static void add_lane_samples(RunLanes *lanes, LaneBits is_sample, long row)
     lanes->smallest_a = select_value(is_sample, lanes_min_of(lanes->smallest_a, largest), lanes->smallest_a);
 }
 
-/* Copy n rows of lane k in a column of the block to `values`. */
+/* Copy the first n rows of lane k in a column of the block to `values`. */
 static inline void copy_lane_column(const Lanes *column, int k, long n, double *values)
 {
     if (n == BLOCK_ROWS)
@@ -176,18 +186,21 @@ static inline void copy_lane_column(const Lanes *column, int k, long n, double *
             values[row] = column[row][k];
 }
 
-/* Copy n rows of the block to the next samples of the run in lane k. */
+/* Copy n rows of the block in lane k, largest |a| and series, to the next n samples of its run. */
 static void copy_lane_samples(const RunLanes *lanes, int k, long n)
 {
     const KinematicBatch *batch = lanes->batch;
     const RunSamples *samples = &lanes->run[k]->samples;
-    const long place = samples->index * batch->samples + samples->done;
+    const long row = samples->index * batch->samples + samples->done;
     copy_lane_column(lanes->block[0], k, n, samples->largest + samples->done);
     for (long j = 0; j < batch->n_series; j++)
-        copy_lane_column(lanes->block[j + 1], k, n, batch->values[j] + place);
+        copy_lane_column(lanes->block[j + 1], k, n, batch->values[j] + row);
 }
 
-/* Count the uniform steps in the runs, and copy their samples. */
+/*
+ * Add the n_uniform steps that all lanes made together to the counts of their runs, copy their samples from the block,
+ * and reset n_uniform.
+ */
 static void count_uniform_steps(RunLanes *lanes)
 {
     const long n = lanes->n_uniform;
@@ -199,13 +212,14 @@ static void count_uniform_steps(RunLanes *lanes)
         lanes->run[k]->samples.done += n;
         lanes->run[k]->samples.steps += n;
         lanes->run[k]->monitor.steps += n;
-        lanes->unmonitored[k] -= n;
+        lanes->steps_before_check[k] -= n;
     }
 }
 
 /*
- * Return how many uniform steps may be made before the runs must be treated one by one: at a stored state, a check of
- * progress, the last sample, or with halved steps.
+ * Return how many uniform steps (one step to one sample in all lanes) may be made before the runs must be treated one
+ * by one, BLOCK_ROWS at most. The limits are a stored state, a check of progress and the last sample; 0 if a step is
+ * halved.
  */
 static long find_uniform_limit(const RunLanes *lanes)
 {
@@ -217,13 +231,16 @@ static long find_uniform_limit(const RunLanes *lanes)
         const long to_state = lanes->next_state[k] - samples->done, to_end = samples->n - 1 - samples->done;
         limit = to_state < limit ? to_state : limit;
         limit = to_end < limit ? to_end : limit;
-        limit = lanes->unmonitored[k] < limit ? lanes->unmonitored[k] : limit;
-        limit = samples->stride.halvings ? 0 : limit;
+        limit = lanes->steps_before_check[k] < limit ? lanes->steps_before_check[k] : limit;
+        limit = samples->step_length.halvings ? 0 : limit;
     }
     return limit;
 }
 
-/* Return the times of the samples after the next ones; at the end of a run, that of its last sample. */
+/*
+ * Return the time of the sample after the next one in each lane; at the end of a run, that of its last sample; in a
+ * lane without a run, t1.
+ */
 static Lanes get_following_times(const RunLanes *lanes)
 {
     Lanes t = lanes->t1;
@@ -235,8 +252,8 @@ static Lanes get_following_times(const RunLanes *lanes)
     return t;
 }
 
-/* End the run in lane k with this status, and let the lane be free. */
-static void end_lane(RunLanes *lanes, int k, int status)
+/* End the run in lane k with a status, and free the lane. */
+static void end_run_in_lane(RunLanes *lanes, int k, int status)
 {
     lanes->single->end(lanes->batch, lanes->index[k], lanes->run[k], status);
     lanes->index[k] = -1;
@@ -244,13 +261,16 @@ static void end_lane(RunLanes *lanes, int k, int status)
 }
 
 /* Return whether the run in lane k has stored all its samples. */
-static int is_complete(const RunLanes *lanes, int k)
+static int has_all_samples(const RunLanes *lanes, int k)
 {
     return lanes->run[k]->samples.done == lanes->run[k]->samples.n;
 }
 
-/* Let the next of n runs that begin take lane k: `next` counts them. A run that fails at once is ended. */
-static void fill_lane(RunLanes *lanes, int k, long n, const long *indices, long *next)
+/*
+ * Begin the next run in lane k if the lane is free; *next counts the n runs in `indices`. Runs that fail or end with
+ * their first sample are ended at once, and the following one is tried. No run begins if the batch is ending.
+ */
+static void begin_next_run_in_lane(RunLanes *lanes, int k, long n, const long *indices, long *next)
 {
     const KinematicBatch *batch = lanes->batch;
     while (lanes->index[k] < 0 && *next < n && !*batch->ending) {
@@ -263,16 +283,16 @@ static void fill_lane(RunLanes *lanes, int k, long n, const long *indices, long 
             ((Lanes *)&lanes->p)[j][k] = batch->p[i * batch->numbers + j];
         lanes->extent[k] = batch->size[i];
         const int status = lanes->single->begin(batch, i, lanes->run[k]);
-        if (status || is_complete(lanes, k))
-            end_lane(lanes, k, status);
+        if (status || has_all_samples(lanes, k))
+            end_run_in_lane(lanes, k, status);
         else
-            load_lane(lanes, k);
+            copy_run_to_lane(lanes, k);
     }
 }
 
 /*
- * Count the accepted step of lane k, and store its end as a sample if it is one: the first row of the block. Return 0
- * or a status.
+ * Count the accepted step of lane k, check its progress, and store its end as a sample if it reaches t1[k]. The sample
+ * is the first row of the block. Return 0 or STALLED.
  */
 static int accept_lane_step(RunLanes *lanes, int k)
 {
@@ -280,58 +300,64 @@ static int accept_lane_step(RunLanes *lanes, int k)
     RunSamples *samples = &run->samples;
     const double t = lanes->position->t[k];
     samples->steps++;
-    if (lanes->unmonitored[k] > 0) {
-        lanes->unmonitored[k]--;
+    if (lanes->steps_before_check[k] > 0) {
+        lanes->steps_before_check[k]--;
         run->monitor.steps++;
     } else if (lanes->single->detect_stall(&run->monitor, t, run->t_end)) {
         return STALLED;
     } else {
-        lanes->unmonitored[k] = lanes->single->count_steps_before_check(&run->monitor);
+        lanes->steps_before_check[k] = lanes->single->count_steps_before_check(&run->monitor);
     }
     if (t < lanes->t1[k])
         return 0;
-    store_lane_state(lanes, k);
+    store_lane_sample_state(lanes, k);
     copy_lane_samples(lanes, k, 1);
     samples->done++;
     if (samples->done < samples->n) {
         lanes->t1[k] = samples->t[samples->done];
         lanes->h[k] = lanes->t1[k] - t;
-        samples->stride.halvings = 0;
+        samples->step_length.halvings = 0;
     }
     return 0;
 }
 
-/*
- * Complete the step of lane k, of which `outcome` is what the lanes found: ACCEPTED, REJECTED (it is halved), or
- * IRREGULAR (the run makes it). is_harmless: its error is so small that a halved length may grow again.
- */
+/* How a trial step of a lane ended. */
 enum Outcome { ACCEPTED, REJECTED, IRREGULAR };
-static void complete_lane_step(RunLanes *lanes, int k, enum Outcome outcome, int is_harmless)
+
+/*
+ * Complete the step of lane k by its outcome: ACCEPTED: count it; REJECTED: halve it; IRREGULAR, or MAX_HALVINGS
+ * reached: make it again as a scalar step of its run. A run that fails or has all samples is ended. may_double: the
+ * error is so small that a halved step length is doubled again.
+ */
+static void complete_lane_step(RunLanes *lanes, int k, enum Outcome outcome, int may_double)
 {
-    StepLength *stride = &lanes->run[k]->samples.stride;
-    if (outcome == REJECTED && stride->halvings < MAX_HALVINGS) {
-        stride->halvings++;
+    StepLength *step_length = &lanes->run[k]->samples.step_length;
+    if (outcome == REJECTED && step_length->halvings < MAX_HALVINGS) {
+        step_length->halvings++;
         lanes->h[k] *= 0.5;
         return;
     }
-    if (outcome == ACCEPTED && stride->halvings > 0 && is_harmless) {
+    if (outcome == ACCEPTED && step_length->halvings > 0 && may_double) {
         lanes->h[k] *= 2.0;
-        stride->halvings--;
+        step_length->halvings--;
     }
     if (outcome != ACCEPTED)
-        store_lane(lanes, k);
+        copy_lane_to_run(lanes, k);
     const int status = outcome == ACCEPTED ? accept_lane_step(lanes, k) : lanes->single->advance(lanes->run[k]);
-    const int is_over = status || is_complete(lanes, k);
+    const int is_over = status || has_all_samples(lanes, k);
     if (is_over && outcome == ACCEPTED)
-        store_lane_extremes(lanes, k);
+        copy_extremes_to_run(lanes, k);
     if (is_over)
-        end_lane(lanes, k, status);
+        end_run_in_lane(lanes, k, status);
     else if (outcome != ACCEPTED)
-        load_lane(lanes, k);
+        copy_run_to_lane(lanes, k);
 }
 
-/* Make the next position the present one, in the lanes of the mask. */
-static void move_to_next_position(RunLanes *lanes, LaneBits is_accepted)
+/*
+ * Make the next positions the current ones in the lanes of `is_accepted`; the other lanes keep their positions.
+ * Pointers are exchanged, so that `next` holds free memory.
+ */
+static void accept_next_positions(RunLanes *lanes, LaneBits is_accepted)
 {
     LanePosition *const next = lanes->next;
     for (long j = 0; j < (long)(sizeof *next / sizeof(Lanes)) && any_of(~is_accepted); j++)
@@ -340,22 +366,28 @@ static void move_to_next_position(RunLanes *lanes, LaneBits is_accepted)
     lanes->position = next;
 }
 
-/* Complete a step that is not uniform: count it, and store the samples, in one run after the other. */
+/*
+ * Complete a step that is not uniform: count earlier uniform steps, accept positions, store samples, and complete the
+ * step of each run. The arguments are masks of lanes.
+ */
 static void complete_lane_steps(RunLanes *lanes, LaneBits is_accepted, LaneBits is_irregular, LaneBits is_sample,
-    LaneBits is_harmless)
+    LaneBits may_double)
 {
     count_uniform_steps(lanes);
-    move_to_next_position(lanes, is_accepted);
+    accept_next_positions(lanes, is_accepted);
     if (any_of(is_sample))
         add_lane_samples(lanes, is_sample, 0);
     for (int k = 0; k < LANES; k++)
         if (lanes->index[k] >= 0)
             complete_lane_step(lanes, k, is_irregular[k] ? IRREGULAR : is_accepted[k] ? ACCEPTED : REJECTED,
-                is_harmless[k] != 0);
+                may_double[k] != 0);
 }
 
-/* Try one step in all lanes, and complete it for each run. */
-static void advance_lanes(RunLanes *lanes)
+/*
+ * Try one step in all lanes, and complete it. If all runs reach their next sample (a uniform step), their counts are
+ * updated later, together, in count_uniform_steps(); else complete_lane_steps() treats each run.
+ */
+static void advance_run_lanes(RunLanes *lanes)
 {
     const KinematicBatch *batch = lanes->batch;
     const double max_correction = batch->max_correction, max_error = MAX_STEP_ERROR * max_correction;
@@ -372,7 +404,7 @@ static void advance_lanes(RunLanes *lanes)
     const Lanes error = compute_trapezoidal_error(position, next, lanes->extent);
     LaneBits is_accepted = ~is_irregular & (correction <= max_correction) & (error <= max_error);
     for (int k = 0; N_PULSES && k < LANES; k++)
-        if (lanes->index[k] >= 0 && is_accepted[k] && lanes->run[k]->samples.stride.halvings <= PULSE_HALVINGS
+        if (lanes->index[k] >= 0 && is_accepted[k] && lanes->run[k]->samples.step_length.halvings <= PULSE_HALVINGS
             && lanes->single->has_transient(position->t[k], t[k], lanes->run[k]->p))
             is_accepted[k] = 0;
     if (batch->has_works && any_of(is_accepted))
@@ -381,10 +413,10 @@ static void advance_lanes(RunLanes *lanes)
     is_accepted &= ~is_irregular;
     const LaneBits is_sample = is_accepted & ~(t < lanes->t1) & lanes->has_run;
     if (lanes->n_uniform >= lanes->limit || any_of(lanes->has_run & ~is_sample)) {
-        complete_lane_steps(lanes, is_accepted, is_irregular, is_sample, error < HARMLESS_STEP_ERROR * max_error);
+        complete_lane_steps(lanes, is_accepted, is_irregular, is_sample, error < STEP_DOUBLING_ERROR * max_error);
         return;
     }
-    move_to_next_position(lanes, is_accepted);
+    accept_next_positions(lanes, is_accepted);
     add_lane_samples(lanes, is_sample, lanes->n_uniform++);
     lanes->t1 = following;
     lanes->h = following - t;
@@ -393,7 +425,7 @@ static void advance_lanes(RunLanes *lanes)
 }
 
 /* Return the number of lanes with a run. */
-static int count_runs(const RunLanes *lanes)
+static int count_active_lanes(const RunLanes *lanes)
 {
     int count = 0;
     for (int k = 0; k < LANES; k++)
@@ -401,13 +433,13 @@ static int count_runs(const RunLanes *lanes)
     return count;
 }
 
-/* Return the number of runs that gudgeon_kinematic_lanes() computes together. */
+/* Return LANES, the number of runs that gudgeon_kinematic_lanes() computes together. */
 int gudgeon_lane_count(void) { return LANES; }
 
 /*
  * Compute n runs of a batch, whose indices are given, in lanes, each in one of the memories run[LANES]. single: the
- * functions that gudgeon_single_run_functions() returns. The last run in the lanes is completed alone. If the batch is
- * ending, runs under way end at once, and no run begins.
+ * functions that gudgeon_single_run_functions() returns. The last run in the lanes is completed by scalar steps. If the
+ * batch is ending, the current runs end at once, and no run begins.
  */
 void gudgeon_kinematic_lanes(const void *batch, const void *single, void *const *run, long n, const long *indices)
 {
@@ -423,16 +455,16 @@ void gudgeon_kinematic_lanes(const void *batch, const void *single, void *const 
     }
     do {
         for (int k = 0; k < LANES; k++)
-            fill_lane(&lanes, k, n, indices, &next);
-        if (count_runs(&lanes) > 1 && !*lanes.batch->ending)
-            advance_lanes(&lanes);
-    } while ((count_runs(&lanes) > 1 || next < n) && !*lanes.batch->ending);
+            begin_next_run_in_lane(&lanes, k, n, indices, &next);
+        if (count_active_lanes(&lanes) > 1 && !*lanes.batch->ending)
+            advance_run_lanes(&lanes);
+    } while ((count_active_lanes(&lanes) > 1 || next < n) && !*lanes.batch->ending);
     count_uniform_steps(&lanes);
     for (int k = 0; k < LANES; k++) {
         int status = 0;
         if (lanes.index[k] < 0)
             continue;
-        store_lane(&lanes, k);
+        copy_lane_to_run(&lanes, k);
         while (!status && lanes.run[k]->samples.done < lanes.run[k]->samples.n)
             status = lanes.single->advance(lanes.run[k]);
         lanes.single->end(lanes.batch, lanes.index[k], lanes.run[k], status);

@@ -1,10 +1,11 @@
-/* Positions, velocities and accelerations in tree coordinates of a linkage that drives determine. */
+/* Kinematic analysis in tree coordinates s: Newton's method for the loop closures, velocities and accelerations. */
 #include "../scalar_simd/scalar.h"
 #include "../scalar_simd/extrapolation.h"
 
 /*
- * Compute tree accelerations a and powers at a position by the reduced equations of motion. Return 0 or a status. A
- * positive status is a constraint equation, numbered after the N_LOOPS closures.
+ * Compute the tree accelerations a (N_X) and the outputs rhs (powers, event functions) of a position by the reduced
+ * equations of motion. They are right limits in time: just after a jump of a drive. Discrete states are zero. Return 0,
+ * a negative status, or N_LOOPS plus the number of a dependent constraint equation.
  */
 static int solve_accelerations(KinematicRun *run, const Position *position, double *a, RhsOutputs *rhs)
 {
@@ -15,9 +16,10 @@ static int solve_accelerations(KinematicRun *run, const Position *position, doub
 }
 
 /*
- * Solve the closures at time t by Newton's method from the guess in `position`, and compute the rates there. Return 0
- * or a status. It ends if the correction is rounding or no longer decreases. correction: incremented by the
- * corrections, in rad or fractions of the mechanism's size.
+ * Solve the closures at time t by Newton's method from the guess position->s, and compute the rates s_rate there. It
+ * ends when the correction is below NEWTON_ROUNDING, or below NEWTON_CLOSED and no longer halved. Also sets
+ * last_correction and phi. correction: incremented by the corrections, rad or fraction of the size. Return 0 or a
+ * status.
  */
 static int solve_position_equations(const KinematicRun *run, double t, Position *position, double *correction)
 {
@@ -44,10 +46,10 @@ static int solve_position_equations(const KinematicRun *run, double t, Position 
 }
 
 /*
- * Return whether second rates change a first guess over a time h (s) by more than MAX_SECOND_RATE_MOVE. Near a time at
- * which the second rate of a drive is unbounded they do not describe the whole step.
+ * Return whether second rates change a first guess over a time h (s) by more than MAX_SECOND_RATE_MOVE, or are NaN.
+ * Near a time at which the second rate of a drive is unbounded they do not describe the whole step.
  */
-static int has_large_second_rates(const Position *start, double h, double extent)
+static int exceeds_second_rate_limit(const Position *start, double h, double extent)
 {
     double largest = 0.0;
     for (int k = 0; k < N_X; k++)
@@ -56,10 +58,10 @@ static int has_large_second_rates(const Position *start, double h, double extent
 }
 
 /*
- * Compute the terms of higher order of a first guess over a time h (s). They are zero without an earlier position, or
- * where one is larger than MAX_HIGHER_MOVE.
+ * Compute the terms of third to fifth order of a first guess over a time h (s): move (N_X). All are zero without an
+ * earlier position (interval 0), or where one is larger than MAX_HIGHER_MOVE.
  */
-static void compute_higher_moves(const Position *start, double h, double extent, double *move)
+static void compute_higher_order_move(const Position *start, double h, double extent, double *move)
 {
     double largest = 0.0;
     for (int k = 0; k < N_X; k++) {
@@ -70,7 +72,10 @@ static void compute_higher_moves(const Position *start, double h, double extent,
         move[k] = 0.0;
 }
 
-/* Compute the terms of higher order of a position from the one before, `start`. */
+/*
+ * Store the terms of third to fifth order of a position, for the next first guess, and the interval (s) since `start`,
+ * the position before.
+ */
 static void store_higher_terms(const Position *start, Position *position)
 {
     position->interval = position->t - start->t;
@@ -81,19 +86,20 @@ static void store_higher_terms(const Position *start, Position *position)
 }
 
 /*
- * Solve the whole position at time t from the near position `start`. Return 0 or a status. The first guess is s + h s'
- * + h^2 s''/2 and terms of higher order, or s + h s' if s'' is too large. correction: set to the correction of the
- * guess.
+ * Solve the closures at time t for all of `position`: tree coordinates, motion of all bodies, residuals, terms for the
+ * next guess. The first guess is s + h s' + h^2 s''/2 and terms of higher order from `start`, or s + h s' if s'' is too
+ * large. At a jump of a drive the values just after it count. Also sets position->last_correction. correction: set to
+ * the sum of Newton's corrections, rad or fraction of the size. Return 0 or a status.
  */
 static int solve_position_at(const KinematicRun *run, double t, const Position *start, Position *position,
     double *correction)
 {
-    const double h = t - start->t, half_h = has_large_second_rates(start, h, run->extent) ? 0.0 : 0.5 * h;
+    const double h = t - start->t, half_h = exceeds_second_rate_limit(start, h, run->extent) ? 0.0 : 0.5 * h;
     double move[N_X + 1];
     *correction = 0.0;
     position->t = t;
-    position->interpolated = 0;
-    compute_higher_moves(start, h, run->extent, move);
+    position->is_interpolated = 0;
+    compute_higher_order_move(start, h, run->extent, move);
     for (int k = 0; k < N_X; k++) {
         const double by_second_rate = half_h != 0.0 ? half_h * start->s_second[k] : 0.0;
         position->s[k] = start->s[k] + h * (start->s_rate[k] + by_second_rate) + (half_h != 0.0 ? move[k] : 0.0);
@@ -107,20 +113,22 @@ static int solve_position_at(const KinematicRun *run, double t, const Position *
     return status;
 }
 
-/* Do nothing: a position in tree coordinates is complete. */
+/* Do nothing: solve_position_at() in tree coordinates computes all that a sample needs. */
 static int complete_position(const KinematicRun *run, const Position *position) { return (void)run, (void)position, 0; }
 
 /*
- * Set the position at time t to given q and v (N_Q), and complete it. Return 0 or a status. Where closures depend on
- * each other, the equations of motion of all bodies give the accelerations, and the last correction is set to infinity.
+ * Set the position at time t from a state q, v (N_Q each), complete with accelerations. Return 0 or a status. In the
+ * regular case its tree coordinates are reduced from q and v, and q, v, a are recomputed from them. Values just after a
+ * jump of a drive count. Where closures depend on each other, q and v are kept, the equations of motion of all bodies
+ * give a, and last_correction is infinity.
  */
-static int set_position(KinematicRun *run, double t, const double *q, const double *v, Position *position)
+static int initialize_position(KinematicRun *run, double t, const double *q, const double *v, Position *position)
 {
     const Parameters *p = run->p;
     double step[N_X + 1], rates[N_X + 1];
     position->t = t;
     position->last_correction = position->interval = 0.0;
-    position->interpolated = 0;
+    position->is_interpolated = 0;
     memset(position->s_higher, 0, sizeof position->s_higher);
     reduce_state(t, q, v, p, position->s, position->s_rate);
     if (!close_step(get_time_after_jump(t), position->s, p, step, rates, &position->phi)

@@ -1,7 +1,8 @@
 /* Works of forces and drives along a kinematic motion: quadrature of the powers, and impulses at velocity jumps. */
+
 /*
- * Compute the powers (N_WORK), W, and the accelerations of all bodies at a position. Return the status of
- * complete_position().
+ * Compute the powers (N_WORK), W, of forces and drives at a position; in absolute coordinates also position->a. Return
+ * the status of solve_accelerations().
  */
 static int compute_powers(KinematicRun *run, Position *position, double *power)
 {
@@ -19,9 +20,9 @@ static int compute_powers(KinematicRun *run, Position *position, double *power)
 
 /*
  * Add the works between positions a and b, one step apart, to `work`, J, by Gauss-Legendre quadrature with three nodes.
- * has_jump: set to whether velocities change by more than the integral of the accelerations, because the rate of a
- * drive jumps. min_jump: smaller differences are rounding, rad/s. Return 0, a status, or NOT_FINITE if a power is
- * undefined, with its time in work[0].
+ * has_jump: set to 1 if velocities change by more than the integral of the accelerations, because the rate of a drive
+ * jumps, or if accelerations are not finite. min_jump: smaller differences are rounding, rad/s. Return 0, a status, or
+ * NOT_FINITE if a power is undefined, with its time in work[0].
  */
 static int integrate_work(
     KinematicRun *run, const Position *a, const Position *b, double min_jump, double *work, int *has_jump)
@@ -66,9 +67,10 @@ static double compute_kinetic_energy(const Parameters *p, const Position *positi
 }
 
 /*
- * Add the works between positions a and b to `work`, J, halving the interval where velocities jump. Return 0 or a
- * status. At the jump, the gain of kinetic energy is the work of the drives' impulse. halvings: number left for the
- * whole step. With NOT_FINITE, work[0] is the time of the undefined power.
+ * Add the works between positions a and b to `work`, J, by bisection to intervals without a velocity jump or failed
+ * node. If the interval of a jump is no longer divisible, the gain of kinetic energy is the drives' work, work[0].
+ * halvings: number left for the whole step; at 0, jumps are ignored. Return 0 or a status. With NOT_FINITE, work[0] is
+ * the time of the undefined power.
  */
 static int integrate_work_over_jumps(
     KinematicRun *run, const Position *a, const Position *b, double min_jump, int *halvings, double *work)
@@ -87,7 +89,7 @@ static int integrate_work_over_jumps(
     if (has_jump && is_divisible && *halvings > 0) {
         Position middle;
         --*halvings;
-        status = solve_position_near(run, t, a, &middle, &correction);
+        status = solve_position_over_change_point(run, t, a, &middle, &correction);
         if (!status)
             status = integrate_work_over_jumps(run, a, &middle, min_jump, halvings, work);
         return status ? status : integrate_work_over_jumps(run, &middle, b, min_jump, halvings, work);
@@ -104,8 +106,8 @@ static int integrate_work_over_jumps(
 }
 
 /*
- * Add the works of one step from position a to b to `work`, J. Changes of speed by less than 1e-9 of it are not jumps;
- * at other ones the step is halved, MAX_SPLITS times at most. Return 0 or a status.
+ * Add the works of one step from position a to b to `work`, J. At velocity jumps the step is halved, MAX_SPLITS times
+ * in all. Changes of less than VELOCITY_ROUNDING of the speed are not jumps. Return 0 or a status.
  */
 static int integrate_work_of_step(KinematicRun *run, const Position *a, const Position *b, double *work)
 {
@@ -118,7 +120,7 @@ static int integrate_work_of_step(KinematicRun *run, const Position *a, const Po
 /*
  * Compute the works at n + 1 samples, (n + 1) x N_WORK in J, of which the first row is given. The motion is followed
  * again from the first sample q, v, or from the end of the last call. done: the last complete row. Return 0 or a
- * status.
+ * status. After NOT_FINITE, gudgeon_kinematic_progress() returns the time of the undefined power.
  */
 int gudgeon_kinematic_works(void *integrator, long n, const double *t, const double *parameters, const double *q,
     const double *v, double *work, long *done)
@@ -129,13 +131,13 @@ int gudgeon_kinematic_works(void *integrator, long n, const double *t, const dou
     *done = 0;
     int status = run->work_begun ? 0 : set_initial_position(run, t[0], q, v, &position);
     for (long i = 0; i < n && !status; i++) {
-        StepLength stride = {t[i + 1] - t[i], 0};
+        StepLength step_length = {t[i + 1] - t[i], 0};
         double *sum = work + (i + 1) * N_WORK;
         for (int k = 0; k < N_WORK; k++)
             sum[k] = work[i * N_WORK + k];
         while (position.t < t[i + 1] && !status) {
             const Position before = position;
-            status = make_step(run, &stride, t[i + 1], &position);
+            status = make_step(run, &step_length, t[i + 1], &position);
             if (!status)
                 status = integrate_work_of_step(run, &before, &position, sum);
         }

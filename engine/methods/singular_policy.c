@@ -9,13 +9,13 @@ enum { MAX_SKIPPED_LOG2 = 6 }; /* log2 of the largest number of steps without de
 
 /*
  * Set the policy near singular positions (SINGULAR_...) in the discrete state, with its limits of small pivots: the
- * usual ones for SINGULAR_IGNORE, else NEARBY.
+ * usual ones for SINGULAR_IGNORE, else NEAR_SINGULAR_PIVOT.
  */
 static void set_singular_policy(Integrator *run, int policy)
 {
     run->discrete.singular_policy = policy;
-    run->discrete.least = policy == SINGULAR_IGNORE ? NEARLY_SINGULAR : NEARBY;
-    run->discrete.least_size = policy == SINGULAR_IGNORE ? VANISHING : NEARBY;
+    run->discrete.least = policy == SINGULAR_IGNORE ? NEARLY_SINGULAR : NEAR_SINGULAR_PIVOT;
+    run->discrete.least_size = policy == SINGULAR_IGNORE ? VANISHING : NEAR_SINGULAR_PIVOT;
 }
 
 /*

@@ -121,7 +121,7 @@ static void extend_stage_range(Step *step, const double *y)
  * Return whether they are finite. Return 0 without a computation if not `is_active`, and if the constraints cannot be
  * solved. y is not changed. In lanes, is_active is a mask.
  */
-static int find_closure_correction(Integrator *run, int is_active, double t, const double *y, const Parameters *p,
+static int compute_closure_correction(Integrator *run, int is_active, double t, const double *y, const Parameters *p,
     double *dq, double *dv, double *residual)
 {
     return is_active && !compute_correction(t, y, &run->discrete, p, dq, dv, residual) && all_finite(dq, N_X)

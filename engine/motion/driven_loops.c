@@ -37,7 +37,7 @@ static int solve_loop_closures(double t, double *q, const DiscreteState *discret
             q[N_X + k] -= step[k];
         }
         *step_sum += size;
-        if (size > TURN_SMALL) {
+        if (size > MAX_SERIES_ANGLE) {
             evaluate_loop_directions(t, q, discrete, p, q);
         } else {
             turn_directions(q, step, p);

@@ -180,7 +180,7 @@ static void solve_friction_impulses(const Delassus *impact, const double *impuls
         change = 0.0;
         for (int i = 0; i < n; i++) {
             double slip = friction->after[i], rest = impulse[i];
-            if (friction->mu[i] <= 0.0 || S[i][i] <= DEPENDENT * friction->slip[i][i])
+            if (friction->mu[i] <= 0.0 || S[i][i] <= DEPENDENT_PIVOT * friction->slip[i][i])
                 continue;
             for (int j = 0; j < n; j++) {
                 slip += j != i ? S[i][j] * friction->P[j] : 0.0;

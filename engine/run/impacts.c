@@ -165,7 +165,7 @@ static int update_closed_contacts(Integrator *run, int opening_joint, const Para
     update_frozen_branches(run, p);
     int status = contacts.n ? compute_current_delassus(run, p, &contacts) : 0;
     if (!status)
-        status = is_frictionally_inconsistent(&contacts, 1, p) ? FRICTION_INCONSISTENT
+        status = has_frictional_inconsistency(&contacts, 1, p) ? FRICTION_INCONSISTENT
                                                                : solve_complementarity(&contacts, contacts.r, force);
     for (int k = 0; k < contacts.n && !status; k++)
         has_force[contacts.joint[k]] = force[k] > 0.0;

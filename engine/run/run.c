@@ -307,7 +307,7 @@ void gudgeon_run_start(void *integrator, const double *p, double t, const double
     read_discrete_state(discrete, &run->discrete);
     run->discrete.token = &run->cancellation;
     if (HAS_CONTINUATION)
-        run->discrete.least = run->discrete.least_size = NEARBY;
+        run->discrete.least = run->discrete.least_size = NEAR_SINGULAR_PIVOT;
     for (int k = 0; k < N_STATES; k++) /* NaN at a new run: no internal states yet */
         run->y[FIRST_STATE + k] = isnan(discrete[N_DISCRETE - N_STATES + k]) ? 0.0
             : discrete[N_DISCRETE - N_STATES + k];

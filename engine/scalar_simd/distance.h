@@ -1,10 +1,11 @@
-/* Measures of a trial step: its stiffness, and the distance of its end from the constraints before projection. */
+/* Measures of a trial step: its stiffness h rho, and the drift of its end from the constraints before projection. */
 #define MAX_CONSTRAINT_DRIFT 10.0 /* tolerances: largest distance of a step's end from the constraint equations */
 #define ROUNDING_DIGITS 1e-10 /* of a coordinate or velocity: changes that may be rounding */
 
 /*
- * Return the distance of a step's end from the constraint equations, in tolerances, from the states before and after
- * its projection. Changes below ROUNDING_DIGITS of a component count as rounding. Return 0 without closures.
+ * Return the distance of a step's end from the constraint equations, in tolerances: the largest scaled change of q and
+ * v by its projection. y_before, y_after: states before and after projection. Changes below ROUNDING_DIGITS of a
+ * component count as rounding. Return 0 without closures.
  */
 static Real compute_constraint_distance(const IntegratorOf *run, const Real *y_before, const Real *y_after)
 {
@@ -16,18 +17,21 @@ static Real compute_constraint_distance(const IntegratorOf *run, const Real *y_b
 }
 
 /*
- * Return the index in the state of component k (0 ... N_MOTION - 1) on which the motion depends. These are coordinates,
+ * Return the index in the state (N_Y) of component k (0 ... N_MOTION - 1) on which the motion depends: coordinates,
  * velocities and internal states of contact laws. The works are skipped, as nothing depends on them.
  */
 static inline int get_motion_index(int k) { return k < 2 * N_X ? k : k + N_WORK; }
 
-/* Store the stiffness estimate of a tried step, h rho: its length times the largest rate that its stages show. */
+/*
+ * Store the stiffness estimate h rho of a tried step, its length times the spectral radius that its stages show. 0: no
+ * estimate. Read by choose_method().
+ */
 static inline void store_stiffness_estimate(IntegratorOf *run, Real h_rho) { run->choice.h_rho = h_rho; }
 
 /*
- * Estimate and store h rho, the stiffness of an explicit step (for choose_method()) from two states at its end: that of
- * the step, and that of the last stage, stage_y with rates stage_rates. h rho is h times the ratio of the norms of the
- * differences of rates and states. It is 0 where the two states do not differ.
+ * Estimate and store h rho, the stiffness of an explicit step, from two states at its end: that of the step, and that
+ * of the last stage, stage_y with rates stage_rates. h rho is h times the ratio of the norms of the differences of
+ * rates and states. It is 0 where the two states do not differ.
  */
 static inline void estimate_stiffness_at_end(IntegratorOf *run, const StepOf *step, Real h, const Real *stage_y,
     const Real *stage_rates)

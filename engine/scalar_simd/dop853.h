@@ -9,8 +9,8 @@ static const double dop853_node[] = {0.0, 0.05260015195876773, 0.078900227938151
 enum { DOP853_STAGES = 12, DOP853_DENSE_STAGES = 3 /* additional stages of the dense output */ };
 
 /*
- * Compute the state y = y0 + h sum_j a_sj k_j (N_Y) of stage s, 1 ... 15; 12 is the end, 13 to 15 are for the dense
- * output.
+ * Compute the state y = y0 + h sum_j a_sj k_j (N_Y) of stage s (1 ... 15) of DOP853; 12 is the end of the step, 13 to
+ * 15 are for the dense output.
  */
 static void dop853_compute_stage(int s, Real h, const Real *y0, Real (*k)[N_Y], Real *y)
 {
@@ -99,7 +99,7 @@ static void dop853_compute_stage(int s, Real h, const Real *y0, Real (*k)[N_Y], 
     }
 }
 
-/* Return the scaled error of a step by Hairer's combination of the estimates of orders 5 and 3 (largest components). */
+/* Return the scaled error of a step by Hairer's combination of the estimates of orders 5 and 3, in the maximum norm. */
 static Real dop853_estimate_error(const IntegratorOf *run, const StepOf *step)
 {
     const Real (*k)[N_Y] = (const Real (*)[N_Y])step->k;
@@ -120,8 +120,9 @@ static Real dop853_estimate_error(const IntegratorOf *run, const StepOf *step)
 }
 
 /*
- * Try a step of length h (s): stages, error norm and, if the error is accepted, its end. Return 0 or a status. A
- * rejected step has an error but no end. Called with the rates run->dy at the beginning.
+ * Try a step of length h (s) by DOP853: stages, error norm and, if the error is accepted, its end and its stiffness
+ * estimate. Return 0 or a status. A rejected step has an error but no end. Called with the rates run->dy at the
+ * beginning.
  */
 static int dop853_try_step(IntegratorOf *run, Real h, const ParametersOf *p, StepOf *step)
 {

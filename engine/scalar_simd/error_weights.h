@@ -2,8 +2,9 @@
 #include "speed.h"
 
 /*
- * Add the magnitudes of the works of an accepted step to the energy scale of a run, J. y: the state at the step's end.
- * is_accepted: mask of the runs whose step is accepted. Called before run->y is replaced.
+ * Add the magnitudes of the works of an accepted step to the energy scale of a run, J, which scales the tolerance of
+ * works. y: the state at the step's end. is_accepted: mask of the runs whose step is accepted. Called before run->y is
+ * replaced.
  */
 static void update_energy_scale(IntegratorOf *run, Mask is_accepted, const Real *y)
 {

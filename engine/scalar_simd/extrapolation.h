@@ -11,8 +11,9 @@ typedef struct {
 } CoordinateOf;
 
 /*
- * Compute the terms of order 3 to 5 at a distance of one interval (s) after the position b, from a, one interval before
- * it: P(-g) = s_a, P'(-g) = s_a', P''(-g) = s_a''.
+ * Compute the terms of order 3 to 5 (terms[3]) of the quintic Hermite polynomial P through positions a and b, one
+ * interval g (s) apart, at one interval after b. It has the value, first and second rate of b at 0, and those of a at
+ * -g.
  */
 static inline void compute_higher_terms(Real interval, CoordinateOf a, CoordinateOf b, Real *terms)
 {
@@ -25,7 +26,10 @@ static inline void compute_higher_terms(Real interval, CoordinateOf a, Coordinat
     terms[2] = -(0.5 * second_defect + 3.0 * rate_defect + 6.0 * defect);
 }
 
-/* Return the sum of the terms of higher order at a distance of r intervals. */
+/*
+ * Return the sum of the terms of order 3 to 5 at a distance of r intervals from the last position: r^3 (terms[0] + r
+ * terms[1] + r^2 terms[2]).
+ */
 static inline Real sum_higher_terms(Real r, const Real *terms)
 {
     return r * r * r * (terms[0] + r * (terms[1] + r * terms[2]));

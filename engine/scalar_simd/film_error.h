@@ -2,7 +2,7 @@
  * Error of film forces at both ends of a step: the accelerations of its dense output against those of the equations of
  * motion, relative to the effect of the films.
  */
-#define RATE_ROUNDED (64.0 * DBL_EPSILON) /* relative rounding of velocities in the dense output */
+#define RATE_ROUNDING (64.0 * DBL_EPSILON) /* relative rounding of velocities in the dense output */
 #define FILM_PART 0.03 /* of the largest acceleration: smaller effects of film forces are less accurate */
 
 /*
@@ -30,14 +30,14 @@ static Real compute_largest_film_force(const RhsOutputsOf *rhs)
 
 /*
  * Return the relative error of film forces: the difference of the accelerations `dy` of a state and `rate` of the dense
- * output. The scale is the acceleration of the lightest body by `film_force` (N). If larger, it is `scale_fraction` of
- * the largest acceleration of the same kind (length or angle). Rounding of velocities over the step is subtracted. The
- * result is 0 if film_force is 0.
+ * output. The scale is the acceleration of the lightest body by `film_force` (N), or `scale_fraction` of the largest
+ * acceleration of the same kind (length or angle) if that is larger. Rounding of velocities over the step is
+ * subtracted. The result is 0 if film_force is 0.
  */
 static Real compute_relative_film_error(const IntegratorOf *run, const StepOf *step, const Real *rate, const Real *dy,
     Real film_force, double scale_fraction)
 {
-    const Real rate_rounding = RATE_ROUNDED / step->h;
+    const Real rate_rounding = RATE_ROUNDING / step->h;
     Real difference[2] = {make_real(0.0), make_real(0.0)}, largest[2], fraction = make_real(0.0);
     largest[0] = film_force / run->films.lightest;
     largest[1] = largest[0] * run->norm.min_size[1] / run->norm.min_size[0];
@@ -54,8 +54,8 @@ static Real compute_relative_film_error(const IntegratorOf *run, const StepOf *s
 }
 
 /*
- * Compute the rates of the velocities (`rate` N_X ... 2 N_X - 1) of a stiff method's dense output at one end of a step.
- * They are (sum of stage_weights times the n stages + end_weight (y - y0)) / h.
+ * Compute the rates of the velocities (`rate`, N_X ... 2 N_X - 1) of a stiff method's dense output at one end of a
+ * step. They are (sum of stage_weights times the n stages + end_weight (y - y0)) / h.
  */
 static void compute_end_rates(const IntegratorOf *run, const StepOf *step, const double *stage_weights, int n,
     double end_weight, Real *rate)
@@ -71,19 +71,19 @@ static void compute_end_rates(const IntegratorOf *run, const StepOf *step, const
 /*
  * Compute the first n rates dy of a dense output at fraction theta of a step of length h (s), by differentiating its
  * polynomial. The nested polynomial is y0 + w0 (d0 + w1 (d1 + ...)) of this degree, each w being theta or 1 - theta
- * (bit k of `turned`).
+ * (bit k of `reversed`).
  */
-static inline void differentiate_dense_output(Real h, const Real (*dense)[N_Y], int degree, int turned, double theta,
+static inline void differentiate_dense_output(Real h, const Real (*dense)[N_Y], int degree, int reversed, double theta,
     int n, Real *restrict dy)
 {
     Real value = 1.0 / h, rate = make_real(0.0); /* of a product of factors theta and 1 - theta */
     for (int i = 0; i < n; i++)
         dy[i] = make_real(0.0);
     for (int k = 0; k < degree; k++) {
-        const int is_turned = turned >> k & 1;
-        const double w = is_turned ? 1.0 - theta : theta;
+        const int is_reversed = reversed >> k & 1;
+        const double w = is_reversed ? 1.0 - theta : theta;
         const Real *coefficients = dense[k];
-        rate = rate * w + (is_turned ? -value : value);
+        rate = rate * w + (is_reversed ? -value : value);
         value *= w;
         for (int i = 0; i < n; i++)
             dy[i] += rate * coefficients[i];

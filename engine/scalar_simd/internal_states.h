@@ -3,7 +3,7 @@
  */
 
 /*
- * Copy the internal states of contact laws from state y to the contact states, where the laws read them; nothing
+ * Copy the internal states of contact laws from state y to the contact states, where the laws read them. Does nothing
  * without such states.
  */
 static inline void copy_internal_states(DiscreteStateOf *discrete, const Real *y)
@@ -16,7 +16,10 @@ static inline void copy_internal_states(DiscreteStateOf *discrete, const Real *y
 #endif
 }
 
-/* Copy the rates of the internal states of contact laws from the contacts in `rhs` to dy; nothing if there are none. */
+/*
+ * Copy the rates of the internal states of contact laws from the contacts in `rhs` to dy. Does nothing without such
+ * states.
+ */
 static inline void copy_internal_state_rates(const RhsOutputsOf *rhs, Real *dy)
 {
 #if LAW_STATES

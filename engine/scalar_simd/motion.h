@@ -19,7 +19,9 @@ FUNCTION_LINKAGE int MOTION(Real t, const Real *y, DiscreteStateOf *discrete, co
     return status;
 }
 
-/* Update the maxima of |Phi| and |Phi_dot| of the closures with an accepted state. Return 0. */
+/*
+ * Update the maxima of |Phi| and |Phi_dot| of the closures, *phi_max and *phi_dot_max, by an accepted state. Return 0.
+ */
 FUNCTION_LINKAGE int accept_state(Real t, const Real *y, DiscreteStateOf *discrete, const ParametersOf *p,
     const RhsOutputsOf *rhs, Real *phi_max, Real *phi_dot_max)
 {

@@ -18,9 +18,10 @@ static inline Real get_point_component(const ParametersOf *p, long k, double sig
 }
 
 /*
- * Return a series at a sample. q, v, a: position, velocity and acceleration (x, y, angle) of its body; v is read from
- * order 1 on, a in order 2. A point of a body has r_P = r + A(theta) s, a point of the ground r_P = s. direction: that
- * of the last series, updated; begin each sample with body = -1.
+ * Return a series (coordinate of a body or point, or its first or second time derivative) at a sample. q, v, a:
+ * position, velocity and acceleration (x, y, angle) of its body; v is read from order 1 on, a in order 2. A point of a
+ * body has r_P = r + A(theta) s, a point of the ground r_P = s, constant in every order. direction: cached direction of
+ * the last body, updated; begin each sample with body = -1.
  */
 static inline Real evaluate_motion_series(const MotionSeries *series, const Real *q, const Real *v, const Real *a,
     const ParametersOf *p, DirectionOf *direction)

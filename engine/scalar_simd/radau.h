@@ -9,10 +9,10 @@
 enum { RADAU_DEGREE = 5, RADAU_REVERSED = 0xA };
 enum { RADAU_MAX_STAGES = 5, RADAU_MAX_ITERATIONS = 14, RADAU_MAX_FIXED_ITERATIONS = 60 };
 #define RADAU_STAGE_TOL 3e-3   /* of a step's tolerance: error of its stages */
-#define RADAU_ROUNDED 4e-16 /* of the state: change by rounding */
+#define RADAU_ROUNDING 4e-16 /* of the state: change by rounding */
 #define RADAU5_ERROR_FRACTION 0.85 /* of a step: where the error of the dense output is largest */
 #define RADAU9_ERROR_FRACTION 0.74 /* the same for radau9 */
-#define RADAU_NOISE 2.5e4   /* times that, at most, if rates are differences of large forces */
+#define RADAU_MAX_NOISE_RATIO 2.5e4   /* to that: largest change by rounding if rates are differences of large forces */
 
 /*
  * The coefficients of a method. Butcher's inverse is T diag(gamma, pairs) T^-1 in real form: after the first, two

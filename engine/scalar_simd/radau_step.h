@@ -2,8 +2,8 @@
 
 /*
  * Guess the stages z of a step of length h (s), relative to its beginning, as the start of Newton's iteration. If the
- * step continues the last one, its Hermite cubic is extrapolated. Else the rates at the beginning are integrated,
- * positions with accelerations.
+ * step continues the last one (newton.continues), its Hermite cubic is extrapolated. Else the rates at the beginning
+ * are integrated, for positions with accelerations.
  */
 static void RADAU(guess_stages)(const IntegratorOf *run, Real h, Real (*z)[N_Y])
 {
@@ -12,18 +12,18 @@ static void RADAU(guess_stages)(const IntegratorOf *run, Real h, Real (*z)[N_Y])
         /* Hermite's cubic, beyond the end of the step before, which was H long */
         const Real distance = run->newton.before_y[i] - run->y[i];
         const Real d0 = H * run->newton.before_dy[i], d1 = H * run->dy[i];
-        const Real two = 3.0 * distance + d0 + 2.0 * d1, three = 2.0 * distance + d0 + d1;
+        const Real c2 = 3.0 * distance + d0 + 2.0 * d1, c3 = 2.0 * distance + d0 + d1;
         for (int s = 0; s < RADAU_STAGES; s++) {
             const Real t = RADAU_TABLE.node[s] * h, x = t / H;
             const Real by_rates = i < N_X ? t * (run->dy[i] + 0.5 * t * run->dy[N_X + i]) : t * run->dy[i];
-            z[s][i] = select_value(run->newton.continues, x * (d1 + x * (two + x * three)), by_rates);
+            z[s][i] = select_value(run->newton.continues, x * (d1 + x * (c2 + x * c3)), by_rates);
         }
     }
 }
 
 /*
- * Factorize the real Newton matrix of the run and the complex ones, `complex_matrices`, for a step of length h. Return
- * 0 or a status.
+ * Factorize Newton's matrix for a step of length h (s): the real one in run->newton.linear, and the complex ones,
+ * `complex_matrices` (1 or 2). Return 0 or a status.
  */
 static int RADAU(factor_matrices)(IntegratorOf *run, Real h, ComplexLinearOf *complex_matrices, const ParametersOf *p)
 {
@@ -36,8 +36,8 @@ static int RADAU(factor_matrices)(IntegratorOf *run, Real h, ComplexLinearOf *co
 }
 
 /*
- * Compute the Newton correction `change` of the stages z from their rates f, by one real and one or two complex
- * solutions. h: step length; complex_matrices: complex matrices of factor_matrices().
+ * Compute the correction `change` of the stages z by one simplified Newton iteration from their rates f: one real and
+ * one or two complex linear solutions. h: step length, s; complex_matrices: from factor_matrices().
  */
 static void RADAU(compute_newton_correction)(const IntegratorOf *run, Real h, const ComplexLinearOf *complex_matrices,
     Real (*f)[N_Y], Real (*z)[N_Y], Real (*change)[N_Y])
@@ -126,10 +126,10 @@ static int RADAU(evaluate_stages)(IntegratorOf *run, Real h, Mask is_active, Rea
 }
 
 /*
- * Find the stages of a step of length h, in step->k, by simplified Newton iterations from the guess there. Return 0 or
- * a status. has_failed: set to where they are not found. An iteration ends when the errors of stages and film forces
- * are below a part of the tolerance, or are rounding. It fails if it converges too slowly. With fixed steps it goes
- * down to rounding.
+ * Solve for the stages of a step of length h, in step->k, by simplified Newton iterations from the guess there. Return
+ * 0 or a status. has_failed: set to the mask of runs in which they are not found. An iteration ends when the errors of
+ * stages and film forces are below a part of the tolerance, or are rounding. It fails if it converges too slowly. With
+ * fixed steps it goes down to rounding. Also stores the convergence rate.
  */
 static int RADAU(solve_stages)(IntegratorOf *run, Real h, const ComplexLinearOf *complex_matrices,
     const ParametersOf *p, StepOf *step, Mask *has_failed)
@@ -144,7 +144,7 @@ static int RADAU(solve_stages)(IntegratorOf *run, Real h, const ComplexLinearOf 
     Real rounding = make_real(0.0);
     for (int i = 0; i < N_Y; i++)
         rounding = real_max(real_abs(run->y[i]) * run->norm.weight[i], rounding);
-    rounding *= RADAU_ROUNDED;
+    rounding *= RADAU_ROUNDING;
     const Real tolerance = select_value(run->control.accept <= DBL_MAX, make_real(RADAU_STAGE_TOL), rounding);
     const Real max_error = real_max(tolerance, rounding);
     Mask is_active = invert_mask((Mask){0});
@@ -166,22 +166,22 @@ static int RADAU(solve_stages)(IntegratorOf *run, Real h, const ComplexLinearOf 
         distance = select_value(is_active, distance, make_real(0.0));
         if (is_error_not_finite(run, distance))
             return NOT_FINITE;
-        Mask found = is_active & (distance <= rounding);
+        Mask is_found = is_active & (distance <= rounding);
         if (pass > 0)
-            convergence_rate = select_value(is_active & invert_mask(found), distance / before, convergence_rate);
+            convergence_rate = select_value(is_active & invert_mask(is_found), distance / before, convergence_rate);
         /* a film force is linear in the velocity by sectors of its direction: the first change may miss the sector */
         if (pass > has_films()) {
             /* the change no longer decreases */
-            found |= is_active & invert_mask(convergence_rate < 0.9) & (distance <= RADAU_NOISE * rounding)
+            is_found |= is_active & invert_mask(convergence_rate < 0.9) & (distance <= RADAU_MAX_NOISE_RATIO * rounding)
                 & (force_change <= run->newton.force_found);
-            *has_failed |= is_active & invert_mask(found | (convergence_rate < max_ratio));
-            is_active &= found | (convergence_rate < max_ratio);
+            *has_failed |= is_active & invert_mask(is_found | (convergence_rate < max_ratio));
+            is_active &= is_found | (convergence_rate < max_ratio);
         }
-        found |= is_active & (convergence_rate * distance <= max_error * (1.0 - convergence_rate))
+        is_found |= is_active & (convergence_rate * distance <= max_error * (1.0 - convergence_rate))
             & (convergence_rate * force_change <= run->newton.force_found * (1.0 - convergence_rate));
-        run->newton.convergence_rate = select_value(found, real_max(convergence_rate, make_real(1e-3)),
+        run->newton.convergence_rate = select_value(is_found, real_max(convergence_rate, make_real(1e-3)),
             run->newton.convergence_rate);
-        is_active &= invert_mask(found);
+        is_active &= invert_mask(is_found);
         before = select_value(is_active, distance, make_real(1.0));
     }
     *has_failed |= is_active;
@@ -189,8 +189,9 @@ static int RADAU(solve_stages)(IntegratorOf *run, Real h, const ComplexLinearOf 
 }
 
 /*
- * Return the scaled error norm of a step from rates dy at its beginning and the contribution `stage_sum` of its stages.
- * The sum r is filtered by the real matrix into u, the error of each component; both are outputs.
+ * Return the scaled error norm of a step from rates dy at its beginning and the contribution `stage_sum` of its stages
+ * (embedded formula). Outputs: r, the sum of both, and u, the error of each component: r filtered by the real Newton
+ * matrix.
  */
 static Real RADAU(estimate_error)(const IntegratorOf *run, Real h, const Real *dy, const Real *stage_sum, Real *r,
     Real *u)
@@ -205,9 +206,10 @@ static Real RADAU(estimate_error)(const IntegratorOf *run, Real h, const Real *d
 }
 
 /*
- * Try a step of length h (s): stages, error norm and, if the error is accepted, its end. Return 0 or a status. The
- * guess in step->k is improved by Newton's method. If it fails, the status rejects the step (NOT_FOUND; lanes: a mask).
- * A large error is estimated again at the state with the error, which filters stiff components.
+ * Try a step of length h (s) by Radau IIA: stages, error norm and, if the error is accepted, its end. Return 0 or a
+ * status. If Newton's method fails, the status rejects the step (NOT_FOUND; in lanes: a mask). A large error is
+ * estimated again at the state with the error, which filters stiff components. Also stores the stiffness estimate h
+ * rho.
  */
 static int RADAU(try_step)(IntegratorOf *run, Real h, const ParametersOf *p, StepOf *step)
 {

@@ -49,7 +49,10 @@ static void rodas5p_compute_stage(int s, const Real *y0, Real (*k)[N_Y], Real *y
     }
 }
 
-/* Compute the right side r = f + sum_j c_sj/h u_j of the linear system of stage s, 0 ... 7, from the rates f there. */
+/*
+ * Compute the right-hand side r = f + sum_j c_sj/h u_j of the linear system of stage s, 0 ... 7, from the rates f at
+ * that stage and the increments k of the earlier stages.
+ */
 static void rodas5p_compute_right_side(int s, Real h, const Real *f, Real (*k)[N_Y], Real *r)
 {
     const Real inverse_h = 1.0 / h;
@@ -97,9 +100,9 @@ static void rodas5p_compute_right_side(int s, Real h, const Real *f, Real (*k)[N
 }
 
 /*
- * Try a step of length h (s): stages, error norm and, if the error is accepted, its end. Return 0 or a status. Each
- * stage solves one linear system with the same Newton matrix. The error is the last increment. h rho follows from the
- * last two stages, which are at one time.
+ * Try a step of length h (s) by Rodas5P: stages, error norm and, if the error is accepted, its end. Return 0 or a
+ * status. Each stage solves one linear system with the same Newton matrix. The error is the last increment. The
+ * stiffness estimate h rho follows from the last two stages, which are at one time.
  */
 static int rodas5p_try_step(IntegratorOf *run, Real h, const ParametersOf *p, StepOf *step)
 {

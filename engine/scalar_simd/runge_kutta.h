@@ -1,11 +1,11 @@
 /*
- * A trial step of an explicit Runge-Kutta method given by its coefficients, with its error and dense output. The
+ * A trial step of an explicit Runge-Kutta method from its Butcher tableau, with its error and dense output. The
  * coefficients are in methods/runge_kutta.c. The dense output is y0 + s (d0 + (1 - s) (d1 + s (d2 + (1 - s) d3))). Here
  * d0 to d2 are Hermite's cubic through both ends with their rates.
  */
 enum { RK4_STAGES = 4, DOPRI5_STAGES = 6, MAX_STAGES = 6 };
 
-/* The coefficients of an explicit Runge-Kutta method. */
+/* The Butcher tableau of an explicit Runge-Kutta method. */
 typedef struct Tableau {
     int stages, estimates; /* estimates: whether there is an error estimate */
     double node[MAX_STAGES], a[MAX_STAGES][MAX_STAGES], weight[MAX_STAGES];
@@ -32,8 +32,9 @@ static const Tableau dormand_prince = {.stages = DOPRI5_STAGES, .estimates = 1,
         701980252875.0 / 199316789632.0, -1453857185.0 / 822651844.0, 69997945.0 / 29380423.0}};
 
 /*
- * Try a step of length h (s) by a tableau: stages, end and, if the tableau has an estimate, its error norm. Return 0 or
- * a status. The first stage has the rates at the end of the previous step. A rejected step has no stability estimate.
+ * Try a step of length h (s) by a Butcher tableau: stages, end and, if the tableau has an estimate, its error norm.
+ * Return 0 or a status. The first stage has the rates at the end of the previous step (FSAL). A step that is accepted
+ * also stores its stiffness estimate.
  */
 static int runge_kutta_try_step(IntegratorOf *run, const Tableau *tableau, Real h, const ParametersOf *p, StepOf *step)
 {
@@ -78,7 +79,10 @@ static int runge_kutta_try_step(IntegratorOf *run, const Tableau *tableau, Real 
     return 0;
 }
 
-/* Compute the four coefficients step->dense of the dense output from the stages and both ends of a step. */
+/*
+ * Compute the four coefficients step->dense of the dense output from the stages and both ends of a step. The fourth is
+ * 0 for methods whose interpolant is Hermite's cubic.
+ */
 static inline void runge_kutta_compute_dense_output(const IntegratorOf *run, const Tableau *tableau, StepOf *step)
 {
     for (int i = 0; i < N_Y; i++) {

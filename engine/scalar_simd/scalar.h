@@ -37,9 +37,9 @@ static inline int any_of(int mask) { return mask != 0; }
 static inline int is_closed(const ContactState *contact) { return contact->closed; }
 /* Convert a constant to Real; in lanes, the constant in all lanes. */
 static inline double make_real(double x) { return x; }
-/* Return the larger number; NaN if x is NaN. */
+/* Return the maximum of two numbers; NaN if x is NaN. */
 static inline double real_max(double x, double y) { return max_of(x, y); }
-/* Return the smaller number; NaN if x is NaN. */
+/* Return the minimum of two numbers; NaN if x is NaN. */
 static inline double real_min(double x, double y) { return min_of(x, y); }
 /* Return |x|. */
 static inline double real_abs(double x) { return fabs(x); }

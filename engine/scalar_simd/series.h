@@ -21,8 +21,8 @@ typedef union {
 /*
  * Compute the inner terms of the Cauchy products of all pairs at orders k and k + 1, for even k, from orders below k.
  * sum: left_2 right_{k-2} + ... + left_{k-2} right_2. next_sum: left_2 right_{k-1} + ... + left_{k-1} right_2.
- * add_outer_products() adds the other two terms. Odd and even terms are summed apart, and those of order k - 1 come
- * last: the processor computes most of the sums before these are known.
+ * add_outer_products() adds the other two terms. Odd and even terms are summed separately, and those of order k - 1
+ * come last: the processor computes most of the sums before these are known.
  */
 SERIES_NOINLINE static void sum_inner_products(int k, SeriesRow (*left)[SERIES_ROWS], SeriesRow (*right)[SERIES_ROWS],
     SeriesRow *sum, SeriesRow *next_sum)
@@ -47,7 +47,10 @@ SERIES_NOINLINE static void sum_inner_products(int k, SeriesRow (*left)[SERIES_R
     }
 }
 
-/* Add left_1 right_{k-1} and left_{k-1} right_1 to each sum of order k, which sum_inner_products() left out. */
+/*
+ * Add the outer terms left_1 right_{k-1} and left_{k-1} right_1 of the Cauchy products to each sum of order k, which
+ * sum_inner_products() left out. For k = 2 they are one term.
+ */
 SERIES_NOINLINE static void add_outer_products(int k, SeriesRow (*left)[SERIES_ROWS], SeriesRow (*right)[SERIES_ROWS],
     SeriesRow *sum)
 {
@@ -80,7 +83,7 @@ SERIES_NOINLINE static void compute_series_orders(const ParametersOf *p, const T
     }
 }
 
-/* Return the thread-local memory for the left and right factors of all products at all orders. */
+/* Return the thread-local memory for the left and right factors of all products at all orders: [0] left, [1] right. */
 static SeriesRow (*get_series_factors(void))[TAYLOR_ORDERS][SERIES_ROWS]
 {
     static _Thread_local SeriesRow factors[2][TAYLOR_ORDERS][SERIES_ROWS];

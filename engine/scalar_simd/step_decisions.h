@@ -15,7 +15,7 @@
 #define LENGTH_MEMORY 0.8       /* weight of the mean length of the steps before the last one */
 #define MAX_FLIGHTS 2.0    /* of the time in which a journal crosses its bearing: longest step */
 #define BEND_SAFETY 2.0    /* factor on the largest second derivative of a gap that neighbouring stages show */
-#define WIDEST 0.125       /* w/4 for neighbouring stages at most w of a step apart */
+#define QUARTER_STAGE_DISTANCE 0.125       /* w/4 for neighbouring stages at most w of a step apart */
 #define MAX_SMALL_FILM_ERROR 0.02    /* of the limit: with smaller errors at the ends, the error inside is measured rarely */
 #define FILM_LENGTH_RATIO 1.5    /* times the last measured step: longer steps are measured */
 #define MAX_UNMEASURED_FILM_STEPS 16.0    /* steps between two measurements */
@@ -76,8 +76,8 @@ static inline Mask is_film_measured(Real end_error, Real h, Real film_error, Rea
 static inline Real compute_least_gap(const StepOf *step, int joint, Real begin, Real end, Real rate_begin,
     Real rate_end)
 {
-    const Real slowest = real_min(step->rate[joint][0], real_min(rate_begin, rate_end)),
-        fastest = real_max(step->rate[joint][1], real_max(rate_begin, rate_end));
+    const Real min_rate = real_min(step->rate[joint][0], real_min(rate_begin, rate_end)),
+        max_rate = real_max(step->rate[joint][1], real_max(rate_begin, rate_end));
     const Real smallest = real_min(step->lowest[joint], real_min(begin, end));
-    return smallest - WIDEST * step->h * (fastest - slowest) * BEND_SAFETY / 2.0;
+    return smallest - QUARTER_STAGE_DISTANCE * step->h * (max_rate - min_rate) * BEND_SAFETY / 2.0;
 }

@@ -10,7 +10,8 @@ enum { SERIES_PART = sizeof(SeriesPart) / sizeof(Real) };
 
 /*
  * Return the longest step in s for which the last two terms of the series do not exceed the tolerance. Symmetry may
- * make these terms small or zero; the defect at the end of the step shows that. Also store the growth of these terms.
+ * make these terms small or zero; the defect at the end of the step shows that. Also store series.growth, the ratio of
+ * these terms times the order; 0 if the term before the last is 0.
  */
 static Real taylor_compute_max_length(IntegratorOf *run)
 {
@@ -27,8 +28,9 @@ static Real taylor_compute_max_length(IntegratorOf *run)
 }
 
 /*
- * Store h rho of a step of length h (s) if stability may limit it, else 0. In stiff motion, the last terms of the
- * series are those of the fastest mode, c_n / c_(n-1) = rho / n, and steps end where they grow.
+ * Store the stiffness estimate h rho of a step of length h (s) if it exceeds TAYLOR_STABILITY times the order, where
+ * stability may limit the step; else 0. In stiff motion, the last terms of the series are those of the fastest mode,
+ * c_n / c_(n-1) = rho / n, and steps end where they grow.
  */
 static void taylor_estimate_stiffness(IntegratorOf *run, Real h)
 {
@@ -38,8 +40,8 @@ static void taylor_estimate_stiffness(IntegratorOf *run, Real h)
 }
 
 /*
- * Return the longest step in s by all terms of the series: each may exceed the tolerance by a fixed factor per lower
- * order.
+ * Return the longest step in s by all terms of the series: each may exceed the tolerance by the factor 2^TAYLOR_DECAY
+ * per lower order. Called if the defect of a step shows that the last two terms are too small.
  */
 static Real taylor_compute_max_length_by_all_terms(const IntegratorOf *run)
 {
@@ -55,8 +57,8 @@ static Real taylor_compute_max_length_by_all_terms(const IntegratorOf *run)
 }
 
 /*
- * Evaluate the series at time h (s) after the run's state: the change of the state and its rate, by even and odd powers
- * separately. The change has the relative precision of its own size, not of the state's.
+ * Evaluate the series at time h (s) after the run's state: the change of the state and its rate (N_Y each), by even and
+ * odd powers separately (Horner's scheme). The change has the relative precision of its own size, not of the state's.
  */
 static inline void taylor_evaluate_change_and_rate(const IntegratorOf *run, Real h, Real *change, Real *rate)
 {
@@ -87,8 +89,8 @@ static inline void taylor_evaluate_change_and_rate(const IntegratorOf *run, Real
 }
 
 /*
- * Evaluate the series at time h (s) after the run's state: the state y (N_Y). Called for the dense output at a fraction
- * of a step; the end of a trial step also needs the rates.
+ * Evaluate the series at time h (s) after the run's state: the state y (N_Y), including the accumulated rounding error.
+ * Called for the dense output at a fraction of a step.
  */
 static inline void taylor_evaluate_state(const IntegratorOf *run, Real h, Real *y)
 {
@@ -99,8 +101,8 @@ static inline void taylor_evaluate_state(const IntegratorOf *run, Real h, Real *
 }
 
 /*
- * Return the step length next to h (s) for which the time at its end is exact, h itself if h is too short for that.
- * Times then have no rounding errors that add up.
+ * Return the step length near h (s) for which the time at its end, run->t + h, is exact; h itself if h is too short for
+ * that. Rounding errors of times then do not accumulate.
  */
 static inline Real round_step_length(const IntegratorOf *run, Real h)
 {
@@ -109,8 +111,8 @@ static inline Real round_step_length(const IntegratorOf *run, Real h)
 }
 
 /*
- * Return the defect h |y' - f| at the end of a step in the error norm of velocities, relative to the allowed one. rate:
- * y' of the series; f: step->dy.
+ * Return the defect h |y' - f| at the end of a step in the scaled norm of velocities, times series.defect_weight: 1 is
+ * the largest that is accepted. rate: y' of the series; f: step->dy.
  */
 static Real taylor_compute_defect(const IntegratorOf *run, const StepOf *step, const Real *rate)
 {
@@ -122,8 +124,8 @@ static Real taylor_compute_defect(const IntegratorOf *run, const StepOf *step, c
 
 /*
  * Try a step of length h (s), or of the longest valid length if that is shorter; a fixed step is always h. Return 0 or
- * a status. step->error is h over the valid length, or the defect. If the defect at the end is too large, the step is
- * repeated once with a length from all terms.
+ * a status. step->error is the maximum of h over the valid length and the defect. If the defect at the end is too
+ * large, the step is repeated once with a length from all terms.
  */
 static int taylor_try_series_step(IntegratorOf *run, Real h, const ParametersOf *p, StepOf *step)
 {

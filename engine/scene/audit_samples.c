@@ -5,8 +5,8 @@
 
 /*
  * Compute the accelerations a (N_Q) of all bodies by the equations of motion in absolute coordinates, at the state
- * absolute_state (q, v, works). *force: largest constraint or friction force there, N. Branches are not frozen. Return
- * a status. Used by the audit of steps.
+ * absolute_state (q, v, works). *force: largest constraint or friction force there, N. Branches are not frozen, and
+ * pivots have their usual limits. Return a status. Called by the audit of steps.
  */
 int compute_absolute_accelerations(double t, const double *absolute_state, const DiscreteState *discrete,
     const Parameters *p,
@@ -32,7 +32,8 @@ int compute_absolute_accelerations(double t, const double *absolute_state, const
 
 /*
  * Compute the residuals Phi_q v - nu (`residual`) and nu of all N_ALL_ROWS velocity constraints. Phi_q v is the central
- * difference of Phi along v over half_interval (s) before and after; with half_interval = 0 it counts as zero.
+ * difference of Phi along v over half_interval (s) before and after; 0 if half_interval is 0. Called by the audits of
+ * samples and steps.
  */
 void compute_velocity_residuals(double t, const double *q, const double *v, double half_interval, const Parameters *p,
     double *residual,
@@ -51,9 +52,9 @@ void compute_velocity_residuals(double t, const double *q, const double *v, doub
 }
 
 /*
- * Return whether the first or second rate of a drive jumps, or is unbounded, at time t (s). Its values just before, at
- * and just after t are compared. q, v: coordinates and velocities of all bodies. Used where an audit or a start must
- * not rely on rates at t.
+ * Return whether the first or second rate of a drive jumps, or is unbounded or NaN, at time t (s). It does if its
+ * values just before, at and just after t differ by more than 1e-5 (second rate: 1e-3) of themselves. q, v: coordinates
+ * and velocities of all bodies. Called where an audit or a start must not rely on rates at t.
  */
 int has_drive_jump(double t, const double *q, const double *v, const Parameters *p)
 {

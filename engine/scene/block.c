@@ -1,8 +1,8 @@
-/* Factorization and solution of a small dense block of equations, of at most LARGEST_BLOCK unknowns. */
+/* LU factorization and solution of a small dense block of equations, of at most LARGEST_BLOCK unknowns. */
 /*
- * Factorize the n x n matrix A (by rows) in place by Gaussian elimination; pivot_rows: the order of the rows. Pivots
- * are chosen relative to the largest entry of their row. Return 1 if only rounding is left of a pivot, else 0. Called
- * by emitted code for blocks of more than two unknowns.
+ * Factorize the n x n matrix A (by rows) in place by LU factorization with scaled partial pivoting; pivot_rows: the
+ * order of the rows. Return 1 if a pivot is at most 1e-12 of the largest entry of its row, else 0. Called by emitted
+ * code for blocks of more than two unknowns.
  */
 int factor_block(int n, double *A, int *pivot_rows)
 {
@@ -39,8 +39,8 @@ int factor_block(int n, double *A, int *pivot_rows)
 }
 
 /*
- * Solve A x = b with the factors and the row order of factor_block(). x: b on entry, the solution on return. Called by
- * emitted code.
+ * Solve A x = b by forward and back substitution with the factors and the row order of factor_block(). x: b on entry,
+ * the solution on return. Called by emitted code.
  */
 void solve_block(int n, const double *A, const int *pivot_rows, double *x)
 {

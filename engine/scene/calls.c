@@ -3,8 +3,8 @@
  * samples. Arguments are C-contiguous arrays in SI units.
  */
 /*
- * Compute the rates dy of the state y = (q, v, works) in absolute coordinates, and the outputs rhs, with the contact
- * forces stored in `discrete`. Return a status.
+ * Compute the rates dy of the state y = (q, v, works) in absolute coordinates, and the outputs rhs. Contact forces are
+ * inputs: those stored in `discrete`. Return a status.
  */
 static int compute_absolute_rates(double t, const double *y, const DiscreteState *discrete, const Parameters *p,
     double *dy,
@@ -32,8 +32,8 @@ static int evaluate_state_rates(
 }
 
 /*
- * Compute the rates dy of a state y in absolute coordinates with the forces of its closed rigid contacts, which are
- * stored in `discrete`. Return a status.
+ * Compute the rates dy of a state y in absolute coordinates, with the forces of its closed rigid contacts. These forces
+ * are solved for and stored in `discrete`. Return a status.
  */
 static int evaluate_rates_at(
     double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dy, RhsOutputs *rhs)
@@ -41,7 +41,10 @@ static int evaluate_rates_at(
     return compute_rates_in_contact(evaluate_state_rates, N_S, t, y, discrete, p, dy, rhs);
 }
 #else
-/* Compute the rates dy of a state y in absolute coordinates; the scene has no rigid contacts. Return a status. */
+/*
+ * Compute the rates dy and outputs rhs of a state y in absolute coordinates; the scene has no rigid contacts. Return a
+ * status.
+ */
 static int evaluate_rates_at(
     double t, const double *y, DiscreteState *discrete, const Parameters *p, double *dy, RhsOutputs *rhs)
 {
@@ -127,15 +130,18 @@ void gudgeon_gamma(double t, const double *q, const double *v, const double *p, 
     acceleration_rhs(t, q, v, (const Parameters *)p, gamma_values);
 }
 
-/* Compute the values of a start from the parameters: guesses of coordinates, set coordinates, and set rates. */
+/*
+ * Compute the values of a start from the parameters: guesses of coordinates (N_GUESS), set coordinates (N_SET) and set
+ * rates (N_RATES). The latter two are followed by those of eccentricities of journals, if any are set.
+ */
 void gudgeon_start_values(const double *p, double *guesses, double *set_coordinates, double *rates)
 {
     start_values((const Parameters *)p, guesses, set_coordinates, rates);
 }
 
 /*
- * Compute the rates dy (N_S) of the state y in absolute coordinates, including forces of rigid contacts. discrete: as
- * in a sample (N_DISCRETE). Return a status.
+ * Compute the rates dy (N_S) of the state y in absolute coordinates, including forces of rigid contacts. discrete:
+ * discrete state as in a sample (N_DISCRETE). Return a status.
  */
 int gudgeon_rhs(double t, const double *y, const double *discrete, const double *p, double *dy)
 {
@@ -146,8 +152,9 @@ int gudgeon_rhs(double t, const double *y, const double *discrete, const double 
 }
 
 /*
- * Evaluate the right-hand side `count` times for benchmarks; each call depends on the one before, so that none is
- * removed or overlapped. Return a sum of accelerations that depends on all calls.
+ * Evaluate the right-hand side `count` times for benchmarks; the caller measures the time. Each call depends on the one
+ * before, so that the compiler neither removes nor overlaps any. Return a sum of accelerations that depends on all
+ * calls.
  */
 double gudgeon_time_rhs(long count, double t, const double *y, const double *discrete, const double *p)
 {
@@ -164,8 +171,8 @@ double gudgeon_time_rhs(long count, double t, const double *y, const double *dis
 
 #ifdef WALLS
 /*
- * Sum the corner forces on the slider of each guide with play into `reaction`: force in N, and moment about the
- * slider's point in N m. That point is in the middle between the first and the last corner, which are opposite.
+ * Sum the contact forces at the corners of each slider in a guide with play into `reaction`: force in N, and moment
+ * about the slider's point in N m. That point is the midpoint of the first and the last corner, which are opposite.
  */
 static void sum_corner_forces(const Clearance *corner_clearances, double *reaction)
 {
@@ -188,9 +195,9 @@ static void sum_corner_forces(const Clearance *corner_clearances, double *reacti
 
 /*
  * Compute the results at n samples into the arrays that are not NULL: accelerations, multipliers, columns of joints
- * with play and friction elements, powers, residuals. Reactions, torques, series and energy belong together: all or
- * none are NULL. discrete: rows of N_DISCRETE. Return 0, or the number of a vanishing pivot with the index of the
- * sample in *failed_sample; later samples are not computed.
+ * with play and friction elements, powers, residuals (drift). Reactions, torques, series and energy belong together:
+ * all or none are NULL. discrete: rows of N_DISCRETE. Return 0, or the number of a vanishing pivot with the index of
+ * the sample in *failed_sample; later samples are not computed.
  */
 int gudgeon_evaluate(long n, const double *t, const double *q, const double *v, const double *discrete,
     const double *parameters, double *a, double *lambda, double *reactions, double *torques, double *clearance,
@@ -281,7 +288,7 @@ int gudgeon_evaluate_runs(long n_runs, const long *counts, const double *t, cons
 
 #include "../scalar_simd/scalar.h"
 
-/* Compute sine and cosine of an angle (rad) by the operations of vectors of angles. */
+/* Compute sine and cosine of an angle (rad) by the operations of vectors of angles, so that both give the same bits. */
 static void compute_direction(double angle, double *sine, double *cosine)
 {
     const Four angles = {angle, angle, angle, angle};

@@ -7,27 +7,28 @@
 
 #pragma GCC visibility push(protected)
 
-void gudgeon_prepare(const double *given, const unsigned char *is_given, double *p);
-void gudgeon_prepare_runs(long runs, long slots, const double *given, const unsigned char *is_given, double *p);
+void gudgeon_prepare(const double *given_values, const unsigned char *is_given, double *p);
+void gudgeon_prepare_runs(long n_runs, long n_values, const double *given_values, const unsigned char *is_given,
+    double *p);
 void gudgeon_mass(const double *p, double *m);
 void gudgeon_phi(double t, const double *q, const double *p, double *phi);
 void gudgeon_phi_q(double t, const double *q, const double *p, double *phi_q);
 void gudgeon_nu(double t, const double *q, const double *p, double *nu);
-void gudgeon_gamma(double t, const double *q, const double *v, const double *p, double *gamma_rows);
-void gudgeon_start_values(const double *p, double *guess, double *set, double *rates);
+void gudgeon_gamma(double t, const double *q, const double *v, const double *p, double *gamma_values);
+void gudgeon_start_values(const double *p, double *guesses, double *set_coordinates, double *rates);
 int gudgeon_start(double t, const double *parameters, double size, double *q, double *v, double *residual);
 int gudgeon_continuation(double t, const double *parameters, double size, double *q, double *v);
 int gudgeon_rhs(double t, const double *y, const double *discrete, const double *p, double *dy);
 double gudgeon_time_rhs(long count, double t, const double *y, const double *discrete, const double *p);
 int gudgeon_evaluate(long n, const double *t, const double *q, const double *v, const double *discrete,
     const double *parameters, double *a, double *lambda, double *reactions, double *torques, double *clearance,
-    double *series, double *friction, double *energy, double *power, double *drift, long *failed);
+    double *series, double *friction, double *energy, double *power, double *drift, long *failed_sample);
 void gudgeon_audit_samples(long n, const double *t, const double *q, const double *v, const double *discrete,
-    const double *parameters, double size, double *off);
-int gudgeon_evaluate_runs(long runs, const long *counts, const double *t, const double *q, const double *v,
-    const double *discrete, const double *parameters, long numbers, double *a, double *lambda, double *reactions,
+    const double *parameters, double size, double *relative_errors);
+int gudgeon_evaluate_runs(long n_runs, const long *counts, const double *t, const double *q, const double *v,
+    const double *discrete, const double *parameters, long n_parameters, double *a, double *lambda, double *reactions,
     double *torques, double *clearance, double *series, double *friction, double *energy, double *power, double *drift,
-    long *failed);
+    long *failed_sample);
 
 /*
  * A series of the motion: a coordinate of a body's centre of mass or of a point, or its first or second time
@@ -40,8 +41,8 @@ typedef struct {
     double sign_x, sign_y;
 } MotionSeries;
 
-void gudgeon_motion_series(const MotionSeries *series, long runs, const long *counts, const double *q, const double *v,
-    const double *a, const double *parameters, long numbers, double *values);
+void gudgeon_motion_series(const MotionSeries *series, long n_runs, const long *counts, const double *q,
+    const double *v, const double *a, const double *parameters, long n_parameters, double *values);
 #if TREE
 void gudgeon_expand(double t, const double *q, const double *v, const double *p, double *all_q, double *all_v);
 void gudgeon_reduce(double t, const double *all_q, const double *all_v, const double *p, double *q, double *v);
@@ -125,8 +126,8 @@ const void *gudgeon_single_run_functions(void);
 #if !INTEGRATES
 size_t gudgeon_kinematic_size(void);
 void gudgeon_kinematic_begin(
-    void *integrator, double max_correction, double extent, double t_end, int (*ask)(void *), void *caller,
-    double every);
+    void *integrator, double max_correction, double extent, double t_end, int (*poll)(void *), void *context,
+    double poll_interval);
 void gudgeon_kinematic_record(void *integrator, double *rows, long capacity);
 long gudgeon_kinematic_fetch_records(void *integrator);
 void gudgeon_kinematic_restart(void *integrator);
@@ -173,8 +174,8 @@ void gudgeon_kinematic_ensemble(const void *batch, void *integrator, long n, con
 #endif
 #if !INTEGRATES && N_USER_EVENTS
 int gudgeon_kinematic_events(void *integrator, long n, const double *t, const double *parameters, const double *q,
-    const double *v, double start, int stop, signed char *branch, long capacity, double *at, int *event, long *found,
-    long *done);
+    const double *v, double start, int stop, signed char *branch, long capacity, double *event_time, int *event,
+    long *n_found, long *n_done);
 #endif
 
 #pragma GCC visibility pop

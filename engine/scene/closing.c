@@ -1,17 +1,17 @@
 /*
- * Closing of a linkage by Newton's method with minimum-norm steps of the linearized constraint equations. The same
- * method is in Python (closure.py). Returns 1 where equations depend on each other, or no step improves.
+ * Assembly (closing) of a linkage by Newton's method with minimum-norm steps of the linearized constraint equations.
+ * The same method is in Python (closure.py). Returns 1 where equations depend on each other, or no step improves.
  */
 #include "shortest_step.c"
 
 #define MAX_REUSE_NORM 1e-6 /* below this norm a factorization is reused while steps reduce the norm tenfold */
 #define CLOSING_ROUNDING 1e-14  /* of the norm, times the distance of the linkage from the origin: rounding */
 
-enum { MAX_CLOSING = 60 };
+enum { MAX_CLOSING_ITERATIONS = 60 };
 
 /*
  * Compute the residuals of the start into workspace->residual: -Phi (with the set eccentricities of journals), then the
- * differences from the set coordinates, each divided by its scale. Return their Euclidean norm.
+ * differences from the set coordinates, each multiplied by its row scale. Return their Euclidean norm.
  */
 static double compute_start_residuals(StartWorkspace *workspace, double t, const double *q, const Parameters *p)
 {
@@ -31,8 +31,8 @@ static double compute_start_residuals(StartWorkspace *workspace, double t, const
 }
 
 /*
- * Compute the linearized equations workspace->row (Phi_q, then the set coordinates), scaled by sizes and weights, and
- * the residuals. Return the norm of the residuals.
+ * Compute the linearized equations workspace->row (Phi_q, then the set coordinates), multiplied by row and column
+ * scales, and the residuals. Return the norm of the residuals.
  */
 OPTIMIZE_SIZE static double linearize_start_equations(
     StartWorkspace *workspace, double t, const double *q, const Parameters *p)
@@ -49,8 +49,8 @@ OPTIMIZE_SIZE static double linearize_start_equations(
 }
 
 /*
- * Solve for the angles in q that equations without positions determine (drives, sliders), by one linear step. Return 1
- * if these equations depend on each other, else 0.
+ * Solve for the angles in q that equations without positions determine (drives, sliders), by one minimum-norm linear
+ * step. Return 1 if these equations depend on each other, else 0.
  */
 OPTIMIZE_SIZE static int solve_independent_angles(StartWorkspace *workspace, double t, const Parameters *p, double *q)
 {
@@ -68,14 +68,14 @@ OPTIMIZE_SIZE static int solve_independent_angles(StartWorkspace *workspace, dou
     compute_normal_pattern(workspace, &workspace->subset, set_place);
     if (factorize_equations(workspace, &workspace->subset))
         return 1;
-    compute_smallest_step(workspace, &workspace->subset);
+    compute_minimum_norm_step(workspace, &workspace->subset);
     for (int k = 0; k < N_Q; k++)
         q[k] += workspace->step[k] * workspace->column_scale[k];
     return 0;
 }
 
-/* Return the squared weighted distance of q from the guess; angles count without full turns removed. */
-static double compute_squared_distance(const StartWorkspace *workspace, const double *q)
+/* Return the squared weighted distance of q from the guess; full turns of angles are not removed. */
+static double compute_squared_distance_from_guess(const StartWorkspace *workspace, const double *q)
 {
     double sum = 0.0;
     for (int k = 0; k < N_Q; k++)
@@ -84,16 +84,19 @@ static double compute_squared_distance(const StartWorkspace *workspace, const do
     return sum;
 }
 
-/* Return whether a norm of residuals is rounding only. */
+/*
+ * Return whether a norm of residuals is rounding only: below 1e-10 plus CLOSING_ROUNDING times the search radius over
+ * the size.
+ */
 static int are_residuals_rounding(const StartWorkspace *workspace, double residual_norm)
 {
     return residual_norm < 1e-10 + CLOSING_ROUNDING * workspace->radius / workspace->size;
 }
 
 /*
- * Return whether Newton's steps lead to a configuration that is not nearer to the guess than the nearest known one.
- * fraction_left: the fraction of the residuals that the last step left; the following steps are smaller by as much.
- * Slow convergence decides nothing: 0.
+ * Return whether Newton's steps converge to a configuration that is no nearer to the guess than the nearest known one,
+ * workspace->nearest. fraction_left: the fraction of the residuals that the last step left; the following steps are
+ * smaller by as much. Return 0 if it is 0.1 or more: slow convergence is inconclusive.
  */
 static int is_not_nearer_to_guess(const StartWorkspace *workspace, const double *q, double fraction_left)
 {
@@ -112,7 +115,7 @@ static int is_not_nearer_to_guess(const StartWorkspace *workspace, const double 
 /*
  * Solve the constraint equations for q by Newton's method with line search; the first step is for positions only.
  * Factorizations are reused near the solution. Equations closed to rounding leave q unchanged to the bit. Return 1 if
- * they are not closed, depend on each other, or lead to nothing nearer to the guess; else 0.
+ * they are not closed, depend on each other, or lead to no configuration nearer to the guess; else 0.
  */
 OPTIMIZE_SIZE static int solve_closure(StartWorkspace *workspace, double t, const Parameters *p, double *q)
 {
@@ -129,13 +132,13 @@ OPTIMIZE_SIZE static int solve_closure(StartWorkspace *workspace, double t, cons
     for (int k = 0; k < N_Q; k++)
         q[k] += workspace->step[k] * workspace->column_scale[k];
     norm = compute_start_residuals(workspace, t, q, p);
-    for (int i = 0; i < MAX_CLOSING; i++) {
+    for (int i = 0; i < MAX_CLOSING_ITERATIONS; i++) {
         if (!is_reused) {
             linearize_start_equations(workspace, t, q, p);
             if (factorize_equations(workspace, &workspace->all))
                 return 1;
         }
-        compute_smallest_step(workspace, &workspace->all);
+        compute_minimum_norm_step(workspace, &workspace->all);
         double fraction = 1.0, norm_trial = norm;
         for (; fraction > (is_reused ? 0.5 : 1e-4); fraction *= 0.5) {
             for (int k = 0; k < N_Q; k++)

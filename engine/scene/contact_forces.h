@@ -7,7 +7,7 @@
 #define GUDGEON_CONTACT_FORCES_H
 
 enum { MAX_RATES = N_S > N_Y ? N_S : N_Y };
-#define DEPENDENT 1e-10 /* of D's diagonal: a smaller pivot belongs to a contact that depends on others */
+#define DEPENDENT_PIVOT 1e-10 /* of D's diagonal: a smaller pivot belongs to a contact that depends on others */
 
 #if N_RUBBED
 enum { HAS_FRICTION = 1 };
@@ -28,7 +28,7 @@ typedef struct {
 } Delassus;
 
 /*
- * Return delta'' of a joint in m/s^2, the acceleration of its penetration, from e . e'' + e' . e' = e e'' + e'^2. Of a
+ * Return delta'' of a joint in m/s^2, the acceleration of its penetration, from e . e'' + e' . e' = e e'' + e'^2. For a
  * corner at a wall it is known without that division by e.
  */
 static double compute_outward_acceleration(const Clearance *clearance)
@@ -54,8 +54,8 @@ static int list_closed_contacts(const DiscreteState *discrete, int *joints)
 }
 
 /*
- * Return a force in N whose effect on the accelerations of these bodies is not lost in rounding: total mass times the
- * largest r, at least 1 m/s^2.
+ * Return the unit force of the Delassus operator in N, whose effect on accelerations is not lost in rounding: the mass
+ * of all bodies times the largest |r|, at least 1 m/s^2.
  */
 static double choose_unit_force(const Delassus *contacts, const Parameters *p)
 {
@@ -70,8 +70,8 @@ static double choose_unit_force(const Delassus *contacts, const Parameters *p)
 
 /*
  * Compute the Delassus operator D of the listed contacts, which `discrete` has closed, their delta'' without forces, r,
- * and the `response` of all n_rates rates to unit forces. The right-hand side `evaluate_rates` is evaluated n + 1 times
- * at (t, y). The contact forces in `discrete` are 0 afterwards. Return the status of the evaluations.
+ * and the `response` of all n_rates rates to unit forces. evaluate_rates() is called n + 1 times at (t, y). The contact
+ * forces in `discrete` are 0 afterwards. Return the status of the evaluations.
  */
 static int compute_delassus(RatesOf *evaluate_rates, int n_rates, double t, const double *y, DiscreteState *discrete,
     const Parameters *p, Delassus *contacts)
@@ -100,39 +100,40 @@ static int compute_delassus(RatesOf *evaluate_rates, int n_rates, double t, cons
 
 /*
  * Solve D x = r in the contacts with is_included[i] (NULL: all) by Gaussian elimination with diagonal pivoting. x = 0
- * in the others and in dependent contacts. Return whether a pivot is negative beyond rounding, which needs friction,
- * because D is symmetric without it. Called for forces, impulses and projections of contacts.
+ * in the others and in dependent contacts. Return whether a pivot is negative beyond rounding, which only friction can
+ * cause: without it D is positive semidefinite. Called for forces, impulses and projections of contacts.
  */
 static int solve_contact_subset(const Delassus *contacts, const unsigned char *is_included, const double *r, double *x)
 {
     const int n = contacts->n;
     double A[N_RIGID][N_RIGID + 1];
-    int is_jammed = 0, n_solved = 0, pivots[N_RIGID] = {0};
-    unsigned char is_left[N_RIGID] = {0};
+    int is_inconsistent = 0, n_solved = 0, pivots[N_RIGID] = {0};
+    unsigned char is_remaining[N_RIGID] = {0};
     for (int i = 0; i < n; i++) {
         for (int j = 0; j < n; j++)
             A[i][j] = contacts->D[i][j];
         A[i][n] = r[i];
-        is_left[i] = is_included ? is_included[i] : 1;
+        is_remaining[i] = is_included ? is_included[i] : 1;
         x[i] = 0.0;
     }
     for (;;) {
         int pivot = -1;
         for (int i = 0; i < n; i++)
-            if (is_left[i] && A[i][i] > DEPENDENT * contacts->D[i][i] && (pivot < 0 || A[i][i] > A[pivot][pivot]))
+            if (is_remaining[i] && A[i][i] > DEPENDENT_PIVOT * contacts->D[i][i]
+                && (pivot < 0 || A[i][i] > A[pivot][pivot]))
                 pivot = i;
         if (pivot < 0)
             break;
-        is_left[pivot] = 0;
+        is_remaining[pivot] = 0;
         pivots[n_solved++] = pivot;
         for (int i = 0; i < n; i++) {
-            const double fraction = is_left[i] ? A[i][pivot] / A[pivot][pivot] : 0.0;
+            const double fraction = is_remaining[i] ? A[i][pivot] / A[pivot][pivot] : 0.0;
             for (int j = 0; j <= n && fraction != 0.0; j++)
                 A[i][j] -= fraction * A[pivot][j];
         }
     }
     for (int i = 0; i < n; i++)
-        is_jammed |= is_left[i] && A[i][i] < -DEPENDENT * fabs(contacts->D[i][i]);
+        is_inconsistent |= is_remaining[i] && A[i][i] < -DEPENDENT_PIVOT * fabs(contacts->D[i][i]);
     for (int k = n_solved - 1; k >= 0; k--) {
         const int i = pivots[k];
         double sum = A[i][n];
@@ -140,31 +141,31 @@ static int solve_contact_subset(const Delassus *contacts, const unsigned char *i
             sum -= A[i][pivots[j]] * x[pivots[j]];
         x[i] = sum / A[i][i];
     }
-    return is_jammed;
+    return is_inconsistent;
 }
 
 /*
  * Solve the linear complementarity problem x >= 0, D x - r >= 0, x (D x - r) = 0 by Murty's least-index pivoting (K. G.
- * Murty, Linear Algebra Appl. 9 (1974) 65-108). Sets of contacts that jam by friction are excluded. Return 0,
- * FRICTION_INCONSISTENT if all other sets fail, or CHATTERING if the iteration does not end. Called for the impulses of
- * an impact and for the active set of contacts.
+ * Murty, Linear Algebra Appl. 9 (1974) 65-108). Sets of contacts with a frictional inconsistency are excluded. Return
+ * 0, FRICTION_INCONSISTENT if all other sets fail, or CHATTERING if the iteration does not end. Called for the impulses
+ * of an impact and for the active set of contacts.
  */
 static inline int solve_complementarity(const Delassus *contacts, const double *r, double *x)
 {
     unsigned char is_active[N_RIGID] = {0};
     double scale = 0.0;
-    int has_jammed = 0;
+    int has_inconsistent_set = 0;
     for (int k = 0; k < contacts->n; k++)
         scale = max_of(scale, fabs(r[k]));
     for (long i = 0; i < 1000L << (N_RIGID < 10 ? N_RIGID : 10); i++) {
         int changed = -1;
-        const int is_jammed = solve_contact_subset(contacts, is_active, r, x) && HAS_FRICTION;
-        has_jammed |= is_jammed;
+        const int is_inconsistent = solve_contact_subset(contacts, is_active, r, x) && HAS_FRICTION;
+        has_inconsistent_set |= is_inconsistent;
         for (int k = 0; k < contacts->n && changed < 0; k++) {
             double slack = -r[k];
             for (int j = 0; j < contacts->n; j++)
                 slack += contacts->D[k][j] * x[j];
-            if (is_jammed ? is_active[k] : is_active[k] ? x[k] * contacts->D[k][k] < -1e-14 * scale
+            if (is_inconsistent ? is_active[k] : is_active[k] ? x[k] * contacts->D[k][k] < -1e-14 * scale
                 : slack < -1e-12 * scale)
                 changed = k;
         }
@@ -172,28 +173,29 @@ static inline int solve_complementarity(const Delassus *contacts, const double *
             return 0;
         is_active[changed] = !is_active[changed];
     }
-    return has_jammed ? FRICTION_INCONSISTENT : CHATTERING;
+    return has_inconsistent_set ? FRICTION_INCONSISTENT : CHATTERING;
 }
 
 #if N_RUBBED
 /*
- * Return whether a normal force in some closed contact, with its friction, brings the surfaces nearer (P. Painleve,
- * 1895): a diagonal entry of D is negative. only_approaching: consider only contacts that need a force, r > 0.
+ * Return whether a normal force in some closed contact, with its friction, accelerates the surfaces towards each other
+ * (P. Painleve, 1895): a diagonal entry of D is negative beyond rounding. only_approaching: consider only contacts that
+ * need a force, r > 0.
  */
-static int is_frictionally_inconsistent(const Delassus *contacts, int only_approaching, const Parameters *p)
+static int has_frictional_inconsistency(const Delassus *contacts, int only_approaching, const Parameters *p)
 {
     double m[N_Q], mass = 0.0;
     mass_matrix(p, m);
     for (int k = 0; k < N_Q; k += 3)
         mass += m[k];
     for (int k = 0; k < contacts->n; k++)
-        if (contacts->D[k][k] * mass < -DEPENDENT && (!only_approaching || contacts->r[k] > 0.0))
+        if (contacts->D[k][k] * mass < -DEPENDENT_PIVOT && (!only_approaching || contacts->r[k] > 0.0))
             return 1;
     return 0;
 }
 #else
 /* Return 0: without friction no diagonal entry of D is negative. */
-static inline int is_frictionally_inconsistent(const Delassus *contacts, int only_approaching, const Parameters *p)
+static inline int has_frictional_inconsistency(const Delassus *contacts, int only_approaching, const Parameters *p)
 {
     return (void)contacts, (void)only_approaching, (void)p, 0;
 }
@@ -201,9 +203,10 @@ static inline int is_frictionally_inconsistent(const Delassus *contacts, int onl
 
 /*
  * Compute the rates dy and outputs rhs of a state with the forces of its closed rigid contacts, which are stored in
- * `discrete`. evaluate_rates: the right-hand side for given forces, with n_rates rates. Return 0,
- * FRICTION_INCONSISTENT, or the status of an evaluation. Called at each evaluation of the right-hand side of a scene
- * with rigid contacts.
+ * `discrete`. All closed contacts are active: D F = r is solved, and a negative F, a pull, is an event for the caller.
+ * evaluate_rates: the right-hand side for given forces, with n_rates rates. Return 0, FRICTION_INCONSISTENT if D has a
+ * negative diagonal entry or pivot, or the status of an evaluation. Called at each evaluation of the right-hand side of
+ * a scene with rigid contacts.
  */
 static int compute_rates_in_contact(RatesOf *evaluate_rates, int n_rates, double t, const double *y,
     DiscreteState *discrete, const Parameters *p, double *dy, RhsOutputs *rhs)
@@ -215,7 +218,7 @@ static int compute_rates_in_contact(RatesOf *evaluate_rates, int n_rates, double
         const int status = compute_delassus(evaluate_rates, n_rates, t, y, discrete, p, &contacts);
         if (status)
             return status;
-        if (is_frictionally_inconsistent(&contacts, 0, p))
+        if (has_frictional_inconsistency(&contacts, 0, p))
             return FRICTION_INCONSISTENT;
         if (solve_contact_subset(&contacts, NULL, contacts.r, force) && HAS_FRICTION)
             return FRICTION_INCONSISTENT; /* together they are inconsistent */

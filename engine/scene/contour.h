@@ -1,14 +1,15 @@
 /*
- * The contour of a non-circular bearing: depths beyond its circle, m, given at equal angles, the first at 0. Between
- * neighbours it is the polynomial of degree five with their depths, slopes and second derivatives, which are central
- * differences. It is periodic with a continuous second derivative, and keeps the mean.
+ * The contour of a non-circular bearing: depths beyond its circle, m, at equal angles, the first at 0. Between
+ * neighbours it is the polynomial of degree five (quintic Hermite spline) with their depths, slopes and second
+ * derivatives, which are central differences. It is periodic with a continuous second derivative, and keeps the mean.
  */
 #ifndef GUDGEON_CONTOUR_H
 #define GUDGEON_CONTOUR_H
 
 /*
- * Return the depth of a bearing contour in m at an angle (rad), or its derivative by the angle of order 1 or 2. depths:
- * `count` depths at equal angles, the first at 0; they repeat after a turn. NAN if the angle is not finite.
+ * Return the depth of a bearing contour in m at an angle (rad), or its derivative by the angle of order 1 or 2, by
+ * quintic Hermite interpolation. depths: `count` depths at equal angles, the first at 0; they repeat after a turn. NAN
+ * if the angle is not finite.
  */
 static inline double evaluate_contour(const double *depths, int count, int order, double angle)
 {

@@ -5,9 +5,9 @@
 #ifndef GUDGEON_CURVES_H
 #define GUDGEON_CURVES_H
 
-/* A curve of `pieces` cubic polynomials; repeats: whether it is periodic. */
+/* A curve of `pieces` cubic polynomials; is_periodic: whether x repeats after its range. */
 typedef struct {
-    int pieces, repeats;
+    int pieces, is_periodic;
     const double *x;      /* where they begin, and where the last one ends */
     const double (*c)[4]; /* of each: y = c0 + h (c1 + h (c2 + h c3)), h from its beginning */
 } Curve;
@@ -50,7 +50,7 @@ static inline double evaluate_curve_piece(const double *coefficients, int order,
 static inline double reduce_to_period(const Curve *curve_table, double x)
 {
     const double first = curve_table->x[0], length = curve_table->x[curve_table->pieces] - first;
-    return curve_table->repeats ? x - length * floor((x - first) / length) : x;
+    return curve_table->is_periodic ? x - length * floor((x - first) / length) : x;
 }
 
 /* Return the branch of a piece: alternating 1 and -1. */
@@ -58,9 +58,9 @@ static inline double get_piece_branch(int piece) { return piece % 2 ? -1.0 : 1.0
 
 /*
  * Return a curve (order 0) or its derivative of order 1 to 3 at x. A periodic curve is evaluated at x reduced by whole
- * periods, and its first and last pieces are neighbours. Another curve is NAN outside of its range beyond rounding.
- * branch: 0, or a frozen branch (1 or -1). A piece of the other branch is then replaced by the polynomial of its nearer
- * neighbour, if there is one.
+ * periods, and its first and last pieces are neighbours. Another curve is NAN outside of its range by more than
+ * CURVE_MARGIN. branch: 0, or a frozen branch (1 or -1). A piece of the other branch is then replaced by the polynomial
+ * of its nearer neighbour, if there is one.
  */
 static inline double evaluate_curve(const Curve *curve_table, int order, double x, double branch)
 {
@@ -72,10 +72,11 @@ static inline double evaluate_curve(const Curve *curve_table, int order, double 
     int piece = find_curve_piece(curve_table, x);
     double begin = curve_table->x[piece];
     if (branch * get_piece_branch(piece) < 0.0 && x - begin < curve_table->x[piece + 1] - x) {
-        begin = piece > 0 ? curve_table->x[piece - 1] : curve_table->repeats
+        begin = piece > 0 ? curve_table->x[piece - 1] : curve_table->is_periodic
             ? curve_table->x[curve_table->pieces - 1] - (last - first) : begin;
-        piece = piece > 0 ? piece - 1 : curve_table->repeats ? curve_table->pieces - 1 : piece;
-    } else if (branch * get_piece_branch(piece) < 0.0 && (piece + 1 < curve_table->pieces || curve_table->repeats)) {
+        piece = piece > 0 ? piece - 1 : curve_table->is_periodic ? curve_table->pieces - 1 : piece;
+    } else if (branch * get_piece_branch(piece) < 0.0
+        && (piece + 1 < curve_table->pieces || curve_table->is_periodic)) {
         begin = curve_table->x[piece + 1];
         piece = piece + 1 < curve_table->pieces ? piece + 1 : 0;
     }
@@ -83,18 +84,19 @@ static inline double evaluate_curve(const Curve *curve_table, int order, double 
 }
 
 /*
- * Return the switching function of the knots of a curve at x. Its zeros are the knots between pieces, and its sign is
- * the branch of the piece. Its slope at a knot is 1 over the length of the piece. The ends of a curve that does not
- * repeat are no zeros.
+ * Return the switching function of the knots of a curve at x: +-(x - x_k) (x_{k+1} - x)/L^2, a parabola in each piece k
+ * of length L. Its zeros are the knots between pieces, its sign is the branch of the piece, and its slope at a knot is
+ * 1/L. The factor of an end that does not repeat is left out.
  */
 static inline double evaluate_knot_switch(const Curve *curve_table, double x)
 {
     x = reduce_to_period(curve_table, x);
-    const int piece = find_curve_piece(curve_table, x), begins = piece > 0
-        || curve_table->repeats, ends = piece + 1 < curve_table->pieces || curve_table->repeats;
+    const int piece = find_curve_piece(curve_table, x);
+    const int has_left_knot = piece > 0 || curve_table->is_periodic;
+    const int has_right_knot = piece + 1 < curve_table->pieces || curve_table->is_periodic;
     const double length = curve_table->x[piece + 1] - curve_table->x[piece];
-    return get_piece_branch(piece) * (begins ? (x - curve_table->x[piece]) / length : 1.0)
-        * (ends ? (curve_table->x[piece + 1] - x) / length : 1.0);
+    return get_piece_branch(piece) * (has_left_knot ? (x - curve_table->x[piece]) / length : 1.0)
+        * (has_right_knot ? (curve_table->x[piece + 1] - x) / length : 1.0);
 }
 
 #define curve(which, order, x) evaluate_curve(&curves[which], order, x, 0.0)
@@ -103,7 +105,7 @@ static inline double evaluate_knot_switch(const Curve *curve_table, double x)
 
 #ifdef GUDGEON_LANES_H
 /*
- * Return evaluate_curve() of each lane: a curve or its derivative of an order at the vector x, on a vector of branches.
+ * Return evaluate_curve() in each lane: a curve or its derivative of an order at the vector x, on a vector of branches.
  */
 static inline Lanes evaluate_curve_in_lanes(const Curve *curve_table, int order, Lanes x, Lanes branch)
 {
@@ -114,8 +116,8 @@ static inline Lanes evaluate_curve_in_lanes(const Curve *curve_table, int order,
 }
 
 /*
- * Return the switching function of the knots of a curve in each lane, at the vector x: 0 at a knot between two pieces,
- * and with a sign that alternates from piece to piece.
+ * Return evaluate_knot_switch() in each lane at the vector x: 0 at a knot between two pieces, and with a sign that
+ * alternates from piece to piece.
  */
 static inline Lanes evaluate_knot_switch_in_lanes(const Curve *curve_table, Lanes x)
 {
@@ -141,8 +143,8 @@ static inline void extend_bounds_by_value(const double *coefficients, int order,
 }
 
 /*
- * Extend the bounds *lower, *upper by the derivative of an order of one piece between two offsets `begin` and `end`
- * from its beginning: its values at both and its extrema between.
+ * Extend the bounds *lower, *upper by the derivative of an order of one cubic piece between two offsets `begin` and
+ * `end` from its beginning: its values at both and its local extrema between.
  */
 static inline void extend_bounds_in_piece(const double *coefficients, int order, double begin, double end,
     double *lower,
@@ -165,8 +167,9 @@ static inline void extend_bounds_in_piece(const double *coefficients, int order,
 }
 
 /*
- * Extend the bounds *lower, *upper by a curve or its derivative from x_lower to x_upper, within its range. On a frozen
- * branch (branch 1 or -1) only its pieces count, each up to half of its neighbours; branch 0: all pieces.
+ * Extend the bounds *lower, *upper by a curve or its derivative (order) from x_lower to x_upper, within its range. On a
+ * frozen branch (1 or -1) only the pieces of that branch count, each extended to the middle of its neighbours; branch
+ * 0: all pieces.
  */
 static inline void extend_bounds_by_curve(
     const Curve *curve_table, int order, double branch, double x_lower, double x_upper, double *lower, double *upper)
@@ -178,7 +181,7 @@ static inline void extend_bounds_by_curve(
         const int k = i < 0 ? end - 1 : i >= end ? 0 : i;
         const double shift = i < 0 ? curve_table->x[0] - curve_table->x[end] : i >= end
             ? curve_table->x[end] - curve_table->x[0] : 0.0;
-        if ((k != i && !curve_table->repeats) || branch * get_piece_branch(k) < 0.0)
+        if ((k != i && !curve_table->is_periodic) || branch * get_piece_branch(k) < 0.0)
             continue;
         const double begin = curve_table->x[k] + shift, finish = curve_table->x[k + 1] + shift, width = middle
             ? finish - begin : 0.0;
@@ -186,7 +189,8 @@ static inline void extend_bounds_by_curve(
             : curve_table->x[end] - curve_table->x[end - 1];
         const double length_after = k + 1 < end ? curve_table->x[k + 2] - curve_table->x[k + 1]
             : curve_table->x[1] - curve_table->x[0];
-        const int open_below = k == 0 && !curve_table->repeats, open_above = k == end - 1 && !curve_table->repeats;
+        const int open_below = k == 0 && !curve_table->is_periodic;
+        const int open_above = k == end - 1 && !curve_table->is_periodic;
         const double from = open_below ? x_lower : max_of(x_lower, begin - (width > 0.0 ? 0.5 * length_before : 0.0));
         const double to = open_above ? x_upper : min_of(x_upper, finish + (width > 0.0 ? 0.5 * length_after : 0.0));
         if (from <= to)
@@ -202,10 +206,10 @@ static inline void compute_curve_bounds(
     const Curve *curve_table, int order, double branch, double x_lower, double x_upper, double *lower, double *upper)
 {
     const double first = curve_table->x[0], last = curve_table->x[curve_table->pieces], length = last - first;
-    const double turns = curve_table->repeats ? length * floor((x_lower - first) / length) : 0.0;
+    const double turns = curve_table->is_periodic ? length * floor((x_lower - first) / length) : 0.0;
     *lower = INFINITY;
     *upper = -INFINITY;
-    if (!curve_table->repeats)
+    if (!curve_table->is_periodic)
         extend_bounds_by_curve(curve_table, order, branch, x_lower, x_upper, lower, upper);
     else if (!(x_upper - x_lower < length))
         extend_bounds_by_curve(curve_table, order, branch, first, last, lower, upper);
@@ -225,7 +229,7 @@ static inline Interval restrict_to_curve_range(const Curve *curve_table, Interva
 {
     const double first = curve_table->x[0], last = curve_table->x[curve_table->pieces],
         allowance = CURVE_MARGIN * (last - first);
-    if (is_empty(x) || curve_table->repeats)
+    if (is_empty(x) || curve_table->is_periodic)
         return x;
     if (!(x.hi >= first - allowance && x.lo <= last + allowance))
         return make_interval(NAN);
@@ -258,35 +262,38 @@ static inline Interval bound_curve(const Curve *curve_table, int order, Interval
 }
 
 /*
- * Return bounds of evaluate_knot_switch(), a parabola in each piece, and of its slope. Over a period or more they are
- * -1 and 1 with unbounded slope. Empty if x is.
+ * Return bounds of evaluate_knot_switch(), a parabola in each piece, and of its slope. Over a period or more of a
+ * periodic curve they are -1 and 1 with unbounded slope. Empty if x is.
  */
 static inline Interval bound_knot_switch(const Curve *curve_table, Interval x)
 {
     const double first = curve_table->x[0], last = curve_table->x[curve_table->pieces];
-    const double shift = curve_table->repeats ? (last - first) * floor((x.lo - first) / (last - first)) : 0.0;
+    const double shift = curve_table->is_periodic ? (last - first) * floor((x.lo - first) / (last - first)) : 0.0;
     double lower = INFINITY, upper = -INFINITY, min_slope = INFINITY, max_slope = -INFINITY;
     if (is_empty(x))
         return x;
-    if (curve_table->repeats && !(x.hi - x.lo < last - first))
+    if (curve_table->is_periodic && !(x.hi - x.lo < last - first))
         return (Interval){-1.0, 1.0, -INFINITY, INFINITY, x.may_be_undefined};
     for (int i = find_curve_piece(curve_table, x.lo - shift);; i++) {
         const int k = i % curve_table->pieces;
         const double begin = curve_table->x[k] + shift + (i >= curve_table->pieces ? last - first : 0.0),
             length = curve_table->x[k + 1] - curve_table->x[k];
-        const int begins = k > 0 || curve_table->repeats, ends = k + 1 < curve_table->pieces || curve_table->repeats;
-        const int highest = i >= 2 * curve_table->pieces - 1 || (i + 1 >= curve_table->pieces && !curve_table->repeats);
+        const int has_left_knot = k > 0 || curve_table->is_periodic;
+        const int has_right_knot = k + 1 < curve_table->pieces || curve_table->is_periodic;
+        const int is_last = i >= 2 * curve_table->pieces - 1
+            || (i + 1 >= curve_table->pieces && !curve_table->is_periodic);
         const double from = (max_of(x.lo, i == 0 ? x.lo : begin) - begin) / length;
-        const double to = (highest ? x.hi - begin : min_of(x.hi - begin, length)) / length;
-        const double c[4] = {begins ? 0.0 : 1.0, begins && ends ? 1.0 : begins ? 1.0 : ends ? -1.0 : 0.0,
-            begins && ends ? -1.0 : 0.0, 0.0};
+        const double to = (is_last ? x.hi - begin : min_of(x.hi - begin, length)) / length;
+        const double c[4] = {has_left_knot ? 0.0 : 1.0,
+            has_left_knot && has_right_knot ? 1.0 : has_left_knot ? 1.0 : has_right_knot ? -1.0 : 0.0,
+            has_left_knot && has_right_knot ? -1.0 : 0.0, 0.0};
         const double branch = get_piece_branch(k), piece[4] = {branch * c[0], branch * c[1], branch * c[2], 0.0};
         const double slope[4] = {piece[1] / length, 2.0 * piece[2] / length, 0.0, 0.0};
         if (from <= to) {
             extend_bounds_in_piece(piece, 0, from, to, &lower, &upper);
             extend_bounds_in_piece(slope, 0, from, to, &min_slope, &max_slope);
         }
-        if (highest || begin + length >= x.hi)
+        if (is_last || begin + length >= x.hi)
             break;
     }
     return apply_chain_rule(x, lower, upper, min_slope, max_slope);

@@ -94,14 +94,14 @@ static inline double compute_logarithm(double x)
  * Return x^y with the same bits on every platform: square roots for y = 1/2 and 3/2, else exp(y ln x) in two parts.
  * Arguments or results outside of the range use the C library.
  */
-static inline double compute_power(double x, double y)
+static inline double raise_to_power(double x, double y)
 {
     if (is_square_root_power(x, y))
         return y == 0.5 ? sqrt(x) : power_three_halves(x, sqrt(x));
     if (is_normal(x) && fabs(y) < 0x1p60) {
         double log_error;
         const double log_x = log_with_error(x, &log_error);
-        const double x_high = keep_26_bits(log_x), y_high = keep_26_bits(y);
+        const double x_high = round_to_26_bits(log_x), y_high = round_to_26_bits(y);
         const double high = y_high * x_high;
         if (fabs(high) < 690.0)
             return exp_with_error(high, (y - y_high) * x_high + y * (log_x - x_high + log_error));
@@ -139,6 +139,6 @@ static inline double compute_arcsine(double x)
 #define asin(x) compute_arcsine(x)
 #define exp(x) compute_exponential(x)
 #define log(x) compute_logarithm(x)
-#define pow(x, y) compute_power(x, y)
+#define pow(x, y) raise_to_power(x, y)
 
 #endif

@@ -1,9 +1,9 @@
 /* Exact Jacobian of the state equation, from the linearized equations of motion. */
 
 /*
- * Compute x = -column of the derivative of the residuals of the equations of motion by the integrated state (columns 0
- * ... N_Y - 1) or by t (N_Y). baumgarte_gains: beta^2 and 2 alpha; stick_gain: the same for sticking friction. Return 0
- * if all entries are zero, as for the works.
+ * Compute x (N_NODES) = -column of the derivative of the residuals of the equations of motion by the integrated state
+ * (columns 0 ... N_Y - 1) or by t (N_Y). baumgarte_gains: beta^2 and 2 alpha; stick_gain: the same gain for sticking
+ * friction. Return 0 if all entries are zero, as for the works, else 1.
  */
 static int compute_residual_column(const Linear *linearization, int column, const double *baumgarte_gains,
     double stick_gain,
@@ -36,8 +36,9 @@ static int compute_residual_column(const Linear *linearization, int column, cons
 }
 
 /*
- * Compute a column of the Jacobian of the state equation (N_Y entries) from x, the change of accelerations, multipliers
- * and rates of internal states. stride: distance of successive values; column N_Y: the derivative by t.
+ * Compute a column of the Jacobian of the state equation (N_Y entries) from x (N_NODES), the change of accelerations,
+ * multipliers and rates of internal states. column: 0 ... N_Y - 1, or N_Y for the derivative by t. stride: distance of
+ * successive values in column_values.
  */
 static void compute_jacobian_column(const Linear *linearization, int column, const double *x,
     double *column_values, long stride)
@@ -67,10 +68,11 @@ static void compute_jacobian_column(const Linear *linearization, int column, con
 }
 
 /*
- * Linearize the equations of motion at a state and factorize Newton's matrix, by which (1/eta - J) u = r is solved for
- * accelerations and multipliers. eta: h gamma of the method, s; with 0 it is the KKT matrix, for the Jacobian J alone.
- * discrete: discrete state as in a sample. Return 0, the number of a vanished pivot of dynamics(), or minus the number
- * (from 1) of the coordinate, constraint equation, stick or internal state whose pivot vanished in newton_factor().
+ * Linearize the equations of motion at a state and factorize Newton's matrix, with which (1/eta - J) u = r is solved
+ * for accelerations and multipliers. eta: h gamma of the method, s; with 0 it is the KKT matrix, for the Jacobian J
+ * alone. discrete: discrete state as in a sample. Return 0, the number of a vanished pivot of dynamics(), or minus the
+ * number (from 1) of the coordinate, constraint equation, stick or internal state whose pivot vanished in
+ * newton_factor().
  */
 static int linearize_and_factorize_equations(double t, const double *y, const double *discrete, const Parameters *p,
     double eta, Linear *linearization)

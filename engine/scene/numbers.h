@@ -11,9 +11,9 @@
 /* Smaller numbers may have fewer digits, as subnormal ones do: quotients of them are not compared. */
 #define MIN_RESOLVED (DBL_MIN / DBL_EPSILON)
 
-/* Return the larger number; a NaN in x is propagated. */
+/* Return the maximum of two numbers; a NaN in x is propagated. */
 static inline double max_of(double x, double y) { return x < y ? y : x; }
-/* Return the smaller number; a NaN in x is propagated. */
+/* Return the minimum of two numbers; a NaN in x is propagated. */
 static inline double min_of(double x, double y) { return x > y ? y : x; }
 /* Return the sign of x: 1, -1, or x itself for zero and NaN. */
 static inline double sign_of(double x) { return x > 0.0 ? 1.0 : (x < 0.0 ? -1.0 : x); }
@@ -39,16 +39,16 @@ static inline int is_same_number(double x, double y) { return x == y && !signbit
  */
 static inline double compute_time_tolerance(double t, double h) { return 8.0 * DBL_EPSILON * fabs(t) + 1e-12 * h; }
 
-#ifdef __wasm__ /* in a web page, rare functions are compiled for size */
+#ifdef __wasm__ /* in a web page, seldom used functions are compiled for size */
 #define OPTIMIZE_SIZE __attribute__((minsize))
 #else
 #define OPTIMIZE_SIZE
 #endif
 
 /*
- * Return the time in s at which a step of fixed length ends, from t_begin towards t_end, and its length *length. index:
- * number of the step, from 0. The last step ends at t_end and may be shorter. Steps from a multiple of their length end
- * at multiples, so that a resumed run makes the same steps to the bit.
+ * Return the time in s at which step `index` (from 0) of fixed length ends, from t_begin towards t_end, and its length
+ * *length. The last step ends at t_end and may be shorter. Steps from a multiple of their length end at multiples, so
+ * that a resumed run makes the same steps to the bit.
  */
 static inline double compute_step_end(double t_begin, double t_end, double fixed_step, double index, double *length)
 {
@@ -64,8 +64,8 @@ static inline double just_ahead(double x) { return x + 1e-9 * (1.0 + fabs(x)); }
 /* Return a point slightly smaller than x, for a difference quotient. */
 static inline double just_behind(double x) { return x - 1e-9 * (1.0 + fabs(x)); }
 /*
- * Return the derivative, or the difference quotient of two values `distance` apart if the derivative is not finite. A
- * finite term whose derivative overflows is saturated.
+ * Return the derivative, or the difference quotient of two values `distance` apart if the derivative is not finite, as
+ * of a saturated term whose derivative overflows.
  */
 static inline double finite_slope(double derivative, double value_after, double value_before, double distance)
 {
@@ -85,8 +85,8 @@ static inline double mod_of(double a, double b)
 }
 
 /*
- * Return mod(a, b) on a frozen branch: continued half a period beyond both ends of the even (branch 1) or odd (-1)
- * periods. branch 0: mod(a, b).
+ * Return mod(a, b) on a frozen branch: that of the even (branch 1) or odd (-1) periods, continued half a period beyond
+ * both ends. branch 0: mod(a, b).
  */
 static inline double mod_on(double a, double b, double branch)
 {
@@ -99,7 +99,7 @@ static inline double mod_on(double a, double b, double branch)
 
 /*
  * Return the continuous switching function of mod(a, b), whose zeros are the multiples of b: parabolas of height 1 in
- * even periods of a/b and -1 in odd ones.
+ * even periods of a/b and -1 in odd ones. It is negative throughout odd periods.
  */
 static inline double mod_switching_function(double a, double b)
 {
@@ -109,8 +109,8 @@ static inline double mod_switching_function(double a, double b)
 }
 
 /*
- * Return the branch of a switching function: the frozen one, or the sign of `value` if `branch` is NULL.
- * g[switch_index] is set to `value`.
+ * Return the branch of a switching function: the frozen one, branch[switch_index], or the sign of `value` if `branch`
+ * is NULL. Also sets g[switch_index] to `value`.
  */
 static inline double branch_of(const double *branch, double *g, int switch_index, double value)
 {
@@ -118,11 +118,11 @@ static inline double branch_of(const double *branch, double *g, int switch_index
     return branch ? branch[switch_index] : sign_of(value);
 }
 
-#define TURN_SMALL 0.01 /* rad: below it the series of rotate_back_by_small_angle are exact to rounding */
+#define MAX_SERIES_ANGLE 0.01 /* rad: up to it the series of rotate_back_by_small_angle() are exact to rounding */
 
 /*
- * Update cosine and sine, direction[2], of an angle that is reduced by a small angle (less than TURN_SMALL, rad), by
- * series.
+ * Rotate the unit vector direction[2], cosine and sine of an angle, back by a small angle (at most MAX_SERIES_ANGLE,
+ * rad), by series.
  */
 static inline void rotate_back_by_small_angle(double *direction, double angle)
 {

@@ -11,11 +11,11 @@ static inline PARTS_BITS PARTS_FUNCTION(reduce_angle)(PARTS_REAL x, PARTS_REAL *
 {
     const double shift = 6755399441055744.0;
     const PARTS_REAL shifted = x * 0.63661977236758134308 + shift, quadrant = shifted - shift;
-    const PARTS_REAL first = x - quadrant * 1.57079632673412561417, part = quadrant * 6.07710050630396597660e-11,
-        second = first - part;
+    const PARTS_REAL first = x - quadrant * 1.57079632673412561417, second_part = quadrant * 6.07710050630396597660e-11,
+        difference = first - second_part;
     const PARTS_REAL last = quadrant * 2.02226624879595063154e-21;
-    *r = second - last;
-    *error = second - *r - last + (first - second - part);
+    *r = difference - last;
+    *error = difference - *r - last + (first - difference - second_part);
     return PARTS_FUNCTION(to_bits)(shifted) & 3;
 }
 
@@ -23,23 +23,23 @@ static inline PARTS_BITS PARTS_FUNCTION(reduce_angle)(PARTS_REAL x, PARTS_REAL *
 static inline PARTS_REAL PARTS_FUNCTION(sine_near_zero)(PARTS_REAL r, PARTS_REAL error)
 {
     const PARTS_REAL z = r * r, cube = z * r;
-    const PARTS_REAL high = 8.33333333332248946124e-03 + z * (-1.98412698298579493134e-04
+    const PARTS_REAL higher_terms = 8.33333333332248946124e-03 + z * (-1.98412698298579493134e-04
         + z * (2.75573137070700676789e-06 + z * (-2.50507602534068634195e-08 + z * 1.58969099521155010221e-10)));
-    return r - (z * (0.5 * error - cube * high) - error - cube * -1.66666666666666324348e-01);
+    return r - (z * (0.5 * error - cube * higher_terms) - error - cube * -1.66666666666666324348e-01);
 }
 
 /* Return cos(r + error), |r| <= pi/4, by fdlibm's polynomial; error: the rounding error of r (reduce_angle()). */
 static inline PARTS_REAL PARTS_FUNCTION(cosine_near_zero)(PARTS_REAL r, PARTS_REAL error)
 {
-    const PARTS_REAL z = r * r, half = 0.5 * z, less = 1.0 - half;
-    const PARTS_REAL high = z * (4.16666666666666019037e-02 + z * (-1.38888888888741095749e-03
+    const PARTS_REAL z = r * r, half = 0.5 * z, one_minus_half = 1.0 - half;
+    const PARTS_REAL higher_terms = z * (4.16666666666666019037e-02 + z * (-1.38888888888741095749e-03
         + z * (2.48015872894767294178e-05 + z * (-2.75573143513906633035e-07 + z * (2.08757232129817482790e-09
         + z * -1.13596475577881948265e-11)))));
-    return less + (1.0 - less - half + (z * high - r * error));
+    return one_minus_half + (1.0 - one_minus_half - half + (z * higher_terms - r * error));
 }
 
 /* Return x rounded to 26 bits of its significand: products of two such numbers are exact. */
-static inline PARTS_REAL PARTS_FUNCTION(keep_26_bits)(PARTS_REAL x)
+static inline PARTS_REAL PARTS_FUNCTION(round_to_26_bits)(PARTS_REAL x)
 {
     return PARTS_FUNCTION(from_bits)((PARTS_FUNCTION(to_bits)(x) + 0x4000000u) & 0xfffffffff8000000u);
 }
@@ -47,8 +47,8 @@ static inline PARTS_REAL PARTS_FUNCTION(keep_26_bits)(PARTS_REAL x)
 /* Return x^(3/2) from x and its square root, with a correction of the rounding errors of root and product. */
 static inline PARTS_REAL PARTS_FUNCTION(power_three_halves)(PARTS_REAL x, PARTS_REAL root)
 {
-    const PARTS_REAL x_high = PARTS_FUNCTION(keep_26_bits)(x), x_low = x - x_high, product = x * root;
-    const PARTS_REAL s_high = PARTS_FUNCTION(keep_26_bits)(root), s_low = root - s_high;
+    const PARTS_REAL x_high = PARTS_FUNCTION(round_to_26_bits)(x), x_low = x - x_high, product = x * root;
+    const PARTS_REAL s_high = PARTS_FUNCTION(round_to_26_bits)(root), s_low = root - s_high;
     const PARTS_REAL left = x - s_high * s_high - 2.0 * s_high * s_low - s_low * s_low;
     return product + (x_high * s_high - product + x_high * s_low + x_low * s_high + x_low * s_low + 0.5 * root * left);
 }
@@ -57,21 +57,21 @@ static inline PARTS_REAL PARTS_FUNCTION(power_three_halves)(PARTS_REAL x, PARTS_
 static inline PARTS_REAL PARTS_FUNCTION(log_with_error)(PARTS_REAL x, PARTS_REAL *error)
 {
     const PARTS_BITS x_bits = PARTS_FUNCTION(to_bits)(x), bits = x_bits - 0x3fe6100000000000u;
-    const PARTS_REAL c = PARTS_ENTRY(log_table, bits >> 45, 0), less = PARTS_ENTRY(log_table, bits >> 45, 1);
-    const PARTS_REAL least = PARTS_ENTRY(log_table, bits >> 45, 2), k = PARTS_POWER(bits);
+    const PARTS_REAL c = PARTS_ENTRY(log_table, bits >> 45, 0), minus_log_c = PARTS_ENTRY(log_table, bits >> 45, 1);
+    const PARTS_REAL minus_log_c_rest = PARTS_ENTRY(log_table, bits >> 45, 2), k = PARTS_POWER(bits);
     const PARTS_REAL z = PARTS_FUNCTION(from_bits)(x_bits - (bits & 0xfff0000000000000u));
-    const PARTS_REAL z_high = PARTS_FUNCTION(keep_26_bits)(z);
+    const PARTS_REAL z_high = PARTS_FUNCTION(round_to_26_bits)(z);
     const PARTS_REAL r_high = z_high * c - 1.0, r_low = (z - z_high) * c, r = r_high + r_low;
     const PARTS_REAL r_rest = r_high - r + r_low;
-    const PARTS_REAL sum = k * 0x1.62e42fefa38p-1 + less, near = sum + r;
-    const PARTS_REAL r_top = PARTS_FUNCTION(keep_26_bits)(r_high); /* its square is exact */
+    const PARTS_REAL sum = k * 0x1.62e42fefa38p-1 + minus_log_c, first_sum = sum + r;
+    const PARTS_REAL r_top = PARTS_FUNCTION(round_to_26_bits)(r_high); /* its square is exact */
     const PARTS_REAL r_bottom = r_high - r_top + r_low;
     const PARTS_REAL half = -0.5 * r, square = r * half, half_top = -0.5 * r_top, square_top = r_top * half_top;
-    const PARTS_REAL high = near + square_top;
+    const PARTS_REAL high = first_sum + square_top;
     const PARTS_REAL series = r * square * (-2.0 / 3.0 + r * 0.5
         + square * (0.8 + r * (-2.0 / 3.0) + square * (-8.0 / 7.0 + r)));
-    const PARTS_REAL low = k * 0x1.ef35793c7673p-45 + least + (sum - near + r) + r_rest + r_bottom * (half + half_top)
-        + (near - high + square_top) + series;
+    const PARTS_REAL low = k * 0x1.ef35793c7673p-45 + minus_log_c_rest + (sum - first_sum + r) + r_rest
+        + r_bottom * (half + half_top) + (first_sum - high + square_top) + series;
     *error = high - (high + low) + low;
     return high + low;
 }
@@ -82,12 +82,12 @@ static inline PARTS_REAL PARTS_FUNCTION(exp_with_error)(PARTS_REAL x, PARTS_REAL
     const double shift = 6755399441055744.0;
     const PARTS_REAL shifted = x * 0x1.71547652b82fep7 + shift, k = shifted - shift;
     const PARTS_REAL r = x - k * 0x1.62e42fefcp-8 + k * 0x1.c610ca86c3899p-44 + error, square = r * r;
-    const PARTS_BITS whole = PARTS_FUNCTION(to_bits)(shifted), ahead = whole >> 7 << 52;
-    const PARTS_BITS table_bits = PARTS_FUNCTION(to_bits)(PARTS_ENTRY(exp_table, whole, 0));
-    const PARTS_REAL power = PARTS_FUNCTION(from_bits)(table_bits + ahead);
-    const PARTS_REAL less = PARTS_ENTRY(exp_table, whole, 1) + r + square * (0.5 + r * (1.0 / 6.0))
+    const PARTS_BITS index_bits = PARTS_FUNCTION(to_bits)(shifted), exponent_bits = index_bits >> 7 << 52;
+    const PARTS_BITS table_bits = PARTS_FUNCTION(to_bits)(PARTS_ENTRY(exp_table, index_bits, 0));
+    const PARTS_REAL power = PARTS_FUNCTION(from_bits)(table_bits + exponent_bits);
+    const PARTS_REAL change = PARTS_ENTRY(exp_table, index_bits, 1) + r + square * (0.5 + r * (1.0 / 6.0))
         + square * square * (1.0 / 24.0 + r * (1.0 / 120.0));
-    return power + power * less;
+    return power + power * change;
 }
 
 /* Return log2 x of a normal positive number to 1e-4, for step-size control. */
@@ -104,7 +104,8 @@ static inline PARTS_REAL PARTS_FUNCTION(approx_exp2)(PARTS_REAL x)
 {
     const double shift = 6755399441055744.0;
     const PARTS_REAL shifted = x + shift, r = x - (shifted - shift);
-    const PARTS_REAL part = 1.0 + r * (0.6931471805599453 + r * (0.2402265069591007 + r * (0.0555041086648216
+    const PARTS_REAL fraction_power = 1.0 + r * (0.6931471805599453 + r * (0.2402265069591007 + r * (0.0555041086648216
         + r * 0.0096181291076285)));
-    return PARTS_FUNCTION(from_bits)(PARTS_FUNCTION(to_bits)(part) + (PARTS_FUNCTION(to_bits)(shifted) << 52));
+    const PARTS_BITS exponent_bits = PARTS_FUNCTION(to_bits)(shifted) << 52;
+    return PARTS_FUNCTION(from_bits)(PARTS_FUNCTION(to_bits)(fraction_power) + exponent_bits);
 }

@@ -1,6 +1,7 @@
 /*
  * Newton steps for linearized constraint equations: the minimum-norm step and the least-squares step. The minimum-norm
- * step follows from the normal matrix of the equations. The sparsity follows from the pattern of Phi_q.
+ * step follows from the normal equations, by sparse Cholesky factorization. The sparsity follows from the pattern of
+ * Phi_q.
  */
 #include "../run/cancellation.h"
 #include "calls.h"
@@ -16,7 +17,7 @@ enum {
 };
 
 /* The pattern of a normal matrix: its equations, those with an entry for each coordinate, the nonzeros of its factor.
- * For the least-squares step coordinates take the place of equations. */
+ * For the least-squares step, coordinates replace equations. */
 typedef struct {
     int n;
     short row[N_NORMAL + 1], equations_of[N_Q][N_START_ROWS + 1], n_equations_of[N_Q];
@@ -39,8 +40,8 @@ typedef struct {
 } StartWorkspace;
 
 /*
- * List the coordinates with an entry in an equation of a start: a few for constraint equations, one of set_coordinates
- * for each equation after these. coordinates: the result, at most N_Q. Return their number.
+ * List the coordinates with an entry in an equation of a start into `coordinates` (at most N_Q), and return their
+ * number. Equations from N_ALL_ROWS on have one entry each, set_coordinates[equation - N_ALL_ROWS].
  */
 static int list_coordinates_of_equation(int equation, const int *set_coordinates, int *coordinates)
 {
@@ -54,8 +55,8 @@ static int list_coordinates_of_equation(int equation, const int *set_coordinates
 }
 
 /*
- * Compute the nonzeros of the Cholesky factor of a normal matrix into `system`, from the pattern in the workspace
- * (upper half), which is completed as well.
+ * Compute the nonzeros of the Cholesky factor of a normal matrix (symbolic factorization) into `system`. The pattern in
+ * the workspace (upper half) is completed by the fill-in.
  */
 OPTIMIZE_SIZE static void compute_fill_in(StartWorkspace *workspace, EquationSystem *system)
 {
@@ -81,8 +82,8 @@ static void clear_pattern(StartWorkspace *workspace, int n)
 }
 
 /*
- * Compute the pattern of the normal matrix row row^T of the equations of `system`: two equations meet if they have a
- * common coordinate. Also compute the nonzeros of its factor. set_coordinates: coordinates of the equations after the
+ * Compute the pattern of the normal matrix row row^T of the equations of `system`, and the nonzeros of its factor. Two
+ * equations have a nonzero if they have a common coordinate. set_coordinates: coordinates of the equations after the
  * constraint equations.
  */
 OPTIMIZE_SIZE static void compute_normal_pattern(StartWorkspace *workspace, EquationSystem *system,
@@ -128,8 +129,9 @@ static void clear_normal_matrix(StartWorkspace *workspace, const EquationSystem 
 }
 
 /*
- * Factorize the normal matrix U^T U of a system by Cholesky's method, by rows of its upper half, in place. Return 1 if
- * a pivot nearly vanishes (unless dependent equations are left out), is not finite, or on cancellation; else 0.
+ * Factorize the normal matrix U^T U of a system by sparse Cholesky factorization, by rows of its upper half, in place.
+ * Return 1 if a pivot is not finite or at most 1e-12 of its diagonal entry, or on cancellation; else 0. With
+ * workspace->dependent, equations with a small pivot are left out instead.
  */
 OPTIMIZE_SIZE static int factorize_normal_matrix(StartWorkspace *workspace, const EquationSystem *system)
 {
@@ -158,7 +160,10 @@ OPTIMIZE_SIZE static int factorize_normal_matrix(StartWorkspace *workspace, cons
     return 0;
 }
 
-/* Solve the factorized normal system of equations in workspace->rhs: right-hand side on entry, solution on return. */
+/*
+ * Solve the factorized normal system of equations by forward and back substitution in workspace->rhs: right-hand side
+ * on entry, solution on return.
+ */
 static void solve_normal_system(StartWorkspace *workspace, const EquationSystem *system)
 {
     for (int k = 0; k < system->n; k++) {
@@ -176,8 +181,8 @@ static void solve_normal_system(StartWorkspace *workspace, const EquationSystem 
 }
 
 /*
- * Compute and factorize the normal matrix row row^T of the equations of a system. Return 1 if a pivot nearly vanishes
- * or on cancellation, else 0.
+ * Compute and factorize the normal matrix row row^T of the equations of a system. Return the result of
+ * factorize_normal_matrix(): 1 for dependent equations or on cancellation, else 0.
  */
 static int factorize_equations(StartWorkspace *workspace, const EquationSystem *system)
 {
@@ -196,10 +201,10 @@ static int factorize_equations(StartWorkspace *workspace, const EquationSystem *
 }
 
 /*
- * Compute the smallest step that satisfies row step = residual from the factorized equations of a system: step = row^T
- * x, where row row^T x = residual. The result is workspace->step (N_Q).
+ * Compute the minimum-norm step that satisfies row step = residual from the factorized equations of a system: step =
+ * row^T x, where row row^T x = residual. The result is workspace->step (N_Q); workspace->rhs is overwritten.
  */
-static void compute_smallest_step(StartWorkspace *workspace, const EquationSystem *system)
+static void compute_minimum_norm_step(StartWorkspace *workspace, const EquationSystem *system)
 {
     for (int i = 0; i < system->n; i++)
         workspace->rhs[i] = workspace->residual[system->row[i]];
@@ -213,7 +218,8 @@ static void compute_smallest_step(StartWorkspace *workspace, const EquationSyste
 }
 
 /*
- * Compute the pattern of row^T row into `system`: coordinates with a common equation, and the nonzeros of its factor.
+ * Compute the pattern of row^T row into `system`, and the nonzeros of its factor. Two coordinates have a nonzero if an
+ * equation contains both.
  */
 static void compute_coordinate_pattern(StartWorkspace *workspace, EquationSystem *system)
 {
@@ -229,7 +235,10 @@ static void compute_coordinate_pattern(StartWorkspace *workspace, EquationSystem
     compute_fill_in(workspace, system);
 }
 
-/* Compute the matrix row^T row of all equations in workspace->normal, for positions only; rows of angles stay zero. */
+/*
+ * Compute the matrix row^T row of all equations in workspace->normal (upper half), for positions only; rows of angles
+ * stay zero.
+ */
 static void compute_position_matrix(StartWorkspace *workspace, const EquationSystem *system)
 {
     int coordinates[N_Q];
@@ -265,9 +274,9 @@ static void compute_position_rhs(StartWorkspace *workspace, double damping)
 }
 
 /*
- * Compute the slightly damped least-squares step of positions, with which Newton's method begins, into workspace->step;
- * angles stay. It is refined once: along directions without equations the damped matrix has six digits only. Return 1
- * on failure, else 0.
+ * Compute the damped least-squares step of positions (Levenberg-Marquardt), with which Newton's method begins, into
+ * workspace->step; angles stay. It is refined once: along directions without equations the damped matrix has six digits
+ * only. Return 1 if the factorization fails, else 0.
  */
 static int compute_least_squares_step(StartWorkspace *workspace)
 {

@@ -3,7 +3,7 @@
  * singular position (links in line) rows of Phi_q depend on each other, and near it drift is amplified. A Gram-Schmidt
  * orthogonalization with pivoting on the rows of Phi_q M^(-1/2), applied twice, selects independent equations; the
  * others must agree with them. If they do not, only equations dependent to rounding are left out. If these disagree as
- * well, the constraints are contradictory and the pivot's number is returned. This path is rare and uses dense
+ * well, the constraints are contradictory and the pivot's number is returned. This path is seldom used and has dense
  * matrices.
  *
  * M is replaced by another norm for bodies with a small or zero moment of inertia (relative to m s^2) or a small mass.
@@ -18,18 +18,18 @@ enum { N_PADDED_ROWS = (AT_LEAST_ONE(N_ROWS) + 3) / 4 * 4 }; /* number of equati
 /* Workspace of the orthogonalization. */
 typedef struct {
     double basis[N_Q][N_Q];                   /* orthonormal basis of the rows so far, then of the null space */
-    double left[N_Q][N_PADDED_ROWS];               /* (Phi_q M^(-1/2))^T: remainder of each row outside the basis */
+    double remainder[N_Q][N_PADDED_ROWS];     /* (Phi_q M^(-1/2))^T: remainder of each row outside the basis */
     double lower[AT_LEAST_ONE(N_ROWS)][N_PADDED_ROWS]; /* row i = sum over k of lower[k][i] basis[k] */
     double unused[N_PADDED_ROWS];                  /* 1 of a row that is not in the basis, 0 of others */
-    double all[N_ALL_ROWS][N_Q], root[N_Q], y[N_Q], along[AT_LEAST_ONE(N_ROWS)], residual[AT_LEAST_ONE(N_ROWS)];
-    double norm[AT_LEAST_ONE(N_ROWS)];
+    double all[N_ALL_ROWS][N_Q], root[N_Q], y[N_Q], residual[AT_LEAST_ONE(N_ROWS)];
+    double norm[AT_LEAST_ONE(N_ROWS)], magnitude[AT_LEAST_ONE(N_ROWS)]; /* of rows; of terms of right-hand sides */
     /* M over the norm, its root^-1 g, Z^T M Z and its solution */
-    double fraction[N_Q], force[N_Q], free[N_Q][N_Q], z[N_Q];
-    int order[AT_LEAST_ONE(N_ROWS)], light;
+    double fraction[N_Q], force[N_Q], null_space_mass[N_Q][N_Q], z[N_Q];
+    int order[AT_LEAST_ONE(N_ROWS)], has_small_mass;
     Cancellation *cancellation;
 } Workspace;
 
-/* Return the scalar product of two vectors (N_Q), by three independent sums. */
+/* Return the scalar product of two vectors (N_Q), by three independent sums: x, y and angles. */
 static double compute_dot_product(const double *a, const double *b)
 {
     double x = 0.0, y = 0.0, theta = 0.0;
@@ -79,27 +79,27 @@ static void subtract_from_rows(double (*restrict rows)[N_PADDED_ROWS], const dou
 }
 
 /*
- * Remove the component along the newest basis vector, number `rank`, from every row not yet in the basis, twice because
- * of rounding. The components are added to workspace->lower.
+ * Remove the component along the newest basis vector, number `rank`, from the remainder of every row not yet in the
+ * basis, twice because of rounding. The components are added to workspace->lower.
  */
 static void remove_basis_component(Workspace *workspace, int rank)
 {
     const double *basis = workspace->basis[rank];
     for (int pass = 0; pass < 2; pass++) {
         double components[N_PADDED_ROWS];
-        multiply_rows_by_vector(workspace->left, basis, components);
+        multiply_rows_by_vector(workspace->remainder, basis, components);
         for (int i = 0; i < N_PADDED_ROWS; i++) {
             components[i] *= workspace->unused[i];
             workspace->lower[rank][i] += components[i];
         }
-        subtract_from_rows(workspace->left, basis, components);
+        subtract_from_rows(workspace->remainder, basis, components);
     }
 }
 
 /*
- * Select independent rows into workspace->order, the largest remainder first, and compute the basis.
- * pivot_tol_squared: squared relative remainder below which a row is dependent. Return their number, or -1 on
- * cancellation.
+ * Select independent rows into workspace->order by Gram-Schmidt with pivoting, the largest relative remainder first,
+ * and compute the basis. pivot_tol_squared: squared relative remainder below which a row is dependent. Return the rank,
+ * or -1 on cancellation.
  */
 static int select_independent_rows(Workspace *workspace, double pivot_tol_squared)
 {
@@ -109,7 +109,7 @@ static int select_independent_rows(Workspace *workspace, double pivot_tol_square
             return -1;
         int pivot = rank;
         double largest = 0.0, square[N_PADDED_ROWS];
-        compute_squared_norms(workspace->left, square);
+        compute_squared_norms(workspace->remainder, square);
         for (int i = rank; i < N_ROWS; i++) {
             const double relative_square = square[workspace->order[i]] / workspace->norm[workspace->order[i]];
             if (relative_square > largest) {
@@ -124,7 +124,7 @@ static int select_independent_rows(Workspace *workspace, double pivot_tol_square
         workspace->order[rank] = row;
         const double length = sqrt(square[row]);
         for (int k = 0; k < N_Q; k++)
-            workspace->basis[rank][k] = workspace->left[k][row] / length;
+            workspace->basis[rank][k] = workspace->remainder[k][row] / length;
         workspace->lower[rank][row] = length;
         workspace->unused[row] = 0.0;
         remove_basis_component(workspace, rank);
@@ -134,8 +134,9 @@ static int select_independent_rows(Workspace *workspace, double pivot_tol_square
 
 /*
  * Compute the norm that replaces the mass matrix where masses (below MIN_MASS of the largest) or moments of inertia
- * (below MIN_INERTIA m s^2) are small: workspace->free[0] is M on entry and the norm on return, root its square roots,
- * fraction that of M in it, and light whether any is small. Called by initialize_workspace().
+ * (below MIN_INERTIA m s^2) are small. workspace->root is M on entry and the square roots of the norm on return;
+ * fraction: M over the norm; null_space_mass[0]: the norm; has_small_mass: whether any is small. Called by
+ * initialize_workspace().
  */
 static void compute_mass_norm(Workspace *workspace)
 {
@@ -151,20 +152,21 @@ static void compute_mass_norm(Workspace *workspace)
                 arm_squared = max_of(arm_squared, row[k] * row[k]);
         }
         if (k % 3 == 2)
-            mass = max_of(mass, arm_squared > 0.0 ? MIN_INERTIA * workspace->free[0][k - 1] * arm_squared : 1e-300);
+            mass = max_of(mass, arm_squared > 0.0 ? MIN_INERTIA * workspace->null_space_mass[0][k - 1] * arm_squared
+                : 1e-300);
         workspace->fraction[k] = workspace->root[k] / mass;
-        workspace->light |= workspace->fraction[k] < 1.0;
-        workspace->free[0][k] = mass;
+        workspace->has_small_mass |= workspace->fraction[k] < 1.0;
+        workspace->null_space_mass[0][k] = mass;
     }
     for (int k = 0; k < N_Q; k++)
-        workspace->root[k] = sqrt(workspace->free[0][k]);
+        workspace->root[k] = sqrt(workspace->null_space_mass[0][k]);
 }
 
 /*
  * Initialize the workspace before a selection of independent equations: rows of Phi_q scaled by the norm, their order,
- * and the right-hand sides rhs - Phi_q M^-1 g. If a mass or moment of inertia is small (workspace->light), M^-1 g is
- * left out of them; add_free_motion() adds the free motion later. force: g; rhs: right-hand sides of the acceleration
- * constraints. Called by solve_dependent_equations() for each pass.
+ * and the right-hand sides rhs - Phi_q M^-1 g. If a mass or moment of inertia is small (workspace->has_small_mass),
+ * M^-1 g is left out of them; add_free_motion() adds the free motion later. force: g; rhs: right-hand sides of the
+ * acceleration constraints. Called by solve_dependent_equations() for each pass.
  */
 static void initialize_workspace(Workspace *workspace, double t, const double *q, const Parameters *p,
     const double *force,
@@ -176,24 +178,24 @@ static void initialize_workspace(Workspace *workspace, double t, const double *q
     compute_mass_norm(workspace);
     for (int k = 0; k < N_Q; k++) {
         workspace->force[k] = force[k] / workspace->root[k];
-        workspace->y[k] = workspace->light ? 0.0 : workspace->force[k];
+        workspace->y[k] = workspace->has_small_mass ? 0.0 : workspace->force[k];
     }
     for (int i = 0; i < N_ROWS; i++) {
         double row[N_Q];
         workspace->order[i] = i;
         workspace->unused[i] = 1.0;
         for (int k = 0; k < N_Q; k++)
-            row[k] = workspace->left[k][i] = workspace->all[kept_row[i]][k] / workspace->root[k];
+            row[k] = workspace->remainder[k][i] = workspace->all[kept_row[i]][k] / workspace->root[k];
         workspace->norm[i] = compute_dot_product(row, row) + 1e-300;
         workspace->residual[i] = rhs[i] - compute_dot_product(row, workspace->y);
-        workspace->along[i] = fabs(rhs[i]) + sqrt(workspace->norm[i]
+        workspace->magnitude[i] = fabs(rhs[i]) + sqrt(workspace->norm[i]
             * compute_dot_product(workspace->y, workspace->y)); /* its size, for the comparison below */
     }
 }
 
 /*
- * Complete the orthonormal basis from `rank` to N_Q vectors: each next one is the coordinate direction with the largest
- * remainder, orthogonalized twice. Called by add_free_motion().
+ * Complete the orthonormal basis from `rank` to N_Q vectors, by a basis of the null space. Each next one is the
+ * coordinate direction with the largest remainder, orthogonalized twice. Called by add_free_motion().
  */
 static void complete_basis(Workspace *workspace, int rank)
 {
@@ -213,9 +215,9 @@ static void complete_basis(Workspace *workspace, int rank)
             next[j] = j == coordinate;
         for (int pass = 0; pass < 2; pass++)
             for (int k = 0; k < rank; k++) {
-                const double along = compute_dot_product(next, workspace->basis[k]);
+                const double component = compute_dot_product(next, workspace->basis[k]);
                 for (int j = 0; j < N_Q; j++)
-                    next[j] -= along * workspace->basis[k][j];
+                    next[j] -= component * workspace->basis[k][j];
             }
         const double length = sqrt(compute_dot_product(next, next));
         for (int j = 0; j < N_Q; j++)
@@ -225,14 +227,14 @@ static void complete_basis(Workspace *workspace, int rank)
 
 /*
  * Add the motion in the null space of the constraints to the accelerations workspace->y, and compute the right-hand
- * sides of the multipliers. Used where the norm is not the mass matrix; rank: number of independent rows. Return 0 if M
- * is singular there, else 1.
+ * sides of the multipliers. Called where the norm is not the mass matrix; rank: number of independent rows. Return 0 if
+ * M is singular there (the Cholesky factorization of Z^T M Z fails), else 1.
  */
 static int add_free_motion(Workspace *workspace, int rank)
 {
     complete_basis(workspace, rank);
     for (int i = rank; i < N_Q; i++) { /* Z^T M Z and Z^T (g - M y), by Cholesky's method */
-        double *row = workspace->free[i];
+        double *row = workspace->null_space_mass[i];
         workspace->z[i] = compute_dot_product(workspace->basis[i], workspace->force);
         for (int k = 0; k < N_Q; k++)
             workspace->z[i] -= workspace->basis[i][k] * workspace->fraction[k] * workspace->y[k];
@@ -244,8 +246,8 @@ static int add_free_motion(Workspace *workspace, int rank)
         const double diagonal = row[i];
         for (int j = rank; j <= i; j++) {
             for (int k = rank; k < j; k++)
-                row[j] -= row[k] * workspace->free[j][k];
-            row[j] = j < i ? row[j] / workspace->free[j][j] : row[j];
+                row[j] -= row[k] * workspace->null_space_mass[j][k];
+            row[j] = j < i ? row[j] / workspace->null_space_mass[j][j] : row[j];
             workspace->z[i] -= j < i ? row[j] * workspace->z[j] : 0.0;
         }
         if (!(row[i] > 1e-14 * diagonal))
@@ -255,8 +257,8 @@ static int add_free_motion(Workspace *workspace, int rank)
     }
     for (int i = N_Q - 1; i >= rank; i--) {
         for (int j = i + 1; j < N_Q; j++)
-            workspace->z[i] -= workspace->free[j][i] * workspace->z[j];
-        workspace->z[i] /= workspace->free[i][i];
+            workspace->z[i] -= workspace->null_space_mass[j][i] * workspace->z[j];
+        workspace->z[i] /= workspace->null_space_mass[i][i];
         for (int k = 0; k < N_Q; k++)
             workspace->y[k] += workspace->z[i] * workspace->basis[i][k];
     }
@@ -270,10 +272,10 @@ static int add_free_motion(Workspace *workspace, int rank)
 }
 
 /*
- * Compute accelerations workspace->y and multipliers lambda (N_ROWS) by the independent equations; dependent
- * ones have lambda = 0. An equation is independent if what remains of its row without the components along the rows
- * already selected has a squared norm above pivot_tol_squared, relative to the row. Return 1 if the dependent equations
- * agree to `tolerance`, 0 if not or if M is singular, or STOPPED on cancellation.
+ * Compute accelerations workspace->y and multipliers lambda (N_ROWS) by the independent equations; dependent ones have
+ * lambda = 0. A row is independent if its remainder outside the rows already selected has a squared norm above
+ * pivot_tol_squared, relative to the row. Return 1 if the dependent equations agree to `tolerance`, 0 if not or if M is
+ * singular, or STOPPED on cancellation.
  */
 static int solve_independent_equations(Workspace *workspace, double pivot_tol_squared, double tolerance, double *lambda)
 {
@@ -284,14 +286,14 @@ static int solve_independent_equations(Workspace *workspace, double pivot_tol_sq
         const int row = workspace->order[k];
         const double component = workspace->residual[row] / workspace->lower[k][row];
         for (int i = 0; i < N_ROWS; i++) {
-            workspace->along[i] += fabs(workspace->lower[k][i] * component);
+            workspace->magnitude[i] += fabs(workspace->lower[k][i] * component);
             workspace->residual[i] -= i == row ? 0.0 : workspace->lower[k][i] * component;
         }
         workspace->residual[row] = component;
         for (int j = 0; j < N_Q; j++)
             workspace->y[j] += component * workspace->basis[k][j];
     }
-    if (workspace->light && !add_free_motion(workspace, rank))
+    if (workspace->has_small_mass && !add_free_motion(workspace, rank))
         return 0;
     for (int i = 0; i < N_ROWS; i++)
         lambda[i] = 0.0;
@@ -304,16 +306,17 @@ static int solve_independent_equations(Workspace *workspace, double pivot_tol_sq
     int is_consistent = 1;
     for (int i = rank; i < N_ROWS; i++)
         is_consistent = is_consistent && fabs(workspace->residual[workspace->order[i]]) <= tolerance
-            * workspace->along[workspace->order[i]];
+            * workspace->magnitude[workspace->order[i]];
     return is_consistent;
 }
 
 /*
  * Compute accelerations a and multipliers lambda where a pivot of the equations of motion nearly vanishes. force: g;
- * rhs: gamma - 2 alpha Phi_dot - beta^2 Phi; pivot: number of the pivot. Dependent equations are left out, those of
- * rounding in a second pass only. Return 0, NEAR if the motion is to be continued from both sides, STOPPED, or `pivot`
- * if the constraints are contradictory, accelerations are not finite, or memory is short. Called by the equations of
- * motion after their factorization has failed.
+ * rhs: gamma - 2 alpha Phi_dot - beta^2 Phi; pivot: number of the pivot. Nearly dependent equations (NEARLY_SINGULAR)
+ * are left out if they agree with the others; in a second pass only those dependent to rounding (SINGULAR). Return 0,
+ * NEAR if the motion is to be continued from both sides, STOPPED, or `pivot` if the constraints are contradictory,
+ * accelerations are not finite, or memory is short. Called by the equations of motion after their factorization has
+ * failed.
  */
 int solve_dependent_equations(double t, const double *q, const Parameters *p, const double *force, const double *rhs,
     double *a, double *lambda, int pivot, const DiscreteState *discrete)

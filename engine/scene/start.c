@@ -1,22 +1,23 @@
 /*
- * The start nearest to a guess: a closed configuration (closing.c), then velocities that are smallest in the norm of
- * the mass matrix. This is the regular case; 1 is returned where Newton's method leads far away or fails, and the
+ * Initial conditions (assembly) nearest to a guess: a closed configuration (closing.c), then velocities of minimum norm
+ * in the mass matrix. This is the regular case; 1 is returned where Newton's method leads far away or fails, and the
  * search in Python decides.
  */
 #include "closing.c"
 #include "start.h"
 
-#define FAR 0.5      /* rad: a larger change of a guessed angle needs the search in Python (closure.py) */
-#define APART 0.2    /* the same of a guessed position, as a fraction of the size (assembly/guess_warnings.py) */
-#define MIRRORED 0.1 /* of both: for larger changes the mirrored configuration is tried */
-#define SMALL_INERTIA 1e-9 /* of m size^2: least moment of inertia in the norm (sizes.py) */
-#define NEARER 1e-5  /* least relative difference of distances for a nearer configuration */
+#define MAX_ANGLE_CHANGE 0.5 /* rad: a larger change of a guessed angle needs the search in Python (closure.py) */
+/* the same of a guessed position, as a fraction of the size (assembly/guess_warnings.py) */
+#define MAX_POSITION_CHANGE 0.2
+#define MIN_MIRRORED_CHANGE 0.1 /* of both limits: for larger changes the mirrored configurations are tried */
+#define MIN_START_INERTIA 1e-9 /* of m size^2: smallest moment of inertia in the norm (sizes.py) */
+#define MIN_DISTANCE_REDUCTION 1e-5 /* smallest relative difference of distances for a nearer configuration */
 
 /*
- * Return the largest distance from the origin in m that drives, set coordinates and guess q require; at least the size
- * of the mechanism. workspace->residual is overwritten.
+ * Return the radius in m that bounds the search for a start: the maximum of the mechanism's size, |x| and |y| of all
+ * positions in q, and the length residuals at q. workspace->residual is overwritten.
  */
-static double find_largest_distance(StartWorkspace *workspace, double t, const Parameters *p, const double *q)
+static double compute_search_radius(StartWorkspace *workspace, double t, const Parameters *p, const double *q)
 {
     double largest = workspace->size;
     compute_start_residuals(workspace, t, q, p);
@@ -31,7 +32,8 @@ static double find_largest_distance(StartWorkspace *workspace, double t, const P
 
 /*
  * Initialize the workspace of a start from the parameters: guess and set values, weights of coordinates, scales of
- * equations. They are those of the search in Python.
+ * columns and rows. They are those of the search in Python. Angles without a guess weigh 1e-2, positions 1e-4 over the
+ * size; guessed ones 1 and 1 over the size.
  */
 static void initialize_start_workspace(StartWorkspace *workspace, const Parameters *p)
 {
@@ -52,8 +54,8 @@ static void initialize_start_workspace(StartWorkspace *workspace, const Paramete
 
 /*
  * Initialize the workspace and set q to the guess and the set coordinates (others 0), with the angles that equations
- * without positions determine. Store q as reference of distances, and the largest distance from the origin as radius.
- * Return 1 if those equations depend on each other, else 0.
+ * without positions determine. Store q as reference of distances, and the search radius. Return 1 if those equations
+ * depend on each other, else 0.
  */
 static int initialize_guess(StartWorkspace *workspace, double t, const Parameters *p, double *q)
 {
@@ -68,13 +70,13 @@ static int initialize_guess(StartWorkspace *workspace, double t, const Parameter
         return 1;
     for (int k = 0; k < N_Q; k++)
         workspace->reference[k] = q[k];
-    workspace->radius = find_largest_distance(workspace, t, p, q);
+    workspace->radius = compute_search_radius(workspace, t, p, q);
     return 0;
 }
 
 /*
- * Return the largest change of a guessed angle or position from the guess to q, relative to the limit (1) beyond which
- * the search in Python decides.
+ * Return the largest change of a guessed angle or position from the guess to q, as a fraction of MAX_ANGLE_CHANGE or
+ * MAX_POSITION_CHANGE. From 1 on the search in Python decides.
  */
 static double compute_change_from_guess(const StartWorkspace *workspace, const double *q)
 {
@@ -84,24 +86,27 @@ static double compute_change_from_guess(const StartWorkspace *workspace, const d
     for (int k = 0; k < N_Q; k += 3) {
         const double distance = hypot(change[k], change[k + 1]),
             radius = hypot(workspace->reference[k], workspace->reference[k + 1]);
-        largest = max_of(max_of(distance / (APART * max_of(workspace->size, radius)), fabs(change[k + 2]) / FAR),
-            largest);
+        largest = max_of(max_of(distance / (MAX_POSITION_CHANGE * max_of(workspace->size, radius)),
+            fabs(change[k + 2]) / MAX_ANGLE_CHANGE), largest);
     }
     return largest;
 }
 
-/* Return whether all positions in q are within 1000 times workspace->radius (m): the iteration has not diverged. */
+/*
+ * Return whether all positions in q are below 1000 times the search radius, workspace->radius (m): the iteration has
+ * not diverged.
+ */
 static int are_positions_bounded(const StartWorkspace *workspace, const double *q)
 {
-    int are_positions_bounded = 1;
+    int are_bounded = 1;
     for (int k = 0; k < N_Q; k++)
-        are_positions_bounded &= k % 3 == 2 || fabs(q[k]) < 1e3 * workspace->radius;
-    return are_positions_bounded;
+        are_bounded &= k % 3 == 2 || fabs(q[k]) < 1e3 * workspace->radius;
+    return are_bounded;
 }
 
 /*
- * Reduce angles in q to within half a turn of the guess. Return 1 if that opens the equations, which then depend on the
- * number of turns; else 0. Called for mirrored configurations.
+ * Reduce angles in q to within half a turn of the guess. Return 1 if the equations are then no longer closed, because
+ * they depend on the number of turns; else 0. Called for mirrored configurations.
  */
 static int remove_full_turns(StartWorkspace *workspace, double t, const Parameters *p, double *q)
 {
@@ -116,19 +121,20 @@ static int remove_full_turns(StartWorkspace *workspace, double t, const Paramete
 
 /*
  * Replace q by the nearest to the guess of three closed configurations: q, the one with guessed coordinates mirrored at
- * the guess, and the one with all coordinates mirrored. If q is near the guess, it stays; mirrored starts that do not
- * close are omitted. Called after a configuration is closed.
+ * the guess, and the one with all coordinates mirrored. q stays if its change from the guess is below
+ * MIN_MIRRORED_CHANGE; mirrored starts that do not close are omitted. Called after a configuration is closed.
  */
 static void select_nearest_start(StartWorkspace *workspace, double t, const Parameters *p, double *q)
 {
-    if (compute_change_from_guess(workspace, q) < MIRRORED)
+    if (compute_change_from_guess(workspace, q) < MIN_MIRRORED_CHANGE)
         return;
     for (int k = 0; k < N_Q; k++) {
         workspace->first_solution[k] = q[k];
         workspace->mirrored[k] = 2.0 * workspace->reference[k] - q[k];
     }
     for (int mirrors_all = 0; mirrors_all < 2; mirrors_all++) {
-        workspace->nearest = (1.0 - NEARER) * (1.0 - NEARER) * compute_squared_distance(workspace, q);
+        workspace->nearest = (1.0 - MIN_DISTANCE_REDUCTION) * (1.0 - MIN_DISTANCE_REDUCTION)
+            * compute_squared_distance_from_guess(workspace, q);
         for (int k = 0; k < N_Q; k++)
             workspace->trial[k] = mirrors_all ? workspace->mirrored[k] : workspace->first_solution[k];
         for (int i = 0; i < N_GUESS; i++)
@@ -139,7 +145,7 @@ static void select_nearest_start(StartWorkspace *workspace, double t, const Para
             || solve_closure(workspace, t, p, workspace->trial)
             || !are_positions_bounded(workspace, workspace->trial)
             || remove_full_turns(workspace, t, p, workspace->trial)
-                || !(compute_squared_distance(workspace, workspace->trial) < workspace->nearest))
+                || !(compute_squared_distance_from_guess(workspace, workspace->trial) < workspace->nearest))
             continue;
         for (int k = 0; k < N_Q; k++)
             q[k] = workspace->trial[k];
@@ -147,22 +153,23 @@ static void select_nearest_start(StartWorkspace *workspace, double t, const Para
 }
 
 /*
- * Compute inverse_root (N_Q), the reciprocal square roots of the diagonal of the norm of velocities: the mass matrix
- * with moments of inertia of at least SMALL_INERTIA m size^2.
+ * Compute inverse_root (N_Q), the reciprocal square roots of the diagonal metric of velocities: the mass matrix with
+ * moments of inertia of at least MIN_START_INERTIA m size^2.
  */
 static void compute_metric_scaling(const StartWorkspace *workspace, const Parameters *p, double *inverse_root)
 {
     double m[N_Q];
     mass_matrix(p, m);
     for (int k = 0; k < N_Q; k++) {
-        const double min_inertia = k % 3 == 2 ? SMALL_INERTIA * m[k - 1] * workspace->size * workspace->size : 0.0;
+        const double min_inertia = k % 3 == 2 ? MIN_START_INERTIA * m[k - 1] * workspace->size * workspace->size : 0.0;
         inverse_root[k] = 1.0 / sqrt(max_of(m[k], min_inertia));
     }
 }
 
 /*
- * Compute the velocities v that satisfy Phi_q v = nu and the set rates at q, smallest in the norm of M, refined twice.
- * Return 1 if the equations depend on each other or are not satisfied to rounding, else 0.
+ * Compute the velocities v that satisfy Phi_q v = nu and the set rates at q, of minimum norm in the metric M, refined
+ * twice. At a jump of a drive, nu is the right limit. Return 1 if the equations depend on each other or are not
+ * satisfied to 1e-10, else 0.
  */
 OPTIMIZE_SIZE static int compute_start_velocities(StartWorkspace *workspace, double t, const Parameters *p,
     const double *q, double *v)
@@ -200,7 +207,7 @@ OPTIMIZE_SIZE static int compute_start_velocities(StartWorkspace *workspace, dou
         }
         if (pass == 3)
             break;
-        compute_smallest_step(workspace, &workspace->subset);
+        compute_minimum_norm_step(workspace, &workspace->subset);
         for (int k = 0; k < N_Q; k++)
             v[k] += workspace->step[k];
     }
@@ -256,7 +263,8 @@ int gudgeon_start(double t, const double *parameters, double size, double *q, do
 /*
  * Continue a closed start to other parameters. q: coordinates of the old start, replaced by Newton's method; v
  * (output): velocities there. size: of the mechanism, m. Equations may depend on each other. Return 0; 1 if q does not
- * close or memory is short; 2 if it has no velocities. The caller checks that q remains near. It cannot be cancelled.
+ * close or memory is short; 2 if it has no velocities. The caller checks that q remains near its old value. It cannot
+ * be cancelled.
  */
 int gudgeon_continuation(double t, const double *parameters, double size, double *q, double *v)
 {
@@ -269,7 +277,7 @@ int gudgeon_continuation(double t, const double *parameters, double size, double
     workspace->cancellation = &no_cancellation;
     workspace->dependent = 1;
     initialize_start_workspace(workspace, p);
-    workspace->radius = find_largest_distance(workspace, t, p, q);
+    workspace->radius = compute_search_radius(workspace, t, p, q);
     int status = solve_closure(workspace, t, p, q);
     if (!status && compute_start_velocities(workspace, t, p, q, v))
         status = 2;

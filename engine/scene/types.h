@@ -122,7 +122,8 @@ enum {
     SINGULAR_PROJECT_OR_IGNORE,  /* the same; as SINGULAR_IGNORE if that fails */
     SINGULAR_IGNORE  /* no test */
 };
-#define NEARBY (TREE ? 1e-5 : 1e-4) /* `least` of such a run: about the squared angle to the position */
+/* `least` of such a run: about the squared angle to the singular position */
+#define NEAR_SINGULAR_PIVOT (TREE ? 1e-5 : 1e-4)
 #define DEFAULT_PIVOT_LIMITS .least = NEARLY_SINGULAR, .least_size = VANISHING
 
 /* Friction at one state: slip and its rate, surface speed, force on the second body along it, limit at stick. */

@@ -6,7 +6,7 @@
  * watched[i] is the number of function i among all event functions.
  */
 #if N_WATCHED
-/* Evaluate the outputs of the right-hand side at a state y and time t (s); rates and status are discarded. */
+/* Evaluate the outputs rhs of the right-hand side at a state y and time t (s); rates and status are discarded. */
 static void evaluate_rhs_outputs(Integrator *run, double t, const double *y, const Parameters *p, RhsOutputs *rhs)
 {
     double dy[N_Y];
@@ -14,8 +14,8 @@ static void evaluate_rhs_outputs(Integrator *run, double t, const double *y, con
 }
 
 /*
- * Return whether an event function may have a zero in the step: its smallest sample at ends and stages is less than the
- * range of its samples. *value_range: that range, largest minus smallest.
+ * Return whether an event function may have a zero in the step: the minimum of its samples at ends and stages is less
+ * than the range of the samples. *value_range: that range, maximum minus minimum.
  */
 static int may_have_zero(const Integrator *run, const Step *step, int event, double *value_range)
 {
@@ -68,9 +68,9 @@ static double estimate_end_error(const double *f, int stride, int n_intervals)
 }
 
 /*
- * Return the largest difference between `samples` (N_SAMPLES + 1) and cubics through every second sample. Stencils
- * across the interval after sample `jump_index` are left out, because the function may jump there, and the errors at
- * its ends are added; N_SAMPLES: no jump.
+ * Return the largest difference between `samples` (N_SAMPLES + 1) and cubics through every second sample. The function
+ * may jump between samples jump_index and jump_index + 1: stencils across are left out, and the errors at both ends are
+ * added. N_SAMPLES: no jump.
  */
 static double compute_interpolation_error(const double *samples, int jump_index)
 {
@@ -174,8 +174,9 @@ static double refine_minimum(
 }
 
 /*
- * Return the first fraction of the step at which a watched function is negative, and its value there in *value. index:
- * of the watched function. Samples and, between them, minima of parabolas are tested in order. 0: none.
+ * Return the first fraction of the step at which a watched function (switching function or user event) is negative, and
+ * its value there in *value; 0: none, *value is then undefined. index: of the watched function. Samples and, between
+ * them, minima of parabolas are tested in order.
  */
 static double find_first_negative_sample(Integrator *run, const Step *step, int index, const Parameters *p,
     double *value)

@@ -1,11 +1,12 @@
 /*
  * Events that end a step: the first zero of any event function (contacts, switching points, friction that sticks). An
  * event is a negative value, not only a change of sign, so that a contact that restarts with penetration is registered.
+ * Watched functions are the switching functions and user events that watched.c or dense_samples.c searches.
  */
 
-#define LONG_STEP 7.0 /* times the last step: step-size control alone lets a step grow by less */
+#define LONG_STEP_RATIO 7.0 /* to the last step: step-size control alone lets a step grow by less */
 enum { N_INNER_SAMPLES = 8 };
-#define HARMLESS 0.1 /* of the tolerance: change of a step by the inactive branch that is accepted */
+#define MAX_IGNORED_BRANCH_ERROR 0.1 /* of the tolerance: accepted change of a step by a branch that is not switched */
 
 /*
  * Change the branch of each switching point that the step passes without an event (step->passed); a second call
@@ -32,12 +33,13 @@ static int has_negative_switch_at_end(const Integrator *run, const Step *step)
 
 /*
  * Mark in step->passed the switching points that the step may pass without an event, and return whether there is any.
- * They are those of contact laws whose branches meet, and a suppressed repeated one (suppress_repeated_switch), crossed
- * near the end of the step. The error of the frozen branch is at most the step times the difference of the rates at its
- * end. If it is below HARMLESS tolerances, the end of the step gets the rates of the new branch. Otherwise no point is
- * passed, and suppressed ones are searched again. Called by find_first_event() before zeros are searched.
+ * They are those of contact laws whose branches meet, and a suppressed repeated one (suppress_repeated_switch()),
+ * crossed near the end of the step. The error of the frozen branch is at most the step times the difference of the
+ * rates at its end. Below MAX_IGNORED_BRANCH_ERROR tolerances, step->dy and step->rhs are replaced by those of the new
+ * branch. Otherwise no point is passed, and suppressed ones are searched again. Also sets step->branch_error. Called by
+ * find_first_event() before zeros are searched.
  */
-static int ignore_harmless_switches(Integrator *run, Step *step, const Parameters *p)
+static int ignore_negligible_switches(Integrator *run, Step *step, const Parameters *p)
 {
     double dy[N_Y], largest_change = 0.0;
     int has_passed = 0;
@@ -65,7 +67,7 @@ static int ignore_harmless_switches(Integrator *run, Step *step, const Parameter
         largest_change = max_of(largest_change, fabs(step->h * (dy[k] - step->dy[k])) * run->norm.weight[k]);
     if (!status && all_finite(dy, N_Y))
         step->branch_error = largest_change;
-    if (step->branch_error < HARMLESS) {
+    if (step->branch_error < MAX_IGNORED_BRANCH_ERROR) {
         for (int k = 0; k < N_Y; k++)
             step->dy[k] = dy[k];
         step->rhs = rhs;
@@ -79,8 +81,8 @@ static int ignore_harmless_switches(Integrator *run, Step *step, const Parameter
 }
 
 /*
- * Return whether event function number `event` is not searched for a zero: that of a switching point that is suppressed
- * or that this step passes.
+ * Return whether an event function is not searched for a zero: that of a switching point that is suppressed
+ * (roots.skip) or that this step passes (step->passed). event: its number.
  */
 static int is_event_ignored(const Integrator *run, const Step *step, int event)
 {
@@ -89,7 +91,10 @@ static int is_event_ignored(const Integrator *run, const Step *step, int event)
         && (switch_index == run->roots.skip || step->passed[switch_index]);
 }
 
-/* Return the node, as a fraction of the step, of the stage at which an event function was lowest; 1: no stage. */
+/*
+ * Return the node (0 to 1) of the stage at which an event function has its minimum over the stages, step->lowest; 1 if
+ * no stage has that value.
+ */
 static double find_stage_of_minimum(const Step *step, int event)
 {
     const StageValues stages = get_stage_values(step, event);
@@ -116,10 +121,10 @@ static double find_first_negative_stage(const Step *step, int event, double end_
 }
 
 /*
- * Return the upper end of a bracket of an event function's zero: a fraction (0 to 1) of the step at which its value
- * is negative, stored in *value; 0: none. event: number of the function, not of a gap. For watched functions (switching
- * points and user events) it is the first negative sample, or the end that bounds have found. For others it is a
- * negative stage that the dense output confirms, or the end of the step.
+ * Return the upper end of a bracket of an event function's zero: a fraction (0 to 1) of the step at which its value is
+ * negative; 0 if there is none. *value: its value there, or at the end of the step. event: number of the function, not
+ * of a gap. For a switching point or user event it is the end that find_first_negative_sample() returns. For others it
+ * is a negative stage that the dense output confirms, or the end of the step.
  */
 static double find_bracket_end(Integrator *run, Step *step, int event, const Parameters *p, double *value)
 {
@@ -156,8 +161,7 @@ static int is_above_uncertainty(Integrator *run, double t, const double *y, cons
 
 /*
  * Return whether the magnitude of an event function is larger than its uncertainty at a fraction of the step. Return 1
- * for event functions that are not watched (watched: switching points and user events), and if the state cannot be
- * evaluated.
+ * for functions other than switching functions and user events, and if the state cannot be evaluated.
  */
 static int is_event_resolved_at(Integrator *run, const Step *step, double fraction, int event, const Parameters *p)
 {
@@ -168,16 +172,16 @@ static int is_event_resolved_at(Integrator *run, const Step *step, double fracti
 }
 
 /*
- * Return the fraction of the first event before the event found at `first_fraction`, and update *event to
- * its number. Event functions that no stage shows negative are evaluated there; negative ones above their uncertainty
- * are located, which is repeated at the new fraction. If there is none, return `first_fraction`. Called after the first
- * event of a step is located.
+ * Return the fraction of the first event before the event found at `first_fraction`, and update *event to its number.
+ * Event functions other than gaps are evaluated there; one that is negative above its uncertainty, and was not at the
+ * beginning, is located. This is repeated at the new fraction. If there is none, return `first_fraction`; *event = -1
+ * excludes no function. Called after the first event of a step is located.
  */
 static double find_earlier_event(Integrator *run, const Step *step, double first_fraction, const Parameters *p,
     int *event)
 {
     for (int pass = 0; pass < N_EVENT_FUNCTIONS && first_fraction > 0.0; pass++) {
-        const int sample = get_dense_sample(run, step, first_fraction, *event, p);
+        const int sample = find_or_add_dense_sample(run, step, first_fraction, *event, p);
         int earlier = -1;
         for (int k = 0; k < N_EVENT_FUNCTIONS && sample >= 0; k++)
             if (run->roots.samples.event_function[sample][k] < 0.0 && k != *event && !is_event_ignored(run, step, k)
@@ -188,9 +192,9 @@ static double find_earlier_event(Integrator *run, const Step *step, double first
         if (earlier < 0)
             return first_fraction;
         const Sample high = evaluate_bracket_point(run, step, first_fraction, earlier, p);
-        const Bracket of = build_stage_bracket(step, earlier, get_bracket_begin(run, step, earlier), high);
-        const double s = locate_event_in_step(run, step, earlier, of,
-            estimate_zero(&of, count_interpolation_points(run, earlier)), p);
+        const Bracket bracket = build_stage_bracket(step, earlier, get_bracket_begin(run, step, earlier), high);
+        const double s = locate_event_in_step(run, step, earlier, bracket,
+            estimate_zero(&bracket, count_interpolation_points(run, earlier)), p);
         if (!(s < first_fraction))
             return first_fraction;
         first_fraction = s;
@@ -199,27 +203,27 @@ static double find_earlier_event(Integrator *run, const Step *step, double first
     return first_fraction;
 }
 
-/* An event function k that may end the step: the bracket of its zero and two estimates of its location. */
+/* An event function k that may end the step: bracket and estimate of its zero, and the estimate within the bracket. */
 typedef struct {
     int k;
-    Bracket of;
-    double guess, about;
+    Bracket bracket;
+    double guess, clamped_guess;
 } Candidate;
 
 /*
  * Return whether an event function is negative somewhere in the step, and set *candidate to its bracket and the
  * estimates of its zero. Zeros of a gap after max_fraction may be omitted. A function that is negative at the beginning
- * is sampled for a return above zero; without one the event is at the beginning. Called for each event function that
- * may have a zero in the step.
+ * is sampled for a return above zero; without one the event is at the beginning. Return 0 without dense output. Called
+ * for each event function that may have a zero in the step.
  */
-static int has_event_candidate(Integrator *run, Step *step, int event, const Parameters *p, double max_fraction,
+static int find_event_candidate(Integrator *run, Step *step, int event, const Parameters *p, double max_fraction,
     Candidate *candidate)
 {
     double value_high;
     Sample low = get_bracket_begin(run, step, event), end = {0.0, NAN, NAN};
     const int is_gap = isfinite(low.slope), sampled = is_gap || is_contact_force_function(run, event);
-    const int candidates = is_gap ? has_gap_zero(run, step, event, p, max_fraction, &low, &end)
-        : sampled ? has_force_zero(run, step, event, p, &low, &end) : 0;
+    const int candidates = is_gap ? bracket_gap_zero(run, step, event, p, max_fraction, &low, &end)
+        : sampled ? bracket_force_zero(run, step, event, p, &low, &end) : 0;
     const double high = sampled ? candidates * end.s : find_bracket_end(run, step, event, p, &value_high);
     if (high == 0.0 || compute_dense_output(run, p, step))
         return 0;
@@ -238,16 +242,18 @@ static int has_event_candidate(Integrator *run, Step *step, int event, const Par
     candidate->k = event;
     if (!is_gap)
         end = high < 1.0 ? evaluate_bracket_point(run, step, high, event, p) : get_bracket_end(run, step, event);
-    candidate->of = build_stage_bracket(step, event, low, end);
-    candidate->guess = low.f >= 0.0 ? estimate_zero(&candidate->of, count_interpolation_points(run, event)) : low.s;
-    candidate->about = low.f >= 0.0 ? clamp_to_bracket(candidate->guess, &candidate->of) : low.s;
+    candidate->bracket = build_stage_bracket(step, event, low, end);
+    candidate->guess = low.f >= 0.0 ? estimate_zero(&candidate->bracket, count_interpolation_points(run, event))
+        : low.s;
+    candidate->clamped_guess = low.f >= 0.0 ? clamp_to_bracket(candidate->guess, &candidate->bracket) : low.s;
     return 1;
 }
 
 /*
  * Return the first fraction of the step at which an event function is negative, and its number *event; 1 and -1 if
- * there is none. Candidates are located in the order of their estimated zeros. Functions that are not sampled are
- * searched at that fraction as well (find_earlier_event()). Called by find_first_event() for each tried step.
+ * there is none. The candidates of all functions are collected, then located in the order of their estimated zeros.
+ * find_earlier_event() then tests functions that become negative and return between samples. Called by
+ * find_first_event() for each tried step.
  */
 static double find_first_crossing(Integrator *run, Step *step, const Parameters *p, int *event)
 {
@@ -260,30 +266,30 @@ static double find_first_crossing(Integrator *run, Step *step, const Parameters 
     evaluate_event_functions(&run->discrete, &step->rhs, at_end);
     for (int k = N_CLEARANCES; k < N_EVENT_FUNCTIONS; k++)
         has_negative |= (step->lowest[k] < 0.0) | (at_end[k] < 0.0);
-    const int only_gaps = !N_WATCHED && !N_FRICTIONS && !has_negative; /* all others are clear of zero */
+    const int only_gaps = !N_WATCHED && !N_FRICTIONS && !has_negative; /* all others are positive */
     for (int k = 0; k < (only_gaps ? N_CLEARANCES : N_EVENT_FUNCTIONS); k++) {
-        const int is_clear = k >= N_CLEARANCES && watched_as[k] < 0 && !is_contact_force_function(run, k)
+        const int is_positive = k >= N_CLEARANCES && watched_as[k] < 0 && !is_contact_force_function(run, k)
             && !(step->lowest[k] < 0.0) && !(at_end[k] < 0.0);
         Candidate candidate;
         int i = n;
-        if (is_clear || is_event_ignored(run, step, k)
-            || !has_event_candidate(run, step, k, p, max_fraction, &candidate))
+        if (is_positive || is_event_ignored(run, step, k)
+            || !find_event_candidate(run, step, k, p, max_fraction, &candidate))
             continue;
-        for (n++; i > 0 && candidates[i - 1].about > candidate.about; i--)
+        for (n++; i > 0 && candidates[i - 1].clamped_guess > candidate.clamped_guess; i--)
             candidates[i] = candidates[i - 1];
         candidates[i] = candidate;
         if (k < N_CLEARANCES)
-            max_fraction = min_of(max_fraction, candidate.of.at[1].s);
+            max_fraction = min_of(max_fraction, candidate.bracket.at[1].s);
     }
     for (int i = 0; i < n; i++) {
         const Candidate *candidate = &candidates[i];
-        if (*event >= 0 && candidate->of.at[1].s > first
+        if (*event >= 0 && candidate->bracket.at[1].s > first
             && evaluate_event_function_at(run, step, first, candidate->k, p) >= 0.0)
             continue; /* later than the event found so far */
         const double s =
-            candidate->of.at[0].f >= 0.0 ? locate_event_in_step(run, step, candidate->k, candidate->of,
+            candidate->bracket.at[0].f >= 0.0 ? locate_event_in_step(run, step, candidate->k, candidate->bracket,
                 candidate->guess, p)
-                : candidate->of.at[0].s;
+                : candidate->bracket.at[0].s;
         if (*event < 0 || s < first) {
             first = s;
             *event = candidate->k;
@@ -293,10 +299,11 @@ static double find_first_crossing(Integrator *run, Step *step, const Parameters 
 }
 
 /*
- * Return the fraction of the first event of a step that is far longer than the previous one, while a contact is closed.
- * Its dense output is sampled up to the event already found at `fraction`, and *event is updated. That needs an event
- * function without bounds that may cross zero and return between the stages: with a stiff method any that is positive
- * at the end, otherwise one that is not clear of zero. All other steps, and steps of fixed length, return `fraction`.
+ * Return the fraction of the first event of a long step, and update *event. The step up to the event found at
+ * `fraction` is long if it exceeds LONG_STEP_RATIO times the last one, while a contact is closed. Then N_INNER_SAMPLES
+ * - 1 inner points are tested for earlier events. That needs a switching function that no other search covers: not
+ * watched, not ignored, positive at the beginning and, with a non-stiff method, not bounded away from zero by its
+ * stages. All other steps, and steps of fixed length, return `fraction`.
  */
 static double find_first_event_of_long_step(Integrator *run, Step *step, double fraction, const Parameters *p,
     int *event)
@@ -304,13 +311,13 @@ static double find_first_event_of_long_step(Integrator *run, Step *step, double 
     int has_contact = 0, is_unbounded_function = 0;
     for (int i = 0; i < N_CLEARANCES; i++)
         has_contact |= run->discrete.contact[i].closed;
-    if (!has_contact || !(fraction * step->h > LONG_STEP * run->control.last_step) || run->control.fixed > 0.0)
+    if (!has_contact || !(fraction * step->h > LONG_STEP_RATIO * run->control.last_step) || run->control.fixed > 0.0)
         return fraction;
     for (int k = 0; k < N_EVENT_FUNCTIONS && !is_unbounded_function; k++)
         is_unbounded_function = watched_as[k] < 0 && !isfinite(get_bracket_begin(run, step, k).slope)
             && !is_contact_force_function(run, k)
             && compute_event_value(&run->discrete, &run->rhs, k) >= 0.0 && !is_event_ignored(run, step, k)
-            && (step->method->stiff || !is_clear_of_zero(run, step, k, 0.0, p));
+            && (step->method->stiff || !is_bounded_away_from_zero(run, step, k, 0.0, p));
     if (!is_unbounded_function || compute_dense_output(run, p, step))
         return fraction;
     for (int i = 1; i < N_INNER_SAMPLES; i++) {
@@ -328,8 +335,8 @@ static double find_first_event_of_long_step(Integrator *run, Step *step, double 
 enum { MAX_POLE_SAMPLES = 4 };
 
 /*
- * Evaluate the user-defined event functions at a fraction of a step into `values` (N_USER_EVENTS), 0 for those below
- * their uncertainty. Beyond the end of the step (fraction > 1) the motion is extrapolated linearly. Return a status.
+ * Evaluate the user-defined event functions at a fraction of a step into `values` (N_USER_EVENTS). Values below their
+ * uncertainty become 0. Beyond the end of the step (fraction > 1) the motion is extrapolated linearly. Return a status.
  */
 static int evaluate_user_events_at(Integrator *run, const Step *step, double fraction, const Parameters *p,
     double *values)
@@ -347,9 +354,10 @@ static int evaluate_user_events_at(Integrator *run, const Step *step, double fra
 
 /*
  * Return whether a user-defined event function changes its sign at a pole instead of a zero, at a fraction of the step.
- * It does if its value is larger there than at the first later sample above its uncertainty. A function that jumps
- * between finite values is equally large at both. Samples are those of the dense output, because drives do not move
- * linearly. Return 0 if the state cannot be evaluated. Called for a user-defined event that ends a step.
+ * It does if it is infinite there, or more than twice as large as at the first later sample above its uncertainty. A
+ * function that jumps between finite values is equally large at both. Samples are those of the dense output, because
+ * drives do not move linearly. Return 0 if the state cannot be evaluated. Called for a user-defined event that ends a
+ * step.
  */
 static int is_pole(Integrator *run, const Step *step, double fraction, int user_event, const Parameters *p)
 {
@@ -374,13 +382,13 @@ static inline int is_pole(Integrator *run, const Step *step, double fraction, in
 
 /*
  * Return the first fraction of a tried step at which an event ends it, and its number *event; 1 and -1 if there is
- * none. Switching points that the step passes without an event are determined first; if an event precedes the end, none
- * is passed. Also store whether a user-defined event is a pole. Called for each accepted attempt, before the step is
- * shortened to the event.
+ * none. Negligible switching points are marked in step->passed first; if an event precedes the end, none is passed.
+ * Also stores whether a user-defined event is a pole. Called for each accepted attempt, before the step is shortened to
+ * the event.
  */
 static double find_first_event(Integrator *run, Step *step, const Parameters *p, int *event)
 {
-    const int has_passed = ignore_harmless_switches(run, step, p);
+    const int has_passed = ignore_negligible_switches(run, step, p);
     bracket_first_zeros(run, step, p);
     double fraction = find_first_crossing(run, step, p, event);
     if (*event >= 0 && has_passed) {
@@ -395,7 +403,7 @@ static double find_first_event(Integrator *run, Step *step, const Parameters *p,
     return fraction;
 }
 
-/* Reset the root finding of a run: no switching point was crossed, none is suppressed. */
+/* Reset the root finding of a run: no switching point is stored as crossed, none is suppressed. */
 static void initialize_root_finding(Integrator *run) { run->roots.crossed = run->roots.skip = -1; }
 
 /*
@@ -423,10 +431,11 @@ static double compute_rate_jump(const Integrator *run, const double *dy_before)
 }
 
 /*
- * Suppress a switching point in the next step if the motion crossed it twice within a thousandth of the step length,
- * such as a journal at rest in its film. Called at each change of branch. Both branches must meet there, or differ by
- * rounding only (dy_before: rates of the previous branch). The next step is limited to roots.monitor: 20 times the time
- * between the crossings, the previous limit, or 100 resolutions of time, whichever is largest.
+ * Suppress a switching point in the next step (roots.skip) if the motion crossed it twice within a thousandth of the
+ * step length; otherwise end a suppression. An example is a journal at rest in its film. Called at each change of
+ * branch. Both branches must meet there, or differ by rounding only (dy_before: rates of the previous branch). The next
+ * step is limited to roots.monitor: 20 times the maximum of the time between the crossings, the previous limit and 100
+ * resolutions of time.
  */
 static void suppress_repeated_switch(Integrator *run, int switch_index, const double *dy_before)
 {

@@ -1,7 +1,7 @@
 /*
  * Search for events of friction and rigid contacts in a step, by sampling forces and sliding velocities. This file
- * finds the first zero of three kinds of event functions: the reserve of a sticking force, a sliding velocity, the
- * force of a closed contact.
+ * finds the first zero of three kinds of event functions: the margin of a sticking force to its limit, a sliding
+ * velocity, the force of a closed contact.
  *
  * They follow from the right-hand side and have no bounds, and they may change within a step whose motion is at rest.
  * The dense output is sampled and bisected. On each part the event function is the parabola through both ends and the
@@ -10,7 +10,7 @@
  */
 enum { MAX_FORCE_SAMPLES = 20000, MIN_STAGES = 8 /* of a step that bound a force between them */ };
 #define ERROR_SAFETY 4.0
-#define COARSE 0.25 /* of a step: longer parts do not show the error of a parabola */
+#define MAX_PARABOLA_WIDTH 0.25 /* of a step: longer parts do not show the error of a parabola */
 #define MAX_TERM_EXCESS 0.05 /* of the range of a time term over a step: allowed excess over a parabola */
 #define FORCE_ROUNDING 1e-12 /* of the largest sample: negative values by rounding */
 
@@ -53,8 +53,8 @@ static double compute_slip_tolerance(Integrator *run, int element, const Paramet
 
 /*
  * Return how far an event function may be below zero at the beginning of a step without an event. For a slip velocity
- * that leaves rest it is the rounding or the error of the step, m/s; for all other functions 0. Used as the allowance
- * of has_force_zero().
+ * that leaves rest (at most AT_REST) it is the rounding or the error of the step, m/s; for all other functions 0. Used
+ * as the allowance of bracket_force_zero().
  */
 static double compute_initial_allowance(Integrator *run, int event, const Parameters *p)
 {
@@ -69,8 +69,8 @@ static double compute_initial_allowance(Integrator *run, int event, const Parame
 
 /*
  * Collect samples of a function along a step in the order of their fractions: at the beginning, at its inner stages
- * (`values`), and at the end. samples: the result, without slopes at stages. Return their number, at most N_STAGES + 2.
- * Used for forces and event functions of explicit steps.
+ * (`values`, without slopes), and at the end. Return their number, at most N_STAGES + 2. Used for forces and event
+ * functions of explicit steps.
  */
 static int collect_stage_samples(const Step *step, Sample begin, Sample end, StageValues values, Sample *samples)
 {
@@ -91,8 +91,8 @@ static int collect_stage_samples(const Step *step, Sample begin, Sample end, Sta
 #if N_TERMS
 /*
  * Return whether a term of time alone may oscillate between samples at both ends and the middle of a part [begin, end]
- * of the step. By its bounds, it may then leave the parabola through them by more than MAX_TERM_EXCESS of its range
- * over the step, which is computed on the first call for the step.
+ * of the step. By its bounds, it may leave the parabola through them by more than MAX_TERM_EXCESS of its range over the
+ * step. That range is computed into step->spread on the first call for the step.
  */
 static int may_terms_oscillate_between(Step *step, double begin, double end, const Parameters *p)
 {
@@ -161,9 +161,11 @@ static double bound_second_derivative(const Sample *samples, int n)
  * Return whether the stages of a step show that an event function has no zero. Between neighbours a and b it is at
  * least min(f_a, f_b) - B w^2/8, where B bounds its second derivative, and at least the smaller one where it is
  * monotone. Values above -allowance are not negative, until the function exceeds `allowance`. Stages of stiff methods,
- * or too few, decide for slip velocities only, by the range of the samples. Called before the dense output is bisected.
+ * or fewer than MIN_STAGES, decide for slip velocities only, by the range of the samples. Called before the dense
+ * output is bisected.
  */
-static int is_clear_of_zero(const Integrator *run, Step *step, int event, double allowance, const Parameters *p)
+static int is_bounded_away_from_zero(const Integrator *run, Step *step, int event, double allowance,
+    const Parameters *p)
 {
     Sample samples[N_STAGES + 2];
     const int n =
@@ -191,7 +193,7 @@ static int is_clear_of_zero(const Integrator *run, Step *step, int event, double
 }
 
 /*
- * Return the value at a fraction of the step of the parabola through three samples, at the ends and the middle of a
+ * Return the value, at a fraction of the step, of the parabola through three samples: at both ends and the middle of a
  * part.
  */
 static double evaluate_parabola(Sample begin, Sample middle, Sample end, double fraction)
@@ -207,15 +209,15 @@ static double evaluate_parabola(Sample begin, Sample middle, Sample end, double 
 static double find_parabola_minimum(Sample begin, Sample middle, Sample end, double *steepest_slope)
 {
     const double slope = 0.5 * (end.f - begin.f), bend = begin.f - 2.0 * middle.f + end.f, x = -slope / bend;
-    const double least = min_of(begin.f, min_of(middle.f, end.f));
+    const double minimum = min_of(begin.f, min_of(middle.f, end.f));
     *steepest_slope = 2.0 * (slope + fabs(bend)) / (end.s - begin.s);
-    return bend > 0.0 && fabs(x) < 1.0 ? min_of(least, middle.f + 0.5 * slope * x) : least;
+    return bend > 0.0 && fabs(x) < 1.0 ? min_of(minimum, middle.f + 0.5 * slope * x) : minimum;
 }
 
 /*
  * Return the error of the parabolas of both halves of a part that begins at the sample `begin`, by new samples in the
  * middles of the halves. It is at least a fourth of the error of the whole part, and infinite for parts longer than
- * COARSE.
+ * MAX_PARABOLA_WIDTH.
  */
 static double estimate_error_of_halves(Sample begin, SampledPart part, Sample left_middle, Sample right_middle)
 {
@@ -223,24 +225,24 @@ static double estimate_error_of_halves(Sample begin, SampledPart part, Sample le
         - evaluate_parabola(begin, part.middle, part.end, left_middle.s)),
         fabs(right_middle.f - evaluate_parabola(begin, part.middle, part.end, right_middle.s)));
     const double min_error = isfinite(part.error) ? 0.25 * part.error : 0.0;
-    return part.end.s - begin.s > COARSE ? INFINITY : max_of(min_error, ERROR_SAFETY * largest_difference);
+    return part.end.s - begin.s > MAX_PARABOLA_WIDTH ? INFINITY : max_of(min_error, ERROR_SAFETY * largest_difference);
 }
 
 /*
- * Return whether an event function of friction or of a closed rigid contact has a zero in the step, and samples low,
- * high that enclose the first one. The stages decide if they can; otherwise the dense output is bisected on parts with
- * parabolas and their errors. A slip velocity that leaves rest may be negative within its tolerance at first; if it is
- * still negative at the end, it has reversed. Return 0 without dense output. Called for each such function of a tried
- * step.
+ * Bracket the first zero in the step of an event function of friction or of a closed rigid contact: return whether
+ * there is one, and the samples low, high that enclose it. The stages decide if they can; otherwise the dense output is
+ * bisected on parts with parabolas and their errors. A slip velocity that leaves rest may be negative within its
+ * tolerance at first; if it is still negative at the end, it has reversed. Return 0 without dense output. Called for
+ * each such function of a tried step.
  */
-static int has_force_zero(Integrator *run, Step *step, int event, const Parameters *p, Sample *low, Sample *high)
+static int bracket_force_zero(Integrator *run, Step *step, int event, const Parameters *p, Sample *low, Sample *high)
 {
     const double min_width = 4.0 * compute_event_time_tolerance(run, step);
     double allowance = compute_initial_allowance(run, event, p);
     SampledPart parts[MAX_BISECTIONS + 1];
     Sample from = get_bracket_begin(run, step, event);
     double largest = fabs(from.f);
-    if (is_clear_of_zero(run, step, event, allowance, p) || compute_dense_output(run, p, step))
+    if (is_bounded_away_from_zero(run, step, event, allowance, p) || compute_dense_output(run, p, step))
         return 0;
     parts[0] = (SampledPart){evaluate_bracket_point(run, step, 0.5, event, p), get_bracket_end(run, step, event),
         INFINITY};

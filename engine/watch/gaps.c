@@ -83,8 +83,8 @@ static double compute_dense_output_error(const Integrator *run, int joint, const
 }
 
 /*
- * Return whether the gap function of a contact cannot reach zero between its samples at beginning, stages and end. It
- * is then too far from zero for its observed rates. This test is the cheapest and decides most steps.
+ * Return whether the gap function of a contact cannot reach zero between its samples at beginning, stages and end, by a
+ * bound from the range of its observed rates. This test is the cheapest and decides most steps.
  */
 static int is_gap_far_from_zero(const Integrator *run, const Step *step, int joint, const Parameters *p)
 {
@@ -96,7 +96,7 @@ static int is_gap_far_from_zero(const Integrator *run, const Step *step, int joi
 /*
  * Return whether a function with |f''| <= B (max_second_derivative) is at least `lower_bound` between neighbouring
  * samples a and b, w apart. It is at least min(f_a, f_b) - B w^2/8. It is also at least max(f_a + f'_a x - B x^2/2, f_b
- * - f'_b (w - x) - B (w - x)^2/2), which is least where both parabolas meet.
+ * - f'_b (w - x) - B (w - x)^2/2), whose minimum is where both parabolas meet.
  */
 static int is_above_parabolas(Sample a, Sample b, double max_second_derivative, double lower_bound)
 {
@@ -144,13 +144,13 @@ static int classify_gap_by_stages(const Integrator *run, const Step *step, int j
     return falls && samples[n - 1].f < 0.0 ? ONE_ZERO : NO_ZERO;
 }
 
-/* Return the minimum of the cubic f + u (r + u (c + u d)) for u from 0 to 1/2. */
+/* Return the minimum of the cubic f + r u + c u^2 + d u^3 for u from 0 to 1/2. */
 static double find_cubic_minimum(double f, double r, double c, double d)
 {
     const double discriminant_root = sqrt(max_of(0.0, c * c - 3.0 * d * r)), x = c > 0.0 ? -r / (c + discriminant_root)
         : (discriminant_root - c) / (3.0 * d);
-    const double least = min_of(f, f + 0.5 * (r + 0.5 * (c + 0.5 * d)));
-    return x > 0.0 && x < 0.5 ? min_of(least, f + x * (r + x * (c + x * d))) : least;
+    const double minimum = min_of(f, f + 0.5 * (r + 0.5 * (c + 0.5 * d)));
+    return x > 0.0 && x < 0.5 ? min_of(minimum, f + x * (r + x * (c + x * d))) : minimum;
 }
 
 /*
@@ -236,13 +236,13 @@ static int find_first_gap_zero(
 }
 
 /*
- * Return whether the event function of a contact has a zero in the step, and its bracket low, high. Zeros after
- * max_fraction may be omitted. The stages decide most steps; otherwise the dense output is bisected. Without dense
- * output the sign at the end decides. A value that is negative within rounding at the beginning, and increases, counts
- * as zero. Called for each joint with play of a tried step.
+ * Bracket the first zero in the step of the event function of a contact: return whether there is one, and its bracket
+ * low, high. Zeros after max_fraction may be omitted. The stages decide most steps; otherwise the dense output is
+ * bisected. Without dense output the sign at the end decides. A value that is negative within rounding at the
+ * beginning, and increases, counts as zero. Called for each joint with play of a tried step.
  */
-static int has_gap_zero(Integrator *run, Step *step, int joint, const Parameters *p, double max_fraction, Sample *low,
-    Sample *high)
+static int bracket_gap_zero(Integrator *run, Step *step, int joint, const Parameters *p, double max_fraction,
+    Sample *low, Sample *high)
 {
     double first_negative = 1.0;
     int result = is_gap_far_from_zero(run, step, joint, p) ? NO_ZERO

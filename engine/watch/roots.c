@@ -5,7 +5,7 @@
 #define ONSET_TIME_TOLERANCE 1e-9   /* of a step, after the onset of a contact, at most */
 #define MAX_END_OVERSHOOT 1e-6     /* of a step, after the end of a contact, at most */
 #define MAX_SWITCH_OVERSHOOT 1e-2  /* of a step, after a switching point, at most */
-#define HARMLESS_ERROR 1e-4    /* of the tolerance: change of a step by the inactive branch that is accepted */
+#define MAX_OVERSHOOT_ERROR 1e-4   /* of the tolerance: accepted change of a step by the inactive branch */
 
 /*
  * Evaluate the dense output at a fraction of the step, by the method of the step: y (N_Y), not projected onto the
@@ -17,8 +17,9 @@ static void interpolate(const Integrator *run, const Step *step, double fraction
 }
 
 /*
- * Compute the projected state y, its rates dy and the outputs rhs at a fraction of the step. The last sample after a
- * zero is stored and returned without evaluation. Residual slips of sticking friction are removed. Return a status.
+ * Compute the projected state y, its rates dy and the outputs rhs at a fraction of the step. The stored sample after
+ * the last located zero (samples.beyond) is returned without evaluation. Residual slips of sticking friction are
+ * removed. Return a status.
  */
 static int evaluate_state_at(
     Integrator *run, const Step *step, double fraction, const Parameters *p, double *y, double *dy, RhsOutputs *rhs)
@@ -37,7 +38,7 @@ static int evaluate_state_at(
 
 /*
  * Evaluate the contacts of joints with play at a state y and time t (s) into rhs. Forces of rigid contacts follow from
- * accelerations, so that these scenes evaluate the whole right-hand side. The caller is polled. Return 0, STOPPED or
+ * accelerations, so that these scenes evaluate the whole right-hand side. Polls cancellation. Return 0, STOPPED or
  * another status.
  */
 static int evaluate_contacts_at(Integrator *run, double t, const double *y, const Parameters *p, RhsOutputs *rhs)
@@ -55,8 +56,9 @@ static int evaluate_contacts_at(Integrator *run, double t, const double *y, cons
 }
 
 /*
- * Evaluate the contacts of joints with play at a fraction of the step into rhs. The stored last sample after a zero is
- * copied if it is at that fraction. Scenes with sticking friction evaluate the whole right-hand side. Return a status.
+ * Evaluate the contacts of joints with play at a fraction of the step into rhs. The stored sample after the last
+ * located zero is copied if it is at that fraction. Scenes with friction elements evaluate the whole right-hand side.
+ * Return a status.
  */
 static int evaluate_contacts_in_step(Integrator *run, const Step *step, double fraction, const Parameters *p,
     RhsOutputs *rhs)
@@ -108,8 +110,8 @@ static int find_dense_sample(const DenseSamples *samples, double fraction, int g
 }
 
 /*
- * Store the event functions at a fraction of the step in place of the oldest sample, and return its index. Slopes are
- * stored for joints with play only. rhs: outputs there; gaps_only: store the functions of these joints only.
+ * Store the event functions at a fraction of the step as a sample that replaces the oldest one, and return its index.
+ * Slopes are stored for joints with play only. rhs: outputs there; gaps_only: store the functions of these joints only.
  */
 static int add_dense_sample(Integrator *run, const Step *step, double fraction, const RhsOutputs *rhs, int gaps_only)
 {
@@ -124,11 +126,11 @@ static int add_dense_sample(Integrator *run, const Step *step, double fraction, 
 }
 
 /*
- * Return the index of the sample of all event functions at a fraction of the step. It is evaluated and stored if it is
- * not known; -1 if that fails. The whole state is stored as well if event function `event` is negative there (event =
- * -1: never).
+ * Return the index of the sample of all event functions at a fraction of the step; -1 if it cannot be evaluated. It is
+ * evaluated and stored on first use. The whole state is stored as well if event function `event` is negative there
+ * (event = -1: never).
  */
-static int get_dense_sample(Integrator *run, const Step *step, double fraction, int event, const Parameters *p)
+static int find_or_add_dense_sample(Integrator *run, const Step *step, double fraction, int event, const Parameters *p)
 {
     DenseSamples *samples = &run->roots.samples;
     double y[N_Y], dy[N_Y];
@@ -148,7 +150,7 @@ static int get_dense_sample(Integrator *run, const Step *step, double fraction, 
 
 /*
  * Return value and slope of an event function in the stored sample `index`, at a fraction of the step; NAN for index
- * -1. Only gaps have a slope.
+ * -1. Slopes are NAN for functions other than gaps.
  */
 static Sample get_bracket_point_of_sample(const DenseSamples *samples, int index, double fraction, int event)
 {
@@ -163,7 +165,7 @@ static Sample get_bracket_point_of_sample(const DenseSamples *samples, int index
  */
 static Sample evaluate_bracket_point(Integrator *run, const Step *step, double fraction, int event, const Parameters *p)
 {
-    const int index = get_dense_sample(run, step, fraction, event, p);
+    const int index = find_or_add_dense_sample(run, step, fraction, event, p);
     return get_bracket_point_of_sample(&run->roots.samples, index, fraction, event);
 }
 
@@ -208,9 +210,9 @@ static Sample get_bracket_end(const Integrator *run, const Step *step, int event
 }
 
 /*
- * Return the bracket of an event function from low to high, with those two stages of the step between them at which it
- * is nearest to zero. Stages without a finite value are left out, so that the bracket has two to four samples. Used for
- * the first guess of the zero.
+ * Return the bracket of an event function from low to high, with those two stages of the step between them at which its
+ * magnitude is smallest. Stages without a finite value are left out, so that the bracket has two to four samples. Used
+ * for the first guess of the zero.
  */
 static Bracket build_stage_bracket(const Step *step, int event, Sample low, Sample high)
 {
@@ -230,7 +232,7 @@ static Bracket build_stage_bracket(const Step *step, int event, Sample low, Samp
 }
 
 /*
- * Return the fraction of the step to which events are located: the larger of 4 ulp of the time and the resolution of
+ * Return the tolerance of event times as a fraction of the step: the larger of 4 ulp of the time and the resolution of
  * event times, over the step length.
  */
 static double compute_event_time_tolerance(const Integrator *run, const Step *step)
@@ -240,7 +242,8 @@ static double compute_event_time_tolerance(const Integrator *run, const Step *st
 
 /*
  * Return whether an event function may be located a little after its zero: that of a compliant contact, or of a
- * switching point whose branches meet. With steps of fixed length, and for watched functions, it may not.
+ * switching point of a contact law whose branches meet. With steps of fixed length, and for watched functions
+ * (watched.c), it may not.
  */
 static int may_be_located_after_zero(const Integrator *run, int event)
 {
@@ -251,9 +254,9 @@ static int may_be_located_after_zero(const Integrator *run, int event)
 }
 
 /*
- * Return the largest fraction of a step by which the event of a compliant contact may be located after its zero. An
- * onset has the stricter limit: forces may begin with a jump, and the length of a contact is not known before it. The
- * step that finds the end is a part of the contact.
+ * Return the largest fraction of a step by which the event of a compliant contact may be located after its zero: rtol^2
+ * for an onset, rtol^1.5 for an end, with the limits above. An onset has the stricter limit: forces may begin with a
+ * jump, and the length of a contact is not known before it. The step that finds the end is a part of the contact.
  */
 static double compute_max_contact_overshoot(const Integrator *run, int joint)
 {
@@ -277,7 +280,7 @@ static ZeroTolerance compute_zero_tolerance(const Integrator *run, const Step *s
     if (event < N_CLEARANCES)
         return (ZeroTolerance){width, compute_max_contact_overshoot(run, event), INFINITY, 1.0};
     return (ZeroTolerance){
-        width, MAX_SWITCH_OVERSHOOT, HARMLESS_ERROR * fabs(compute_event_value(&run->discrete, &step->rhs, event)),
+        width, MAX_SWITCH_OVERSHOOT, MAX_OVERSHOOT_ERROR * fabs(compute_event_value(&run->discrete, &step->rhs, event)),
             step->branch_error};
 }
 
@@ -299,9 +302,9 @@ typedef struct {
 } EventFunctionOfStep;
 
 /*
- * Evaluate an event function at a fraction of the step into *sample, as the callback of locate_zero(). The first sample
- * of a gap evaluates the contacts only, because the whole state is needed at the last sample alone. Return 0; a failure
- * sets NAN.
+ * Evaluate an event function at a fraction of the step into *sample, as the callback of locate_zero(). context: an
+ * EventFunctionOfStep. The first sample of a gap evaluates the contacts only, because the whole state is needed at the
+ * last sample alone. Return 0; a failure sets NAN.
  */
 static int evaluate_event_function(void *context, double fraction, Sample *sample)
 {
@@ -315,8 +318,8 @@ static int evaluate_event_function(void *context, double fraction, Sample *sampl
 
 /*
  * Locate the first zero of an event function in a step, from its bracket and a guess, and return its fraction of the
- * step. The function is negative there, within the tolerance of the zero. That sample and its state are stored. Called
- * for each event function whose bracket is known.
+ * step: the upper end of the narrowed bracket, where the function is negative. That sample and its state are stored.
+ * Called for each event function whose bracket is known.
  */
 static double locate_event_in_step(Integrator *run, const Step *step, int event, Bracket bracket, double guess,
     const Parameters *p)

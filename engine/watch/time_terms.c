@@ -1,7 +1,7 @@
 /*
- * Detection of pulses: terms of time alone that are at rest at all nodes of a step and active between them. Bounds over
- * the intervals between the nodes are known (ranges.h). A term is checked where it exceeds the values at both ends of
- * an interval by more than a quarter of its range at all nodes.
+ * Detection of undersampled transients (pulses): terms of time alone, constant at all nodes of a step and active
+ * between them. Bounds over the intervals between the nodes are known (ranges.h). A term is checked where it exceeds
+ * the values at both ends of an interval by more than a quarter of its range at all nodes.
  */
 
 /*
@@ -14,22 +14,22 @@ static void bound_time_terms(double t, double h, double begin, double end, const
 }
 
 #if N_PULSES
-enum { MAX_NODES = 16, MAX_INTERVAL_PARTS = 64, MAX_HARMLESS_CHECKS = 4 };
-#define MAX_UNSEEN_CHANGE 0.25 /* of a term's range at the nodes: allowed excess between them */
+enum { MAX_NODES = 16, MAX_INTERVAL_PARTS = 64, MAX_ACCURACY_TESTS = 4 };
+#define MAX_UNSAMPLED_EXCESS 0.25 /* of a term's range at the nodes: allowed excess between them */
 
-/* Return whether the step is accurate at a fraction of it. is_certain: a term certainly changes there. */
+/* Return whether the step is accurate at a fraction of it. is_certain: a term changes there, not only by its bounds. */
 typedef int AccuracyTest(void *context, double fraction, int is_certain);
 
-/* A part of an interval between nodes; the excess of terms by their bounds, and the certain one in its middle. */
+/* A part of an interval between nodes; the excess of a term: the largest by its bounds, and that in its middle. */
 typedef struct {
-    double from, to, most, surely;
+    double begin, end, max_excess, middle_excess;
 } IntervalPart;
 
 /*
- * Return the part [begin, end] of an interval with the largest excess of a term over its values at two nodes. begin,
- * end: fractions of the interval of length h (s) from t (s) on; term_low, term_high: terms at the nodes;
- * allowed_excess: of each term. The excess is bounded, and certain in the middle of the part. Called for each part that
- * find_undersampled_fraction() bisects.
+ * Return the part [begin, end] of an interval with the excess of a term over its values at two nodes: max_excess of the
+ * term that may exceed them most by its bounds, and middle_excess of that term in the middle. begin, end: fractions of
+ * the interval of length h (s) from t (s) on; term_low, term_high: terms at the nodes; allowed_excess: of each term.
+ * Called for each part that find_undersampled_fraction() bisects.
  */
 static IntervalPart build_interval_part(double t, double h, double begin, double end, const Interval *term_low,
     const Interval *term_high,
@@ -43,9 +43,9 @@ static IntervalPart build_interval_part(double t, double h, double begin, double
         const double lower = min_of(term_low[k].lo, term_high[k].lo) - allowed_excess[k],
             upper = max_of(term_low[k].lo, term_high[k].lo) + allowed_excess[k];
         const double excess = max_of(bound[k].hi - upper, lower - bound[k].lo);
-        if (excess > part.most) {
-            part.most = excess;
-            part.surely = max_of(middle[k].lo - upper, lower - middle[k].lo);
+        if (excess > part.max_excess) {
+            part.max_excess = excess;
+            part.middle_excess = max_of(middle[k].lo - upper, lower - middle[k].lo);
         }
     }
     return part;
@@ -67,45 +67,46 @@ static int are_terms_monotone(double t, double h, double begin, double end, cons
 
 /*
  * Return a fraction between two neighbouring nodes at which a term of time acts and the step is not accurate; 0: none.
- * begin, end: the nodes, at which the term is at rest; term_low, term_high: terms there; allowed_excess: of each term.
- * The part with the largest excess is bisected first. is_accurate(context, ...) is called at most MAX_HARMLESS_CHECKS
- * times.
+ * begin, end: the nodes; term_low, term_high: terms there; allowed_excess: of each term. The part with the largest
+ * excess is bisected first, until half of that excess is certain. There is_accurate(context, ...) is called,
+ * MAX_ACCURACY_TESTS times at most; then, and for monotone terms, 0 is returned.
  */
 static double find_undersampled_fraction(double t, double h, double begin, double end, const Interval *term_low,
     const Interval *term_high,
     const double *allowed_excess, AccuracyTest *is_accurate, void *context, const Parameters *p)
 {
     IntervalPart parts[MAX_INTERVAL_PARTS + 1];
-    int n = 0, n_checks = 0;
+    int n = 0, n_tests = 0;
     if (!are_terms_monotone(t, h, begin, end, p))
         parts[n++] = build_interval_part(t, h, begin, end, term_low, term_high, allowed_excess, p);
     while (n > 0) {
         int k = 0;
         for (int i = 1; i < n; i++)
-            k = parts[i].most > parts[k].most ? i : k;
+            k = parts[i].max_excess > parts[k].max_excess ? i : k;
         const IntervalPart part = parts[k];
-        const double middle = 0.5 * (part.from + part.to);
-        const int is_known =
-            part.surely >= 0.5 * part.most || n == MAX_INTERVAL_PARTS || !(part.from < middle && middle < part.to);
-        if (!(part.most > 0.0) || n_checks == MAX_HARMLESS_CHECKS)
+        const double middle = 0.5 * (part.begin + part.end);
+        const int is_tested =
+            part.middle_excess >= 0.5 * part.max_excess || n == MAX_INTERVAL_PARTS
+            || !(part.begin < middle && middle < part.end);
+        if (!(part.max_excess > 0.0) || n_tests == MAX_ACCURACY_TESTS)
             return 0.0;
-        if (is_known && !is_accurate(context, middle, part.surely >= 0.5 * part.most))
+        if (is_tested && !is_accurate(context, middle, part.middle_excess >= 0.5 * part.max_excess))
             return middle;
-        n_checks += is_known;
-        if (is_known) {
+        n_tests += is_tested;
+        if (is_tested) {
             parts[k] = parts[--n];
         } else {
-            parts[k] = build_interval_part(t, h, part.from, middle, term_low, term_high, allowed_excess, p);
-            parts[n++] = build_interval_part(t, h, middle, part.to, term_low, term_high, allowed_excess, p);
+            parts[k] = build_interval_part(t, h, part.begin, middle, term_low, term_high, allowed_excess, p);
+            parts[n++] = build_interval_part(t, h, middle, part.end, term_low, term_high, allowed_excess, p);
         }
     }
     return 0.0;
 }
 
 /*
- * Return the first fraction of an interval at which a term of time acts unseen and the step is not accurate; 0: none.
- * The interval has the length h (s) from t (s) on; node: its n nodes (0 to 1), at which the term does not show.
- * is_accurate(context, fraction, is_certain) decides the accuracy. Monotone terms show at both ends, so that 0 is
+ * Return the first fraction of an interval at which a term of time acts unsampled and the step is not accurate; 0:
+ * none. The interval has the length h (s) from t (s) on; node: its n nodes (0 to 1), at which the term is sampled.
+ * is_accurate(context, fraction, is_certain) decides the accuracy. Monotone terms change at the ends too, so that 0 is
  * returned at once. Called for steps of integrators and of kinematic analyses.
  */
 static double find_undersampled_term(double t, double h, const double *node, int n, AccuracyTest *is_accurate,
@@ -124,7 +125,7 @@ static double find_undersampled_term(double t, double h, const double *node, int
             lower = min_of(lower, term_at[i][k].lo);
             upper = max_of(upper, term_at[i][k].lo);
         }
-        allowed_excess[k] = MAX_UNSEEN_CHANGE * (upper - lower);
+        allowed_excess[k] = MAX_UNSAMPLED_EXCESS * (upper - lower);
     }
     for (int i = 1; i < n && fraction == 0.0; i++)
         fraction =

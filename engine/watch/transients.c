@@ -1,6 +1,6 @@
 /* Rejection of steps that miss a pulse, a term of time alone that acts between the stages (time_terms.c). */
 #if N_PULSES
-#define HARMLESS_DEFECT 30.0 /* of the tolerance: change of a step by a missed term that is accepted */
+#define MAX_DEFECT 30.0 /* of the tolerance: change of a step by a missed term that is accepted */
 
 /* The step whose dense output is compared with the equations of motion. */
 typedef struct {
@@ -10,9 +10,9 @@ typedef struct {
 } StepDefect;
 
 /*
- * Return whether the right-hand side at a fraction of the step equals the rate of the dense output, within
- * HARMLESS_DEFECT tolerances over the step. Callback of find_undersampled_term(); context: a StepDefect; is_certain is
- * not used. Return 0 if an evaluation fails, or if friction or a rigid contact may change its mode there.
+ * Return whether the right-hand side at a fraction of the step equals the rate of the dense output, within MAX_DEFECT
+ * tolerances over the step: the step is accurate there. Callback of find_undersampled_term(); context: a StepDefect;
+ * is_certain is not used. Return 0 if an evaluation fails, or if friction or a rigid contact may change its mode there.
  */
 static int has_small_defect(void *context, double fraction, int is_certain)
 {
@@ -37,7 +37,7 @@ static int has_small_defect(void *context, double fraction, int is_certain)
     for (int k = 0; k < N_Y; k++)
         largest = max_of(largest, fabs(step->h * dy[k]
             - (after[k] - before[k]) / (2.0 * offset)) * run->norm.weight[k]);
-    return largest < HARMLESS_DEFECT;
+    return largest < MAX_DEFECT;
 }
 
 /*

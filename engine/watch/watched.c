@@ -1,7 +1,7 @@
 /*
  * Search for switching points and user events in a step by interval bounds, which miss no zero. Stages of a long step
  * may miss an oscillation of such a function. Bounds of the dense output over any part of it give bounds of the
- * functions (ranges.h). Parts over which a function may be negative are bisected until it is monotone or clear of zero.
+ * functions (ranges.h). Parts over which a function may be negative are bisected until it is monotone or positive.
  * No zero of the dense output is missed.
  *
  * Watched functions are the N_WATCHED event functions that this search monitors: switching functions and user events;
@@ -26,8 +26,8 @@ typedef struct {
 } EventUncertainties;
 
 /*
- * Compute the uncertainties of all watched functions in a step, by rounding and by one error tolerance, as the smaller
- * ones of both its ends. Nothing is done if they are known. Called if the bounds of a function do not decide.
+ * Compute the uncertainties of all watched functions in a step, by rounding and by one error tolerance: the minimum of
+ * those at both ends. Does nothing if they are known. Called if the bounds of a function do not decide.
  */
 static void estimate_uncertainties(
     Integrator *run, const Step *step, EventUncertainties *uncertainties, const Parameters *p)
@@ -49,8 +49,8 @@ static void estimate_uncertainties(
 }
 
 /*
- * Compute the projected state y (N_Y) at a fraction of a step, from the dense output. At the ends, and if watched
- * functions depend on time alone, no evaluation is needed: y is then the state at the beginning or end.
+ * Compute the projected state y (N_Y) at a fraction of a step, from the dense output. At its ends the states are known.
+ * If watched functions depend on time alone, y is the state at the beginning or end instead.
  */
 static void interpolate_projected_state(
     Integrator *run, const Step *step, double fraction, const Parameters *p, double *y)
@@ -67,8 +67,8 @@ static void interpolate_projected_state(
 }
 
 /*
- * Return whether the value of a watched function at a fraction of a step is not larger than its uncertainty there.
- * index: of the watched function.
+ * Return whether the magnitude of `value`, a watched function at a fraction of a step, is at most its uncertainty
+ * there. index: of the watched function.
  */
 static int is_below_uncertainty(Integrator *run, const Step *step, double fraction, int index, double value,
     const Parameters *p)
@@ -198,7 +198,7 @@ typedef struct {
     Step *step;
     const Parameters *p;
     DensePolynomial powers;
-    double at_a[N_WATCHED];
+    double values_begin[N_WATCHED];
     EventUncertainties uncertain;
 } WatchedStep;
 
@@ -213,22 +213,22 @@ static int classify_event_function(WatchedStep *search, int index, Interval boun
     double *value_end)
 {
     const int event = watched[index] - N_CLEARANCES - N_SWITCHES - N_FRICTIONS;
-    int result = classify_zero(bounds, search->at_a[index], *value_end, width, is_small);
+    int result = classify_zero(bounds, search->values_begin[index], *value_end, width, is_small);
     if (width == 1.0)
         search->uncertain.whole_lower[index] = bounds.lo;
     if (result > 0 && is_below_uncertainty(search->run, search->step, end, index, *value_end, search->p)) {
         *value_end = 0.0;
-        result = classify_zero(bounds, search->at_a[index], 0.0, width, is_small);
+        result = classify_zero(bounds, search->values_begin[index], 0.0, width, is_small);
     }
     if (result < 0) {
         estimate_uncertainties(search->run, search->step, &search->uncertain, search->p);
-        result = -!is_held_at_zero(&search->uncertain, index, bounds, search->at_a[index], *value_end, width);
+        result = -!is_held_at_zero(&search->uncertain, index, bounds, search->values_begin[index], *value_end, width);
     }
     return bounds.may_be_undefined && !is_small && event >= 0 && !search->run->events.no_number[event] ? -1 : result;
 }
 
 /*
- * Classify the part [begin, end] of a step, as the callback of bisect_parts(): 1 if a watched function has its first
+ * Classify the part [begin, end] of a step, as the callback of bisect_interval(): 1 if a watched function has its first
  * zero in it, 0 if none has, -1 if the part is to be halved. A zero stores its bracket in the step. User-defined events
  * that are NaN at the end of the part are recorded. context: a WatchedStep; is_small: the part is not halved further.
  */
@@ -253,24 +253,25 @@ static int classify_event_functions(void *context, double begin, double end, int
             step->from[i] = begin;
             step->to[i] = end;
             step->above[i] =
-                search->at_a[i] < 0.0 && is_below_uncertainty(run, step, begin, i, search->at_a[i], search->p) ? 0.0
-                    : search->at_a[i];
+                search->values_begin[i] < 0.0
+                        && is_below_uncertainty(run, step, begin, i, search->values_begin[i], search->p)
+                    ? 0.0 : search->values_begin[i];
             step->below[i] = values_end[i];
             has_zero = 1;
         }
     }
     if (!has_zero)
-        memcpy(search->at_a, values_end, sizeof values_end);
+        memcpy(search->values_begin, values_end, sizeof values_end);
     return has_zero;
 }
 
 #if WATCHES_STATE
 /*
  * Return whether no watched function can be negative between the stages of an explicit step. Bounds of the state are
- * the range of the stages, extended by a quarter; they decide most steps. Functions that are held at zero count as not
- * negative. Called by bracket_first_zeros() before the dense output is bounded.
+ * the range of the stages, extended by a quarter; they decide most steps. Functions that are held at zero within their
+ * uncertainty count as not negative. Called by bracket_first_zeros() before the dense output is bounded.
  */
-static int is_clear_of_zeros_by_stages(Integrator *run, const Step *step, EventUncertainties *uncertainties,
+static int are_zeros_excluded_by_stages(Integrator *run, const Step *step, EventUncertainties *uncertainties,
     const Parameters *p)
 {
     Interval bounds[N_WATCHED], y[2 * N_X + 1] = { {0} };
@@ -296,8 +297,8 @@ static int is_clear_of_zeros_by_stages(Integrator *run, const Step *step, EventU
 #endif
 /*
  * Bracket the first zero of each watched event function along a tried step: step->from and step->to enclose it; both 0:
- * none. If bounds by the stages exclude zeros, or without dense output, nothing is searched. Called by
- * find_first_event().
+ * none. Also stores the values there, step->above and step->below. If bounds by the stages exclude zeros, or without
+ * dense output, nothing is searched. Called by find_first_event().
  */
 static void bracket_first_zeros(Integrator *run, Step *step, const Parameters *p)
 {
@@ -305,13 +306,13 @@ static void bracket_first_zeros(Integrator *run, Step *step, const Parameters *p
     for (int i = 0; i < N_WATCHED; i++)
         step->from[i] = step->to[i] = 0.0;
 #if WATCHES_STATE
-    if ((!step->method->stiff && is_clear_of_zeros_by_stages(run, step, &search.uncertain, p))
+    if ((!step->method->stiff && are_zeros_excluded_by_stages(run, step, &search.uncertain, p))
         || compute_dense_output(run, p, step))
         return;
     expand_dense_output(run, step, &search.powers);
 #endif
-    evaluate_event_functions_at(run, step, 0.0, p, search.at_a);
-    (void)bisect_parts(0.0, 1.0, 4.0 * compute_event_time_tolerance(run, step), classify_event_functions, &search);
+    evaluate_event_functions_at(run, step, 0.0, p, search.values_begin);
+    (void)bisect_interval(0.0, 1.0, 4.0 * compute_event_time_tolerance(run, step), classify_event_functions, &search);
 }
 
 /* Return 0: bounds of the watched functions resolve every step. */
@@ -322,8 +323,8 @@ static int is_step_unresolved(const Integrator *run, const Step *step, const Par
 }
 
 /*
- * Return the fraction of the step at which a watched function is first negative, as bracket_first_zeros() has found it,
- * and its value there in *value; 0: nowhere. index: of the watched function.
+ * Return the fraction of the step at which a watched function is first negative, the bracket end step->to that
+ * bracket_first_zeros() has found, and its value there in *value; 0: nowhere. index: of the watched function.
  */
 static double find_first_negative_sample(const Integrator *run, const Step *step, int index, const Parameters *p,
     double *value)

@@ -11,14 +11,14 @@
  * All memory belongs to the caller. A status is 0, or the value with which a function of the caller ended the search.
  *
  *   locate_zero    narrows a bracket until it is at most `width` wide.
- *   bisect_parts     halves an interval until bounds decide, its first part first: finds zeros of odd order, and pairs
+ *   bisect_interval  halves an interval until bounds decide, its first part first: finds zeros of odd order, and pairs
  *                  of them (grazes) however near; a zero of even order changes no sign and is not an event.
- *   classify_zero   decides by bounds and two values: a zero, none, or to be halved.
+ *   classify_zero  decides by bounds and two values: a zero, none, or to be halved.
  *   is_near_pole   distinguishes poles, at which a sign changes as well, from zeros.
  *
  * Guarantees: a bracket with f >= 0 at its lower end and f < 0 at its upper end remains one, whatever f does between.
- * From the FAST_EVALUATIONS-th one on, three evaluations at least halve it. bisect_parts misses no zero of a function
- * whose bounds hold, if parts are wider than `width` and no more than MAX_PARTS_SEEN are needed.
+ * From the FAST_EVALUATIONS-th one on, three evaluations at least halve it. bisect_interval misses no zero of a
+ * function whose bounds hold, if parts are wider than `width` and no more than MAX_BISECTED_PARTS are needed.
  */
 #ifndef GUDGEON_ZEROS_H
 #define GUDGEON_ZEROS_H
@@ -28,7 +28,7 @@ enum {
     FAST_EVALUATIONS = 6,   /* evaluations that usually locate a zero */
     MAX_POINTS = 4,         /* samples through which a zero is interpolated */
     MAX_PART_HALVINGS = 64, /* halvings of an interval */
-    MAX_PARTS_SEEN = 2000
+    MAX_BISECTED_PARTS = 2000
 };
 #define MIN_THIRD_DISTANCE 1e-4 /* of a bracket: a third point nearer to an end shows rounding only */
 #define NARROWING_WIDTH 0.13 /* of an interval: longer parts do not show whether bounds narrow */
@@ -62,7 +62,7 @@ typedef int EvaluateEventFunction(void *context, double s, Sample *now);
  * Classify the part from a to b. Return 1 if the search ends in it, 0 if the next part follows, which begins at b, and
  * -1 if it is to be halved: its first half follows, then its second half. A `small` part is never halved.
  */
-typedef int ClassifyPart(void *context, double a, double b, int small);
+typedef int ClassifySubinterval(void *context, double a, double b, int small);
 
 /*
  * Return the location at f = 0 of the polynomial s(f) through n samples of different f, at most MAX_POINTS (inverse
@@ -122,7 +122,7 @@ static inline double estimate_zero(const Bracket *bracket, int n_points)
     return find_zero_by_inverse_interpolation(bracket->at, bracket->n < n_points ? bracket->n : n_points);
 }
 
-/* Return a guess of the zero if it lies strictly within the bracket, else the middle of the bracket, also for NaN. */
+/* Return `guess` if it lies strictly within the bracket, else the middle of the bracket, also for NaN. */
 static inline double clamp_to_bracket(double guess, const Bracket *bracket)
 {
     const double low = bracket->at[0].s, high = bracket->at[1].s;
@@ -130,9 +130,9 @@ static inline double clamp_to_bracket(double guess, const Bracket *bracket)
 }
 
 /*
- * Return the largest distance after the zero, estimated at `guess`, at which it may be located within the tolerance.
- * The slope of the function is estimated as the steepest one from there to the known samples. 0 if the tolerance allows
- * no distance.
+ * Return the largest distance after the zero, estimated at `guess`, at which it may be located within the tolerance. It
+ * follows from error_factor |df/ds| d^2 <= max_error, with the steepest slope from there to the known samples. 0 if the
+ * tolerance allows no distance.
  */
 static inline double compute_allowed_overshoot(const Bracket *bracket, const ZeroTolerance *tolerance, double guess)
 {
@@ -192,16 +192,16 @@ static inline int locate_zero(EvaluateEventFunction *evaluate, void *context, co
 
 /*
  * Classify the parts of an interval from `begin` to `end` in order, by bisection: classify(context, begin, end,
- * is_small) returns 1, 0 or -1 (ClassifyPart). Parts of at most `width`, beyond MAX_PART_HALVINGS halvings or
- * MAX_PARTS_SEEN parts are small: they are not halved. Return 1 if a part ends the search, else 0.
+ * is_small) returns 1, 0 or -1 (ClassifySubinterval). Parts of at most `width`, beyond MAX_PART_HALVINGS halvings or
+ * MAX_BISECTED_PARTS parts are small: they are not halved. Return 1 if a part ends the search, else 0.
  */
-static inline int bisect_parts(double begin, double end, double width, ClassifyPart *classify, void *context)
+static inline int bisect_interval(double begin, double end, double width, ClassifySubinterval *classify, void *context)
 {
     double ends[MAX_PART_HALVINGS + 2] = {end};
     for (int n_ends = 1, n_parts = 0; n_ends > 0;) {
         const double middle = begin + 0.5 * (ends[n_ends - 1] - begin);
         const int is_small = ends[n_ends - 1] - begin <= width || n_ends > MAX_PART_HALVINGS
-            || ++n_parts > MAX_PARTS_SEEN
+            || ++n_parts > MAX_BISECTED_PARTS
             || !(begin < middle && middle < ends[n_ends - 1]);
         const int result = classify(context, begin, ends[n_ends - 1], is_small);
         if (result > 0)
@@ -238,24 +238,27 @@ static inline int classify_zero(Interval bounds, double value_begin, double valu
 
 /*
  * Return whether a lower bound over a fraction `width` of an interval is negative only because interval arithmetic
- * overestimates. It is if the bound has narrowed with the part, as for a function without a zero. whole_lower_bound:
- * the lower bound over the whole interval. Parts longer than NARROWING_WIDTH return 0.
+ * overestimates. It is if the bound has narrowed in proportion to the part (within a factor 4), as for a function
+ * without a zero. whole_lower_bound: the lower bound over the whole interval. Parts longer than NARROWING_WIDTH return
+ * 0.
  */
 static inline int is_bound_narrowing(double lower_bound, double width, double whole_lower_bound)
 {
     return width <= NARROWING_WIDTH && lower_bound >= 4.0 * width * whole_lower_bound;
 }
 
-/* Return whether a change of sign is a pole: the function is larger at it than POLE_DISTANCE tolerances further on. */
+/*
+ * Return whether a change of sign is at a pole: the function is infinite there, or more than twice as large as at
+ * value_beyond, POLE_DISTANCE event tolerances later.
+ */
 static inline int is_near_pole(double value_at_change, double value_beyond)
 {
     return isinf(value_at_change) || fabs(value_at_change) > 2.0 * fabs(value_beyond);
 }
 
 /*
- * Return whether a user-defined event function has crossed zero to `value` in a direction that counts as an event.
- * *sign: the last sign of the function (1 or -1; 0: none yet), updated. A value of zero keeps the sign; a first sign is
- * no event.
+ * Return whether a user-defined event function has crossed zero to `value` in its event direction. *sign: the last sign
+ * of the function (1 or -1; 0: none yet), updated. A value of zero keeps the sign; a first sign is not an event.
  */
 static inline int detect_event_crossing(int event, signed char *sign, double value)
 {
@@ -268,8 +271,8 @@ static inline int detect_event_crossing(int event, signed char *sign, double val
 #if N_WATCHED && KNOWN_BOUNDS
 /*
  * Estimate by how much errors of positions and velocities (q_error, v_error, n_coordinates each) change each watched
- * function: uncertainty (N_WATCHED), half widths of its bounds. 0 where the bounds include a pole. The time has an
- * error of 4 ulp.
+ * function: uncertainty (N_WATCHED), half widths of its bounds over the box of these errors. 0 where the bounds are
+ * infinite, at a pole. The time has an error of 4 ulp.
  */
 static inline void estimate_error_by_bounds(double t, const double *q, const double *v, const double *q_error,
     const double *v_error, int n_coordinates, const DiscreteState *discrete, const Parameters *p, double *uncertainty)

@@ -86,15 +86,15 @@ static void check_grazes(void)
 {
     for (double depth = 0.04; depth > 1e-18; depth *= 0.1) {
         Parabola of = {.middle = 0.3, .depth = depth};
-        CHECK(bisect_parts(0.0, 1.0, 1e-12, judge, &of) == 1); /* two zeros, 2 sqrt(depth) apart: the first of them */
+        CHECK(bisect_interval(0.0, 1.0, 1e-12, judge, &of) == 1); /* the first of two zeros, 2 sqrt(depth) apart */
         CHECK(of.a <= 0.3 - sqrt(depth) + 1e-12 && of.b >= 0.3 - sqrt(depth) - 1e-12 && of.a < 0.3);
         CHECK(of.b < 0.3 + sqrt(depth) + 1e-12);
         of = (Parabola){.middle = 0.3, .depth = -depth};
-        CHECK(bisect_parts(0.0, 1.0, 1e-12, judge, &of) == 0);
+        CHECK(bisect_interval(0.0, 1.0, 1e-12, judge, &of) == 0);
         CHECK(of.parts < 200);
     }
     Parabola touched = {.middle = 0.3};
-    CHECK(bisect_parts(0.0, 1.0, 1e-12, judge, &touched) == 0); /* it comes to zero and is not below it */
+    CHECK(bisect_interval(0.0, 1.0, 1e-12, judge, &touched) == 0); /* it comes to zero and is not below it */
 }
 
 int main(void)
