@@ -19,7 +19,7 @@ from gudgeon.generator.kernels.driven_loops import DIRECTIONS, RATES, STEP, THIR
 from gudgeon.generator.kernels.program import Program
 from gudgeon.generator.kernels.reduced import DYNAMICS
 from gudgeon.generator.symbols.symbols import make_identifier
-from gudgeon.generator.targets.javascript.play import list_motion_symbols, print_joint_functions
+from gudgeon.generator.targets.javascript.play import list_motion_symbols, print_joint_methods
 from gudgeon.generator.targets.javascript.printer import CONTOUR, PRELUDE, list_arguments, print_method
 
 _OF_STATES = (
@@ -56,7 +56,7 @@ def print_equations_script(program: Program) -> str:
     members_read: set[str] = set()
     methods = [print_method(dynamics, members_read, find_right_hand_side_locals(dynamics, model))]
     methods += [print_method(kernel, members_read) for kernel in (*kernels, *program.laws)]
-    methods += [method_text for joint in program.joints for method_text in print_joint_functions(joint, members_read)]
+    methods += [method_text for joint in program.joints for method_text in print_joint_methods(joint, members_read)]
     tree_methods = print_tree_functions(program, members_read)
     methods = [
         *tree_methods.values(),

@@ -25,7 +25,7 @@ _OF_CONTOUR = ("e", "steep", "worn_slope")
 _FILM = ("e", "deltadot", "de_t", "omega_i", "omega_j", "p", "stored")
 
 
-def print_joint_functions(joint: JointFunctions, members_read: set[str]) -> list[str]:
+def print_joint_methods(joint: JointFunctions, members_read: set[str]) -> list[str]:
     """Return the JavaScript methods `dry_A`, `film_A` and `clearance_A` of joint A.
 
     The first two exist only if the joint has them.

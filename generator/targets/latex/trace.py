@@ -27,7 +27,7 @@ from gudgeon.generator.symbols.symbols import make_identifier
 from gudgeon.generator.targets.c import functions
 from gudgeon.generator.targets.c.emit import describe_program, emit_scene, list_file_names, render_template
 from gudgeon.generator.targets.c.lines import StoredLines, locate_function, locate_stores, locate_text
-from gudgeon.generator.targets.c.play import print_joint_functions
+from gudgeon.generator.targets.c.play import make_printed_functions
 from gudgeon.generator.targets.javascript.module import find_right_hand_side_locals, print_tree_functions
 from gudgeon.generator.targets.latex.document import (
     list_entry_tokens,
@@ -130,7 +130,7 @@ class _TokenCollector:
                 self._add_stores(call.kernel, {})
                 for number in call.parameters:
                     self.numbers[number] |= law_marks
-            for part in print_joint_functions(pin, render_template, self.model.law_states):
+            for part in make_printed_functions(pin, render_template, self.model.law_states):
                 self._add_text_tokens(part.text, joint_marks)
                 file, stored_lines = locate_stores(part.text, part.stores, self.files)
                 for stored_line in stored_lines:
