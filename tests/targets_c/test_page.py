@@ -21,7 +21,7 @@ from gudgeon.generator.pipeline import generate_kernel_source
 from gudgeon.generator.reader.read import read_mechanism
 from gudgeon.generator.targets import line_breaks
 from gudgeon.generator.targets.c import printer
-from gudgeon.generator.targets.c.model_header import format_unit
+from gudgeon.generator.targets.c.parameter_fields import format_dimension
 from gudgeon.generator.targets.c.printer import WIDTH, break_code, wrap_file
 from gudgeon.language import units
 from gudgeon.loading.shipped import read_committed_source
@@ -146,7 +146,7 @@ def test_units_as_people_write_them(name: str, unit: str) -> None:
     ],
 )
 def test_units_of_every_kind(of: units.Dimension, unit: str) -> None:
-    assert format_unit(of) == unit
+    assert format_dimension(of) == unit
 
 
 def test_a_law_says_the_unit_that_hangs_on_an_exponent() -> None:
