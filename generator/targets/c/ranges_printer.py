@@ -43,7 +43,7 @@ class RangesPrinter(printer.CPrinter):
         return f"interval_{function_name}({', '.join(map(self._print_range, arguments))})"
 
     def _print_chained_calls(self, function_name: str, arguments: tuple[sp.Expr, ...]) -> str:
-        """Print nested calls of an operation on two intervals, from left to right: interval_add(interval_add(a, b), c)."""
+        """Print nested calls of an operation on two intervals, such as interval_add(interval_add(a, b), c)."""
         text = self._print_range(arguments[0])
         for argument in arguments[1:]:
             text = f"interval_{function_name}({text}, {self._print_range(argument)})"
