@@ -112,10 +112,10 @@ class LanesPrinter(printer.CPrinter):
     def _print_Select(self, expr: sp.Expr) -> str:
         """Print Select(branch, a, b), a select by the sign of a vector: b for branch < 0, else a (also for NaN).
 
-        If `of.branches` contains the expression, the name of its local is printed.
+        If `readable.branches` contains the expression, the name of its local is printed.
         """
-        if expr in self.of.branches:
-            return self.of.branches[expr]
+        if expr in self.readable.branches:
+            return self.readable.branches[expr]
         branch, a, b = map(self._print_vector, expr.args)
         return f"select_value({branch} < 0.0, {b}, {a})"
 

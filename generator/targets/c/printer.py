@@ -29,11 +29,11 @@ class CPrinter(CachedPrinter, C99CodePrinter):
 
     def __init__(self, readable_lines: Readable = _PLAIN) -> None:
         super().__init__({"math_macros": {}})  # M_PI_2 and the like are not in C11
-        self.of = readable_lines
+        self.readable = readable_lines
 
     def get_name(self, key: Key) -> str:
         """Return the C name of a symbol, local or place in this function."""
-        c_name_or_place = self.of.names.get(key, key)
+        c_name_or_place = self.readable.names.get(key, key)
         return self.print_place(c_name_or_place) if isinstance(c_name_or_place, Place) else c_name_or_place
 
     def print_place(self, place: Place) -> str:
@@ -176,9 +176,9 @@ class CPrinter(CachedPrinter, C99CodePrinter):
 
         `corner` is then the argument with the index of the calling joint's first switching function.
         """
-        if self.of.first_switch is None:
+        if self.readable.first_switch is None:
             return str(index)
-        offset = index - self.of.first_switch
+        offset = index - self.readable.first_switch
         return f"corner + {offset}" if offset else "corner"
 
     def _print_Magnitude(self, expr: sp.Expr) -> str:
@@ -188,10 +188,10 @@ class CPrinter(CachedPrinter, C99CodePrinter):
     def _print_Select(self, expr: sp.Expr) -> str:
         """Print Select(branch, a, b) as a conditional expression: b for branch < 0, else a (also for NaN).
 
-        If `of.branches` contains the expression, the name of its local is printed.
+        If `readable.branches` contains the expression, the name of its local is printed.
         """
-        if expr in self.of.branches:
-            return self.of.branches[expr]
+        if expr in self.readable.branches:
+            return self.readable.branches[expr]
         branch, a, b = (self._print(argument) for argument in expr.args)
         return f"({branch} < 0.0 ? {b} : {a})"
 

@@ -57,7 +57,7 @@ class Name:
 
     latex: str
     text: str
-    of: Sequence[str] = field(default=(), compare=False)
+    tokens: Sequence[str] = field(default=(), compare=False)
     value: str = field(default="", compare=False)
 
     @property

@@ -23,7 +23,7 @@ class NonzeroEntry:
 
     row: int
     column: int
-    of: str = ""
+    token: str = ""
     message: str = ""
 
 
@@ -62,8 +62,8 @@ def draw_assembled_matrix(model: Model) -> list[Block]:
     masses = [
         NonzeroEntry(k, k, f"body-{body.name}") for body in model.bodies for k in range(body.index, body.index + 3)
     ]
-    jacobian = [NonzeroEntry(n + entry.row, entry.column, entry.of) for entry in entries]
-    transposed = [NonzeroEntry(entry.column, n + entry.row, entry.of) for entry in entries]
+    jacobian = [NonzeroEntry(n + entry.row, entry.column, entry.token) for entry in entries]
+    transposed = [NonzeroEntry(entry.column, n + entry.row, entry.token) for entry in entries]
     cell_side = compute_cell_side(n + m, TINY)
     total = cell_side * (n + m)
     lines = [
@@ -108,7 +108,7 @@ def _print_squares(entries: Sequence[NonzeroEntry], left: int, top: int, css_cla
     """
     squares = (
         f'<rect x="{left + cell_side * entry.column}" y="{top + cell_side * entry.row}" '
-        f'data-of="{html.escape(entry.of)}"/>'
+        f'data-of="{html.escape(entry.token)}"/>'
         for entry in entries
     )
     return [f'<g class="{css_class} cells" style="--cell: {cell_side - 1}px">', *squares, "</g>"]

@@ -42,7 +42,9 @@ def describe_contour(joint: JointWithPlay) -> Iterator[Block]:
     """
     clearance = joint.clearance
     assert clearance.contour
-    yield make_equation(contact.theta_i, joint.notation.expand_symbols(clearance.first.theta), joint.notation, joint.of)
+    yield make_equation(
+        contact.theta_i, joint.notation.expand_symbols(clearance.first.theta), joint.notation, joint.tokens
+    )
     yield make_paragraph(
         f"The bearing is not circular: d is its depth beyond the circle, given by {clearance.contour.count} "
         "depths at equal angles "
@@ -140,14 +142,14 @@ PAIR = (
 class JointWithPlay:
     """Write one joint's equations in its own symbols: c, R_i, K, c_e stand for this joint only.
 
-    of: its highlighting tokens. alike: labels of all joints with the same play.
+    tokens: its highlighting tokens. alike: labels of all joints with the same play.
     """
 
     def __init__(self, model: Model, clearance: Clearance, notation: Notation, functions: Functions) -> None:
         self.model, self.clearance, self.functions = model, clearance, functions
         self.play = model.scene.play[clearance.joint.name]
-        self.of = list_joint_tokens(clearance)
-        self.of_law = [f"law-{self.play.contact.name}", *self.of]
+        self.tokens = list_joint_tokens(clearance)
+        self.law_tokens = [f"law-{self.play.contact.name}", *self.tokens]
         self.alike = [c.label for c in model.clearances if _have_same_play(model.scene.play[c.joint.name], self.play)]
         self.notation = notation.rename_symbols(contact_names.name_joint_symbols(model, clearance))
         self.numbers = list(self._list_joint_quantities())
@@ -194,7 +196,11 @@ class JointWithPlay:
         """Return an equation symbol = value for each step, in this joint's symbols and with the law's tokens."""
         return [
             make_equation(
-                step.symbol, self.notation.expand_symbols(step.value), self.notation, self.of_law, self.of_law[0]
+                step.symbol,
+                self.notation.expand_symbols(step.value),
+                self.notation,
+                self.law_tokens,
+                self.law_tokens[0],
             )
             for step in steps
         ]
@@ -212,7 +218,7 @@ def make_play_sections(model: Model, notation: Notation, functions: Functions) -
         described_joint = next((name for name, play in described.items() if _have_same_play(play, joint.play)), None)
         kind = clearance.kind.capitalize()
         title = f"{kind} {clearance.name} with play"
-        sections.append(Section(title, tuple(_describe_geometry(joint, described_joint is None)), 1, joint.of))
+        sections.append(Section(title, tuple(_describe_geometry(joint, described_joint is None)), 1, joint.tokens))
         if described_joint is None:
             described[clearance.name] = joint.play
             sections += _describe_contact(joint)
@@ -258,7 +264,7 @@ def _describe_geometry(joint: JointWithPlay, is_first: bool) -> list[Block]:
     if clearance.wall:
         introduction = describe_corner(clearance.name, *point_names)
         steps += zip((contact.n_x, contact.n_y), clearance.wall.normal, strict=True)
-    blocks: list[Block] = [make_equation(symbol, expand(value), notation, joint.of) for symbol, value in steps]
+    blocks: list[Block] = [make_equation(symbol, expand(value), notation, joint.tokens) for symbol, value in steps]
     if clearance.contour:
         blocks += describe_contour(joint)
     return [introduction, *blocks, *(joint.make_equations(contact.make_gap_equations(clearance)) if is_first else [])]
@@ -334,7 +340,7 @@ def _describe_law(joint: JointWithPlay, role: str) -> list[Block]:
     law = equations.law
     source = law.reference or law.source
     blocks: list[Block] = [
-        make_paragraph(f"{make_sentence(law.title)} Source: {source}. Valid: {law.validity}.", tokens=joint.of_law)
+        make_paragraph(f"{make_sentence(law.title)} Source: {source}. Valid: {law.validity}.", tokens=joint.law_tokens)
     ]
     blocks += [
         make_paragraph(
@@ -372,7 +378,7 @@ def _describe_generalized_force(joint: JointWithPlay) -> list[Block]:
         )
         for k, component in enumerate(components, point.body.index + 1):
             left = Name(rf"\Delta g_{{{k}}}", f"Δg_{k}")
-            blocks.append(make_equation(left, sp.expand(notation.expand_symbols(component)), notation, joint.of))
+            blocks.append(make_equation(left, sp.expand(notation.expand_symbols(component)), notation, joint.tokens))
     return blocks
 
 

@@ -229,10 +229,12 @@ def _print_tex_terms(equation: Equation) -> str:
 
 def _print_tex_columns(table: Table) -> str:
     """Return the column specification of a table in LaTeX; columns with running text share the remaining width."""
-    widths = [_measure_column(table, k) for k in range(len(table.header)) if k not in table.wide]
+    widths = [_measure_column(table, k) for k in range(len(table.header)) if k not in table.text_columns]
     used_width = LETTER[_select_tex_size(table)] * sum(widths) + GAP * len(table.header)
-    column_width = max(0.12, min(0.34, 1.0 - used_width)) / max(1, len(table.wide))
-    return "".join(rf"p{{{column_width:.2f}\linewidth}}" if k in table.wide else "l" for k in range(len(table.header)))
+    column_width = max(0.12, min(0.34, 1.0 - used_width)) / max(1, len(table.text_columns))
+    return "".join(
+        rf"p{{{column_width:.2f}\linewidth}}" if k in table.text_columns else "l" for k in range(len(table.header))
+    )
 
 
 def _select_tex_size(block: Sketch | Picture | Table) -> str:
@@ -240,7 +242,7 @@ def _select_tex_size(block: Sketch | Picture | Table) -> str:
     if not isinstance(block, Table):
         return r"\footnotesize" if max(map(len, block.lines), default=0) <= 98 else r"\scriptsize"
     widths = [_measure_column(block, k) for k in range(len(block.header))]
-    width = sum(2 + min(WIDE, w) if k in block.wide else 2 + w for k, w in enumerate(widths))
+    width = sum(2 + min(WIDE, w) if k in block.text_columns else 2 + w for k, w in enumerate(widths))
     return r"\small" if width <= 105 else r"\footnotesize" if width <= 125 else r"\scriptsize"
 
 
@@ -270,7 +272,9 @@ def _print_plain_table(table: Table) -> str:
     rows = [[[_print_plain_line(cell)] for cell in table.header]]
     rows += [
         [
-            textwrap.wrap(_print_plain_line(cell), WIDE) or [""] if k in table.wide else [_print_plain_line(cell)]
+            textwrap.wrap(_print_plain_line(cell), WIDE) or [""]
+            if k in table.text_columns
+            else [_print_plain_line(cell)]
             for k, cell in enumerate(row)
         ]
         for row in table.rows

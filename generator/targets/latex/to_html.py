@@ -46,7 +46,7 @@ def print_line(text: Text) -> str:
 def print_formula(name: Name) -> str:
     """Return a formula as MathML with its value, within an element with its tokens if it has any."""
     mathml_text = "".join(map(convert_to_mathml, _split_formula(name.latex))) + print_value_element(name.value)
-    return f"<span{print_attributes(name.of)}>{mathml_text}</span>" if name.of else mathml_text
+    return f"<span{print_attributes(name.tokens)}>{mathml_text}</span>" if name.tokens else mathml_text
 
 
 def _split_formula(latex: str) -> Iterator[str]:
@@ -112,7 +112,7 @@ def _insert_function_spaces(element: Element) -> None:
 def print_listing(block: Listing) -> str:
     """Return a file as HTML with an element per line, its tokens and a folding frame."""
     lines = (
-        f'<span class="line"{print_attributes(sorted(block.of.get(k, ())), is_focusable=True)}>'
+        f'<span class="line"{print_attributes(sorted(block.tokens_by_line.get(k, ())), is_focusable=True)}>'
         f"{html.escape(text) or ' '}</span>"
         for k, text in enumerate(block.lines, 1)
     )

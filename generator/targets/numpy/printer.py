@@ -57,11 +57,11 @@ class NumPyPrinter(CachedPrinter, PythonCodePrinter):
 
     def __init__(self, readable_lines: Readable) -> None:
         super().__init__({"fully_qualified_modules": False})
-        self.of = readable_lines
+        self.readable = readable_lines
 
     def get_name(self, key: Key) -> str:
         """Return the name of a local or place in this function."""
-        return print_name(self.of.names.get(key, key))
+        return print_name(self.readable.names.get(key, key))
 
     def _print_Symbol(self, expr: sp.Symbol) -> str:
         """Print a symbol by its name in the function."""
@@ -142,10 +142,10 @@ class NumPyPrinter(CachedPrinter, PythonCodePrinter):
     def _print_Select(self, expr: sp.Expr) -> str:
         """Print Select(branch, a, b) as np.where: b for branch < 0, else a (also for NaN).
 
-        If `of.branches` contains the expression, the name of its local is printed.
+        If `readable.branches` contains the expression, the name of its local is printed.
         """
-        if expr in self.of.branches:
-            return self.get_name(self.of.branches[expr])
+        if expr in self.readable.branches:
+            return self.get_name(self.readable.branches[expr])
         branch, a, b = map(self._print, expr.args)
         return f"np.where({branch} < 0, {b}, {a})"
 
