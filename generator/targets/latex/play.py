@@ -173,7 +173,7 @@ class JointWithPlay:
             name = self.model.scene.materials.get(f"{section_name}.{bearing.name}.{part}_material", material.name)
             yield material.numbers["E"], f"E{index}", f"modulus of elasticity of {name} ({part})"
             yield material.numbers["nu"], rf"\nu{index}", f"Poisson's ratio of {name} ({part})"
-        for equations, use in contact_names.list_laws(self.model, self.clearance):
+        for equations, use in contact_names.list_joint_laws(self.model, self.clearance):
             for parameter, quantity in contact_names.list_given_parameters(equations, use):
                 yield quantity, contact_names.get_latex_symbol(parameter), parameter.meaning
         if self.play.contact.transition is not None:

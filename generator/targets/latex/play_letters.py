@@ -173,7 +173,7 @@ def _propose_symbol_names(model: Model, clearance: Clearance) -> Iterator[tuple[
     Contact variables come first, then dimensions, elastic constants, the transition, parameters and constants of laws,
     and variables of laws.
     """
-    pair, laws, wall = clearance.pair, list_laws(model, clearance), clearance.wall
+    pair, laws, wall = clearance.pair, list_joint_laws(model, clearance), clearance.wall
     yield from name_contact_variables(clearance).items()
     lengths = _LETTERS_AT_WALL if wall else (("c", "c"), ("R_i", "R_i"), ("R_j", "R_j"), ("L", "L"))
     pairs = [(getattr(pair, attribute), latex) for attribute, latex in lengths]
@@ -206,7 +206,7 @@ def _find_parameter(model: Model, quantity: Quantity | None) -> ParameterEntry |
     return None if quantity is None else model.parameter_table.entries.get(quantity.address)
 
 
-def list_laws(model: Model, clearance: Clearance) -> list[tuple[LawEquations, LawUse]]:
+def list_joint_laws(model: Model, clearance: Clearance) -> list[tuple[LawEquations, LawUse]]:
     """Return (equations, use in the file) of each law of a joint."""
     return list(zip(clearance.laws, model.scene.play[clearance.joint.name].contact.laws, strict=True))
 

@@ -23,7 +23,7 @@ from gudgeon.generator.targets.latex.play_letters import (
     get_latex_symbol,
     get_result_symbol,
     list_given_parameters,
-    list_laws,
+    list_joint_laws,
     name_contact_variables,
     name_joint_symbols,
 )
@@ -134,7 +134,7 @@ def _list_clearance_symbols(model: Model, clearance: Clearance) -> Iterator[str]
         for symbol, name in name_joint_symbols(model, clearance).items()
         if symbol in used_symbols or symbol not in step_names
     )
-    for equations, use in list_laws(model, clearance):
+    for equations, use in list_joint_laws(model, clearance):
         yield from (
             make_name_from_latex(get_latex_symbol(parameter)).text
             for parameter, _ in list_given_parameters(equations, use)
