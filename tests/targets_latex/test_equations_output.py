@@ -248,8 +248,12 @@ forces: {f: {force: a.origin, value: ["1 N*(0.01*a.x/(1 m))**161", 0]}}
 
 def test_small_matrices_are_large_enough_for_their_names() -> None:
     """The fewer columns, the larger an entry; never smaller than before."""
-    sides = [pictures.compute_cell_side(columns, pictures.SMALL) for columns in (3, 9, 30, 150)]
-    assert sides == sorted(sides, reverse=True) and sides[1] == pictures.LARGE and sides[-1] == pictures.SMALL
+    sides = [pictures.compute_cell_side(columns, pictures.MIN_CELL_SIDE) for columns in (3, 9, 30, 150)]
+    assert (
+        sides == sorted(sides, reverse=True)
+        and sides[1] == pictures.MAX_CELL_SIDE
+        and sides[-1] == pictures.MIN_CELL_SIDE
+    )
 
 
 def test_axes_of_laws_have_units_that_suit_their_range() -> None:

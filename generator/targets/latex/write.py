@@ -82,7 +82,7 @@ def make_primes_table(notation: Notation, formulas: Iterable[Name]) -> list[Bloc
     """Return the table of primed symbols that occur in the given formulas; [] if there are none."""
     text = " ".join(name.text for name in formulas)
     rows = [
-        make_row(primed_symbol.name, primed_symbol.meaning, primed_symbol.letter, primed_symbol.letter_meaning)
+        make_row(primed_symbol.name, primed_symbol.meaning, primed_symbol.plain_name, primed_symbol.plain_meaning)
         for primed_symbol in notation.primed_symbols
         if primed_symbol.name.text in text
     ]
