@@ -22,8 +22,8 @@ from gudgeon.generator.targets.latex.letters import Name, make_name_from_latex, 
 from gudgeon.generator.targets.latex.play_letters import (
     get_latex_symbol,
     get_result_symbol,
-    list_given_parameters,
     list_joint_laws,
+    list_specified_parameters,
     name_contact_variables,
     name_joint_symbols,
 )
@@ -137,7 +137,7 @@ def _list_clearance_symbols(model: Model, clearance: Clearance) -> Iterator[str]
     for equations, use in list_joint_laws(model, clearance):
         yield from (
             make_name_from_latex(get_latex_symbol(parameter)).text
-            for parameter, _ in list_given_parameters(equations, use)
+            for parameter, _ in list_specified_parameters(equations, use)
         )
     yield from ("i", "j", "n")
     if clearance.normal is not None and clearance.film is not None:

@@ -20,7 +20,12 @@ from gudgeon.generator.symbols.parameter_table import ParameterEntry
 from gudgeon.generator.targets.latex.document import Block, Equation, Text, make_paragraph, make_row
 from gudgeon.generator.targets.latex.letters import Name
 from gudgeon.generator.targets.latex.notation import Notation, name_parameter
-from gudgeon.generator.targets.latex.printers import LONG, find_fraction_of_pi, format_angle, format_number
+from gudgeon.generator.targets.latex.printers import (
+    MAX_UNBREAKABLE_LENGTH,
+    find_fraction_of_pi,
+    format_angle,
+    format_number,
+)
 from gudgeon.language.output_units import find_angle_power
 from gudgeon.language.plot_units import format_unit
 from gudgeon.language.tree import Binary, Call, Expr, Number, Unary, iterate_names
@@ -122,7 +127,7 @@ class ValueFormatter:
         notation, value, blocks = self._notation, entry.value, list[Block]()
         left_side = notation.format_expression(entry.symbol)
         for root in sorted(value.atoms(sp.Pow), key=sp.default_sort_key):
-            if root.exp == sp.Rational(1, 2) and len(notation.format_expression(root).text) > LONG:
+            if root.exp == sp.Rational(1, 2) and len(notation.format_expression(root).text) > MAX_UNBREAKABLE_LENGTH:
                 latex, text = (name.partition("_")[1:] for name in (left_side.latex, left_side.text))
                 primes = "'" * len(blocks)
                 inner_name = Name("".join(("D", *latex, primes)), "".join(("D", *text, primes)))
