@@ -12,7 +12,7 @@ from gudgeon.generator.targets.latex.theory import read_sketch
 from gudgeon.generator.targets.latex.values import (
     MAX_CELL_LENGTH,
     ValueFormatter,
-    format_expression_as_written,
+    format_file_expression,
     get_si_unit,
 )
 from gudgeon.language.plot_units import format_unit
@@ -153,15 +153,11 @@ def format_drive_value(model: Model, notation: Notation, drive: str) -> str | Na
         model.constraints.drive_angles.get(drive),
     )
     if angle_symbols is None:
-        return format_expression_as_written(expression, 0, expressions)
+        return format_file_expression(expression, 0, expressions)
     formula = notation.format_expression(
         notation.expand_symbols(model.symbols.expand_definitions(model.symbols.definitions[angle_symbols[0]]))
     )
-    return (
-        formula
-        if len(formula.text) <= 2 * MAX_CELL_LENGTH
-        else format_expression_as_written(expression, 0, expressions)
-    )
+    return formula if len(formula.text) <= 2 * MAX_CELL_LENGTH else format_file_expression(expression, 0, expressions)
 
 
 def _describe_curves(model: Model) -> list[Block]:
@@ -173,7 +169,7 @@ def _describe_curves(model: Model) -> list[Block]:
 def _describe_expressions(model: Model) -> list[Block]:
     """Return the table of named expressions, in the syntax of the file."""
     rows = [
-        make_row(name, format_expression_as_written(quantity.source_tree or quantity.value))
+        make_row(name, format_file_expression(quantity.source_tree or quantity.value))
         for name, quantity in model.scene.mechanism.expressions.items()
     ]
     return make_tables(make_row("expression", "stands for"), rows, (1,))

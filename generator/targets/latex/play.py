@@ -30,7 +30,7 @@ from gudgeon.generator.targets.latex.letters import Name, make_name_from_latex, 
 from gudgeon.generator.targets.latex.notation import Notation
 from gudgeon.generator.targets.latex.plots import plot_law_of_joints
 from gudgeon.generator.targets.latex.trace import Functions, HighlightIndex
-from gudgeon.generator.targets.latex.values import MAX_CELL_LENGTH, ValueFormatter, format_expression_as_written
+from gudgeon.generator.targets.latex.values import MAX_CELL_LENGTH, ValueFormatter, format_file_expression
 from gudgeon.language.plot_units import format_quantity, format_unit
 from gudgeon.language.units import find_si_unit
 
@@ -442,5 +442,5 @@ def _format_fixed_value(quantity: Quantity) -> str:
 
     "below" stands for an expression of more than MAX_CELL_LENGTH characters.
     """
-    text = "0" if quantity.is_zero else format_expression_as_written(quantity.value)
+    text = "0" if quantity.is_zero else format_file_expression(quantity.value)
     return text if len(text) <= MAX_CELL_LENGTH else "below"

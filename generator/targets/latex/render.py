@@ -101,7 +101,7 @@ def escape_latex(text: str) -> str:
 
 
 def escape_sketch_line(line: str) -> str:
-    r"""Return a line of a sketch in LaTeX for a typewriter font; characters beyond ASCII are in a \cell of its width."""
+    r"""Return a line of a sketch in LaTeX for a typewriter font; characters beyond ASCII are in cells of one width."""
     return "".join(map(_escape_sketch_character, _split_graphemes(line)))
 
 
