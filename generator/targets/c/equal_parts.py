@@ -47,7 +47,7 @@ class _NormalizedPart:
     operands: list[str]
 
 
-def join_equal_parts(
+def merge_equal_parts(
     parts: Sequence[PrintedPart], print_head: Callable[[Kernel, Readable], str]
 ) -> tuple[list[PrintedPart], dict[str, Call]]:
     """Return (printed parts with clones merged, {name of a merged part: its new call without the old arguments}).
@@ -75,7 +75,7 @@ def join_equal_parts(
 def redirect_calls(kernel: Kernel, calls: Mapping[str, Call]) -> Kernel:
     """Return a function that calls the merged functions in place of its parts.
 
-    `calls`: {name of a part: new call}, as `join_equal_parts` returns them. Calls of other functions stay.
+    `calls`: {name of a part: new call}, as `merge_equal_parts` returns them. Calls of other functions stay.
     """
 
     def redirect_call(call: Call) -> Call:

@@ -37,7 +37,7 @@ from gudgeon.generator.ir.values import NO_NAMES
 from gudgeon.generator.kernels.shared import FIRST_SWITCH, SharedFunctionCall
 from gudgeon.generator.symbols.derivatives import find_symbols
 from gudgeon.generator.symbols.storage import Place, find_key
-from gudgeon.generator.targets.c.equal_parts import PrintedPart, join_equal_parts, redirect_calls
+from gudgeon.generator.targets.c.equal_parts import PrintedPart, merge_equal_parts, redirect_calls
 from gudgeon.generator.targets.c.long_sums import split_long_sums
 from gudgeon.generator.targets.c.printer import (
     WIDTH,
@@ -436,7 +436,7 @@ def print_kernel_parts(kernel: Kernel) -> Iterator[PrintedPart]:
     (equal_parts.py). The first text of each is its head, or the table of a merged part.
     """
     *parts, main = split_kernel(split_long_sums(kernel))
-    printed, calls = join_equal_parts([_print_part(part) for part in parts], _print_head)
+    printed, calls = merge_equal_parts([_print_part(part) for part in parts], _print_head)
     yield from printed
     yield _print_part(redirect_calls(main, calls))
 

@@ -207,7 +207,10 @@ def _print_keys_table(fields: Sequence[Field]) -> Iterator[str]:
 
 
 def _list_number_cells(parameter: Field) -> tuple[str, ...]:
-    """Return the cells of a numerical key of a law: symbol, unit, condition, default or "needed"."""
+    """Return the cells of a numerical key of a law: symbol, unit, condition, effect without the key.
+
+    The last one is "needed", the default, or the words of `parameter.otherwise`.
+    """
     unit = "any" if parameter.dimension is None else format_unit(find_si_unit(parameter.dimension))
     default = (
         "needed"

@@ -41,8 +41,8 @@ def find_sketch_symbols(lines: list[str]) -> Iterator[str]:
     """Yield the symbols in the lines of a joint type's or force element's sketch, in their order and with repetitions.
 
     A symbol is one letter, with dots (time derivatives) and a subscript if it has them, such as "θ_i". A symbol with
-    dots is also yielded without them. A letter next to a letter, digit, ".", "-" or "'" is none, such as "o---" or
-    "L. C. Bo", and neither is an article ("a", "A") or "I" before a word.
+    dots is also yielded without them. A letter next to a letter, digit, ".", "-" or "'" is not a symbol ("o---",
+    "L. C. Bo"), and neither is "a", "A" or "I" before a word.
     """
     symbol = re.compile(r"(?<![\w.'-])(?!(?:a|A|I) [a-z]{2})([^\W\d_]\u0307?\u0307?(?:_\w+)?)(?![\w.'-])")
     for line in lines:
