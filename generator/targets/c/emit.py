@@ -74,11 +74,11 @@ def emit_scene(program: Program, on_part_printed: PartCallback | None = None) ->
 def describe_program(
     program: Program, files: Mapping[str, str], compilation_units: tuple[int, ...] = ()
 ) -> KernelSource:
-    """Return the KernelSource of a program whose `files` are already printed, or {} if the C is not needed.
+    """Return the KernelSource of a program: its C files, and what the runtime must know of the model and the C.
 
     It contains names of coordinates and results, parameters, pivots, operation counts and the log of the reduction.
-
-    compilation_units: the parts of MAIN that are compiled separately; () for one unit.
+    files: the text of each printed file by name; {} if the C is not needed. compilation_units: the parts of MAIN that
+    are compiled separately; () for one unit.
     """
     model, tree, integrated, kinematics = program.model, program.tree, program.integrated, program.kinematics
     return describe_scene(

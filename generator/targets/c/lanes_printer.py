@@ -95,7 +95,7 @@ class LanesPrinter(printer.CPrinter):
         return f"(lanes_fabs({self._print_vector(expr.args[0])}) + 1e-150)"
 
     def _print_CurveOf(self, expr: CurveOf) -> str:
-        """Print the value of a curve at a vector."""
+        """Print the value of a curve, or its derivative, at a vector; at a constant, the scalar call."""
         if not expr.free_symbols:
             return super()._print_CurveOf(expr)
         return f"lanes_curve({make_curve_name(expr.name)}, {expr.order}, {self._print_vector(expr.args[2])})"

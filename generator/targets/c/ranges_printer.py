@@ -113,7 +113,7 @@ class RangesPrinter(printer.CPrinter):
         return self._print_call("magnitude", expr.args[0])
 
     def _print_CurveOf(self, expr: CurveOf) -> str:
-        """Print the value of a curve over a range."""
+        """Print the value of a curve, or its derivative, over an interval; at a constant, the scalar call."""
         if not expr.free_symbols:
             return super()._print_CurveOf(expr)
         return f"interval_curve({make_curve_name(expr.name)}, {expr.order}, {self._print_range(expr.args[2])})"

@@ -128,7 +128,7 @@ def describe_onset(joint: JointWithPlay, approach_speed: Name) -> Block:
 
 
 def describe_internal_states(law: Law) -> Iterator[Block]:
-    """Yield a paragraph for each internal state of a law: its symbol, its meaning, and where it is integrated."""
+    """Yield a paragraph for each internal state of a law: its symbol, its meaning, and when it is integrated."""
     for state in law.states:
         message = f" is the {state.meaning}, 0 at each onset, and integrated with the motion while in contact."
         yield make_paragraph(make_symbol_name(state.name), message)

@@ -204,7 +204,7 @@ class TexPrinter(_BodyOrder, LatexPrinter):
         return rf"\left({text}\right)^{{{exp}}}" if exp else text
 
     def _print_CurveOf(self, expr: CurveOf, exp: str | None = None) -> str:
-        """Print a curve or its derivative.
+        r"""Print a curve of the file or its derivative, with primes for the order: \mathrm{cam}''(x).
 
         `exp`: an exponent that is printed after it, or None; SymPy passes it.
         """

@@ -82,7 +82,7 @@ class NumPyPrinter(CachedPrinter, PythonCodePrinter):
         return super().parenthesize(item, level, strict)
 
     def _print_Mul(self, expr: sp.Mul) -> str:
-        """Print a product, a fraction of π as such."""
+        """Print a product; a rational multiple of π is printed as a fraction of np.pi if that has the same bits."""
         if text := self.print_symbol_product(expr):
             return text
         fraction = convert_to_fraction_of_pi(expr)
