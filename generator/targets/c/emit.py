@@ -280,8 +280,8 @@ def _count_function_operations(program: Program) -> dict[str, int]:
 
     A law is listed once for each joint that calls it, as ROLE_JOINT_force, for example "normal_A_force".
     """
-    calls = [(pin.clearance.name, *call) for pin in program.joints for call in pin.laws.items()]
-    laws = {f"{role}_{joint}_force": call.kernel for joint, role, call in calls}
+    calls = [(joint.clearance.name, *call) for joint in program.joints for call in joint.laws.items()]
+    laws = {f"{role}_{joint_name}_force": call.kernel for joint_name, role, call in calls}
     counted = {kernel.name: kernel for kernel in _list_kernels(program) if kernel not in program.laws}
     return {name: kernel.n_operations for name, kernel in (counted | laws).items()}
 

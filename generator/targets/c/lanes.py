@@ -143,7 +143,7 @@ def _print_linearized_equations(
         )
     state_kernels = map(lanes_printer.print_kernel_with_fallback, (newton.linearize_kernel, newton.factor_kernel))
     factor, solve_kernels = methods.complex_kernels[:1], methods.complex_kernels[1:]
-    complex_ = [
+    complex_step_texts = [
         *map(lanes_printer.print_kernel_with_fallback, factor),
         *map(lanes_printer.print_kernel, solve_kernels),
     ]
@@ -152,7 +152,7 @@ def _print_linearized_equations(
             *slopes,
             *state_kernels,
             *map(lanes_printer.print_kernel, (newton.substitute_kernel, newton.solve_kernel)),
-            *complex_,
+            *complex_step_texts,
         ]
     )
 

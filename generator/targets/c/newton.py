@@ -58,12 +58,12 @@ def print_tangent_functions(joints: Sequence[JointFunctions], methods: Methods, 
         return ""
     contours = any(joint.clearance.contour for joint in joints)
     dimensions = {"rows": 4 + n_states, "columns": 5 + n_states}
-    functions_ = [CONTOURS * contours + print_shared_slopes(joints, render, "double", "PinSlopes", n_states)]
-    functions_ += [render("play/contour_slopes.c.jinja")] * contours
-    functions_ += map(functions.print_kernel, methods.derivative_kernels)
+    texts = [CONTOURS * contours + print_shared_slopes(joints, render, "double", "PinSlopes", n_states)]
+    texts += [render("play/contour_slopes.c.jinja")] * contours
+    texts += map(functions.print_kernel, methods.derivative_kernels)
     for clearance in (joint.clearance for joint in joints):
         if clearance.contour:
-            functions_.append(
+            texts.append(
                 _print_contour_tangent(
                     clearance, clearance.contour, methods.derivative_calls[clearance.name]["dry"], render
                 )
@@ -73,7 +73,7 @@ def print_tangent_functions(joints: Sequence[JointFunctions], methods: Methods, 
         code = _print_slope_selection(clearance, clearance_parameter, methods.derivative_calls[clearance.name])
         if clearance.wall:
             rise = print_expression(read_parameters_from_struct(methods.newton.system.model, clearance.wall.rise))
-            functions_.append(
+            texts.append(
                 render(
                     "play/wall_tangent.c.jinja",
                     joint=clearance.label,
@@ -84,10 +84,10 @@ def print_tangent_functions(joints: Sequence[JointFunctions], methods: Methods, 
                 )
             )
             continue
-        functions_.append(
+        texts.append(
             render("play/tangent.c.jinja", joint=clearance.label, c=clearance_parameter, slopes=code, **dimensions)
         )
-    return "\n".join(functions_)
+    return "\n".join(texts)
 
 
 def _print_contour_tangent(

@@ -128,7 +128,7 @@ def _describe_abbreviations(model: Model, notation: Notation) -> Iterator[Block]
         if symbol in notation.shown_symbols and symbol not in others
     ]
     yield from equations
-    if any("where(" in term.text for equation_ in equations for term in equation_.terms):
+    if any("where(" in term.text for equation in equations for term in equation.terms):
         yield make_paragraph("where(…) is its second argument if the comparison is true, else the third.")
     if any(
         notation.expand_symbols(value).has(sp.Heaviside) for row in model.rows for value in (row.nu, row.gamma)

@@ -134,7 +134,7 @@ def derive_forms(law: Law, name: str) -> list[Form]:
 
 def _select_new_equations(equations: Sequence[Equation], known_equations: Set[str]) -> tuple[Equation, ...]:
     """Return the equations whose text (`print_equation`) is not in `known_equations`."""
-    return tuple(equation_ for equation_ in equations if print_equation(equation_) not in known_equations)
+    return tuple(equation for equation in equations if print_equation(equation) not in known_equations)
 
 
 def print_law(law: Law, name: str) -> str:
@@ -180,9 +180,7 @@ def _describe_equations(law: Law, default_form: Form, other_forms: Sequence[Form
 
     other_forms: forms of other choices, whose inputs and results are listed in the table, too.
     """
-    letters = {
-        name: letter_ for each_form in (*reversed(other_forms), default_form) for name, letter_ in each_form.used
-    }
+    letters = {name: symbol for form in (*reversed(other_forms), default_form) for name, symbol in form.used}
     rows = [make_row(letters[name], *_MEANINGS[name]) for name in _MEANINGS if name in letters]
     yield from make_tables(make_row("symbol", "meaning", "unit"), rows)
     yield from describe_internal_states(law)
@@ -344,6 +342,6 @@ def _make_probe_symbol(name: str) -> sp.Symbol:
     return sp.Symbol(f"probe_{name}", real=True)
 
 
-def print_equation(equation_: Equation) -> str:
+def print_equation(equation: Equation) -> str:
     """Return an equation as one line of plain text."""
-    return f"{equation_.left.text} = {''.join(term.text for term in equation_.terms)}"
+    return f"{equation.left.text} = {''.join(term.text for term in equation.terms)}"

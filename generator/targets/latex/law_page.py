@@ -82,10 +82,10 @@ def _describe_dissipation() -> Iterator[str]:
     yield from ("", f"| `dissipation` | a | {restitutions} | source |", "|" + "---|" * 6)
     default_form, *other_forms = derive_forms(find_bundled_laws()["hertz"], "hertz")
     form_by_value = {DISSIPATION.default: default_form} | {
-        form_.selected.get(DISSIPATION.name): form_ for form_ in other_forms
+        form.selected.get(DISSIPATION.name): form for form in other_forms
     }
     for name in DISSIPATION.values:
-        a = next(print_equation(form_) for form_ in form_by_value[name].equations if form_.left.text in ("a", "a_0"))
+        a = next(print_equation(form) for form in form_by_value[name].equations if form.left.text in ("a", "a_0"))
         formula = (
             "the a that delivers c_e, by Newton's method from Hu and Guo's factor" if name == EXACT else f"`{a[4:]}`"
         )

@@ -240,8 +240,8 @@ def name_law_variable(law: Law, name: str) -> Name:
     """
     name = name.removesuffix("__")  # of a user-defined law
     rate_names = {f"{state.name}_rate": make_symbol_name(state.name, dots=1) for state in law.states}
-    of_law = LAW_SPECIFIC_NAMES.get((law.name, name))
-    return of_law or (LAW_SYMBOL_NAMES | rate_names).get(name) or make_word_name(name)
+    specific_name = LAW_SPECIFIC_NAMES.get((law.name, name))
+    return specific_name or (LAW_SYMBOL_NAMES | rate_names).get(name) or make_word_name(name)
 
 
 def get_latex_symbol(parameter: Field) -> str:

@@ -136,11 +136,11 @@ def _escape_character(cluster: str) -> str:
         return f"${_MATH_COMMANDS[cluster]}$"
     if cluster.isascii():
         return cluster if cluster.isprintable() else ""
-    letter_, *marks = list(unicodedata.normalize("NFD", cluster))
-    if len(marks) == 1 and marks[0] in _TEXT_ACCENTS and (letter_ in _MATH_COMMANDS or letter_.isascii()):
-        if letter_ in _MATH_COMMANDS:
-            return rf"$\{_MATH_ACCENTS.get(marks[0], 'bar')}{{{_MATH_COMMANDS[letter_]}}}$"
-        return rf"\{_TEXT_ACCENTS[marks[0]]}{{{_escape_character(letter_)}}}"
+    letter, *marks = list(unicodedata.normalize("NFD", cluster))
+    if len(marks) == 1 and marks[0] in _TEXT_ACCENTS and (letter in _MATH_COMMANDS or letter.isascii()):
+        if letter in _MATH_COMMANDS:
+            return rf"$\{_MATH_ACCENTS.get(marks[0], 'bar')}{{{_MATH_COMMANDS[letter]}}}$"
+        return rf"\{_TEXT_ACCENTS[marks[0]]}{{{_escape_character(letter)}}}"
     return "".join(f"[U+{ord(c):04X}]" for c in cluster)
 
 

@@ -271,11 +271,11 @@ def format_file_expression(
             precedence = _PRECEDENCE[operator]
             operand_precedences = (precedence + 1, precedence) if operator == "**" else (precedence, precedence + 1)
             operand_texts = [
-                format_file_expression(side, outer_precedence, expressions)
-                for side, outer_precedence in zip((left, right), operand_precedences, strict=True)
+                format_file_expression(operand, operand_precedence, expressions)
+                for operand, operand_precedence in zip((left, right), operand_precedences, strict=True)
             ]
-            for k, side in enumerate((left, right)):  # t / (1 s): a number and its unit are one
-                if (operator, k) in (("/", 1), ("**", 0)) and isinstance(side, Number) and get_unit(side):
+            for k, operand in enumerate((left, right)):  # t / (1 s): brackets around a number with its unit
+                if (operator, k) in (("/", 1), ("**", 0)) and isinstance(operand, Number) and get_unit(operand):
                     operand_texts[k] = f"({operand_texts[k]})"
             text = f" {operator} ".join(operand_texts)
         case Call(function=function, arguments=arguments):

@@ -316,13 +316,13 @@ def _compile_functions(source: str) -> dict[str, Any]:
     return names
 
 
-_CURVE = f'''def curve(of, order, x):
-    """A cubic spline (order 0) or a derivative of it: NaN outside its range, or repeated there."""
-    knots, c, repeats = of
+_CURVE = f'''def curve(table, order, x):
+    """Return a cubic spline (order 0) or its derivative; outside its range NaN, unless it is periodic."""
+    knots, c, is_periodic = table
     first, last = knots[0], knots[-1]
     margin = {MARGIN} * (last - first)
-    inside = repeats | ((x >= first - margin) & (x <= last + margin))
-    x = x - (last - first) * np.floor((x - first) / (last - first)) if repeats else x
+    inside = is_periodic | ((x >= first - margin) & (x <= last + margin))
+    x = x - (last - first) * np.floor((x - first) / (last - first)) if is_periodic else x
     k = np.clip(np.searchsorted(knots, x, side="right") - 1, 0, len(c) - 1)
     h, (c0, c1, c2, c3) = x - knots[k], np.moveaxis(c[k], -1, 0)
     value = (c0 + h * (c1 + h * (c2 + h * c3)), c1 + h * (2.0 * c2 + h * (3.0 * c3)),
@@ -330,12 +330,13 @@ _CURVE = f'''def curve(of, order, x):
     return np.where(inside, value, np.nan)[()]
 
 
-def knots(of, x):
-    """By its sign, whether x is in a piece with an even number or an odd one; 0 at knots."""
-    of, _, repeats = of
-    x = x - (of[-1] - of[0]) * np.floor((x - of[0]) / (of[-1] - of[0])) if repeats else x
-    k = np.clip(np.searchsorted(of, x, side="right") - 1, 0, len(of) - 2)
-    return np.where(k % 2, -1.0, 1.0) * np.where(x == of[k], 0.0, 1.0)'''
+def knots(table, x):
+    """Return 1 in pieces with an even number, -1 in the others, 0 at knots."""
+    knots, _, is_periodic = table
+    length = knots[-1] - knots[0]
+    x = x - length * np.floor((x - knots[0]) / length) if is_periodic else x
+    k = np.clip(np.searchsorted(knots, x, side="right") - 1, 0, len(knots) - 2)
+    return np.where(k % 2, -1.0, 1.0) * np.where(x == knots[k], 0.0, 1.0)'''
 
 
 def print_called_curves(curves: Mapping[str, Curve], text: str, existing_text: str = "") -> str:
@@ -386,7 +387,7 @@ def _print_curve_table(curve: Curve) -> str:
 _DRY = ("F_n", "F_along_t_dry", "M_i_dry", "M_j_dry")
 CONTOUR = '''\
 def contour(depth, order, angle):
-    """Depths at equal angles, polynomials of degree five between them; of order 1 and 2 its derivatives."""
+    """Return the depth of a contour: polynomials of degree five between depths; or its derivative."""
     count = len(depth)
     x = count*(angle/(2*np.pi) - np.floor(angle/(2*np.pi)))
     k = min(int(x), count - 1)
@@ -408,7 +409,7 @@ def print_joint_function(joint_with_play: JointFunctions) -> str:
     joint, clearance = joint_with_play.clearance.label, joint_with_play.clearance
     description = f"Force of joint {clearance.name} on the journal, from the eccentricity e and its rate."
     if clearance.wall:
-        description = f"Force on corner {clearance.name}, from where it is, seen from the guide's point, and its rate."
+        description = f"Force on corner {clearance.name}, from its position relative to the guide's point and its rate."
     body = [*print_docstring([description])]
     body += print_statements(joint_with_play.gap)
     if clearance.normal is None:

@@ -67,12 +67,12 @@ def _compute_reference(program: Program, source: KernelSource) -> dict[str, Any]
         v = np.array([float(f"{x:.4g}") for x in rng.normal(0.0, 0.3, len(q))])
         latches = [0.1 if k and not model.rigid else np.nan] * len(model.clearances)
         candidates.append((t, q, v, (latches, [1.0 - 2.0 * k] * len(model.frictions), 0.0)))
-    for t, q, v, memory in [
+    for t, q, v, discrete_states in [
         *candidates,
         *_sample_contact_states(numpy_model, linkage.defaults, candidates[-1], min([1e-3, *clearances]), rng),
     ]:
         values, neighbour = (
-            _evaluate_functions(model, numpy_model, outputs, linkage.defaults, (t, x, v), memory)
+            _evaluate_functions(model, numpy_model, outputs, linkage.defaults, (t, x, v), discrete_states)
             for x in (q, q * (1.0 + RELATIVE_PERTURBATION))
         )
         if (
@@ -80,7 +80,8 @@ def _compute_reference(program: Program, source: KernelSource) -> dict[str, Any]
             and neighbour
             and all(_is_well_conditioned(values[name], neighbour[name]) for name in values if name != "phi")
         ):
-            flat_states = [*memory[0], *memory[1], *[memory[2]] * len(source.states)]
+            approach_speeds, modes, internal_state = discrete_states
+            flat_states = [*approach_speeds, *modes, *[internal_state] * len(source.states)]
             states.append(
                 {
                     "t": t,
