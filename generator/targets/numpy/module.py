@@ -317,7 +317,7 @@ def _compile_functions(source: str) -> dict[str, Any]:
 
 
 _CURVE = f'''def curve(table, order, x):
-    """Return a cubic spline (order 0) or its derivative; outside its range NaN, unless it is periodic."""
+    """Return a cubic spline or its derivative; outside its range NaN, unless it is periodic."""
     knots, c, is_periodic = table
     first, last = knots[0], knots[-1]
     margin = {MARGIN} * (last - first)
@@ -387,7 +387,7 @@ def _print_curve_table(curve: Curve) -> str:
 _DRY = ("F_n", "F_along_t_dry", "M_i_dry", "M_j_dry")
 CONTOUR = '''\
 def contour(depth, order, angle):
-    """Return the depth of a contour: polynomials of degree five between depths; or its derivative."""
+    """Return the depth of a contour (polynomials of degree five) or its derivative."""
     count = len(depth)
     x = count*(angle/(2*np.pi) - np.floor(angle/(2*np.pi)))
     k = min(int(x), count - 1)
