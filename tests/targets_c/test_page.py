@@ -291,7 +291,7 @@ def test_comments_are_wrapped_and_code_in_front_of_them_is_not() -> None:
 
 def test_a_line_of_a_megabyte_is_read_a_few_times_over(monkeypatch: pytest.MonkeyPatch) -> None:
     """Each break looks at places up to the width, not at all that follows."""
-    looked, places = 0, line_breaks._find_possible_breaks
+    looked, places = 0, line_breaks._list_breaks
 
     def counted(line: str) -> Iterator[tuple[float, int]]:
         nonlocal looked
@@ -299,7 +299,7 @@ def test_a_line_of_a_megabyte_is_read_a_few_times_over(monkeypatch: pytest.Monke
             looked += 1
             yield place
 
-    monkeypatch.setattr(line_breaks, "_find_possible_breaks", counted)
+    monkeypatch.setattr(line_breaks, "_list_breaks", counted)
     terms = 100_000
     lines = break_code("    y = " + " + ".join(f"x_{k}" for k in range(terms)) + ";")
     assert max(map(len, lines)) <= WIDTH and looked < 3 * terms

@@ -27,7 +27,7 @@ from gudgeon.generator.targets.latex import (
 )
 from gudgeon.generator.targets.latex.letters import make_name_from_latex, make_symbol_name, make_word_name
 from gudgeon.generator.targets.latex.notation import make_notation
-from gudgeon.generator.targets.latex.render import _MATH, _SPECIAL, escape_latex, escape_sketch_line
+from gudgeon.generator.targets.latex.render import _MATH_COMMANDS, _TEXT_COMMANDS, escape_latex, escape_sketch_line
 from tests.slow import slow_but
 from tests.targets_latex.equations_reader import sections, width
 from tests.targets_latex.test_equations import EVERY, SLIDER, WITH_ROWS, model_of
@@ -73,7 +73,7 @@ def test_any_text_becomes_harmless_latex(text: str) -> None:
     assert escape_latex(text).isascii() and escape_sketch_line(text).isascii()
 
 
-@pytest.mark.parametrize("sign", [*_SPECIAL, *_MATH])
+@pytest.mark.parametrize("sign", [*_TEXT_COMMANDS, *_MATH_COMMANDS])
 def test_every_sign_with_a_command_of_its_own(sign: str) -> None:
     """Random text meets few of them."""
     assert SAFE.fullmatch(escape_latex(sign)), escape_latex(sign)
