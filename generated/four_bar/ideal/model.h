@@ -15,7 +15,7 @@
 #define N_DRIVES 1            /* drives */
 #define N_CLEARANCES 0        /* joints with play */
 #define LAW_STATES 0          /* internal states of the laws of a joint with play, at most */
-#define N_FRICTIONS 0         /* slips that friction may stop */
+#define N_FRICTIONS 0         /* friction elements, which may stick */
 #define N_SWITCHES 0          /* switching functions of min, max, abs and sign */
 #define N_USER_EVENTS 0       /* expressions whose zeros are events */
 #define N_SERIES 0            /* results of force elements */
@@ -24,25 +24,25 @@
 #define POSITIONS_IN_TREE 1   /* the same for kinematic analysis */
 #define N_X 2                 /* coordinates that are integrated */
 #define N_LOOPS 2             /* constraint equations of these */
-#define N_DEPENDENT 0         /* coordinates that drives determine through loops */
+#define N_DEPENDENT 0         /* dependent coordinates, which drives determine through loops */
 #define N_LED 0               /* these, and cosines and sines of their angles */
-#define SMOOTH_DRIVEN_LOOPS 0 /* their drives have no switching functions */
+#define SMOOTH_DRIVEN_LOOPS 0 /* 1: drives of driven loops have no switching functions */
 #define TREE_PIVOTS 0         /* statuses of pivots before those of driven loops */
-#define RESCUED 1             /* pivots may vanish: absolute equations replace them */
+#define RESCUED 1             /* 1: if a pivot vanishes, absolute coordinates are used */
 #define LARGEST_BLOCK 2       /* constraint equations that are solved together */
 #define N_VALUES 0            /* values of the linearized equations */
 #define N_FACTORS 0           /* values of their factors L and U */
 #define IMPLICIT_STAGES 0     /* 1: there are methods that solve all stages together */
 #define HAS_LANES 1           /* runs in vector lanes */
-#define DRIVE_IMPULSES 0      /* drives' rates may jump, and there are degrees of freedom */
-#define RATE_JUMPS 0          /* the rate of a drive may jump */
-#define N_WATCHED 0           /* monitored functions and events */
-#define KNOWN_BOUNDS 0        /* bounds of monitored functions over ranges of the state are known */
-#define WATCHES_STATE 0       /* they depend on more than time */
-#define N_TERMS 0             /* terms of time only, which a step may miss */
-#define N_PULSES 0            /* the first of these: a step of any motion may miss them */
+#define DRIVE_IMPULSES 0      /* 1: rates of drives may jump, and there are degrees of freedom */
+#define RATE_JUMPS 0          /* 1: the rate of a drive may jump */
+#define N_WATCHED 0           /* monitored switching functions and user events */
+#define KNOWN_BOUNDS 0        /* 1: bounds of monitored functions over ranges of the state are known */
+#define WATCHES_STATE 0       /* 1: the bounds depend on the state, not only on time */
+#define N_TERMS 0             /* terms that depend on time only, whose changes a step may miss */
+#define N_PULSES 0            /* the first of these: transients that a step of any motion may miss */
 #define N_GUESS 2             /* coordinates that the start gives as guesses */
-#define GUESSED_POINTS 0      /* some of them are coordinates of points */
+#define GUESSED_POINTS 0      /* 1: some guesses are coordinates of points */
 #define N_SET 0               /* coordinates that the start sets */
 #define N_RATES 0             /* velocities that the start sets */
 

@@ -251,9 +251,15 @@ class LinePrinter(ValuePrinter):
     def _print_largest_row(self, largest_row: LargestRow) -> list[str]:
         """Return the code that sets *row to the number (from 1) of the value with the largest magnitude."""
         first, *others = map(self.print_expression, largest_row.values)
-        lines = ["*row = 1;", *([f"double most = fabs({first});"] if others else [])]
+        lines = ["*row = 1;", *([f"double max_magnitude = fabs({first});"] if others else [])]
         for r, value in enumerate(others, 2):
-            lines += [f"if (fabs({value}) > most) {{", f"    most = fabs({value});", f"    *row = {r};", "}"]
+            magnitude = f"fabs({value})"
+            lines += [
+                f"if ({magnitude} > max_magnitude) {{",
+                f"    max_magnitude = {magnitude};",
+                f"    *row = {r};",
+                "}",
+            ]
         return lines
 
     def print_statement(self, statement: Statement) -> str:
@@ -280,9 +286,7 @@ def _print_branch_arrays(branches: DeclareBranches) -> list[str]:
     or a member of the results ("rhs").
     """
     stored_branches = (
-        "discrete->is_frozen ? discrete->branch : NULL;"
-        if branches.held
-        else "NULL; /* of corners within corners: as they are */"
+        "discrete->is_frozen ? discrete->branch : NULL;" if branches.held else "NULL; /* branches are not frozen */"
     )
     declarations = {"": [], "unread": ["double g[N_SWITCHES + 1];"], "rhs": ["double *const g = rhs->g;"]}[
         branches.output_target

@@ -17,9 +17,9 @@ from gudgeon.generator.targets.c.play import print_dry_calls, print_film_calls, 
 
 MAIN = "lanes.c"
 _KERNELS = ("closures", "closure_rates", "reduced_dynamics", "closing_step")
-_PICK_SLOPES = """
-/* Those of b where the mask is set. */
-static inline void pick_slopes(LaneSlopes *a, LaneBits mask, const LaneSlopes *b)
+_SELECT_SLOPES = """
+/* Replace the forces and derivatives in `a` by those in `b` in the lanes of a mask. */
+static inline void select_slopes(LaneSlopes *a, LaneBits mask, const LaneSlopes *b)
 {
     for (int i = 0; i < 4; i++) {
         a->value[i] = select_value(mask, b->value[i], a->value[i]);
@@ -132,8 +132,8 @@ def _print_linearized_equations(
     n_states: internal states of laws that each joint has.
     """
     newton = methods.newton
-    pick_slopes = _PICK_SLOPES.replace("i < 4", f"i < {4 + n_states}").replace("k < 5", f"k < {5 + n_states}")
-    slopes = [print_shared_slopes(joints, render, "Lanes", "LaneSlopes", n_states) + pick_slopes] if joints else []
+    select_slopes = _SELECT_SLOPES.replace("i < 4", f"i < {4 + n_states}").replace("k < 5", f"k < {5 + n_states}")
+    slopes = [print_shared_slopes(joints, render, "Lanes", "LaneSlopes", n_states) + select_slopes] if joints else []
     slopes += map(lanes_printer.print_kernel, methods.derivative_kernels)
     for clearance in (joint.clearance for joint in joints):
         slopes.append(

@@ -102,7 +102,7 @@ def _list_linkage_sizes(program: Program) -> Sizes:
         "N_DRIVES": (len(model.scene.mechanism.drives), "drives"),
         "N_CLEARANCES": (len(model.clearances), "joints with play"),
         "LAW_STATES": (model.law_states, "internal states of the laws of a joint with play, at most"),
-        "N_FRICTIONS": (len(model.frictions), "slips that friction may stop"),
+        "N_FRICTIONS": (len(model.frictions), "friction elements, which may stick"),
         "N_SWITCHES": (switches, "switching functions of min, max, abs and sign"),
         "N_USER_EVENTS": (len(model.events), "expressions whose zeros are events"),
         "N_SERIES": (len(outputs.find_element_series(model)), "results of force elements"),
@@ -126,20 +126,23 @@ def _list_motion_sizes(program: Program) -> Sizes:
         ),
         "N_X": (len(system.q), "coordinates that are integrated"),
         "N_LOOPS": (len(system.rows), "constraint equations of these"),
-        "N_DEPENDENT": (len(system.dependent), "coordinates that drives determine through loops"),
+        "N_DEPENDENT": (len(system.dependent), "dependent coordinates, which drives determine through loops"),
         "N_LED": (
             len(system.dependent) + 2 * len(driven_loops.directions) if driven_loops else 0,
             "these, and cosines and sines of their angles",
         ),
         "SMOOTH_DRIVEN_LOOPS": (
             int(bool(tree and tree.chains and not tree.chains.switch_kernel)),
-            "their drives have no switching functions",
+            "1: drives of driven loops have no switching functions",
         ),
         "TREE_PIVOTS": (
             len(integrated.pivots) - len(driven_loops.rows) if driven_loops else 0,
             "statuses of pivots before those of driven loops",
         ),
-        "RESCUED": (int(tree is not None and tree.has_fallback), "pivots may vanish: absolute equations replace them"),
+        "RESCUED": (
+            int(tree is not None and tree.has_fallback),
+            "1: if a pivot vanishes, absolute coordinates are used",
+        ),
         "LARGEST_BLOCK": (_find_largest_block_size(program), "constraint equations that are solved together"),
         "N_VALUES": (newton.values.size if newton else 0, "values of the linearized equations"),
         "N_FACTORS": (newton.factors.size if newton else 0, "values of their factors L and U"),
@@ -158,29 +161,38 @@ def _list_monitoring_sizes(program: Program, bounds: Kernel | None) -> Sizes:
     sizes: Sizes = {
         "DRIVE_IMPULSES": (
             int(bool(find_drives_with_jumps(model))),
-            "drives' rates may jump, and there are degrees of freedom",
+            "1: rates of drives may jump, and there are degrees of freedom",
         ),
-        "RATE_JUMPS": (int(has_jumps(model)), "the rate of a drive may jump"),
-        "N_WATCHED": (len(find_monitored_switches(program)) + len(model.events), "monitored functions and events"),
-        "KNOWN_BOUNDS": (int(bounds is not None), "bounds of monitored functions over ranges of the state are known"),
-        "WATCHES_STATE": (int(bounds is not None and depends_on_state(bounds)), "they depend on more than time"),
-        "N_TERMS": (program.time_terms.count, "terms of time only, which a step may miss"),
-        "N_PULSES": (program.time_terms.pulses, "the first of these: a step of any motion may miss them"),
+        "RATE_JUMPS": (int(has_jumps(model)), "1: the rate of a drive may jump"),
+        "N_WATCHED": (
+            len(find_monitored_switches(program)) + len(model.events),
+            "monitored switching functions and user events",
+        ),
+        "KNOWN_BOUNDS": (
+            int(bounds is not None),
+            "1: bounds of monitored functions over ranges of the state are known",
+        ),
+        "WATCHES_STATE": (
+            int(bounds is not None and depends_on_state(bounds)),
+            "1: the bounds depend on the state, not only on time",
+        ),
+        "N_TERMS": (program.time_terms.count, "terms that depend on time only, whose changes a step may miss"),
+        "N_PULSES": (program.time_terms.pulses, "the first of these: transients that a step of any motion may miss"),
     }
     systems = (model, program.integrated.system.model)
     switches = [switch.g for some in systems for switch in some.symbols.switches.switch_by_key.values()]
     if model.rigid:
         sizes["N_RIGID"] = (len(model.rigid), "joints with play and rigid surfaces")
     if model.rigid_with_friction:
-        sizes["N_RUBBED"] = (len(model.rigid_with_friction), "of them, with friction")
+        sizes["N_RUBBED"] = (len(model.rigid_with_friction), "of these, joints with friction")
     if unused_switches := find_unused_switches(program):
-        sizes["N_IDLE"] = (len(unused_switches), "of N_SWITCHES: those that the integrated equations do not contain")
+        sizes["N_IDLE"] = (len(unused_switches), "switching functions that the integrated equations do not contain")
     if any(g.has(PeriodsOf) for g in switches):
-        sizes["PERIODS"] = (1, "mod restarts within the motion")
+        sizes["PERIODS"] = (1, "1: mod() passes from one period to the next within the motion")
     if any(g.has(KnotsOf) for g in switches):
-        sizes["KNOTS"] = (1, "curves change from piece to piece within the motion")
+        sizes["KNOTS"] = (1, "1: curves pass from one piece to the next within the motion")
     if any(clearance.contour for clearance in model.clearances):
-        sizes["CONTOURS"] = (1, "bearings are not circular")
+        sizes["CONTOURS"] = (1, "1: some bearings are not circular")
     if first_corners := find_first_corners(model):
         sizes["WALLS"] = (len(first_corners), "guides in which sliders have play: corners at walls")
         sizes["SLIDER_CORNERS"] = (len(CORNERS), "corners of each slider")
@@ -196,7 +208,10 @@ def _list_start_sizes(program: Program) -> Sizes:
     eccentricity_constraints = find_eccentricity_rows(program.model)
     sizes: Sizes = {
         "N_GUESS": (len(start_indices["guess_place"]), "coordinates that the start gives as guesses"),
-        "GUESSED_POINTS": (int(any(name.count(".") > 1 for name in guess)), "some of them are coordinates of points"),
+        "GUESSED_POINTS": (
+            int(any(name.count(".") > 1 for name in guess)),
+            "1: some guesses are coordinates of points",
+        ),
         "N_SET": (len(start_indices["set_place"]), "coordinates that the start sets"),
         "N_RATES": (len(start_indices["rate_place"]), "velocities that the start sets"),
     }

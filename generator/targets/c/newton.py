@@ -20,7 +20,7 @@ Render = Callable[..., str]  # template name, substitutions -> text
 
 STATE = ("e", "deltadot", "de_t", "omega_i", "omega_j", "contact")
 _BLENDING = """
-/* F = share F + (1 - share) film, slopes as well; `share` with its derivative by e. */
+/* Replace force and derivatives in F by the blend share F + (1 - share) film. share: fraction, its derivative by e. */
 static inline void blend_slopes({type} *F, const {type} *film, const {number} *share)
 {
     for (int i = 0; i < 4; i++) {

@@ -28,7 +28,9 @@ _STORE = """\
 _JOURNAL = ("e_x", "e_y", "")
 _AT_WALL = ("e * n_x", "e * n_y", " + along * F.n")  # of a slider's corner: along its wall's normal
 _RATIO = "contact->closed ? deltadot / contact->deltadot_minus : 1.0"  # δ̇/δ̇⁻
-_PRESCRIBED_FRICTION = "if (contact->smooth)\n        F_along_t_dry = contact->along; /* a blow asks what it does */"
+_PRESCRIBED_FRICTION = (
+    "if (contact->smooth)\n        F_along_t_dry = contact->along; /* impacts prescribe the friction */"
+)
 CLOSED = "branch ? contact->closed : delta > 0.0"
 _BLENDED = "        F.{0} += (1.0 - share) * (film.{0} - F.{0});"  # in play/clearance_transition.c.jinja
 
@@ -121,12 +123,9 @@ def _print_transition_comment(clearance: Clearance) -> str:
     if clearance.mixed is None:
         return (
             "film for e < c, dry contact for e > c + e_0, a linear blend between them\n"
-            " * (the paper's Eq. 17); fixed over a step."
+            " * (the paper's Eq. 17); frozen over a step."
         )
-    return (
-        "film for e < c; beyond c, the dry contact has the fraction of the law above;\n"
-        " * a step holds what it began with."
-    )
+    return "film for e < c; beyond c, the dry contact has the fraction of the law above;\n * frozen over a step."
 
 
 def _print_mixed_law_comment(clearance: Clearance) -> str:
