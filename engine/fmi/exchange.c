@@ -14,7 +14,7 @@ static int update_branches(Model *model, const RhsOutputs *rhs, int includes_all
 {
     int has_changed = 0;
     for (int k = 0; k < N_SWITCHES; k++)
-        if ((includes_all || meets[k]) && model->discrete.branch[k] * rhs->g[k] < 0.0) {
+        if ((includes_all || is_continuous_switch[k]) && model->discrete.branch[k] * rhs->g[k] < 0.0) {
             model->discrete.branch[k] = -model->discrete.branch[k];
             has_changed = 1;
         }

@@ -117,7 +117,7 @@ static double compute_trapezoidal_error(const Position *a, const Position *b, do
 
 #include "change_point.c"
 
-#if N_PULSES
+#if N_TRANSIENTS
 /*
  * Return whether a missed term of time can be ignored: its excess is known by bounds only, not for certain
  * (`is_certain`). A callback of find_undersampled_term().

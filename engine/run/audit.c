@@ -114,7 +114,7 @@ static void check_constraints(Integrator *run, double t, const double *absolute_
     }
     constraints(t, absolute_state, p, phi);
     for (int i = 0; i < N_ROWS; i++) {
-        const int row = kept_row[i], length = row_is_length[row];
+        const int row = motion_row[i], length = row_is_length[row];
         const double play = length ? run->norm.min_size[0] : run->norm.min_size[1];
         const double limit = max_of(rtol * play,
             AUDIT_ROUNDING * (length ? size + max_coordinate[0] : 1.0 + max_coordinate[1]));
@@ -127,7 +127,7 @@ static void check_constraints(Integrator *run, double t, const double *absolute_
         half_interval = 1e-5 * size / speed_scale;
     compute_velocity_residuals(t, absolute_state, absolute_state + N_Q, half_interval, p, velocity_residual, nu);
     for (int i = 0; i < N_ROWS; i++) {
-        const int row = kept_row[i];
+        const int row = motion_row[i];
         const double scale = max_of(row_is_length[row] ? speed_scale : speed_scale / max_of(size, 1e-300),
             fabs(nu[row]));
         const double most = row_is_length[row] ? max_coordinate[0] + size * max_coordinate[1] : max_coordinate[1];
@@ -317,7 +317,7 @@ static void check_frozen_branches(Integrator *run, Step *step, double t, const d
         run->audit.switch_scale[k] = max_of(run->audit.switch_scale[k], fabs(rhs->g[k]));
     for (int k = 0; k < N_SWITCHES && run->counts.steps > AUDIT_SETTLED; k++) {
         const double g = run->discrete.branch[k] * rhs->g[k];
-        if (!(g < 0.0) || step->passed[k] || k == run->roots.skip || meets[k]
+        if (!(g < 0.0) || step->passed[k] || k == run->roots.skip || is_continuous_switch[k]
             || !is_above_uncertainty(run, t, y, rhs, N_CLEARANCES + k, p))
             continue;
         const StageValues stages = get_stage_values(step, N_CLEARANCES + k);

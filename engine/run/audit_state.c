@@ -46,7 +46,7 @@ static void check_branches_at_step_end(Integrator *run, const Parameters *p)
         return;
     }
     for (int k = 0; k < N_SWITCHES; k++) {
-        if (!(g[k] < -1e-3 * audit->switch_scale[k]) || k == run->roots.skip || meets[k]) {
+        if (!(g[k] < -1e-3 * audit->switch_scale[k]) || k == run->roots.skip || is_continuous_switch[k]) {
             audit->wrong[k] = 0;
             continue;
         }

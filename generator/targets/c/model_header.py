@@ -127,7 +127,7 @@ def _list_motion_sizes(program: Program) -> Sizes:
         "N_X": (len(system.q), "coordinates that are integrated"),
         "N_LOOPS": (len(system.rows), "constraint equations of these"),
         "N_DEPENDENT": (len(system.dependent), "dependent coordinates, which drives determine through loops"),
-        "N_LED": (
+        "N_DEPENDENT_VALUES": (
             len(system.dependent) + 2 * len(driven_loops.directions) if driven_loops else 0,
             "these, and cosines and sines of their angles",
         ),
@@ -139,7 +139,7 @@ def _list_motion_sizes(program: Program) -> Sizes:
             len(integrated.pivots) - len(driven_loops.rows) if driven_loops else 0,
             "statuses of pivots before those of driven loops",
         ),
-        "RESCUED": (
+        "HAS_ABSOLUTE_FALLBACK": (
             int(tree is not None and tree.has_fallback),
             "1: if a pivot vanishes, absolute coordinates are used",
         ),
@@ -177,16 +177,22 @@ def _list_monitoring_sizes(program: Program, bounds: Kernel | None) -> Sizes:
             "1: the bounds depend on the state, not only on time",
         ),
         "N_TERMS": (program.time_terms.count, "terms that depend on time only, whose changes a step may miss"),
-        "N_PULSES": (program.time_terms.pulses, "the first of these: transients that a step of any motion may miss"),
+        "N_TRANSIENTS": (
+            program.time_terms.pulses,
+            "the first of these: transients that a step of any motion may miss",
+        ),
     }
     systems = (model, program.integrated.system.model)
     switches = [switch.g for some in systems for switch in some.symbols.switches.switch_by_key.values()]
     if model.rigid:
         sizes["N_RIGID"] = (len(model.rigid), "joints with play and rigid surfaces")
     if model.rigid_with_friction:
-        sizes["N_RUBBED"] = (len(model.rigid_with_friction), "of these, joints with friction")
+        sizes["N_RIGID_WITH_FRICTION"] = (len(model.rigid_with_friction), "of these, joints with friction")
     if unused_switches := find_unused_switches(program):
-        sizes["N_IDLE"] = (len(unused_switches), "switching functions that the integrated equations do not contain")
+        sizes["N_UNUSED_SWITCHES"] = (
+            len(unused_switches),
+            "switching functions that the integrated equations do not contain",
+        )
     if any(g.has(PeriodsOf) for g in switches):
         sizes["PERIODS"] = (1, "1: mod() passes from one period to the next within the motion")
     if any(g.has(KnotsOf) for g in switches):
@@ -202,22 +208,27 @@ def _list_monitoring_sizes(program: Program, bounds: Kernel | None) -> Sizes:
 def _list_start_sizes(program: Program) -> Sizes:
     """Return {macro: (value, meaning)} of the coordinates that the start guesses or sets and of the rates that it sets.
 
-    N_APART, the number of specified eccentricities of journals, exists only if there are any.
+    N_ECCENTRICITIES, the number of specified eccentricities of journals, exists only if there are any.
     """
     start_indices, guess = _find_start_indices(program.model), program.model.scene.mechanism.start.guess
     eccentricity_constraints = find_eccentricity_rows(program.model)
     sizes: Sizes = {
-        "N_GUESS": (len(start_indices["guess_place"]), "coordinates that the start gives as guesses"),
+        "N_GUESS": (len(start_indices["guess_coordinate"]), "coordinates that the start gives as guesses"),
         "GUESSED_POINTS": (
             int(any(name.count(".") > 1 for name in guess)),
             "1: some guesses are coordinates of points",
         ),
-        "N_SET": (len(start_indices["set_place"]), "coordinates that the start sets"),
-        "N_RATES": (len(start_indices["rate_place"]), "velocities that the start sets"),
+        "N_SET": (len(start_indices["set_coordinate"]), "coordinates that the start sets"),
+        "N_RATES": (len(start_indices["rate_coordinate"]), "velocities that the start sets"),
     }
     return (
         sizes
-        | {"N_APART": (len(eccentricity_constraints), "constraint equations kept open: eccentricities of journals")}
+        | {
+            "N_ECCENTRICITIES": (
+                len(eccentricity_constraints),
+                "constraint equations kept open: eccentricities of journals",
+            )
+        }
         if eccentricity_constraints
         else sizes
     )
@@ -308,25 +319,25 @@ def _print_tables(program: Program, scene_sizes: Sizes) -> list[str]:
     tables: dict[tuple[str, str], Sequence[int]] = {
         ("signed char", "event_direction"): [SIGNS[event.direction] for event in model.events],
         ("unsigned char", "event_stops"): [int(event.action == "stop") for event in model.events],
-        ("int", "guess_place"): start_indices["guess_place"],
-        ("int", "set_place"): start_indices["set_place"],
-        ("int", "rate_place"): start_indices["rate_place"],
+        ("int", "guess_coordinate"): start_indices["guess_coordinate"],
+        ("int", "set_coordinate"): start_indices["set_coordinate"],
+        ("int", "rate_coordinate"): start_indices["rate_coordinate"],
         ("int", "drive_row"): [row_index[d] for d in drives],
         ("unsigned char", "row_is_length"): [int(row.unit == "m") for row in model.all_rows],
-        ("int", "kept_row"): [row_index[row.name] for row in model.rows],
+        ("int", "motion_row"): [row_index[row.name] for row in model.rows],
         ("int", "phi_q_first"): [0, *accumulate(len(row.phi_q) for row in model.all_rows)],
-        ("short", "phi_q_place"): [coordinate_index[q] for row in model.all_rows for q in row.phi_q],
+        ("short", "phi_q_column"): [coordinate_index[q] for row in model.all_rows for q in row.phi_q],
         ("unsigned char", "is_angle"): program.integrated.angles,
         ("unsigned char", "film_joint"): [int(c.film is not None) for c in model.clearances],
     }
     if eccentricity_constraints := [k for k, _, _ in find_eccentricity_rows(model)]:
-        tables |= {("int", "apart_row"): eccentricity_constraints}
+        tables |= {("int", "eccentricity_row"): eccentricity_constraints}
     if model.rigid:
         tables |= {("unsigned char", "rigid_joint"): [int(c.rigid) for c in model.clearances]}
     if first_corners := find_first_corners(model):
         tables |= {("int", "first_corner"): first_corners}
     if unused_switches := find_unused_switches(program):
-        tables |= {("short", "idle"): unused_switches}
+        tables |= {("short", "unused_switch"): unused_switches}
     if program.integrates:
         tables |= _list_monitoring_tables(program, scene_sizes) | {
             ("int", "friction_of_pivot"): _find_friction_indices_of_pivots(program.integrated.kkt)
@@ -342,8 +353,9 @@ def _print_table(c_type: str, name: str, values: Iterable[int]) -> str:
 def _list_monitoring_tables(program: Program, scene_sizes: Sizes) -> dict[tuple[str, str], Sequence[int]]:
     """Return {(C type, table): values} of the tables by which the integrator monitors event functions.
 
-    `watched` lists the monitored functions, `watched_as` their positions in it (−1: none), `meets` flags continuous
-    switches. Indices count gaps of joints with play, then switching functions, frictions and user events.
+    `watched` lists the monitored functions, `watched_index` their positions in it (−1: none), and
+    `is_continuous_switch` has a flag for each switching function. Indices count gaps of joints with play, then
+    switching functions, frictions and user events.
     """
     count = {name: value for name, (value, _) in scene_sizes.items()}
     first = int(count["N_CLEARANCES"] + count["N_SWITCHES"] + count["N_FRICTIONS"])
@@ -352,8 +364,8 @@ def _list_monitoring_tables(program: Program, scene_sizes: Sizes) -> dict[tuple[
     position = {k: i for i, k in enumerate(event_functions)}
     return {
         ("short", "watched"): event_functions,
-        ("short", "watched_as"): [position.get(k, -1) for k in range(first + int(count["N_USER_EVENTS"]))],
-        ("unsigned char", "meets"): _mark_continuous_switches(program.model, int(count["N_SWITCHES"])),
+        ("short", "watched_index"): [position.get(k, -1) for k in range(first + int(count["N_USER_EVENTS"]))],
+        ("unsigned char", "is_continuous_switch"): _mark_continuous_switches(program.model, int(count["N_SWITCHES"])),
     }
 
 
@@ -385,9 +397,9 @@ def _find_start_indices(model: Model) -> dict[str, list[int]]:
     start = model.scene.mechanism.start
     rates = (name.partition(".") for name in start.rates)
     return {
-        "guess_place": [coordinate_index.get(name, 0) for name in start.guess],
-        "set_place": [coordinate_index[name] for name in start.set],
-        "rate_place": [coordinate_index[f"{body}.{_POSITION[rate]}"] for body, _, rate in rates],
+        "guess_coordinate": [coordinate_index.get(name, 0) for name in start.guess],
+        "set_coordinate": [coordinate_index[name] for name in start.set],
+        "rate_coordinate": [coordinate_index[f"{body}.{_POSITION[rate]}"] for body, _, rate in rates],
     }
 
 
