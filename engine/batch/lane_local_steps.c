@@ -4,7 +4,7 @@
  * Such a step is called lane-local: it changes the vectors of its lane and not yet its run. Steps of different lanes
  * have different lengths in any case. Limits of these steps: batch/local_step_limits.c.
  */
-#define LANE_LOCAL_STEPS (!(LANE_SERIES && N_LOOPS) && !N_USER_EVENTS && !N_WATCHED && !N_PULSES && !DRIVE_IMPULSES)
+#define LANE_LOCAL_STEPS (!(LANE_SERIES && N_LOOPS) && !N_USER_EVENTS && !N_WATCHED && !N_TRANSIENTS && !DRIVE_IMPULSES)
 
 #if LANE_LOCAL_STEPS
 #include "../scalar_simd/error_weights.h"

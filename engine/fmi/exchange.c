@@ -8,13 +8,13 @@
 
 /*
  * Reverse the branches of switching functions whose values have the opposite sign: of those that are continuous at
- * their switching point (`meets`), or of all (`includes_all`). Return whether any changed.
+ * their switching point (`is_continuous_switch`), or of all (`includes_all`). Return whether any changed.
  */
 static int flip_violated_branches(Model *model, const RhsOutputs *rhs, int includes_all)
 {
     int has_changed = 0;
     for (int k = 0; k < N_SWITCHES; k++)
-        if ((includes_all || meets[k]) && model->discrete.branch[k] * rhs->g[k] < 0.0) {
+        if ((includes_all || is_continuous_switch[k]) && model->discrete.branch[k] * rhs->g[k] < 0.0) {
             model->discrete.branch[k] = -model->discrete.branch[k];
             has_changed = 1;
         }

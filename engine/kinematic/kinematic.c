@@ -118,7 +118,7 @@ static double compute_trapezoidal_error(const Position *a, const Position *b, do
 
 #include "change_point.c"
 
-#if N_PULSES
+#if N_TRANSIENTS
 /*
  * Return whether a missed term of time can be ignored: only bounds show its excess, no sample does (is_certain = 0). A
  * callback of find_undersampled_term().

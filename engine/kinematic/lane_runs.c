@@ -403,7 +403,7 @@ static void advance_run_lanes(RunLanes *lanes)
     is_irregular |= (t == lanes->t1) & find_ill_conditioned_lanes(next);
     const Lanes error = compute_trapezoidal_error(position, next, lanes->extent);
     LaneBits is_accepted = ~is_irregular & (correction <= max_correction) & (error <= max_error);
-    for (int k = 0; N_PULSES && k < LANES; k++)
+    for (int k = 0; N_TRANSIENTS && k < LANES; k++)
         if (lanes->index[k] >= 0 && is_accepted[k] && lanes->run[k]->samples.step_length.halvings <= PULSE_HALVINGS
             && lanes->single->has_transient(position->t[k], t[k], lanes->run[k]->p))
             is_accepted[k] = 0;

@@ -16,9 +16,9 @@ int evaluate_rhs(double t, const double *y, DiscreteState *discrete, const Param
 #if !SMOOTH_DRIVEN_LOOPS
     loop_switches(t, tree.q, discrete, p, rhs->g);
 #endif
-#ifdef N_IDLE
-    for (int i = 0; i < N_IDLE; i++)
-        rhs->g[idle[i]] = NAN; /* these switching functions are not in use */
+#ifdef N_UNUSED_SWITCHES
+    for (int i = 0; i < N_UNUSED_SWITCHES; i++)
+        rhs->g[unused_switch[i]] = NAN; /* these switching functions are not in use */
 #endif
     status = reduced_dynamics(t, tree.q, tree.v, discrete, p, dy + N_X, rhs);
     for (int k = 0; k < N_X; k++)

@@ -87,7 +87,7 @@ int gudgeon_reduced_project(double t, const double *q, const double *r, const do
     return status ? status : reduced_project(t, tree.q, r, (const Parameters *)p, x);
 }
 
-#if RESCUED
+#if HAS_ABSOLUTE_FALLBACK
 /*
  * Compute the tree accelerations a by the equations of all bodies at any state; for tests. Return 0 or a status. The
  * engine solves so only where a pivot vanishes. discrete: as for gudgeon_reduced_rhs().

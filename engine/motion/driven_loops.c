@@ -55,7 +55,7 @@ static int solve_loop_closures(double t, double *q, const DiscreteState *discret
 static inline void store_driven_loops(double t, const TreeState *tree, DrivenLoops *loops)
 {
     loops->t = t;
-    for (int k = 0; k < N_LED; k++)
+    for (int k = 0; k < N_DEPENDENT_VALUES; k++)
         loops->q[k] = tree->q[N_X + k];
     for (int k = 0; k < 2 * N_DEPENDENT; k++)
         loops->v[k] = tree->v[N_X + k];
@@ -64,7 +64,7 @@ static inline void store_driven_loops(double t, const TreeState *tree, DrivenLoo
 /* Copy stored coordinates and two rates of the driven loops to `tree`. Third rates are not copied. */
 static void restore_driven_loops(const DrivenLoops *stored_loops, TreeState *tree)
 {
-    for (int k = 0; k < N_LED; k++)
+    for (int k = 0; k < N_DEPENDENT_VALUES; k++)
         tree->q[N_X + k] = stored_loops->q[k];
     for (int k = 0; k < 2 * N_DEPENDENT; k++)
         tree->v[N_X + k] = stored_loops->v[k];
@@ -192,7 +192,7 @@ static int accept_driven_loops(double t, const TreeState *tree, DiscreteState *d
     store_driven_loops(t, tree, &loops);
     loops.failed = compute_third_loop_rates(t, tree->q, tree->v, discrete, p, loops.v + 2 * N_DEPENDENT);
     if (loops.failed && !interpolate_singular_loops(t, discrete, p, &interpolated)) {
-        for (int k = N_DEPENDENT; k < N_LED; k++)
+        for (int k = N_DEPENDENT; k < N_DEPENDENT_VALUES; k++)
             interpolated.q[k] = loops.q[k];
         loops = interpolated;
     }

@@ -117,7 +117,7 @@ static void check_constraints(Integrator *run, double t, const double *absolute_
     }
     constraints(t, absolute_state, p, phi);
     for (int i = 0; i < N_ROWS; i++) {
-        const int row = kept_row[i], length = row_is_length[row];
+        const int row = motion_row[i], length = row_is_length[row];
         const double play = length ? run->norm.min_size[0] : run->norm.min_size[1];
         const double limit = max_of(rtol * play,
             AUDIT_ROUNDING * (length ? size + max_coordinate[0] : 1.0 + max_coordinate[1]));
@@ -130,7 +130,7 @@ static void check_constraints(Integrator *run, double t, const double *absolute_
         half_interval = 1e-5 * size / speed_scale;
     compute_velocity_residuals(t, absolute_state, absolute_state + N_Q, half_interval, p, velocity_residual, nu);
     for (int i = 0; i < N_ROWS; i++) {
-        const int row = kept_row[i];
+        const int row = motion_row[i];
         const double scale = max_of(row_is_length[row] ? speed_scale : speed_scale / max_of(size, 1e-300),
             fabs(nu[row]));
         const double largest_coordinate =
@@ -316,7 +316,7 @@ static int has_jumped_at(Integrator *run, Step *step, double t, int switch_index
  * steps that the audit selects.
  *
  * Not checked: the first AUDIT_MIN_STEPS steps, times just after the beginning, and functions that the step passes or
- * suppresses. Also omitted are functions that are continuous at their switching point (`meets`), values below their
+ * suppresses. Also omitted are functions that are continuous at their switching point (`is_continuous_switch`), values below their
  * uncertainty, and jumps that have just happened.
  */
 static void check_frozen_branches(Integrator *run, Step *step, double t, const double *y, const RhsOutputs *rhs,
@@ -330,7 +330,7 @@ static void check_frozen_branches(Integrator *run, Step *step, double t, const d
         run->audit.switch_scale[k] = max_of(run->audit.switch_scale[k], fabs(rhs->g[k]));
     for (int k = 0; k < N_SWITCHES && run->counts.steps > AUDIT_MIN_STEPS; k++) {
         const double g = run->discrete.branch[k] * rhs->g[k];
-        if (!(g < 0.0) || step->passed[k] || k == run->roots.skip || meets[k]
+        if (!(g < 0.0) || step->passed[k] || k == run->roots.skip || is_continuous_switch[k]
             || !is_above_uncertainty(run, t, y, rhs, N_CLEARANCES + k, p))
             continue;
         const StageValues stages = get_stage_values(step, N_CLEARANCES + k);

@@ -31,7 +31,7 @@ static void check_user_event(Integrator *run, int event, int n_events_before)
  * Check the frozen branches at the end of a step, and count the successive steps that each switching function ends on
  * the wrong branch. CHECK_branch is recorded after AUDIT_WRONG_STEPS such steps, if the value exceeds its uncertainty
  * and 0.001 of its largest magnitude. Suppressed functions and functions that are continuous at their switching point
- * (`meets`) are not counted. Updates the largest magnitudes of the functions.
+ * (`is_continuous_switch`) are not counted. Updates the largest magnitudes of the functions.
  */
 static void check_branches_at_step_end(Integrator *run, const Parameters *p)
 {
@@ -48,7 +48,7 @@ static void check_branches_at_step_end(Integrator *run, const Parameters *p)
         return;
     }
     for (int k = 0; k < N_SWITCHES; k++) {
-        if (!(g[k] < -1e-3 * audit->switch_scale[k]) || k == run->roots.skip || meets[k]) {
+        if (!(g[k] < -1e-3 * audit->switch_scale[k]) || k == run->roots.skip || is_continuous_switch[k]) {
             audit->n_wrong_steps[k] = 0;
             continue;
         }

@@ -6,7 +6,7 @@
  * A. Chatterjee, A. Ruina, Journal of Applied Mechanics 65 (1998) 939-951, doi 10.1115/1.2791938: their tangential
  * restitution between -1 and 1 is chosen here, for several contacts at once.
  */
-#if N_RUBBED
+#if N_RIGID_WITH_FRICTION
 #define INCONSISTENT_RATIO 10.0 /* ratio to the forces without friction that only an inconsistency reaches */
 enum { MAX_SWEEPS = 1000 };
 

@@ -8,9 +8,9 @@ FUNCTION_LINKAGE int MOTION(Real t, const Real *y, DiscreteStateOf *discrete, co
     RhsOutputsOf *rhs)
 {
     const int status = REDUCED_DYNAMICS(t, y, y + N_X, discrete, p, dy + N_X, rhs);
-#ifdef N_IDLE
-    for (int i = 0; i < N_IDLE; i++)
-        rhs->g[idle[i]] = make_real(NAN); /* these switching functions are not in use */
+#ifdef N_UNUSED_SWITCHES
+    for (int i = 0; i < N_UNUSED_SWITCHES; i++)
+        rhs->g[unused_switch[i]] = make_real(NAN); /* these switching functions are not in use */
 #endif
     for (int k = 0; k < N_X; k++)
         dy[k] = y[N_X + k];

@@ -24,7 +24,7 @@ int compute_absolute_accelerations(double t, const double *absolute_state, const
         a[k] = rate[N_Q + k];
     *force = 0.0;
     for (int r = 0; r < N_ROWS; r++)
-        *force = max_of(*force, row_is_length[kept_row[r]] ? fabs(rhs.lambda[r]) : 0.0);
+        *force = max_of(*force, row_is_length[motion_row[r]] ? fabs(rhs.lambda[r]) : 0.0);
     for (int i = 0; i < N_FRICTIONS; i++)
         *force = max_of(*force, fabs(rhs.friction[i].force));
     return status;
@@ -144,7 +144,7 @@ void gudgeon_audit_samples(long n, const double *t, const double *q, const doubl
         }
         largest = max_of(largest, terms);
         for (int r = 0; r < N_ROWS; r++) {
-            const int row = kept_row[r], length = row_is_length[row];
+            const int row = motion_row[r], length = row_is_length[row];
             const double unit = length ? size : 1.0, most = length ? far[0] + size * far[1] : far[1];
             const double speed = max_of(length ? max_of(fast[0], size * fast[1]) : max_of(fast[1], fast[0] / size),
                 fabs(nu[row])) + 1e9 * DBL_EPSILON * most / between;

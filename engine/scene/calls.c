@@ -62,7 +62,7 @@ void read_discrete_state(const double *sample, DiscreteState *discrete)
     for (int i = 0; i < N_CLEARANCES; i++) {
         discrete->contact[i].closed = !isnan(sample[i]);
         discrete->contact[i].deltadot_minus = sample[i];
-#if N_RUBBED
+#if N_RIGID_WITH_FRICTION
         discrete->contact[i].smooth = 0;
 #endif
     }

@@ -53,7 +53,7 @@ int gudgeon_reduced_project(double t, const double *q, const double *r, const do
 double gudgeon_time_reduced(long count, double t, const double *q, const double *v, const double *discrete,
     const double *p);
 #endif
-#if RESCUED
+#if HAS_ABSOLUTE_FALLBACK
 int gudgeon_reduced_rescue(double t, const double *q, const double *v, const double *discrete, const double *p,
     double *a);
 #endif

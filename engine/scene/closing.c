@@ -17,12 +17,12 @@ static double compute_start_residuals(StartWorkspace *workspace, double t, const
 {
     double sum = 0.0;
     constraints(t, q, p, workspace->residual);
-    for (int k = 0; k < N_APART; k++)
-        workspace->residual[apart_row[k]] += workspace->set[N_SET + k];
+    for (int k = 0; k < N_ECCENTRICITIES; k++)
+        workspace->residual[eccentricity_row[k]] += workspace->set[N_SET + k];
     for (int r = 0; r < N_ALL_ROWS; r++)
         workspace->residual[r] = -workspace->residual[r];
     for (int i = 0; i < N_SET; i++)
-        workspace->residual[N_ALL_ROWS + i] = workspace->set[i] - q[set_place[i]];
+        workspace->residual[N_ALL_ROWS + i] = workspace->set[i] - q[set_coordinate[i]];
     for (int r = 0; r < N_ALL_ROWS + N_SET; r++) {
         workspace->residual[r] *= workspace->row_scale[r];
         sum += workspace->residual[r] * workspace->residual[r];
@@ -40,11 +40,11 @@ OPTIMIZE_SIZE static double linearize_start_equations(
     jacobian(t, q, p, &workspace->row[0][0]);
     for (int row = 0; row < N_ALL_ROWS; row++)
         for (int entry = phi_q_first[row]; entry < phi_q_first[row + 1]; entry++)
-            workspace->row[row][phi_q_place[entry]] *= workspace->row_scale[row]
-                * workspace->column_scale[phi_q_place[entry]];
+            workspace->row[row][phi_q_column[entry]] *= workspace->row_scale[row]
+                * workspace->column_scale[phi_q_column[entry]];
     for (int k = 0; k < N_SET; k++)
-        workspace->row[N_ALL_ROWS + k][set_place[k]] = workspace->row_scale[N_ALL_ROWS + k]
-            * workspace->column_scale[set_place[k]];
+        workspace->row[N_ALL_ROWS + k][set_coordinate[k]] = workspace->row_scale[N_ALL_ROWS + k]
+            * workspace->column_scale[set_coordinate[k]];
     return compute_start_residuals(workspace, t, q, p);
 }
 
@@ -59,13 +59,13 @@ OPTIMIZE_SIZE static int solve_independent_angles(StartWorkspace *workspace, dou
     workspace->subset.n = 0;
     for (int row = 0; row < N_ALL_ROWS + N_SET; row++) {
         int has_position = 0;
-        const int n = list_coordinates_of_equation(row, set_place, coordinates);
+        const int n = list_coordinates_of_equation(row, set_coordinate, coordinates);
         for (int i = 0; i < n; i++)
             has_position |= coordinates[i] % 3 != 2 && workspace->row[row][coordinates[i]] != 0.0;
         if (!has_position)
             workspace->subset.row[workspace->subset.n++] = (short)row;
     }
-    compute_normal_pattern(workspace, &workspace->subset, set_place);
+    compute_normal_pattern(workspace, &workspace->subset, set_coordinate);
     if (factorize_equations(workspace, &workspace->subset))
         return 1;
     compute_minimum_norm_step(workspace, &workspace->subset);
@@ -123,7 +123,7 @@ OPTIMIZE_SIZE static int solve_closure(StartWorkspace *workspace, double t, cons
     double q_trial[N_Q];
     int is_reused = 0; /* factorization and equations are those of an earlier q */
     if (!workspace->all.n)
-        select_leading_equations(workspace, &workspace->all, N_ALL_ROWS + N_SET, set_place);
+        select_leading_equations(workspace, &workspace->all, N_ALL_ROWS + N_SET, set_coordinate);
     double norm = linearize_start_equations(workspace, t, q, p);
     if (norm < rounding)
         return factorize_equations(workspace, &workspace->all);

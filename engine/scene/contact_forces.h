@@ -9,7 +9,7 @@
 enum { MAX_RATES = N_S > N_Y ? N_S : N_Y };
 #define DEPENDENT_PIVOT 1e-10 /* of D's diagonal: a smaller pivot belongs to a contact that depends on others */
 
-#if N_RUBBED
+#if N_RIGID_WITH_FRICTION
 enum { HAS_FRICTION = 1 };
 #else
 enum { HAS_FRICTION = 0 };
@@ -176,7 +176,7 @@ static inline int solve_complementarity(const Delassus *contacts, const double *
     return has_inconsistent_set ? FRICTION_INCONSISTENT : CHATTERING;
 }
 
-#if N_RUBBED
+#if N_RIGID_WITH_FRICTION
 /*
  * Return whether a normal force in some closed contact, with its friction, accelerates the surfaces towards each other
  * (P. Painleve, 1895): a diagonal entry of D is negative beyond rounding. only_approaching: consider only contacts that

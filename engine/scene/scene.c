@@ -13,7 +13,7 @@
 #if LARGEST_BLOCK > 2
 #include "block.c"
 #endif
-#if TREE && RESCUED
+#if TREE && HAS_ABSOLUTE_FALLBACK
 #include "../motion/absolute_fallback.c"
 #endif
 #if N_DEPENDENT

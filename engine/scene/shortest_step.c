@@ -6,9 +6,9 @@
 #include "../run/cancellation.h"
 #include "calls.h"
 
-#ifndef N_APART /* starts that set eccentricities e: Phi = -e is stored after `set`, its rate after `rates` */
-#define N_APART 0
-static const int apart_row[] = {0};
+#ifndef N_ECCENTRICITIES /* starts that set eccentricities e: Phi = -e is stored after `set`, its rate after `rates` */
+#define N_ECCENTRICITIES 0
+static const int eccentricity_row[] = {0};
 #endif
 
 enum {
@@ -29,7 +29,7 @@ typedef struct {
 typedef struct {
     double size, radius, weight[N_Q], step[N_Q], reference[N_Q];
     double first_solution[N_Q], mirrored[N_Q], trial[N_Q];
-    double guess[N_GUESS + 1], set[N_SET + N_APART + 1], rates[N_RATES + N_APART + 1];
+    double guess[N_GUESS + 1], set[N_SET + N_ECCENTRICITIES + 1], rates[N_RATES + N_ECCENTRICITIES + 1];
     double row[N_START_ROWS + 1][N_Q], residual[N_START_ROWS + 1], row_scale[N_START_ROWS + 1], column_scale[N_Q];
     double normal[N_NORMAL + 1][N_NORMAL + 1], inverse_pivot[N_NORMAL + 1], rhs[N_NORMAL + 1];
     unsigned char pattern[N_NORMAL + 1][N_NORMAL + 1];
@@ -50,7 +50,7 @@ static int list_coordinates_of_equation(int equation, const int *set_coordinates
         coordinates[count++] = set_coordinates[equation - N_ALL_ROWS];
     else
         for (int entry = phi_q_first[equation]; entry < phi_q_first[equation + 1]; entry++)
-            coordinates[count++] = phi_q_place[entry];
+            coordinates[count++] = phi_q_column[entry];
     return count;
 }
 
@@ -227,7 +227,7 @@ static void compute_coordinate_pattern(StartWorkspace *workspace, EquationSystem
     system->n = N_Q;
     clear_pattern(workspace, N_Q);
     for (int equation = 0; equation < N_ALL_ROWS + N_SET; equation++) {
-        const int n = list_coordinates_of_equation(equation, set_place, coordinates);
+        const int n = list_coordinates_of_equation(equation, set_coordinate, coordinates);
         for (int i = 0; i < n; i++)
             for (int j = 0; j < n; j++)
                 workspace->pattern[coordinates[i]][coordinates[j]] = 1;
@@ -244,7 +244,7 @@ static void compute_position_matrix(StartWorkspace *workspace, const EquationSys
     int coordinates[N_Q];
     clear_normal_matrix(workspace, system);
     for (int equation = 0; equation < N_ALL_ROWS + N_SET; equation++) {
-        const int n = list_coordinates_of_equation(equation, set_place, coordinates);
+        const int n = list_coordinates_of_equation(equation, set_coordinate, coordinates);
         for (int i = 0; i < n; i++)
             for (int j = 0; j < n && coordinates[i] % 3 != 2; j++)
                 if (coordinates[j] % 3 != 2 && coordinates[j] >= coordinates[i])
@@ -263,7 +263,7 @@ static void compute_position_rhs(StartWorkspace *workspace, double damping)
     for (int k = 0; k < N_Q; k++)
         workspace->rhs[k] = -damping * workspace->step[k];
     for (int equation = 0; equation < N_ALL_ROWS + N_SET; equation++) {
-        const int n = list_coordinates_of_equation(equation, set_place, coordinates);
+        const int n = list_coordinates_of_equation(equation, set_coordinate, coordinates);
         double residual = workspace->residual[equation];
         for (int i = 0; i < n; i++)
             residual -= workspace->row[equation][coordinates[i]] * workspace->step[coordinates[i]];

@@ -147,7 +147,7 @@ static void compute_mass_norm(Workspace *workspace)
         double arm_squared = 0.0, mass = k % 3 < 2 ? max_of(workspace->root[k], MIN_MASS * heaviest)
             : workspace->root[k];
         for (int i = 0; i < N_ROWS && k % 3 == 2; i++) {
-            const double *row = workspace->all[kept_row[i]];
+            const double *row = workspace->all[motion_row[i]];
             if (row[k - 2] != 0.0 || row[k - 1] != 0.0)
                 arm_squared = max_of(arm_squared, row[k] * row[k]);
         }
@@ -185,7 +185,7 @@ static void initialize_workspace(Workspace *workspace, double t, const double *q
         workspace->order[i] = i;
         workspace->unused[i] = 1.0;
         for (int k = 0; k < N_Q; k++)
-            row[k] = workspace->remainder[k][i] = workspace->all[kept_row[i]][k] / workspace->root[k];
+            row[k] = workspace->remainder[k][i] = workspace->all[motion_row[i]][k] / workspace->root[k];
         workspace->norm[i] = compute_dot_product(row, row) + 1e-300;
         workspace->residual[i] = rhs[i] - compute_dot_product(row, workspace->y);
         workspace->magnitude[i] = fabs(rhs[i]) + sqrt(workspace->norm[i]

@@ -41,12 +41,12 @@ static void initialize_start_workspace(StartWorkspace *workspace, const Paramete
     for (int k = 0; k < N_Q; k++)
         workspace->weight[k] = k % 3 == 2 ? 1e-2 : 1e-4 / workspace->size;
     for (int i = 0; i < N_GUESS && !GUESSED_POINTS; i++)
-        workspace->weight[guess_place[i]] = guess_place[i] % 3 == 2 ? 1.0 : 1.0 / workspace->size;
+        workspace->weight[guess_coordinate[i]] = guess_coordinate[i] % 3 == 2 ? 1.0 : 1.0 / workspace->size;
     for (int k = 0; k < N_Q; k++)
         workspace->column_scale[k] = 1.0 / workspace->weight[k];
     for (int equation = 0; equation < N_ALL_ROWS + N_SET; equation++) {
         const int is_length = equation < N_ALL_ROWS ? row_is_length[equation]
-            : set_place[equation - N_ALL_ROWS] % 3 != 2;
+            : set_coordinate[equation - N_ALL_ROWS] % 3 != 2;
         workspace->row_scale[equation] = is_length ? 1.0 / workspace->size : 1.0;
     }
     workspace->nearest = INFINITY;
@@ -63,9 +63,9 @@ static int initialize_guess(StartWorkspace *workspace, double t, const Parameter
     for (int k = 0; k < N_Q; k++)
         q[k] = 0.0;
     for (int i = 0; i < N_GUESS; i++)
-        q[guess_place[i]] = workspace->guess[i];
+        q[guess_coordinate[i]] = workspace->guess[i];
     for (int i = 0; i < N_SET; i++)
-        q[set_place[i]] = workspace->set[i];
+        q[set_coordinate[i]] = workspace->set[i];
     if (solve_independent_angles(workspace, t, p, q))
         return 1;
     for (int k = 0; k < N_Q; k++)
@@ -82,7 +82,7 @@ static double compute_change_from_guess(const StartWorkspace *workspace, const d
 {
     double largest = 0.0, change[N_Q] = {0.0};
     for (int i = 0; i < N_GUESS; i++)
-        change[guess_place[i]] = q[guess_place[i]] - workspace->reference[guess_place[i]];
+        change[guess_coordinate[i]] = q[guess_coordinate[i]] - workspace->reference[guess_coordinate[i]];
     for (int k = 0; k < N_Q; k += 3) {
         const double distance = hypot(change[k], change[k + 1]),
             radius = hypot(workspace->reference[k], workspace->reference[k + 1]);
@@ -138,9 +138,9 @@ static void select_nearest_start(StartWorkspace *workspace, double t, const Para
         for (int k = 0; k < N_Q; k++)
             workspace->trial[k] = mirrors_all ? workspace->mirrored[k] : workspace->first_solution[k];
         for (int i = 0; i < N_GUESS; i++)
-            workspace->trial[guess_place[i]] = workspace->mirrored[guess_place[i]];
+            workspace->trial[guess_coordinate[i]] = workspace->mirrored[guess_coordinate[i]];
         for (int i = 0; i < N_SET; i++)
-            workspace->trial[set_place[i]] = workspace->set[i];
+            workspace->trial[set_coordinate[i]] = workspace->set[i];
         if (solve_independent_angles(workspace, t, p, workspace->trial)
             || solve_closure(workspace, t, p, workspace->trial)
             || !are_positions_bounded(workspace, workspace->trial)
@@ -179,17 +179,17 @@ OPTIMIZE_SIZE static int compute_start_velocities(StartWorkspace *workspace, dou
     compute_metric_scaling(workspace, p, inverse_root);
     for (int k = 0; k < N_Q; k++)
         v[k] = 0.0;
-    select_leading_equations(workspace, &workspace->subset, N_ALL_ROWS + N_RATES, rate_place);
+    select_leading_equations(workspace, &workspace->subset, N_ALL_ROWS + N_RATES, rate_coordinate);
     jacobian(t, q, p, &workspace->row[0][0]);
     velocity_rhs(get_time_after_jump(t), q, p, required);
-    for (int k = 0; k < N_APART; k++)
-        required[apart_row[k]] -= workspace->rates[N_RATES + k];
+    for (int k = 0; k < N_ECCENTRICITIES; k++)
+        required[eccentricity_row[k]] -= workspace->rates[N_RATES + k];
     for (int i = 0; i < N_RATES; i++) {
         required[N_ALL_ROWS + i] = workspace->rates[i];
-        workspace->row[N_ALL_ROWS + i][rate_place[i]] = 1.0;
+        workspace->row[N_ALL_ROWS + i][rate_coordinate[i]] = 1.0;
     }
     for (int equation = 0; equation < workspace->subset.n; equation++) {
-        const int n = list_coordinates_of_equation(equation, rate_place, coordinates);
+        const int n = list_coordinates_of_equation(equation, rate_coordinate, coordinates);
         for (int i = 0; i < n; i++)
             workspace->row[equation][coordinates[i]] *= inverse_root[coordinates[i]];
         largest = max_of(largest, fabs(required[equation]));
@@ -199,7 +199,7 @@ OPTIMIZE_SIZE static int compute_start_velocities(StartWorkspace *workspace, dou
     for (int pass = 0; pass <= 3; pass++) {
         largest_residual = 0.0;
         for (int equation = 0; equation < workspace->subset.n; equation++) {
-            const int n = list_coordinates_of_equation(equation, rate_place, coordinates);
+            const int n = list_coordinates_of_equation(equation, rate_coordinate, coordinates);
             workspace->residual[equation] = required[equation];
             for (int i = 0; i < n; i++)
                 workspace->residual[equation] -= workspace->row[equation][coordinates[i]] * v[coordinates[i]];
@@ -241,7 +241,7 @@ int compute_start(
     *residual = 0.0;
     for (int equation = 0; equation < N_ALL_ROWS + N_SET; equation++) {
         const int is_length = equation < N_ALL_ROWS ? row_is_length[equation]
-            : set_place[equation - N_ALL_ROWS] % 3 != 2;
+            : set_coordinate[equation - N_ALL_ROWS] % 3 != 2;
         *residual = max_of(*residual, fabs(workspace->residual[equation]) * (is_length ? size : 1.0));
     }
     free(workspace);

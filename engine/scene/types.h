@@ -72,7 +72,7 @@ typedef struct {
 #if N_RIGID
     double force; /* N, of rigid surfaces: the force that keeps a closed contact closed (contact_forces.h) */
 #endif
-#if N_RUBBED
+#if N_RIGID_WITH_FRICTION
     int smooth;   /* no friction but `along`: for impacts and the projection of contacts */
     double along; /* N, along t on the second body */
 #endif
@@ -81,13 +81,13 @@ typedef struct {
 #if N_DEPENDENT
 /* Coordinates that the drives determine through loops, and three rates of each, at a time. */
 typedef struct {
-    double t, q[N_LED], v[3 * N_DEPENDENT];
+    double t, q[N_DEPENDENT_VALUES], v[3 * N_DEPENDENT];
     int failed; /* 0, or a closure that was at a dead centre there */
 } DrivenLoops;
 
 /* All that the tree's kernels read at one time: with directions, second and third rates of driven loops. */
 typedef struct {
-    double q[N_X + N_LED], v[N_X + 3 * N_DEPENDENT];
+    double q[N_X + N_DEPENDENT_VALUES], v[N_X + 3 * N_DEPENDENT];
 } TreeState;
 
 #endif

@@ -51,7 +51,7 @@ static int ignore_negligible_switches(Integrator *run, Step *step, const Paramet
     }
     for (int k = 0; k < N_SWITCHES; k++) {
         const int gap_function = N_CLEARANCES + k;
-        const int is_of_law = meets[k] && watched_as[gap_function] < 0 && run->control.fixed <= 0.0;
+        const int is_of_law = is_continuous_switch[k] && watched_index[gap_function] < 0 && run->control.fixed <= 0.0;
         const int may_pass = is_of_law || k == run->roots.skip; /* fixed steps have no tolerance to compare with */
         step->passed[k] = may_pass && compute_event_value(&run->discrete, &step->rhs, gap_function) < 0.0;
         has_passed |= step->passed[k];
@@ -128,8 +128,8 @@ static double find_first_negative_stage(const Step *step, int event, double end_
  */
 static double find_bracket_end(Integrator *run, Step *step, int event, const Parameters *p, double *value)
 {
-    if (watched_as[event] >= 0)
-        return find_first_negative_sample(run, step, watched_as[event], p, value);
+    if (watched_index[event] >= 0)
+        return find_first_negative_sample(run, step, watched_index[event], p, value);
     const double end_value = compute_event_value(&run->discrete, &step->rhs, event);
     for (int pass = 0; pass < 2 && step->lowest[event] < 0.0; pass++) {
         const double fraction = pass ? find_stage_of_minimum(step, event)
@@ -153,10 +153,10 @@ static int is_above_uncertainty(Integrator *run, double t, const double *y, cons
     const Parameters *p)
 {
     double error[AT_LEAST_ONE(N_WATCHED)] = {0.0};
-    if (watched_as[event] < 0)
+    if (watched_index[event] < 0)
         return 1;
     estimate_uncertainty(run, t, y, p, error);
-    return !(fabs(compute_event_value(&run->discrete, rhs, event)) <= error[watched_as[event]]);
+    return !(fabs(compute_event_value(&run->discrete, rhs, event)) <= error[watched_index[event]]);
 }
 
 /*
@@ -167,7 +167,7 @@ static int is_event_resolved_at(Integrator *run, const Step *step, double fracti
 {
     double y[N_Y], dy[N_Y];
     RhsOutputs rhs;
-    return watched_as[event] < 0 || evaluate_state_at(run, step, fraction, p, y, dy, &rhs)
+    return watched_index[event] < 0 || evaluate_state_at(run, step, fraction, p, y, dy, &rhs)
         || is_above_uncertainty(run, step->t + fraction * step->h, y, &rhs, event, p);
 }
 
@@ -227,12 +227,12 @@ static int find_event_candidate(Integrator *run, Step *step, int event, const Pa
     const double high = sampled ? candidates * end.s : find_bracket_end(run, step, event, p, &value_high);
     if (high == 0.0 || compute_dense_output(run, p, step))
         return 0;
-    if (watched_as[event] >= 0 && step->from[watched_as[event]] > 0.0) {
-        const Sample from = evaluate_bracket_point(run, step, step->from[watched_as[event]], event, p);
-        if (from.f >= 0.0 || step->above[watched_as[event]] >= 0.0)
+    if (watched_index[event] >= 0 && step->from[watched_index[event]] > 0.0) {
+        const Sample from = evaluate_bracket_point(run, step, step->from[watched_index[event]], event, p);
+        if (from.f >= 0.0 || step->above[watched_index[event]] >= 0.0)
             low = from;
     }
-    if (watched_as[event] >= 0 && step->above[watched_as[event]] >= 0.0) /* negative within its uncertainty only */
+    if (watched_index[event] >= 0 && step->above[watched_index[event]] >= 0.0) /* within its uncertainty */
         low.f = max_of(low.f, 0.0);
     for (int j = 1; j < 4 && !sampled && !(low.f >= 0.0); j++) { /* negative at the beginning: find a return */
         const Sample inner = evaluate_bracket_point(run, step, 0.25 * j * high, event, p);
@@ -268,7 +268,7 @@ static double find_first_crossing(Integrator *run, Step *step, const Parameters 
         has_negative |= (step->lowest[k] < 0.0) | (at_end[k] < 0.0);
     const int only_gaps = !N_WATCHED && !N_FRICTIONS && !has_negative; /* all others are positive */
     for (int k = 0; k < (only_gaps ? N_CLEARANCES : N_EVENT_FUNCTIONS); k++) {
-        const int is_positive = k >= N_CLEARANCES && watched_as[k] < 0 && !is_contact_force_function(run, k)
+        const int is_positive = k >= N_CLEARANCES && watched_index[k] < 0 && !is_contact_force_function(run, k)
             && !(step->lowest[k] < 0.0) && !(at_end[k] < 0.0);
         Candidate candidate;
         int i = n;
@@ -314,7 +314,7 @@ static double find_first_event_of_long_step(Integrator *run, Step *step, double 
     if (!has_contact || !(fraction * step->h > LONG_STEP_RATIO * run->control.last_step) || run->control.fixed > 0.0)
         return fraction;
     for (int k = 0; k < N_EVENT_FUNCTIONS && !is_unbounded_function; k++)
-        is_unbounded_function = watched_as[k] < 0 && !isfinite(get_bracket_begin(run, step, k).slope)
+        is_unbounded_function = watched_index[k] < 0 && !isfinite(get_bracket_begin(run, step, k).slope)
             && !is_contact_force_function(run, k)
             && compute_event_value(&run->discrete, &run->rhs, k) >= 0.0 && !is_event_ignored(run, step, k)
             && (step->method->stiff || !is_bounded_away_from_zero(run, step, k, 0.0, p));
@@ -442,7 +442,7 @@ static void suppress_repeated_switch(Integrator *run, int switch_index, const do
     const double elapsed = run->t - run->roots.t_crossed;
     const double monitor = 20.0 * max_of(100.0 * run->roots.time_resolution, max_of(run->roots.monitor, elapsed));
     const int is_repeated = run->roots.crossed == switch_index && elapsed < 1e-3 * run->control.h
-        && (meets[switch_index]
+        && (is_continuous_switch[switch_index]
             || (run->control.fixed <= 0.0
                 && compute_rate_jump(run, dy_before) * max_of(monitor, run->control.h) < MIN_RATE_JUMP_TOL));
     run->roots.skip = is_repeated ? switch_index : -1;

@@ -248,9 +248,9 @@ static double compute_event_time_tolerance(const Integrator *run, const Step *st
 static int may_be_located_after_zero(const Integrator *run, int event)
 {
     const int switch_index = event - N_CLEARANCES;
-    if (run->control.fixed > 0.0 || watched_as[event] >= 0)
+    if (run->control.fixed > 0.0 || watched_index[event] >= 0)
         return 0;
-    return switch_index < 0 ? is_compliant(event) : switch_index < N_SWITCHES && meets[switch_index];
+    return switch_index < 0 ? is_compliant(event) : switch_index < N_SWITCHES && is_continuous_switch[switch_index];
 }
 
 /*

@@ -13,7 +13,7 @@ static void bound_time_terms(double t, double h, double begin, double end, const
     time_terms((Interval){t + begin * h, t + end * h, h, h, 0}, p, bounds);
 }
 
-#if N_PULSES
+#if N_TRANSIENTS
 enum { MAX_NODES = 16, MAX_INTERVAL_PARTS = 64, MAX_ACCURACY_TESTS = 4 };
 #define MAX_UNSAMPLED_EXCESS 0.25 /* of a term's range at the nodes: allowed excess between them */
 
@@ -39,7 +39,7 @@ static IntervalPart build_interval_part(double t, double h, double begin, double
     Interval bound[N_TERMS], middle[N_TERMS];
     bound_time_terms(t, h, begin, end, p, bound);
     bound_time_terms(t, h, 0.5 * (begin + end), 0.5 * (begin + end), p, middle);
-    for (int k = 0; k < N_PULSES; k++) {
+    for (int k = 0; k < N_TRANSIENTS; k++) {
         const double lower = min_of(term_low[k].lo, term_high[k].lo) - allowed_excess[k],
             upper = max_of(term_low[k].lo, term_high[k].lo) + allowed_excess[k];
         const double excess = max_of(bound[k].hi - upper, lower - bound[k].lo);
@@ -60,7 +60,7 @@ static int are_terms_monotone(double t, double h, double begin, double end, cons
     Interval bound[N_TERMS];
     int monotone = 1;
     bound_time_terms(t, h, begin, end, p, bound);
-    for (int k = 0; k < N_PULSES && monotone; k++)
+    for (int k = 0; k < N_TRANSIENTS && monotone; k++)
         monotone = bound[k].min_slope >= 0.0 || bound[k].max_slope <= 0.0;
     return monotone;
 }
@@ -114,12 +114,12 @@ static double find_undersampled_term(double t, double h, const double *node, int
     const Parameters *p)
 {
     Interval term_at[MAX_NODES][N_TERMS];
-    double allowed_excess[N_PULSES], fraction = 0.0;
+    double allowed_excess[N_TRANSIENTS], fraction = 0.0;
     if (are_terms_monotone(t, h, 0.0, 1.0, p))
         return 0.0; /* its change shows at both ends */
     for (int i = 0; i < n; i++)
         bound_time_terms(t, h, node[i], node[i], p, term_at[i]);
-    for (int k = 0; k < N_PULSES; k++) {
+    for (int k = 0; k < N_TRANSIENTS; k++) {
         double lower = INFINITY, upper = -INFINITY;
         for (int i = 0; i < n; i++) {
             lower = min_of(lower, term_at[i][k].lo);

@@ -1,5 +1,5 @@
 /* Rejection of steps that miss a pulse, a term of time alone that acts between the stages (time_terms.c). */
-#if N_PULSES
+#if N_TRANSIENTS
 #define MAX_DEFECT 30.0 /* of the tolerance: change of a step by a missed term that is accepted */
 
 /* The step whose dense output is compared with the equations of motion. */

@@ -1,4 +1,4 @@
-"""Makes SymPy's code printers faster: caches the method that prints a class, and the order of the terms of a sum.
+"""Speeds up SymPy's code printers: caches the print method of each class, and the order of the terms of a sum.
 
 The printed text is the same as SymPy's.
 """
@@ -29,7 +29,10 @@ class CachedPrinter:
         return self._print(sp.sympify(expr))
 
     def _print(self, expr: Any, **settings: Any) -> str:
-        """Print an expression by the printer's method for its class; found methods are cached by both classes."""
+        """Print an expression by the printer's method for its class, which is cached by both classes.
+
+        `settings` are passed on to the method. Raises ValueError if the printer has no method for the class.
+        """
         key = (type(self), type(expr))
         if (method := _METHODS.get(key)) is None:
             method = _METHODS[key] = _find_method(*key)
@@ -40,9 +43,9 @@ class CachedPrinter:
         raise ValueError(f"{type(self).__name__} does not know {expr}")
 
     def _print_Add(self, expr: sp.Add, order: str | None = None) -> str:
-        """Print the sum of terms in the order of `order_terms`, with the signs of negative terms between them.
+        """Print a sum in the order of `order_terms`; a term that begins with a minus is subtracted.
 
-        `order`: an argument of SymPy, not used.
+        Terms whose precedence is lower than that of a sum get brackets. `order`: an argument of SymPy, not used.
         """
         text = ""
         for term in order_terms(expr):
@@ -55,7 +58,7 @@ class CachedPrinter:
         return text
 
     def _print_Mul(self, expr: sp.Mul) -> str:
-        """Print a product as numerator/divisors; divisors come last, in brackets if there are several.
+        """Print a product as a quotient such as -2*x/(y*z), with brackets around several divisors.
 
         Factors with a negative rational exponent are divisors. A negative coefficient gives a leading minus; without
         other factors the numerator is 1.
@@ -90,39 +93,35 @@ class CachedPrinter:
         return f"{text}/{divisors[0]}" if len(denominator) == 1 else f"{text}/({'*'.join(divisors)})"
 
     def print_symbol_product(self, expr: sp.Mul) -> str:
-        """Print a product of symbols, or its negative; return "" for other products."""
+        """Print a product of symbols in the order of their names, or its negative; return "" for other products."""
         is_negative = expr.args[0] is sp.S.NegativeOne
         factors = expr.args[1:] if is_negative else expr.args
         if not _are_plain_symbols(factors):
             return ""
-        text = "*".join([self._print(factor) for factor in sorted(factors, key=_get_name)])
+        text = "*".join([self._print(factor) for factor in sorted(factors, key=_get_symbol_name)])
         return f"-{text}" if is_negative else text
 
     def parenthesize(self, item: sp.Expr, level: float, strict: bool = False) -> str:
-        """Print an expression, in brackets if its operator binds less than `level`.
-
-        An operator that binds equally gets brackets, too, unless `strict`.
-        """
-        own_level = _precedence(item)
-        return (
-            f"({self._print(item)})" if own_level < level or (not strict and own_level <= level) else self._print(item)
-        )
+        """Print an expression, in brackets if its precedence is lower than `level`, or equal unless `strict`."""
+        item_level = _precedence(item)
+        needs_brackets = item_level < level or (not strict and item_level <= level)
+        return f"({self._print(item)})" if needs_brackets else self._print(item)
 
 
 _ORDERED_BY_NAME = (sp.Symbol, PlaceSymbol)
-_get_name = attrgetter("name")
-_LAST_NAME = "\U0010ffff"  # after all names of symbols
+_get_symbol_name = attrgetter("name")
+_LAST_NAME = "\U0010ffff"  # is sorted after all names of symbols
 _precedence = lru_cache(1_000_000)(precedence)
 _SUM = PRECEDENCE["Add"]
 _UNARY_MINUS = (PRECEDENCE["Pow"] + PRECEDENCE["Mul"]) / 2
-_METHODS: dict[tuple[type, type], Method] = {}  # of printers, by the class that is printed
+_METHODS: dict[tuple[type, type], Method] = {}  # (class of printer, class of expression) -> print method
 
 
 def _find_method(printer: type, expression_class: type) -> Method:
-    """Return the printer's method for a class, found along its bases as SymPy does.
+    """Return the method `_print_<class>` of a printer for a class of expressions or the nearest of its bases.
 
-    Functions of the table of functions have one method. Other functions match by their own name only. Raises
-    ValueError if there is no method.
+    Functions of the table of functions are printed by `_print_table_function`, if the printer has it. Bases of other
+    functions below sp.Function are skipped, as in SymPy. Raises ValueError if there is no method.
     """
     if expression_class in CLASSES and (table_method := getattr(printer, "_print_table_function", None)):
         return table_method
@@ -141,9 +140,10 @@ def _find_method(printer: type, expression_class: type) -> Method:
 
 @lru_cache(200_000)
 def order_terms(expr: sp.Expr) -> tuple[sp.Expr, ...]:
-    """Return the terms of a sum in SymPy's printing order: by the powers of their factors, higher ones first.
+    """Return the terms of a sum in SymPy's printing order: lexicographic by the powers of their factors, high to low.
 
-    Sums with numbers are ordered by SymPy itself. Results are cached.
+    A sum of products of symbols only is ordered by the names of its factors, which gives the same order faster. SymPy
+    itself orders sums with numbers. An expression that is not a sum is its only term. Results are cached.
     """
     terms = expr.args
     if expr.is_Add and (names := list(map(_find_factor_names, terms))) and all(names):
@@ -156,29 +156,33 @@ def order_terms(expr: sp.Expr) -> tuple[sp.Expr, ...]:
     powers_and_number = {term: _split_powers(term) for term in terms}
     bases = _sort_expressions({base for powers, _ in powers_and_number.values() for base in powers})
 
-    def key(term: sp.Expr) -> tuple[list[int], bool, float, float]:
-        """Return the sort key of a term."""
+    def get_sort_key(term: sp.Expr) -> tuple[list[int], bool, float, float]:
+        """Return the sort key of a term: powers of all bases, high to low, then its coefficient."""
         powers, number = powers_and_number[term]
         return [-powers.get(base, 0) for base in bases], bool(number.imag), number.imag, number.real
 
-    return tuple(sorted(terms, key=key))
+    return tuple(sorted(terms, key=get_sort_key))
 
 
 def _find_factor_names(term: sp.Expr) -> tuple[str, ...]:
     """Return the sorted names of the factors of a product of symbols or of its negative; () for other terms.
 
-    A name after all others follows, so that of two products x and x*y the latter comes first.
+    _LAST_NAME follows, so that x*y is ordered before x.
     """
     if type(term) in _ORDERED_BY_NAME:
         return (term.name, _LAST_NAME)
     if not term.is_Mul:
         return ()
     factors = term.args[1:] if term.args[0] is sp.S.NegativeOne else term.args
-    return (*sorted(map(_get_name, factors)), _LAST_NAME) if _are_plain_symbols(factors) else ()
+    return (*sorted(map(_get_symbol_name, factors)), _LAST_NAME) if _are_plain_symbols(factors) else ()
 
 
 def order_factors(expr: sp.Expr) -> list[sp.Expr]:
-    """Return the factors of a product in SymPy's printing order, in a new list."""
+    """Return the factors of a product in SymPy's printing order, in a new list.
+
+    Symbols and their numerical powers are ordered by name, a single sum after them. SymPy orders products with other
+    factors, and expressions that are not products.
+    """
     if not expr.is_Mul:
         return list(expr.as_ordered_factors())
     powers, others = list[sp.Expr](), list[sp.Expr]()
@@ -197,8 +201,8 @@ def _get_base_name(factor: sp.Expr) -> str:
 
 
 def _sort_expressions(expressions: Collection[sp.Expr]) -> list[sp.Expr]:
-    """Return expressions in SymPy's order; that of symbols is the order of their names, which is faster to compare."""
-    return sorted(expressions, key=_get_name if _are_plain_symbols(expressions) else sp.default_sort_key)
+    """Return expressions in SymPy's order, which for symbols is the order of their names."""
+    return sorted(expressions, key=_get_symbol_name if _are_plain_symbols(expressions) else sp.default_sort_key)
 
 
 def _are_plain_symbols(expressions: Iterable[sp.Expr]) -> bool:
@@ -207,7 +211,10 @@ def _are_plain_symbols(expressions: Iterable[sp.Expr]) -> bool:
 
 
 def _split_powers(term: sp.Expr) -> tuple[dict[sp.Expr, int], complex]:
-    """Return ({base: whole power} of a term's factors, numerical coefficient as a complex number)."""
+    """Return ({base: integer power} of a term's factors, numerical coefficient as a complex number).
+
+    Example: 3*x**2*y gives ({x: 2, y: 1}, 3). A power that is not an integer stays part of the base.
+    """
     coefficient, others = term.as_coeff_Mul()
     value = complex(float(coefficient)) if coefficient.is_Rational or coefficient.is_Float else complex(coefficient)
     powers = {}

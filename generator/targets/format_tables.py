@@ -1,4 +1,4 @@
-"""Writes the tables of docs/format.md: every key that a file may have, from the reader's declarations."""
+"""Writes the tables of docs/format.md: every key of a mechanism file, from the declarations of the reader."""
 
 from __future__ import annotations
 
@@ -29,11 +29,14 @@ from gudgeon.language.functions import FUNCTIONS, Function
 from gudgeon.language.units import Dimension, find_si_unit
 
 Row = tuple[str, ...]
-_HEAD = ("key", "holds", "without it", "condition", "meaning")
+_HEADER = ("key", "holds", "without it", "condition", "meaning")
 
 
 def print_format_tables() -> str:
-    """Return all tables of docs/format.md as Markdown with headings: functions, then the keys of each mapping."""
+    """Return all tables of docs/format.md as Markdown with headings: functions, then the keys of each mapping.
+
+    Called by `make tables`.
+    """
     return "\n".join((*_print_functions_table(), *_print_mapping_tables("The file", FILE, "", set())))
 
 
@@ -55,12 +58,13 @@ def _format_domain(function: Function) -> str:
 
 
 def _print_mapping_tables(heading: str, mapping: Field, path: str, printed_names: set[str]) -> Iterator[str]:
-    """Yield the table of a mapping with known keys, then the tables of the mappings inside it.
+    """Yield the lines of the Markdown table of a mapping with known keys, then those of the mappings inside it.
 
-    path: the address before its keys. printed_names: the mappings that already have a table; this one is added.
+    path: the address before its keys, such as "bodies.NAME.". printed_names: names of mappings that already have a
+    table and are skipped; the printed ones are added.
     """
     printed_names.add(mapping.name)
-    yield from _print_table(heading, mapping.meaning, _HEAD, [_list_field_cells(field) for field in mapping.fields])
+    yield from _print_table(heading, mapping.meaning, _HEADER, [_list_field_cells(field) for field in mapping.fields])
     for field in mapping.fields:
         inner, inner_path = field, f"{path}{field.name}"
         if field.kind == MAPPING and field.entry is not None:
@@ -72,9 +76,9 @@ def _print_mapping_tables(heading: str, mapping: Field, path: str, printed_names
 
 
 def _print_kinds_table(heading: str, entry: Field) -> Iterator[str]:
-    """Yield the table of an entry that is one of several kinds: a row for each kind, then one for each of its keys.
+    """Yield the lines of the table of an entry of several kinds: a row for each kind, then one for each of its keys.
 
-    A kind that is like another one refers to that one instead of repeating its keys.
+    A kind that is declared `like` another one has one row, which refers to that kind instead of repeating its keys.
     """
     rows: list[Row] = []
     for name, kind in entry.kinds().items() if entry.kinds else ():
@@ -93,11 +97,11 @@ def _print_kinds_table(heading: str, entry: Field) -> Iterator[str]:
             continue
         rows.append((f"`{name}`", *key_and_values, "needed", "", kind.title))
         rows += [("", *_list_field_cells(field)) for field in kind.fields]
-    yield from _print_table(heading, entry.meaning, ("kind", *_HEAD), rows)
+    yield from _print_table(heading, entry.meaning, ("kind", *_HEADER), rows)
 
 
 def _print_table(heading: str, meaning: str, header: Row, rows: Sequence[Row]) -> Iterator[str]:
-    """Yield the lines of a Markdown table with its heading and meaning."""
+    """Yield the lines of a section: heading, `meaning` as a sentence, and a Markdown table."""
     yield from (f"## {heading}", "", f"{meaning[0].upper()}{meaning[1:]}.", "")
     yield from (_print_table_row(header), "|" + "---|" * len(header), *map(_print_table_row, rows), "")
 
@@ -119,9 +123,9 @@ def _list_field_cells(field: Field) -> Row:
 
 
 def _describe_values(field: Field) -> str:
-    """Return the cell with the values that a field accepts: a number with its unit, words, a list, a mapping or a name.
+    """Return the cell with the values that a field accepts, such as "number, kg or `auto`" or "[x, y], m".
 
-    A mapping with known keys or addresses lists them.
+    A mapping with known keys or addresses lists them. Other kinds of fields are named by a word, such as "mapping".
     """
     if field.kind == NUMBER:
         alternatives = "".join(f" or `{word}`" for word in field.words)
@@ -160,20 +164,23 @@ def _describe_values(field: Field) -> str:
 
 
 def _describe_unit(dimension: Dimension | None) -> str:
-    """Return the cell of a unit: its SI symbol, "any unit" for None, or that the number has none."""
+    """Return the unit of a number for its cell: the SI unit, "any unit" for None, or "no unit or an angle"."""
     if dimension is None:
         return "any unit"
     return find_si_unit(dimension) or "no unit or an angle"
 
 
 def _describe_targets(kind: Kind) -> str:
-    """Return the form in which a kind names its targets: BODY.POINT, BODY or a coordinate, one or a list."""
+    """Return the form of the targets of a kind: "BODY.POINT", "BODY" or a coordinate; "[BODY, BODY]" for two.
+
+    Forms for different numbers of targets are joined by "or".
+    """
     target = {"points": "BODY.POINT", "bodies": "BODY", "coordinates": "BODY.x, .y or .theta"}[kind.targets]
     return " or ".join(target if count == 1 else f"[{', '.join([target] * count)}]" for count in kind.counts)
 
 
 def _describe_default(field: Field) -> str:
-    """Return the cell that says what applies if a key is missing: "needed", the default, or the field's own words."""
+    """Return the cell that says what applies without the key: "needed", the default value, or `field.otherwise`."""
     if field.required:
         return "needed"
     if field.default is not None:
@@ -182,12 +189,15 @@ def _describe_default(field: Field) -> str:
 
 
 def _format_value(value: float | str | bool) -> str:
-    """Return a value as a file writes it."""
+    """Return a value in the syntax of the file: "true", "0.5", a word unchanged."""
     return str(value).lower() if isinstance(value, bool) else f"{value:g}" if isinstance(value, float) else value
 
 
 def describe_condition(field: Field) -> str:
-    """Return the bounds of a field as text, then "not both 0" and "whole" if they apply; "" without conditions."""
+    """Return the conditions on a field as text, such as "> 0, <= `radius`, whole"; "" without conditions.
+
+    The bounds come first, then "not both 0" for vectors and "whole" for integers.
+    """
     limits = (f"`{limit}`" if isinstance(limit, str) else f"{limit:g}" for _, limit, _ in field.bounds)
     conditions = [f"{bound.relation} {limit}" for bound, limit in zip(field.bounds, limits, strict=True)]
     return ", ".join([*conditions, *(["not both 0"] if field.nonzero else []), *(["whole"] if field.whole else [])])

@@ -30,8 +30,8 @@ from gudgeon.generator.field import (
 )
 from gudgeon.generator.format.sections import CONTACT, COORDINATES, FILE, FORMAT, SECTIONS
 from gudgeon.language.names import IDENTIFIER
-from gudgeon.language.names import MAX_LENGTH as LONGEST_NAME
-from gudgeon.language.parser import MAX_LENGTH
+from gudgeon.language.names import MAX_LENGTH as MAX_NAME_LENGTH
+from gudgeon.language.parser import MAX_LENGTH as MAX_EXPRESSION_LENGTH
 
 Json = dict[str, Any]
 
@@ -39,54 +39,65 @@ _NAME = f"{IDENTIFIER.pattern}"
 _FLAG: Json = {"enum": [True, False, "true", "false"]}
 _NUMBER: Json = {
     "description": "a number, or an expression: 80 mm, 2*pi rad/s, r + 5 mm",
-    "anyOf": [{"type": "number"}, {"type": "string", "minLength": 1, "maxLength": MAX_LENGTH, "pattern": r"^[^\n]*$"}],
+    "anyOf": [
+        {"type": "number"},
+        {"type": "string", "minLength": 1, "maxLength": MAX_EXPRESSION_LENGTH, "pattern": r"^[^\n]*$"},
+    ],
 }
 
 
 def make_schema() -> Json:
-    """Return the JSON Schema of a mechanism file, with definitions of all names, numbers, kinds and laws."""
+    """Return the JSON Schema of a mechanism file, with definitions of all names, numbers, kinds and laws.
+
+    `gudgeon schema` prints it.
+    """
     families = (SECTIONS[name].entry for name in ("joints", "drives", "forces"))
     roles = [field for field in CONTACT.fields if field.kind == LAW]
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": f"mechanism file, {FORMAT}",
-        **_describe_record(FILE),
+        **_make_record_schema(FILE),
         "$defs": {
-            "name": {"type": "string", "pattern": f"^{_NAME}$", "maxLength": LONGEST_NAME},
+            "name": {"type": "string", "pattern": f"^{_NAME}$", "maxLength": MAX_NAME_LENGTH},
             "number": _NUMBER,
-            "vector": _describe_list(_make_reference("number"), 2),
+            "vector": _make_list_schema(_make_reference("number"), 2),
             "bodies": {"type": "string", "pattern": f"^{_NAME}$"},
             "points": {"type": "string", "pattern": f"^{_NAME}\\.{_NAME}$"},
-            "coordinates": _describe_body_keys("string", COORDINATES),
+            "coordinates": _make_body_key_schema("string", COORDINATES),
             **{
-                family.name: {"oneOf": [_describe_kind(*kind) for kind in _list_kinds(family)]}
+                family.name: {"oneOf": [_make_kind_schema(*kind) for kind in _list_kinds(family)]}
                 for family in families
                 if family
             },
             **{
-                f"{role.name}_{use}": _describe_law(role, use == "whole") for role in roles for use in ("whole", "part")
+                f"{role.name}_{use}": _make_law_schema(role, use == "whole")
+                for role in roles
+                for use in ("whole", "part")
             },
         },
     }
 
 
 def _make_reference(name: str) -> Json:
-    """Return the reference to a definition of the schema."""
+    """Return the reference to the definition `name` under $defs."""
     return {"$ref": f"#/$defs/{name}"}
 
 
-def _describe_list(item_schema: Json, count: int) -> Json:
+def _make_list_schema(item_schema: Json, count: int) -> Json:
     """Return the schema of a list with a fixed number of items."""
     return {"type": "array", "items": item_schema, "minItems": count, "maxItems": count}
 
 
-def _describe_body_keys(json_type: str, keys: Mapping[str, object]) -> Json:
-    """Return the schema of texts BODY.key with one of the keys; without `json_type` that of property names."""
+def _make_body_key_schema(json_type: str, keys: Mapping[str, object]) -> Json:
+    """Return the schema of strings "BODY.KEY" with one of `keys`, such as "crank.theta".
+
+    json_type: "string"; "" leaves the type out, for property names, which are always strings.
+    """
     pattern = {"pattern": f"^{_NAME}\\.({'|'.join(keys)})$"}
     return {"type": json_type, **pattern} if json_type else pattern
 
 
-def _describe_object(properties: Mapping[str, Any], required: Sequence[str] = ()) -> Json:
+def _make_object_schema(properties: Mapping[str, Any], required: Sequence[str] = ()) -> Json:
     """Return the schema of a mapping that has only known keys, of which some are required."""
     return {
         "type": "object",
@@ -101,60 +112,60 @@ def _list_required_keys(fields: Sequence[Field]) -> list[str]:
     return [field.name for field in fields if field.required]
 
 
-def _describe_fields(fields: Sequence[Field], with_defaults: bool = True) -> dict[str, Json]:
+def _make_field_schemas(fields: Sequence[Field], with_defaults: bool = True) -> dict[str, Json]:
     """Return {key: JSON Schema with the meaning as description} of fields.
 
-    with_defaults: add the defaults of fields that have one; not for a mapping whose missing keys are inherited.
+    with_defaults: whether fields have their defaults in the schema; False if missing keys are inherited.
     """
-    schemas = {field.name: {**_describe_field(field), "description": field.meaning} for field in fields}
+    schemas = {field.name: {**_make_field_schema(field), "description": field.meaning} for field in fields}
     if not with_defaults:
         return schemas
     return schemas | {f.name: {**schemas[f.name], "default": f.default} for f in fields if f.default is not None}
 
 
-def _describe_field(field: Field) -> Json:
+def _make_field_schema(field: Field) -> Json:
     """Return the JSON Schema of a field's values.
 
-    A word is a constant or a choice of words. A record or a mapping is described with its keys. A field whose keys
-    depend on its kind becomes a reference, and all others have the schema of their kind.
+    A word is a constant or an enumeration. A record or mapping has its keys in place, a field of several kinds (KINDS)
+    becomes a reference. All others have the schema of _SCHEMA_BY_KIND.
     """
     if field.kind == RECORD:
-        return _describe_record(field)
+        return _make_record_schema(field)
     if field.kind == MAPPING:
-        return _describe_mapping(field)
+        return _make_mapping_schema(field)
     if field.kind == WORD:
         return {"const": field.values[0]} if len(field.values) == 1 else {"enum": list(field.values)}
-    return _make_reference(field.name) if field.kind == KINDS else _SIMPLE[field.kind]
+    return _make_reference(field.name) if field.kind == KINDS else _SCHEMA_BY_KIND[field.kind]
 
 
-_SIMPLE: Mapping[str, Json] = {
+_SCHEMA_BY_KIND: Mapping[str, Json] = {
     NUMBER: _make_reference("number"),
     VECTOR: _make_reference("vector"),
     FLAG: _FLAG,
-    POINTS: {"type": "array", "items": _describe_list({"type": ["number", "string"]}, 2), "minItems": 2},
+    POINTS: {"type": "array", "items": _make_list_schema({"type": ["number", "string"]}, 2), "minItems": 2},
     DEPTHS: {"type": ["array", "number", "string"], "items": {"type": ["number", "string"]}, "minItems": 8},
     RESULTS: {"type": ["array", "string", "null"], "items": {"type": "string"}},
     TEXT: {"type": ["string", "number"]},
     NAME: _make_reference("name"),
     BODY: _make_reference("name"),
-    CORNERS: _describe_list(_make_reference("name"), 3),
-    LAW: {"type": "object"},  # what it holds depends on `extends`: see _record
+    CORNERS: _make_list_schema(_make_reference("name"), 3),
+    LAW: {"type": "object"},  # the required keys depend on `extends`: see _make_record_schema
 }
 
 
-def _describe_record(field: Field) -> Json:
-    """Return the schema of a mapping with known keys; an empty optional section of the file is null.
+def _make_record_schema(field: Field) -> Json:
+    """Return the schema of a mapping with known keys.
 
-    Keys of which exactly one is expected become `oneOf`. In a contact that extends another one, no key of its laws is
-    required.
+    In the file itself, optional sections may be null, and required ones need an entry. Two keys of which exactly one is
+    expected become `oneOf`. In a contact that extends another one, no key of its laws is required.
     """
-    properties = _describe_fields(field.fields, field.find_field("extends") is None)
+    properties = _make_field_schemas(field.fields, field.find_field("extends") is None)
     for inner in field.fields if field is FILE else ():
         if inner.kind in (MAPPING, RECORD) and not inner.required:
             properties[inner.name]["type"] = ["object", "null"]
         elif inner.kind == MAPPING:
             properties[inner.name]["minProperties"] = 1
-    record = _describe_object(properties, _list_required_keys(field.fields))
+    record = _make_object_schema(properties, _list_required_keys(field.fields))
     if alternatives := [inner for inner in field.fields if inner.either]:
         record["oneOf"] = [{"required": [name]} for inner in alternatives for name in (inner.name, inner.either)]
     roles = [inner.name for inner in field.fields if inner.kind == LAW]
@@ -165,10 +176,13 @@ def _describe_record(field: Field) -> Json:
     return record
 
 
-def _describe_mapping(field: Field) -> Json:
-    """Return the schema of a mapping with user-defined names, or with addresses that have a known form."""
+def _make_mapping_schema(field: Field) -> Json:
+    """Return the schema of a mapping whose keys are user-defined names, "BODY.KEY", or addresses of known forms.
+
+    All values have the schema of `field.entry`; for places, a coordinate is a number and a point a vector.
+    """
     assert field.entry is not None
-    keys = _make_reference("name") if field.keys is None else _describe_body_keys("", field.keys)
+    keys = _make_reference("name") if field.keys is None else _make_body_key_schema("", field.keys)
     if field.addresses:
         addresses_pattern = "|".join(address.replace(".", "\\.").replace("NAME", _NAME) for address in field.addresses)
         keys = {"pattern": f"^({addresses_pattern})$"}
@@ -176,7 +190,7 @@ def _describe_mapping(field: Field) -> Json:
         points = {f"^{_NAME}\\.(?!({'|'.join(field.keys)})$){_NAME}$": _make_reference("vector")}
         numbers = {str(keys["pattern"]): _make_reference("number")}
         return {"type": "object", "patternProperties": numbers | points, "additionalProperties": False}
-    return {"type": "object", "propertyNames": keys, "additionalProperties": _describe_field(field.entry)}
+    return {"type": "object", "propertyNames": keys, "additionalProperties": _make_field_schema(field.entry)}
 
 
 def _list_kinds(family: Field) -> list[tuple[str, Kind]]:
@@ -184,32 +198,36 @@ def _list_kinds(family: Field) -> list[tuple[str, Kind]]:
     return list(family.kinds().items()) if family.kinds else []
 
 
-def _describe_kind(name: str, kind: Kind) -> Json:
-    """Return the schema of one kind of entry: its targets and its fields; one target is a text, two are a list."""
+def _make_kind_schema(name: str, kind: Kind) -> Json:
+    """Return the schema of one kind of a joint, drive or force: its targets under the kind's name, then its fields.
+
+    One target is a string, two are a list.
+    """
     item = _make_reference(kind.targets)
-    target_schemas = [item if count == 1 else _describe_list(item, count) for count in kind.counts]
+    target_schemas = [item if count == 1 else _make_list_schema(item, count) for count in kind.counts]
     targets = target_schemas[0] if len(target_schemas) == 1 else {"anyOf": target_schemas}
-    entry_schema = _describe_object(
-        {name: targets, **_describe_fields(kind.fields)}, [name, *_list_required_keys(kind.fields)]
+    entry_schema = _make_object_schema(
+        {name: targets, **_make_field_schemas(kind.fields)}, [name, *_list_required_keys(kind.fields)]
     )
     return {"title": kind.title, **entry_schema}
 
 
-def _describe_law(role: Field, is_complete: bool) -> Json:
-    """Return the schema of the law of one role in a contact; the keys allowed depend on the name of the law.
+def _make_law_schema(role: Field, is_complete: bool) -> Json:
+    """Return the schema of the law of one role, such as friction, in a contact.
 
-    is_complete: the law and its required keys must be given; otherwise they may be inherited from another contact.
+    The key `law` selects the law, on which the allowed keys depend. is_complete: whether `law` and the required keys
+    must be present. False: they may be inherited from another contact.
     """
     laws = _list_kinds(role)
     all_keys: dict[str, Json] = {field.name: {} for _, law in laws for field in law.fields}
-    law_schema = _describe_object(
+    law_schema = _make_object_schema(
         {**all_keys, "law": {"enum": [name for name, _ in laws]}}, ["law"] if is_complete else []
     )
     law_schema["allOf"] = [
         {
             "if": {"properties": {"law": {"const": name}}, "required": ["law"]},
             "then": {
-                **_describe_object({"law": True, **_describe_fields(law.fields, is_complete)}),
+                **_make_object_schema({"law": True, **_make_field_schemas(law.fields, is_complete)}),
                 "required": _list_required_keys(law.fields) if is_complete else [],
             },
         }

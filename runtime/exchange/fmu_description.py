@@ -229,8 +229,10 @@ def find_jump_switches(source: KernelSource) -> list[int]:
     """
     if explain_exchange_obstacle(source):
         return []
-    meets_flags = re.findall(r" meets\[\] = \{(.*?)\}", source.files[HEADER], re.DOTALL)[0].split(",")
-    return [k for k in range(parse_sizes(source)["N_SWITCHES"]) if int(meets_flags[k]) == 0]
+    continuity_flags = re.findall(r" is_continuous_switch\[\] = \{(.*?)\}", source.files[HEADER], re.DOTALL)[0].split(
+        ","
+    )
+    return [k for k in range(parse_sizes(source)["N_SWITCHES"]) if int(continuity_flags[k]) == 0]
 
 
 def list_indicators(source: KernelSource) -> list[tuple[str, str]]:

@@ -22,7 +22,7 @@ from gudgeon.generator.targets.latex.document import Block, Document, EmbeddedHt
 from gudgeon.generator.targets.latex.letters import Name
 from gudgeon.generator.targets.latex.notation import Notation, make_notation
 from gudgeon.generator.targets.latex.printers import find_fraction_of_pi
-from gudgeon.generator.targets.latex.write import make_primes_table
+from gudgeon.generator.targets.latex.write import make_primed_symbols_table
 from gudgeon.language.text_output import format_one_line
 from gudgeon.teaching.sympy_text import assign_names, format_expression, format_number
 
@@ -83,7 +83,7 @@ def _yield_cells(model: Model, mechanism: str) -> Iterator[Cell]:
     used = _find_used_parameters(model)
     shown = (notation.format_expression(symbol) for symbol in (*model.q, *model.v, *(entry.symbol for entry in used)))
     message = ["## Numbers", "Every number of the file that stands in an equation has a letter."]
-    yield "markdown", "\n\n".join((*message, *map(format_block, make_primes_table(notation, shown))))
+    yield "markdown", "\n\n".join((*message, *map(format_block, make_primed_symbols_table(notation, shown))))
     yield "code", _write_parameters_code(used, notation, names)
     yield from _yield_constraint_cells(model, names)
     if not scene.mechanism.bodies or not model.rows:

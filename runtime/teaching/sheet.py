@@ -32,7 +32,7 @@ from gudgeon.generator.targets.latex.mechanism import (
 from gudgeon.generator.targets.latex.notation import Notation, make_notation
 from gudgeon.generator.targets.latex.theory import read_sketch
 from gudgeon.generator.targets.latex.values import ValueFormatter, get_unit
-from gudgeon.generator.targets.latex.write import add_paper_section, add_symbols_section
+from gudgeon.generator.targets.latex.write import append_paper_section, prepend_symbols_section
 from gudgeon.language.text_output import format_one_line
 from gudgeon.language.tree import Number
 from gudgeon.teaching.draw_parameters import NOISE
@@ -141,9 +141,9 @@ def make_sheets(subject: Subject, questions: Sequence[Question], seed: int) -> t
     last = Section("These numbers again", tuple(_build_repetition_blocks(subject)))
     notation = subject.notation
     sheet = Document(
-        f"Exercise: {title}", facts, add_paper_section(add_symbols_section((*given, *requested), notation))
+        f"Exercise: {title}", facts, append_paper_section(prepend_symbols_section((*given, *requested), notation))
     )
-    sections = add_paper_section(add_symbols_section((*given, *sum(solved, ()), last), notation))
+    sections = append_paper_section(prepend_symbols_section((*given, *sum(solved, ()), last), notation))
     return sheet, replace(sheet, title=f"Solutions: {title}", sections=sections)
 
 

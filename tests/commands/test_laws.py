@@ -20,7 +20,7 @@ from gudgeon.generator.kinds.laws.dissipation import DISSIPATION, FACTORS, SOURC
 from gudgeon.generator.kinds.laws.law import RESULTS, Law, find_bundled_laws, find_laws_of_role
 from gudgeon.generator.targets.latex.document import Equation
 from gudgeon.generator.targets.latex.law import GIVEN, derive_forms, print_equation
-from gudgeon.generator.targets.latex.law_page import list_laws, print_laws_page
+from gudgeon.generator.targets.latex.law_page import list_laws_of_role, print_laws_page
 from gudgeon.generator.targets.latex.letters import make_name_from_latex
 from tests.equations.one_law import PAIR, Evaluator
 from tests.kinds.own import example, forgotten
@@ -244,4 +244,6 @@ def test_the_page_of_laws_is_current() -> None:
     """`make tables` writes it, a heading a law."""
     page = (Path(__file__).resolve().parents[2] / "docs" / "laws.md").read_text("utf-8")
     assert page.partition("<!-- Below: `make tables`. -->\n\n")[2] == page_of_laws()
-    assert re.findall(r"^### `(\w+)`$", page, re.MULTILINE) == [law.name for role in RESULTS for law in list_laws(role)]
+    assert re.findall(r"^### `(\w+)`$", page, re.MULTILINE) == [
+        law.name for role in RESULTS for law in list_laws_of_role(role)
+    ]

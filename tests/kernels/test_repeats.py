@@ -79,8 +79,8 @@ def test_start_parameters_are_compared_one_by_one(monkeypatch: pytest.MonkeyPatc
     # a batch with two starts: runs of equal start parameters share one start
     starts = [1.4, 1.4, 1.5]
     results = list[Array]()
-    for limit in (emit.MAX_COMPARED, 1):
-        monkeypatch.setattr(emit, "MAX_COMPARED", limit)
+    for limit in (emit.MAX_INLINE_COMPARISONS, 1):
+        monkeypatch.setattr(emit, "MAX_INLINE_COMPARISONS", limit)
         four_bars = simulation("n_four_bar", "ideal", "reduced", 2)
         assert ("indices[]" in "".join(four_bars.source.files.values())) == (limit == 1)
         results.append(four_bars.simulate_many({"start.set.crank0.theta": starts}, 5e-3, output=2).q)

@@ -44,7 +44,7 @@ FILLED: Mapping[str, Mapping[str, str]] = {
     "constraints": {"phi": "N_ALL_ROWS"},
     "velocity_rhs": {"nu": "N_ALL_ROWS"},
     "acceleration_rhs": {"gamma_rows": "N_ALL_ROWS"},
-    "start_values": {"guess": "N_GUESS", "set": "N_SET", "rates": "N_RATES + N_APART"},
+    "start_values": {"guess": "N_GUESS", "set": "N_SET", "rates": "N_RATES + N_ECCENTRICITIES"},
     "outputs": {"torques": "N_DRIVES", "series": "N_SERIES"},
     "dynamics": RIGHT_HAND_SIDE | {"rhs->lambda": "N_ROWS", "rhs->phi": "N_ROWS", "rhs->phi_dot": "N_ROWS"},
     "reduced_dynamics": RIGHT_HAND_SIDE | {"a": "N_X", "rhs->lambda": "N_LOOPS"},
@@ -113,8 +113,8 @@ class Emitted:
         first, count = self.sizes["N_CLEARANCES"], self.sizes["N_SWITCHES"]
         main = "reduced_dynamics" if self.sizes["TREE"] else "dynamics"
         joints = {k for a, b in JOINT.findall(self.text) for k in range(int(a), int(b))}
-        idle = re.search(r"short idle\[\] = \{([^}]*)\}", self.header)
-        joints |= {int(k) for k in idle[1].split(",")} if idle else set()  # NaN in motion()
+        unused = re.search(r"short unused_switch\[\] = \{([^}]*)\}", self.header)
+        joints |= {int(k) for k in unused[1].split(",")} if unused else set()  # NaN in motion()
         message = joints | {
             int(k) for name in (main, "loop_switches") if name in self.bodies for k in SWITCH.findall(self.body(name))
         }

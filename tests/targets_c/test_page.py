@@ -21,7 +21,7 @@ from gudgeon.generator.pipeline import generate_kernel_source
 from gudgeon.generator.reader.read import read_mechanism
 from gudgeon.generator.targets import line_breaks
 from gudgeon.generator.targets.c import printer
-from gudgeon.generator.targets.c.model_header import format_unit
+from gudgeon.generator.targets.c.parameter_fields import format_dimension
 from gudgeon.generator.targets.c.printer import WIDTH, break_code, wrap_file
 from gudgeon.language import units
 from gudgeon.loading.shipped import read_committed_source
@@ -146,7 +146,7 @@ def test_units_as_people_write_them(name: str, unit: str) -> None:
     ],
 )
 def test_units_of_every_kind(of: units.Dimension, unit: str) -> None:
-    assert format_unit(of) == unit
+    assert format_dimension(of) == unit
 
 
 def test_a_law_says_the_unit_that_hangs_on_an_exponent() -> None:
@@ -291,7 +291,7 @@ def test_comments_are_wrapped_and_code_in_front_of_them_is_not() -> None:
 
 def test_a_line_of_a_megabyte_is_read_a_few_times_over(monkeypatch: pytest.MonkeyPatch) -> None:
     """Each break looks at places up to the width, not at all that follows."""
-    looked, places = 0, line_breaks._find_possible_breaks
+    looked, places = 0, line_breaks._list_breaks
 
     def counted(line: str) -> Iterator[tuple[float, int]]:
         nonlocal looked
@@ -299,7 +299,7 @@ def test_a_line_of_a_megabyte_is_read_a_few_times_over(monkeypatch: pytest.Monke
             looked += 1
             yield place
 
-    monkeypatch.setattr(line_breaks, "_find_possible_breaks", counted)
+    monkeypatch.setattr(line_breaks, "_list_breaks", counted)
     terms = 100_000
     lines = break_code("    y = " + " + ".join(f"x_{k}" for k in range(terms)) + ";")
     assert max(map(len, lines)) <= WIDTH and looked < 3 * terms

@@ -27,7 +27,7 @@ from gudgeon.generator.targets.latex import (
 )
 from gudgeon.generator.targets.latex.letters import make_name_from_latex, make_symbol_name, make_word_name
 from gudgeon.generator.targets.latex.notation import make_notation
-from gudgeon.generator.targets.latex.render import _MATH, _SPECIAL, escape_latex, escape_sketch_line
+from gudgeon.generator.targets.latex.render import _MATH_COMMANDS, _TEXT_COMMANDS, escape_latex, escape_sketch_line
 from tests.slow import slow_but
 from tests.targets_latex.equations_reader import sections, width
 from tests.targets_latex.test_equations import EVERY, SLIDER, WITH_ROWS, model_of
@@ -73,7 +73,7 @@ def test_any_text_becomes_harmless_latex(text: str) -> None:
     assert escape_latex(text).isascii() and escape_sketch_line(text).isascii()
 
 
-@pytest.mark.parametrize("sign", [*_SPECIAL, *_MATH])
+@pytest.mark.parametrize("sign", [*_TEXT_COMMANDS, *_MATH_COMMANDS])
 def test_every_sign_with_a_command_of_its_own(sign: str) -> None:
     """Random text meets few of them."""
     assert SAFE.fullmatch(escape_latex(sign)), escape_latex(sign)
@@ -248,8 +248,12 @@ forces: {f: {force: a.origin, value: ["1 N*(0.01*a.x/(1 m))**161", 0]}}
 
 def test_small_matrices_are_large_enough_for_their_names() -> None:
     """The fewer columns, the larger an entry; never smaller than before."""
-    sides = [pictures.compute_cell_side(columns, pictures.SMALL) for columns in (3, 9, 30, 150)]
-    assert sides == sorted(sides, reverse=True) and sides[1] == pictures.LARGE and sides[-1] == pictures.SMALL
+    sides = [pictures.compute_cell_side(columns, pictures.MIN_CELL_SIDE) for columns in (3, 9, 30, 150)]
+    assert (
+        sides == sorted(sides, reverse=True)
+        and sides[1] == pictures.MAX_CELL_SIDE
+        and sides[-1] == pictures.MIN_CELL_SIDE
+    )
 
 
 def test_axes_of_laws_have_units_that_suit_their_range() -> None:

@@ -25,14 +25,13 @@ static inline void hertz(double delta, double ratio, double stiffness, double ex
 /*
  * Force of the dry contact in joint fall (physics.md, section 3). It is zero for delta < 0, where a step
  * that ends at the separation may evaluate it.
- * Both bodies take the force at one point, in the middle of the penetration: a_i - a_j = e, so that
- * linear and angular momentum are conserved to rounding. F_n > 0 pushes the journal back: the returned force along n
- * is -F_n.
+ * It acts on both bodies at one point, in the middle of the penetration: a_i - a_j = e, so that linear and angular
+ * momentum are conserved to rounding. F_n > 0 pushes the journal back: the returned force along n is -F_n.
  */
 static inline PinForce dry_fall_(double delta, double deltadot, double de_t, double omega_i, double omega_j,
     const ContactState *contact, const Parameters *p, const double *branch, double *g)
 {
-    /* before an onset is accepted, the approach speed deltadot_minus is that of the stage itself: ratio 1 */
+    /* before an onset is accepted, the approach speed deltadot_minus is the current deltadot: ratio 1 */
     const double ratio = contact->closed ? deltadot / contact->deltadot_minus : 1.0;
     const double a_i = 0.5*delta + p->floor_radius_;
     const double a_j = -0.5*delta + p->R_j_floor_;
@@ -46,7 +45,7 @@ static inline PinForce dry_fall_(double delta, double deltadot, double de_t, dou
     return (PinForce){-F_n, F_along_t_dry, M_i_dry, M_j_dry, v_t};
 }
 
-/* Joint fall: force on the journal; free for delta < 0, dry contact for delta > 0, held over a step. */
+/* Joint fall: force on the journal; zero for delta < 0, dry contact for delta > 0, frozen over a step. */
 static void clearance_fall_(double e_x, double e_y, double de_x, double de_y, double omega_i, double omega_j,
     const ContactState *contact, const Parameters *p, const double *branch, double *g, Clearance *out)
 {

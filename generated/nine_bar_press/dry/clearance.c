@@ -61,14 +61,13 @@ static inline void modified_coulomb(double F_n, double v_t, double mu, double v0
 /*
  * Force of the dry contact in joint A (physics.md, section 3). It is zero for delta < 0, where a step
  * that ends at the separation may evaluate it.
- * Both bodies take the force at one point, in the middle of the penetration: a_i - a_j = e, so that
- * linear and angular momentum are conserved to rounding. F_n > 0 pushes the journal back: the returned force along n
- * is -F_n.
+ * It acts on both bodies at one point, in the middle of the penetration: a_i - a_j = e, so that linear and angular
+ * momentum are conserved to rounding. F_n > 0 pushes the journal back: the returned force along n is -F_n.
  */
 static inline PinForce dry_A_(double delta, double deltadot, double de_t, double omega_i, double omega_j,
     const ContactState *contact, const Parameters *p, const double *branch, double *g)
 {
-    /* before an onset is accepted, the approach speed deltadot_minus is that of the stage itself: ratio 1 */
+    /* before an onset is accepted, the approach speed deltadot_minus is the current deltadot: ratio 1 */
     const double ratio = contact->closed ? deltadot / contact->deltadot_minus : 1.0;
     const double a_i = 0.5*delta + p->pin_radius_;
     const double a_j = -0.5*delta + p->R_j_pin_;
@@ -84,7 +83,7 @@ static inline PinForce dry_A_(double delta, double deltadot, double de_t, double
     return (PinForce){-F_n, F_along_t_dry, M_i_dry, M_j_dry, v_t};
 }
 
-/* Joint A: force on the journal; free for delta < 0, dry contact for delta > 0, held over a step. */
+/* Joint A: force on the journal; zero for delta < 0, dry contact for delta > 0, frozen over a step. */
 static void clearance_A_(double e_x, double e_y, double de_x, double de_y, double omega_i, double omega_j,
     const ContactState *contact, const Parameters *p, const double *branch, double *g, Clearance *out)
 {
@@ -108,14 +107,13 @@ static void clearance_A_(double e_x, double e_y, double de_x, double de_y, doubl
 /*
  * Force of the dry contact in joint B (physics.md, section 3). It is zero for delta < 0, where a step
  * that ends at the separation may evaluate it.
- * Both bodies take the force at one point, in the middle of the penetration: a_i - a_j = e, so that
- * linear and angular momentum are conserved to rounding. F_n > 0 pushes the journal back: the returned force along n
- * is -F_n.
+ * It acts on both bodies at one point, in the middle of the penetration: a_i - a_j = e, so that linear and angular
+ * momentum are conserved to rounding. F_n > 0 pushes the journal back: the returned force along n is -F_n.
  */
 static inline PinForce dry_B_(double delta, double deltadot, double de_t, double omega_i, double omega_j,
     const ContactState *contact, const Parameters *p, const double *branch, double *g)
 {
-    /* before an onset is accepted, the approach speed deltadot_minus is that of the stage itself: ratio 1 */
+    /* before an onset is accepted, the approach speed deltadot_minus is the current deltadot: ratio 1 */
     const double ratio = contact->closed ? deltadot / contact->deltadot_minus : 1.0;
     const double a_i = 0.5*delta + p->pin_radius_;
     const double a_j = -0.5*delta + p->R_j_pin_;
@@ -131,7 +129,7 @@ static inline PinForce dry_B_(double delta, double deltadot, double de_t, double
     return (PinForce){-F_n, F_along_t_dry, M_i_dry, M_j_dry, v_t};
 }
 
-/* Joint B: force on the journal; free for delta < 0, dry contact for delta > 0, held over a step. */
+/* Joint B: force on the journal; zero for delta < 0, dry contact for delta > 0, frozen over a step. */
 static void clearance_B_(double e_x, double e_y, double de_x, double de_y, double omega_i, double omega_j,
     const ContactState *contact, const Parameters *p, const double *branch, double *g, Clearance *out)
 {

@@ -8,43 +8,43 @@
 #ifndef GUDGEON_MODEL_H
 #define GUDGEON_MODEL_H
 
-#define N_Q 24                /* coordinates of all bodies */
-#define N_ROWS 20             /* constraint equations of the motion */
-#define N_ALL_ROWS 24         /* constraint equations of the closed linkage */
-#define N_JOINTS 9            /* joints without play */
-#define N_DRIVES 2            /* drives */
-#define N_CLEARANCES 2        /* joints with play */
-#define LAW_STATES 0          /* internal states of the laws of a joint with play, at most */
-#define N_FRICTIONS 0         /* slips that friction may stop */
-#define N_SWITCHES 10         /* switching functions of min, max, abs and sign */
-#define N_USER_EVENTS 0       /* expressions whose zeros are events */
-#define N_SERIES 0            /* results of force elements */
-#define INTEGRATES 1          /* 1: integrated; 0: no degree of freedom, drives determine positions */
-#define TREE 1                /* 1: tree coordinates; 0: coordinates of all bodies */
-#define POSITIONS_IN_TREE 0   /* the same for kinematic analysis */
-#define N_X 5                 /* coordinates that are integrated */
-#define N_LOOPS 1             /* constraint equations of these */
-#define N_DEPENDENT 0         /* coordinates that drives determine through loops */
-#define N_LED 0               /* these, and cosines and sines of their angles */
-#define SMOOTH_DRIVEN_LOOPS 0 /* their drives have no switching functions */
-#define TREE_PIVOTS 0         /* statuses of pivots before those of driven loops */
-#define RESCUED 1             /* pivots may vanish: absolute equations replace them */
-#define LARGEST_BLOCK 0       /* constraint equations that are solved together */
-#define N_VALUES 67           /* values of the linearized equations */
-#define N_FACTORS 21          /* values of their factors L and U */
-#define IMPLICIT_STAGES 0     /* 1: there are methods that solve all stages together */
-#define HAS_LANES 1           /* runs in vector lanes */
-#define DRIVE_IMPULSES 0      /* drives' rates may jump, and there are degrees of freedom */
-#define RATE_JUMPS 0          /* the rate of a drive may jump */
-#define N_WATCHED 0           /* monitored functions and events */
-#define KNOWN_BOUNDS 0        /* bounds of monitored functions over ranges of the state are known */
-#define WATCHES_STATE 0       /* they depend on more than time */
-#define N_TERMS 0             /* terms of time only, which a step may miss */
-#define N_PULSES 0            /* the first of these: a step of any motion may miss them */
-#define N_GUESS 5             /* coordinates that the start gives as guesses */
-#define GUESSED_POINTS 0      /* some of them are coordinates of points */
-#define N_SET 0               /* coordinates that the start sets */
-#define N_RATES 0             /* velocities that the start sets */
+#define N_Q 24                  /* coordinates of all bodies */
+#define N_ROWS 20               /* constraint equations of the motion */
+#define N_ALL_ROWS 24           /* constraint equations of the closed linkage */
+#define N_JOINTS 9              /* joints without play */
+#define N_DRIVES 2              /* drives */
+#define N_CLEARANCES 2          /* joints with play */
+#define LAW_STATES 0            /* internal states of the laws of a joint with play, at most */
+#define N_FRICTIONS 0           /* friction elements, which may stick */
+#define N_SWITCHES 10           /* switching functions of min, max, abs and sign */
+#define N_USER_EVENTS 0         /* expressions whose zeros are events */
+#define N_SERIES 0              /* results of force elements */
+#define INTEGRATES 1            /* 1: integrated; 0: no degree of freedom, drives determine positions */
+#define TREE 1                  /* 1: tree coordinates; 0: coordinates of all bodies */
+#define POSITIONS_IN_TREE 0     /* the same for kinematic analysis */
+#define N_X 5                   /* coordinates that are integrated */
+#define N_LOOPS 1               /* constraint equations of these */
+#define N_DEPENDENT 0           /* dependent coordinates, which drives determine through loops */
+#define N_DEPENDENT_VALUES 0    /* these, and cosines and sines of their angles */
+#define SMOOTH_DRIVEN_LOOPS 0   /* 1: drives of driven loops have no switching functions */
+#define TREE_PIVOTS 0           /* statuses of pivots before those of driven loops */
+#define HAS_ABSOLUTE_FALLBACK 1 /* 1: if a pivot vanishes, absolute coordinates are used */
+#define LARGEST_BLOCK 0         /* constraint equations that are solved together */
+#define N_VALUES 67             /* values of the linearized equations */
+#define N_FACTORS 21            /* values of their factors L and U */
+#define IMPLICIT_STAGES 0       /* 1: there are methods that solve all stages together */
+#define HAS_LANES 1             /* runs in vector lanes */
+#define DRIVE_IMPULSES 0        /* 1: rates of drives may jump, and there are degrees of freedom */
+#define RATE_JUMPS 0            /* 1: the rate of a drive may jump */
+#define N_WATCHED 0             /* monitored switching functions and user events */
+#define KNOWN_BOUNDS 0          /* 1: bounds of monitored functions over ranges of the state are known */
+#define WATCHES_STATE 0         /* 1: the bounds depend on the state, not only on time */
+#define N_TERMS 0               /* terms that depend on time only, whose changes a step may miss */
+#define N_TRANSIENTS 0          /* the first of these: transients that a step of any motion may miss */
+#define N_GUESS 5               /* coordinates that the start gives as guesses */
+#define GUESSED_POINTS 0        /* 1: some guesses are coordinates of points */
+#define N_SET 0                 /* coordinates that the start sets */
+#define N_RATES 0               /* velocities that the start sets */
 
 /* Thresholds of pivots: a constraint equation is dependent if less than this fraction of its pivot is left: */
 #define SINGULAR 1e-13                        /* if it depends on others */
@@ -61,22 +61,22 @@ typedef struct Parameters Parameters; /* all parameters of a run */
 
 static const signed char event_direction[] = {0};
 static const unsigned char event_stops[] = {0};
-static const int guess_place[] = {5, 8, 14, 17, 20};
-static const int set_place[] = {0};
-static const int rate_place[] = {0};
+static const int guess_coordinate[] = {5, 8, 14, 17, 20};
+static const int set_coordinate[] = {0};
+static const int rate_coordinate[] = {0};
 static const int drive_row[] = {22, 23};
 static const unsigned char row_is_length[] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 0, 0, 0};
-static const int kept_row[] = {0, 1, 2, 3, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23};
+static const int motion_row[] = {0, 1, 2, 3, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23};
 static const int phi_q_first[] = {0, 2, 4, 6, 8, 12, 16, 20, 24, 28, 32, 36, 40, 44, 48, 52, 56, 58, 60, 63, 66, 67,
     68, 69, 70};
-static const short phi_q_place[] = {0, 2, 1, 2, 9, 11, 10, 11, 0, 2, 3, 5, 1, 2, 4, 5, 9, 11, 6, 8, 10, 11, 7, 8, 3, 5,
-    15, 17, 4, 5, 16, 17, 6, 8, 15, 17, 7, 8, 16, 17, 15, 17, 12, 14, 16, 17, 13, 14, 15, 17, 18, 20, 16, 17, 19, 20,
-    12, 14, 13, 14, 18, 20, 21, 19, 20, 22, 21, 23, 2, 11};
+static const short phi_q_column[] = {0, 2, 1, 2, 9, 11, 10, 11, 0, 2, 3, 5, 1, 2, 4, 5, 9, 11, 6, 8, 10, 11, 7, 8, 3,
+    5, 15, 17, 4, 5, 16, 17, 6, 8, 15, 17, 7, 8, 16, 17, 15, 17, 12, 14, 16, 17, 13, 14, 15, 17, 18, 20, 16, 17, 19,
+    20, 12, 14, 13, 14, 18, 20, 21, 19, 20, 22, 21, 23, 2, 11};
 static const unsigned char is_angle[] = {1, 1, 1, 1, 1};
 static const unsigned char film_joint[] = {0, 0};
 static const short watched[] = {0};
-static const short watched_as[] = {-1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1};
-static const unsigned char meets[] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
+static const short watched_index[] = {-1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1};
+static const unsigned char is_continuous_switch[] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
 static const int friction_of_pivot[] = {0};
 
 /* The engine reads no further: scenes that have all this in common share its code. */

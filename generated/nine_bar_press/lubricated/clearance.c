@@ -90,14 +90,13 @@ static inline void pinkus_sternlicht(double epsilon, double w_n, double w_t, dou
 /*
  * Force of the dry contact in joint A (physics.md, section 3). It is zero for delta < 0, where a step
  * that ends at the separation may evaluate it.
- * Both bodies take the force at one point, in the middle of the penetration: a_i - a_j = e, so that
- * linear and angular momentum are conserved to rounding. F_n > 0 pushes the journal back: the returned force along n
- * is -F_n.
+ * It acts on both bodies at one point, in the middle of the penetration: a_i - a_j = e, so that linear and angular
+ * momentum are conserved to rounding. F_n > 0 pushes the journal back: the returned force along n is -F_n.
  */
 static inline PinForce dry_A_(double delta, double deltadot, double de_t, double omega_i, double omega_j,
     const ContactState *contact, const Parameters *p, const double *branch, double *g)
 {
-    /* before an onset is accepted, the approach speed deltadot_minus is that of the stage itself: ratio 1 */
+    /* before an onset is accepted, the approach speed deltadot_minus is the current deltadot: ratio 1 */
     const double ratio = contact->closed ? deltadot / contact->deltadot_minus : 1.0;
     const double a_i = 0.5*delta + p->pin_radius_;
     const double a_j = -0.5*delta + p->R_j_pin_;
@@ -138,7 +137,7 @@ static inline PinForce film_A_(double e, double deltadot, double de_t, double om
 
 /*
  * Joint A: film for e < c, dry contact for e > c + e_0, a linear blend between them
- * (the paper's Eq. 17); fixed over a step.
+ * (the paper's Eq. 17); frozen over a step.
  */
 static void clearance_A_(double e_x, double e_y, double de_x, double de_y, double omega_i, double omega_j,
     const ContactState *contact, const Parameters *p, const double *branch, double *g, Clearance *out)
@@ -181,14 +180,13 @@ static void clearance_A_(double e_x, double e_y, double de_x, double de_y, doubl
 /*
  * Force of the dry contact in joint B (physics.md, section 3). It is zero for delta < 0, where a step
  * that ends at the separation may evaluate it.
- * Both bodies take the force at one point, in the middle of the penetration: a_i - a_j = e, so that
- * linear and angular momentum are conserved to rounding. F_n > 0 pushes the journal back: the returned force along n
- * is -F_n.
+ * It acts on both bodies at one point, in the middle of the penetration: a_i - a_j = e, so that linear and angular
+ * momentum are conserved to rounding. F_n > 0 pushes the journal back: the returned force along n is -F_n.
  */
 static inline PinForce dry_B_(double delta, double deltadot, double de_t, double omega_i, double omega_j,
     const ContactState *contact, const Parameters *p, const double *branch, double *g)
 {
-    /* before an onset is accepted, the approach speed deltadot_minus is that of the stage itself: ratio 1 */
+    /* before an onset is accepted, the approach speed deltadot_minus is the current deltadot: ratio 1 */
     const double ratio = contact->closed ? deltadot / contact->deltadot_minus : 1.0;
     const double a_i = 0.5*delta + p->pin_radius_;
     const double a_j = -0.5*delta + p->R_j_pin_;
@@ -229,7 +227,7 @@ static inline PinForce film_B_(double e, double deltadot, double de_t, double om
 
 /*
  * Joint B: film for e < c, dry contact for e > c + e_0, a linear blend between them
- * (the paper's Eq. 17); fixed over a step.
+ * (the paper's Eq. 17); frozen over a step.
  */
 static void clearance_B_(double e_x, double e_y, double de_x, double de_y, double omega_i, double omega_j,
     const ContactState *contact, const Parameters *p, const double *branch, double *g, Clearance *out)

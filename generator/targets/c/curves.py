@@ -37,7 +37,7 @@ def print_curve_tables(curves: Mapping[str, Curve], texts: Iterable[str]) -> str
 def _print_curve_table(curve: Curve) -> str:
     """Return the C arrays of one curve: its knots, and the four coefficients of each piece between them.
 
-    A long curve is written as little-endian bytes (`_print_byte_table`), a short one as numbers.
+    A long curve (`Curve.is_long`) is written as little-endian bytes (`_print_byte_table`), a short one as numbers.
     """
     description = sanitize_comment(f"{curve.name}: {curve.describe()}")
     if curve.is_long:
@@ -62,20 +62,20 @@ def _print_curve_table(curve: Curve) -> str:
 
 
 def _print_byte_table(prefix: str, name: str, table: Any) -> list[str]:
-    """Return the lines of a union named `prefix`_of_`name` that contains an array as the bytes of its doubles.
+    """Return the C definition of the union `prefix`_of_`name`, an array of doubles stored as string literals of bytes.
 
-    Long tables are written so, since a compiler reads one string much faster than many numbers.
+    Used for long tables, since a compiler reads strings much faster than many numbers.
     """
     data = np.asarray(table, "<f8")
     shape = "".join(f"[{n}]" for n in data.shape)
     octal_escapes = np.array([f"\\{k:03o}".encode() for k in range(256)])[np.frombuffer(data.tobytes(), np.uint8)]
     text = octal_escapes.tobytes().decode("ascii")
-    strings = [f'"{text[k : k + 4 * _ROW]}"' for k in range(0, len(text), 4 * _ROW)]
+    strings = [f'"{text[k : k + 4 * _ROW_BYTES]}"' for k in range(0, len(text), 4 * _ROW_BYTES)]
     union = f"union {{ unsigned char bytes[{data.nbytes}]; double numbers{shape}; }}"
     return [f"static const {union} {prefix}_of_{name} = {{", *strings, "};"]
 
 
-_ROW = 256  # bytes
+_ROW_BYTES = 256  # of one string literal
 _LITTLE_ENDIAN = """\
 #if defined(__BYTE_ORDER__) && __BYTE_ORDER__ != __ORDER_LITTLE_ENDIAN__
 #error "the tables of long curves are little-endian"

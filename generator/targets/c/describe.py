@@ -1,4 +1,4 @@
-"""Describes the contents of the emitted C for the runtime: a KernelSource."""
+"""Describes the model and the emitted C of a scene for the runtime: names, units, indices (a KernelSource)."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ from gudgeon.language.tree import Expr, iterate_names, to_json
 from gudgeon.language.undefined_parts import is_total_expression
 from gudgeon.language.units import Dimension
 
-EMPTY_STORY = ReductionLog()
+EMPTY_REDUCTION_LOG = ReductionLog()
 
 
 def describe_scene(
@@ -48,14 +48,14 @@ def describe_scene(
     pivots: tuple[str, ...] = (),
     start_pivots: tuple[str, ...] = (),
     operations: Mapping[str, int] = MappingProxyType({}),
-    tree: tuple[str, ...] = (),
+    tree_coordinates: tuple[str, ...] = (),
     closures: tuple[str, ...] = (),
     motion_pivots: tuple[str, ...] = (),
     formulation: str = "full",
-    story: ReductionLog = EMPTY_STORY,
+    reduction_log: ReductionLog = EMPTY_REDUCTION_LOG,
     lanes: str = "",
-    chain: DrivenLoops | None = None,
-    stages: bool = False,
+    driven_loops: DrivenLoops | None = None,
+    has_complex_stages: bool = False,
 ) -> KernelSource:
     """Return the KernelSource of a scene: everything that the runtime must know of the model and of its emitted C.
 
@@ -76,7 +76,7 @@ def describe_scene(
         files=files,
         main=main,
         units=units,
-        stages=stages,
+        stages=has_complex_stages,
         coordinates=tuple(model.symbols.info[q].meaning for q in model.q),
         bodies=tuple(BodyInfo(body.name, body.index) for body in model.bodies),
         points=_describe_points(model, parameter_index, body_index),
@@ -102,12 +102,12 @@ def describe_scene(
         operations=dict(operations),
         notes=write_scene_notes(model),
         gravity=any(c != 0 for c in model.gravity),
-        tree=tree,
+        tree=tree_coordinates,
         closures=closures,
         motion_pivots=motion_pivots,
         formulation=formulation,
-        chain=chain.names if chain else (),
-        chain_rows=tuple(row.name for row in chain.rows) if chain else (),
+        chain=driven_loops.names if driven_loops else (),
+        chain_rows=tuple(row.name for row in driven_loops.rows) if driven_loops else (),
         events=tuple(EventInfo(event.name, event.action, event.direction) for event in model.events),
         lines=_find_file_lines(mechanism),
         massless=tuple(body.name for body in mechanism.bodies.values() if body.missing_keys),
@@ -122,7 +122,7 @@ def describe_scene(
         ),
         simulate_written=tuple(_describe_settings(model)),
         states=_name_internal_states(model),
-        story=story,
+        story=reduction_log,
         lanes=lanes,
         parts=tuple(_describe_connections(mechanism)),
         rigid=model.rigid,
@@ -154,7 +154,7 @@ def _describe_parameters(model: Model) -> Iterator[RuntimeParameter]:
 
 
 def _find_file_lines(mechanism: Mechanism) -> tuple[tuple[str, int], ...]:
-    """Return (name, line in the file) of each joint, then of each drive."""
+    """Return (name, line in the mechanism's file) of each joint, then of each drive."""
     joints = [(name, joint.where.line) for name, joint in mechanism.joints.items()]
     return (*joints, *((name, drive.where.line) for name, drive in mechanism.drives.items()))
 
@@ -184,7 +184,7 @@ def _format_point_names(*points: PointRef) -> tuple[str, ...]:
 
 
 def _name_internal_states(model: Model) -> tuple[str, ...]:
-    """Return the names "joint.state" of the internal states of laws in the order of DiscreteState.
+    """Return the names "JOINT.STATE" of the internal states of laws, such as "A.z", in the order of DiscreteState.
 
     Each joint with play has `model.law_states` entries; those that its law does not use are "".
     """
@@ -216,10 +216,10 @@ def _describe_joints(
 
 
 def _select_conditions(model: Model) -> tuple[Condition, ...]:
-    """Return the conditions on run-time parameters that apply to this scene, first those of the file.
+    """Return the conditions on run-time parameters that apply to this scene: those of the file, then fixed signs.
 
-    A condition of the file is left out if a parameter that it names is not in the scene. Signs that the equations
-    assume of directions along an axis follow.
+    A condition of the file is left out if its parameter or its bound, such as "a + b", is not in the scene. A sign is
+    fixed where the equations assume that a direction lies along an axis.
     """
     addresses = set(model.parameter_table.entries)
     return tuple(
@@ -235,7 +235,7 @@ def _select_conditions(model: Model) -> tuple[Condition, ...]:
 def _describe_file_expressions(model: Model) -> Iterator[WrittenInfo]:
     """Yield file expressions that are not run-time parameters, for error messages about their addresses.
 
-    These are drives, forces and events that depend on time or motion, and zeros that the file writes as numbers.
+    These are values of drives, forces and events that depend on time or motion, and numbers that are 0 in the file.
     """
     mechanism, scene = model.scene.mechanism, model.scene
     expressions = [drive.value for drive in mechanism.drives.values()]
@@ -256,7 +256,7 @@ def _describe_file_expressions(model: Model) -> Iterator[WrittenInfo]:
 def _describe_file_expression(quantity: Quantity, expression: Expr | None = None) -> WrittenInfo:
     """Return a file expression as JSON with its address, line and column.
 
-    `expression`, if given, replaces the quantity's value.
+    `expression` replaces the quantity's value; None: the value itself.
     """
     location, expression = quantity.where, expression or quantity.value
     return WrittenInfo(quantity.address, json.dumps(to_json(expression)), location.line, location.column)

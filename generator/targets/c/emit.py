@@ -1,4 +1,4 @@
-"""Writes a scene as C files, in absolute and in tree (reduced) coordinates, and describes their contents."""
+"""Emits the C files of a scene, in absolute and in tree (reduced) coordinates, and describes their contents."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ from gudgeon.generator.targets.c.reduced_summary import describe_reduced_file
 
 CLEARANCES = "clearance.c"
 NOT_AT_START = ("acceleration_rhs", "outputs")  # functions of the closed linkage that a start does not call
-MAX_COMPARED = 500  # parameters that are compared in one expression; more are compared in a loop
+MAX_INLINE_COMPARISONS = 500  # parameters that are compared in one expression; more are compared in a loop
 ABSOLUTE, REDUCED, METHODS = 1, 2, 3  # the parts of MAIN, as PART in C counts them
 PartCallback = Callable[[int, Mapping[str, str]], None]
 FilePrinters = dict[str, Callable[[], str]]  # file -> function that prints it, called when needed
@@ -43,8 +43,9 @@ FilePrinters = dict[str, Callable[[], str]]  # file -> function that prints it, 
 def emit_scene(program: Program, on_part_printed: PartCallback | None = None) -> KernelSource:
     """Return the KernelSource of a scene: its C files by name, with their description for the runtime.
 
-    With a Taylor series, the method `taylor` is included. `on_part_printed`, if given, is called while later files
-    are still printed: once for the engine, then with each part of MAIN and all files that the part includes.
+    With a Taylor series, the method `taylor` is included. `on_part_printed(number, files)`, if given, is called with
+    the files printed so far: for ENGINE_PART after model.h, then after each part of MAIN, so that it is compiled
+    meanwhile. For mechanisms with curves it is called for ENGINE_PART only, since curves.c is printed last.
     """
     model, series = program.model, program.series
     bounds = make_bounds_kernel(program)
@@ -73,41 +74,42 @@ def emit_scene(program: Program, on_part_printed: PartCallback | None = None) ->
 def describe_program(
     program: Program, files: Mapping[str, str], compilation_units: tuple[int, ...] = ()
 ) -> KernelSource:
-    """Return the KernelSource of a program whose `files` are already printed.
+    """Return the KernelSource of a program: its C files, and what the runtime must know of the model and the C.
 
     It contains names of coordinates and results, parameters, pivots, operation counts and the log of the reduction.
-    compilation_units: the parts of MAIN that are compiled separately; () for one unit.
+    files: the text of each printed file by name; {} if the C is not needed. compilation_units: the parts of MAIN that
+    are compiled separately; () for one unit.
     """
-    model, tree, integrated, course = program.model, program.tree, program.integrated, program.kinematics
+    model, tree, integrated, kinematics = program.model, program.tree, program.integrated, program.kinematics
     return describe_scene(
         model,
         files=files,
         main=MAIN,
         units=compilation_units,
         pivots=program.kkt.pivots,
-        start_pivots=course.pivots if course else (),
+        start_pivots=kinematics.pivots if kinematics else (),
         motion_pivots=integrated.pivots,
-        operations=_count_operations(program),
-        tree=tree.system.unknowns if tree else (),
-        chain=integrated.chain,
+        operations=_count_function_operations(program),
+        tree_coordinates=tree.system.unknowns if tree else (),
+        driven_loops=integrated.chain,
         closures=tuple(row.name for row in tree.system.rows) if tree else (),
         formulation=program.formulation,
-        story=build_reduction_log(
+        reduction_log=build_reduction_log(
             model,
             program.kkt,
-            course.projection_kkt if course else integrated.kkt,
+            kinematics.projection_kkt if kinematics else integrated.kkt,
             integrated.system,
-            course.groups if course else (),
+            kinematics.groups if kinematics else (),
         ),
         lanes=lanes_code.MAIN if program.has_lanes else "",
-        stages=program.has_complex_stages,
+        has_complex_stages=program.has_complex_stages,
     )
 
 
 def list_file_names(program: Program) -> list[str]:
-    """Return the names of the files that `emit_scene` writes, without printing them.
+    """Return the names of the C files that `emit_scene` writes, without printing them.
 
-    curves.c and README.md are left out, since their presence depends on the printed text.
+    curves.c, whose presence depends on the printed text, taylor.c and README.md are left out.
     """
     files_of_parts = _list_files_of_parts(program, make_bounds_kernel(program))
     names_in_parts = [name for texts in files_of_parts.values() for name in texts]
@@ -132,8 +134,8 @@ def _list_files_of_parts(program: Program, bounds: Kernel | None) -> dict[int, F
     """Return {number of a part of scene.c: {file: function that prints it}}, files in the order of their inclusion.
 
     Parts are compiled in parallel. ABSOLUTE (parameters, constraints, dynamics) always exists, REDUCED with the reduced
-    formulation only. METHODS exists if it has files: positions of a kinematic scene, or Newton's method of implicit
-    integrators, and the bounds of event functions. bounds: the kernel of these bounds, or None.
+    formulation only. METHODS exists if it has files: positions of a kinematic scene, Newton's method of implicit
+    integrators, bounds of event functions. bounds: the kernel of these bounds, or None.
     """
     tree, kinematics = program.tree, program.kinematics
     parts: dict[int, FilePrinters] = {
@@ -264,28 +266,31 @@ def _print_kernels(*kernels: Kernel) -> str:
 
 
 def _list_kernels(program: Program) -> list[Kernel]:
-    """Return all kernels of a program: both formulations, the closed linkage, `prepare`, implicit methods and laws."""
+    """Return all kernels of a program: both formulations, the closed linkage, `prepare`, methods, then laws.
+
+    The kernels of methods are those of Newton's method for implicit integrators, or of the kinematic analysis.
+    """
     tree, method_kernels = program.tree, program.methods or program.kinematics
     kernels = [*program.right_hand_side, *program.closed_linkage, *(tree.all_kernels if tree else ()), program.prepare]
     return [*kernels, *(method_kernels.kernels if method_kernels else ()), *program.laws]
 
 
-def _count_operations(program: Program) -> dict[str, int]:
-    """Return {function: number of arithmetic operations}, which `gudgeon check -v` prints.
+def _count_function_operations(program: Program) -> dict[str, int]:
+    """Return {C function: number of arithmetic operations}, which `gudgeon check -v` prints.
 
-    A law that several joints share is listed once for each joint, as ROLE_JOINT_force.
+    A law is listed once for each joint that calls it, as ROLE_JOINT_force, for example "normal_A_force".
     """
-    calls = [(pin.clearance.name, *call) for pin in program.joints for call in pin.laws.items()]
-    laws = {f"{role}_{joint}_force": call.kernel for joint, role, call in calls}
+    calls = [(joint.clearance.name, *call) for joint in program.joints for call in joint.laws.items()]
+    laws = {f"{role}_{joint_name}_force": call.kernel for joint_name, role, call in calls}
     counted = {kernel.name: kernel for kernel in _list_kernels(program) if kernel not in program.laws}
     return {name: kernel.n_operations for name, kernel in (counted | laws).items()}
 
 
 def print_start_comparison(kernels: Iterable[Kernel]) -> str:
-    """Return the C function `has_equal_start_parameters`: whether two runs have equal parameters for the closure.
+    """Return the C function `has_equal_start_parameters`: whether a run can reuse the start of another run.
 
-    It compares the parameters that the `kernels` read. It returns 0 if the kernels read tables or pass on all
-    parameters, since members cannot be listed then.
+    It compares the members of Parameters that the `kernels` read, above MAX_INLINE_COMPARISONS in a loop. It always
+    returns 0 if the kernels read tables or pass on the whole struct, and always 1 if they read no parameter.
     """
     lines = [line for kernel in kernels for section in kernel.sections for line in section.statements]
     parameters_read = [name for line in lines for name in _list_parameters_read(line)]
@@ -293,7 +298,7 @@ def print_start_comparison(kernels: Iterable[Kernel]) -> str:
     is_comparable = all(name.isidentifier() for name in members)
     if not (is_comparable and members):
         function_body = f"    (void)p, (void)other;\n    return {int(is_comparable)};\n"
-    elif len(members) <= MAX_COMPARED:
+    elif len(members) <= MAX_INLINE_COMPARISONS:
         tests = "\n        && ".join(f"is_same_number(p->{name}, other->{name})" for name in members)
         function_body = f"    return {tests};\n"
     else:
@@ -312,33 +317,35 @@ def print_start_comparison(kernels: Iterable[Kernel]) -> str:
 
 
 def _list_parameters_read(line: Line) -> list[str]:
-    """Return the members of Parameters that a line reads: [] for none, [""] if the line passes on the whole struct."""
+    """Return the members of Parameters that a line copies to locals.
+
+    [] is returned for a line that reads none, [""] for a line that reads or passes the struct otherwise.
+    """
     if isinstance(line, Statement) and isinstance(line.value, Place) and line.value.is_parameter:
         return [line.value.member]
     return [""] if PARAMETERS in line.reads else []
 
 
-Render = Callable[..., str]
+Render = Callable[..., str]  # of a template by name and substitutions, or of kernels
 
 
 def print_reduced_file(model: Model, tree: TreeFunctions, render: Render, print_kernels: Render) -> str:
     """Return the text of reduced.c, the equations of motion in coordinates of the spanning tree.
 
     The text contains the conversion from and to all coordinates and the kernels. Code for vanishing pivots and for
-    driven loops follows if the tree has them.
+    driven loops follows if the tree has them. render, print_kernels: print a template and several kernels.
     """
     texts = [functions.print_comment(describe_reduced_file(tree.system))]
     texts += [print_kernels(*tree.conversions), print_kernels(*tree.kernels)]
     if tree.has_fallback:
         texts.append(render("multipliers.c.jinja", multipliers=_print_closure_multipliers(model, tree.system)))
-    if chains := tree.chains:
-        kernels = print_kernels(*chains.kernels)
+    if loop_kernels := tree.chains:
         texts.append(
             render(
                 "driven_loops.c.jinja",
-                kernels=kernels,
-                shares=_print_step_scales(chains),
-                turned=_list_direction_rotations(chains),
+                kernels=print_kernels(*loop_kernels.kernels),
+                step_scales=_print_step_scales(loop_kernels),
+                rotations=_list_direction_rotations(loop_kernels),
             )
         )
     return "\n".join(texts)
@@ -389,6 +396,6 @@ def _print_closure_multipliers(model: Model, system: TreeSystem) -> list[str]:
     """
     row_index = {row.name: r for r, row in enumerate(model.rows)}
     return [
-        " ".join(f"{'+' if sign > 0 else '-'} lambda[{row_index[name]}]" for name, sign in shares.items())
-        for shares in (system.tree.find_multiplier_terms(row.name) for row in system.rows)
+        " ".join(f"{'+' if sign > 0 else '-'} lambda[{row_index[name]}]" for name, sign in sign_by_row.items())
+        for sign_by_row in (system.tree.find_multiplier_terms(row.name) for row in system.rows)
     ]

@@ -1,8 +1,8 @@
-"""Joins the parts of a long function that are equal but for names, numbers of elements, parameters and statuses.
+"""Merges clones among the outlined parts of a long C function: parts that differ in names, indices and parameters only.
 
-Such parts belong to equal bars or joints. They are printed once, as a function that reads what differs from a table of
-indices, and each part becomes a call with its row of the table. Statements and their order stay as they are: the
-numbers are the same, bit for bit.
+Such parts belong to equal bars or joints. They are printed once, as a function that reads the differing operands
+(indices, parameters, statuses) from a table. Each part becomes a call with its row of the table. Statements and
+their order stay as they are, so that results are the same bit for bit.
 """
 
 from __future__ import annotations
@@ -19,27 +19,27 @@ from gudgeon.generator.ir.statements import AssignStatus, Call, Line, Statement
 from gudgeon.generator.symbols.storage import PARAMETERS, Place
 from gudgeon.generator.targets.c.printer import WIDTH
 
-_TABLE = make_input_argument("table_row", Number.INTEGER)  # the argument with a part's row of the table
+_TABLE_ROW = make_input_argument("table_row", Number.INTEGER)  # the argument with a part's row of the table
 PARAMETER_INDEX = "PARAMETER_INDEX"  # the macro of engine/scene/types.h that numbers the parameters
 _COMMENT = re.compile(r"(/\*.*?\*/)", re.DOTALL)
 _SPACE = re.compile(r"\s+")
-# What may differ between equal parts, a parameter, the number of an element or a status; and names.
+# Operands, which may differ between clones: a parameter, the index of an element or a returned status; and names.
 _OPERAND = rf"\b{PARAMETERS}->\w+(?![\w\[])|\[\d+\]|return \d+;"
 _TOKEN = re.compile(rf"({_OPERAND}|(?<![\w>.])[A-Za-z_]\w*)")
 _NAME = re.compile(r"[A-Za-z_]\w*")
 _DECLARED = re.compile(r"\bdouble (\w+)\b")
-_TAKES_ADDRESS = "evaluate_contour("  # the function that is called with the address of a parameter
+_CALL_WITH_ADDRESS = "evaluate_contour("  # the call that gets the address of a parameter; a table cannot replace that
 
 TextOfLine = tuple[str, Line | None]
 PrintedPart = tuple[Kernel, Readable, list[TextOfLine]]  # the first text is the head of the function
 
 
 @dataclass(frozen=True)
-class _Body:
+class _NormalizedPart:
     """The texts of a part without its head, each copy of an argument or passed value before the first use of its name.
 
-    `key`: the text without what may differ; `operands`: what may differ, in the order of the text, as elements of a
-    table in C.
+    `key`: the text without operands and with numbered locals, equal for clones. `operands`: the operands in the order
+    of the text, as elements of a table in C.
     """
 
     texts: list[TextOfLine]
@@ -47,58 +47,63 @@ class _Body:
     operands: list[str]
 
 
-def join_equal_parts(
+def merge_equal_parts(
     parts: Sequence[PrintedPart], print_head: Callable[[Kernel, Readable], str]
 ) -> tuple[list[PrintedPart], dict[str, Call]]:
-    """Return the printed parts of a function, equal ones once, and the beginning of each new call by the part's name.
+    """Return (printed parts with clones merged, {name of a merged part: its new call without the old arguments}).
 
-    Parts with equal text are joined if there are MIN_REPETITIONS or more. `print_head` prints the head of a function.
-    A call begins with the function's name and the address of the part's row; the arguments of the old call follow.
+    Parts with the same normalized text are merged if there are at least MIN_REPETITIONS; the first of them becomes the
+    function. `print_head` returns comment and signature of a kernel. `redirect_calls` applies the new calls.
     """
-    bodies = [_read_body(part) for part in parts]
+    normalized_parts = [_normalize_part(part) for part in parts]
     groups: dict[str, list[int]] = {}
-    for k, body in enumerate(bodies):
-        groups.setdefault(body.key, []).append(k)
+    for k, normalized in enumerate(normalized_parts):
+        groups.setdefault(normalized.key, []).append(k)
     joined: list[PrintedPart] = []
     calls: dict[str, Call] = {}
     for k, part in enumerate(parts):
-        group = groups[bodies[k].key]
+        group = groups[normalized_parts[k].key]
         if len(group) < MIN_REPETITIONS:
             joined.append(part)
         elif k == group[0]:
-            table = _Table(f"{part[0].name}_rows", [bodies[member].operands for member in group])
-            joined.append(_print_joined_part(part, bodies[k], table, print_head))
+            table = _OperandTable(f"{part[0].name}_rows", [normalized_parts[member].operands for member in group])
+            joined.append(_print_joined_part(part, normalized_parts[k], table, print_head))
             calls |= {parts[member][0].name: table.make_call(part[0].name, row) for row, member in enumerate(group)}
     return joined, calls
 
 
 def redirect_calls(kernel: Kernel, calls: Mapping[str, Call]) -> Kernel:
-    """Return the function with the calls of parts that were joined replaced. `calls`: as of `join_equal_parts`."""
+    """Return a function that calls the merged functions in place of its parts.
 
-    def redirect(call: Call) -> Call:
-        """Return the new call of a part."""
-        new = calls.get(call.function, call)
-        return call if new is call else replace(new, given=(*new.given, *call.given), results=call.results)
+    `calls`: {name of a part: new call}, as `merge_equal_parts` returns them. Calls of other functions stay.
+    """
+
+    def redirect_call(call: Call) -> Call:
+        """Return the new call of a part, with the arguments of the old call after the table row."""
+        new_call = calls.get(call.function, call)
+        if new_call is call:
+            return call
+        return replace(new_call, given=(*new_call.given, *call.given), results=call.results)
 
     def redirect_line(line: Line) -> Line:
-        """Return a line with its call replaced."""
+        """Return a line with its call redirected: a call, or the assignment of its status; other lines unchanged."""
         if isinstance(line, Call):
-            return redirect(line)
-        return replace(line, call=redirect(line.call)) if isinstance(line, AssignStatus) else line
+            return redirect_call(line)
+        return replace(line, call=redirect_call(line.call)) if isinstance(line, AssignStatus) else line
 
     sections = (Section(section.title, tuple(map(redirect_line, section.statements))) for section in kernel.sections)
     return replace(kernel, sections=tuple(sections))
 
 
-class _Table:
-    """The table of what differs between equal parts: a row for each part.
+class _OperandTable:
+    """Contain the operands that differ between clones: one row for each part, one column for each operand.
 
-    Operands that are equal in all parts are not in it, and of those that differ by the same constant in all parts only
-    the first: `elements` has the text of each operand in the function, None for an operand that stays as it is.
+    Operands that are equal in all parts have no column. Operands that differ by the same constant in all parts share
+    one column. `elements` has the text of each operand in the merged function; None for an operand that is equal.
     """
 
     def __init__(self, name: str, operands_of_parts: Sequence[Sequence[str]]) -> None:
-        """Make the table `name` of the operands of each part, lists of equal lengths."""
+        """Store the columns of the table `name` for the operands of each part, lists of equal lengths."""
         self.name, self.n_rows = name, len(operands_of_parts)
         self.columns: list[tuple[str, ...]] = []
         self.elements: list[str | None] = []
@@ -113,14 +118,14 @@ class _Table:
                 self.columns.append(column)
             offset = int(column[0]) - int(self.columns[k][0]) if column[0].isdigit() else 0
             distance = f" {'-' if offset < 0 else '+'} {abs(offset)}" if offset else ""
-            self.elements.append(f"{_TABLE.name}[{k}]{distance}")
+            self.elements.append(f"{_TABLE_ROW.name}[{k}]{distance}")
 
     def make_call(self, function: str, row: int) -> Call:
-        """Return the beginning of the call of the joined function with a row."""
+        """Return the call of the merged function whose only argument is a row of the table; none without columns."""
         return Call(function, (Place(self.name)[row * len(self.columns)],) if self.columns else (), ())
 
     def print_definition(self) -> str:
-        """Return the table in C; "" without columns."""
+        """Return the table as a static array of int in C, row by row, wrapped at WIDTH; "" without columns."""
         if not self.columns:
             return ""
         lines, line = list[str](), "   "
@@ -132,8 +137,12 @@ class _Table:
         return "\n".join([f"static const int {self.name}[] = {{", *lines, line, "};\n"])
 
 
-def _read_body(part: PrintedPart) -> _Body:
-    """Return the texts of a printed part without its head, with what it has in common with equal parts."""
+def _normalize_part(part: PrintedPart) -> _NormalizedPart:
+    """Return a printed part without its head, with its operands and the key that is equal for clones.
+
+    In the key, locals are numbered in the order of their declarations, comments are removed and operands are empty. A
+    part with _CALL_WITH_ADDRESS has its own name as the key, so that it is never merged.
+    """
     kernel, _, (_, *texts) = part
     ordered = list(_move_copies_to_first_use(texts))
     text = _COMMENT.sub("", "\n".join([text for text, _ in ordered]))
@@ -144,15 +153,19 @@ def _read_body(part: PrintedPart) -> _Body:
         token = pieces[k]
         if token in names:
             pieces[k] = names[token]
-        elif operand := _find_operand(token):
+        elif operand := _split_operand(token):
             operands.append(operand[1])
             pieces[k] = operand[0]
     key = _SPACE.sub(" ", f"{kernel.status} {''.join(pieces)}")
-    return _Body(ordered, kernel.name if _TAKES_ADDRESS in key else key, operands)
+    return _NormalizedPart(ordered, kernel.name if _CALL_WITH_ADDRESS in key else key, operands)
 
 
-def _find_operand(token: str) -> tuple[str, str] | None:
-    """Return what a token has in common with those of equal parts, and what may differ; None for other names."""
+def _split_operand(token: str) -> tuple[str, str] | None:
+    """Return (text that clones share, text that may differ) of an operand; None for a token that is a name.
+
+    Examples: "[3]" gives ("[]", "3"), "return 2;" gives ("return ;", "2"), and "p->mass" gives
+    ("p->", "PARAMETER_INDEX(mass)").
+    """
     if token[0] == "[":
         return "[]", token[1:-1]
     if token.startswith(f"{PARAMETERS}->"):
@@ -161,9 +174,10 @@ def _find_operand(token: str) -> tuple[str, str] | None:
 
 
 def _move_copies_to_first_use(texts: Iterable[TextOfLine]) -> Iterator[TextOfLine]:
-    """Yield the texts of a part, copies of arguments and of passed values just before the first use of their names.
+    """Yield the texts of a part in order, but each copy of a storage place just before the first use of its name.
 
-    Their order is then that of the text, not that of their names.
+    A copy is a statement that declares a local with the value of an argument or element. Its position then no longer
+    depends on its name. Every copy must be used.
     """
     copies: dict[str, TextOfLine] = {}
     for text, line in texts:
@@ -179,32 +193,42 @@ def _move_copies_to_first_use(texts: Iterable[TextOfLine]) -> Iterator[TextOfLin
 
 
 def _replace_tokens(text: str, replace_token: Callable[[re.Match[str]], str]) -> str:
-    """Return a text of C with the tokens outside of comments replaced."""
+    """Return a text of C in which `replace_token` replaces each match of _TOKEN outside of comments."""
     pieces = _COMMENT.split(text)
     pieces[::2] = [_TOKEN.sub(replace_token, piece) for piece in pieces[::2]]
     return "".join(pieces)
 
 
 def _print_joined_part(
-    part: PrintedPart, body: _Body, table: _Table, print_head: Callable[[Kernel, Readable], str]
+    part: PrintedPart,
+    normalized: _NormalizedPart,
+    table: _OperandTable,
+    print_head: Callable[[Kernel, Readable], str],
 ) -> PrintedPart:
-    """Return the function of equal parts with its table. `part` and `body`: the first of these parts."""
+    """Return the merged function of clones, after the definition of its table if the table has columns.
+
+    `part`, `normalized`: the first of the clones. The table row is the first argument of the function, and its comment
+    gets a note.
+    """
     kernel, readable, _ = part
     is_constant = any(a.name == PARAMETERS and a.access is Access.READ for a in kernel.arguments)
     parameters = f"(({'const ' * is_constant}double *){PARAMETERS})"
     elements = iter(table.elements)
 
-    def replace_token(match: re.Match[str]) -> str:
-        """Return a token as the function reads it from its row of the table."""
-        operand = _find_operand(match[0])
+    def read_operand_from_table(match: re.Match[str]) -> str:
+        """Return an operand as an element of the table row, "[at[0]]" for "[3]"; names and equal operands unchanged.
+
+        Called once for each token in the order of the text, since each operand takes the next of `elements`.
+        """
+        operand = _split_operand(match[0])
         element = next(elements) if operand else None
         if not operand or element is None:
             return match[0]
         return {"[]": f"[{element}]", "return ;": f"return {element};"}.get(operand[0], f"{parameters}[{element}]")
 
-    texts = [(_replace_tokens(text, replace_token), line) for text, line in body.texts]
-    note = f"{table.n_rows} parts are equal; names are those of the first, `{_TABLE.name}` is a row of a table."
-    arguments = (*((_TABLE,) if table.columns else ()), *kernel.arguments)
+    texts = [(_replace_tokens(text, read_operand_from_table), line) for text, line in normalized.texts]
+    note = f"{table.n_rows} parts are equal; names are those of the first, `{_TABLE_ROW.name}` is a row of a table."
+    arguments = (*((_TABLE_ROW,) if table.columns else ()), *kernel.arguments)
     head = print_head(replace(kernel, doc=(*kernel.doc, note), arguments=arguments), readable)
     definition: list[TextOfLine] = [(table.print_definition(), None)] if table.columns else []
     return kernel, readable, [*definition, (head, None), *texts]

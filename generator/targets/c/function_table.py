@@ -29,9 +29,10 @@ _RISING = """
 
 
 def print_function_table() -> str:
-    """Return the text of function_table.h: macros that list functions of expressions by their C name.
+    """Return the text of engine/scene/function_table.h: X-macros that list functions of expressions by their C name.
 
-    The first macro lists functions without vector code, the second monotonic functions with their derivatives.
+    The first macro lists functions without vector code, the second monotonic functions with their derivatives. Called
+    by `make tables`.
     """
     by_lane = [f for f in IN_SYMPY.values() if not f.has_vector_code]
     calls = [f"{'OF_ONE' if len(f.arguments) == 1 else 'OF_TWO'}({f.in_c})" for f in by_lane]
@@ -48,14 +49,15 @@ def print_function_table() -> str:
 
 
 def _print_macro(signature: str, calls: list[str]) -> str:
-    """Return a #define of `signature` that lists calls, one per line."""
+    """Return a #define of the macro `signature`, whose replacement is a list of calls, one per line."""
     return " \\\n".join((f"#define {signature}", *(f"    {call}" for call in calls))) + "\n"
 
 
 def _print_monotonic_entry(function: Function) -> str:
     """Return the RISING entry of a monotonic function in C: domain, extremum of the derivative and the derivative.
 
-    The derivative is the one that the function specifies, else it is derived with SymPy.
+    Example: "RISING(sinh, -INFINITY, INFINITY, 0.0, cosh(x))". The derivative is the one that the function specifies,
+    else it is derived with SymPy. `function.bounds` must not be None.
     """
     assert function.bounds
     x, f = sp.Symbol("x", real=True), sp.Symbol(f"{function.in_c}(x)", real=True)

@@ -1,4 +1,4 @@
-"""Prints lines of functions, and whole functions, as C11."""
+"""Prints kernels as C11 functions: each class of lines, calls, and long functions outlined into parts."""
 
 from __future__ import annotations
 
@@ -37,8 +37,8 @@ from gudgeon.generator.ir.values import NO_NAMES
 from gudgeon.generator.kernels.shared import FIRST_SWITCH, SharedFunctionCall
 from gudgeon.generator.symbols.derivatives import find_symbols
 from gudgeon.generator.symbols.storage import Place, find_key
-from gudgeon.generator.targets.c.equal_parts import PrintedPart, join_equal_parts, redirect_calls
-from gudgeon.generator.targets.c.long_sums import divide_long_sums
+from gudgeon.generator.targets.c.equal_parts import PrintedPart, merge_equal_parts, redirect_calls
+from gudgeon.generator.targets.c.long_sums import split_long_sums
 from gudgeon.generator.targets.c.printer import (
     WIDTH,
     CPrinter,
@@ -159,9 +159,9 @@ class LinePrinter(ValuePrinter):
         return [_PLAIN[type(line)]]
 
     def _print_branch(self, branch: Branch) -> list[str]:
-        """Return an if statement that assigns one of two values by the sign of a condition, below zero or not.
+        """Return an if statement that assigns one of two values: below zero, or else (also for NaN).
 
-        A declaration of the target precedes it if the branch defines the target, and its comment if there is one.
+        The comment of the branch, if it has one, and the declaration of a new local precede the statement.
         """
         target = self.printer.get_name(branch.target)
         declaration = [f"{self.number_type} {target};"] if branch.declared_local else []
@@ -207,8 +207,8 @@ class LinePrinter(ValuePrinter):
     def _print_sines(self, sines: Sines) -> list[str]:
         """Return the declarations and the call that compute sines and cosines of several angles in vectors of four.
 
-        In lanes one call computes one angle of all runs. Otherwise four angles share a call, and `sines.count` groups
-        of four share one call of compute_sine_and_cosine_groups.
+        In lanes one call computes one angle of all runs, and marks lanes with large angles in `rare`. Otherwise four
+        angles share a call, and `sines.count` groups of four share one call of compute_sine_and_cosine_groups.
         """
         angles, suffix = [self.print_expression(angle) for angle in sines.angles], sines.suffix
         if sines.lanes:
@@ -251,9 +251,15 @@ class LinePrinter(ValuePrinter):
     def _print_largest_row(self, largest_row: LargestRow) -> list[str]:
         """Return the code that sets *row to the number (from 1) of the value with the largest magnitude."""
         first, *others = map(self.print_expression, largest_row.values)
-        lines = ["*row = 1;", *([f"double most = fabs({first});"] if others else [])]
+        lines = ["*row = 1;", *([f"double max_magnitude = fabs({first});"] if others else [])]
         for r, value in enumerate(others, 2):
-            lines += [f"if (fabs({value}) > most) {{", f"    most = fabs({value});", f"    *row = {r};", "}"]
+            magnitude = f"fabs({value})"
+            lines += [
+                f"if ({magnitude} > max_magnitude) {{",
+                f"    max_magnitude = {magnitude};",
+                f"    *row = {r};",
+                "}",
+            ]
         return lines
 
     def print_statement(self, statement: Statement) -> str:
@@ -274,14 +280,13 @@ class LinePrinter(ValuePrinter):
 
 
 def _print_branch_arrays(branches: DeclareBranches) -> list[str]:
-    """Return the declarations of `branch` (the active branches) and of `g` (values of switching functions).
+    """Return the declarations of `branch` (the frozen branches) and of `g` (values of switching functions).
 
-    `branch` is NULL if no branch is frozen. `g` is omitted, a local array, or part of the results, as `branches` says.
+    `branch` is NULL if no branch is frozen. By `branches.output_target`, `g` is omitted (""), a local array ("unread")
+    or a member of the results ("rhs").
     """
     stored_branches = (
-        "discrete->is_frozen ? discrete->branch : NULL;"
-        if branches.held
-        else "NULL; /* of corners within corners: as they are */"
+        "discrete->is_frozen ? discrete->branch : NULL;" if branches.held else "NULL; /* branches are not frozen */"
     )
     declarations = {"": [], "unread": ["double g[N_SWITCHES + 1];"], "rhs": ["double *const g = rhs->g;"]}[
         branches.output_target
@@ -295,17 +300,20 @@ def print_statements(statements: Sequence[Statement]) -> str:
 
 
 def print_each_statement(statements: Sequence[Statement]) -> list[tuple[str, Line]]:
-    """Return (text in C, line of the kernel) of each statement; branches that a statement needs precede it."""
+    """Return (text in C, line of the kernel) of each statement for a template; [] without statements.
+
+    Select expressions become if statements of their own before the statement that reads them.
+    """
     readable_lines = make_readable_statements(statements)
     line_printer = LinePrinter(CPrinter(readable_lines))
     return [(line_printer.print_line(line), line) for section in readable_lines.sections for line in section.statements]
 
 
 def print_shared_call(call: SharedFunctionCall, arguments: Sequence[str], results: Sequence[str]) -> str:
-    """Return a joint's call of a function that several joints share, in C.
+    """Return in C the statement by which a joint calls a function that several joints share, with its semicolon.
 
-    Arguments are `arguments`, the parameters of this joint, the branches and their first index if the function has
-    switching functions, then `results`.
+    The call passes `arguments`, the parameters of this joint, then `branch`, `g` and the index of the first switching
+    function if there are any, then `results`.
     """
     branch_arguments = ["branch", "g", str(call.first_switch)] if call.first_switch is not None else []
     parameters = map(print_expression, call.parameters)
@@ -348,7 +356,11 @@ def print_kernel(kernel: Kernel) -> str:
 
 
 def _find_names_used(kernel: Kernel) -> frozenset[str]:
-    """Return the C names of all arguments and locals that a function's lines read or write."""
+    """Return the C names of all arguments and locals that a function's lines read or write.
+
+    The argument for the index of the first switching function is included if the kernel has one. Arguments that are not
+    in the result are cast to void.
+    """
     names, symbols = set[str](), set[sp.Symbol]()
     for section in kernel.sections:
         for line in section.statements:
@@ -356,8 +368,8 @@ def _find_names_used(kernel: Kernel) -> frozenset[str]:
             symbols.update(*map(find_symbols, line.expressions))
     keys = names.union(map(find_key, symbols))
     called = (kernel.names.get(key, key) for key in keys)
-    corner_argument = NO_NAMES if kernel.first_switch is None else {FIRST_SWITCH.name}
-    return frozenset(names) | corner_argument | {key.base if isinstance(key, Place) else key for key in called}
+    first_switch = NO_NAMES if kernel.first_switch is None else {FIRST_SWITCH.name}
+    return frozenset(names) | first_switch | {key.base if isinstance(key, Place) else key for key in called}
 
 
 def print_comment(doc: Sequence[str]) -> str:
@@ -374,10 +386,10 @@ def print_function(
     *,
     is_called_by_engine: bool = False,
 ) -> str:
-    """Return a kernel as one C function with its comment; arguments that no line reads are cast to void.
+    """Return a kernel as one C function with its comment; arguments that no line uses are cast to void.
 
-    readable_sections: its lines with the names of their symbols. names_used: further names that count as read.
-    `is_called_by_engine`: another unit calls the function, so that it is not static.
+    readable_sections: the kernel's lines in readable form, with the names of their symbols. names_used: further names
+    that count as used. is_called_by_engine: another compilation unit calls the function, so that it is not static.
     """
     return "".join(
         f"{text}\n"
@@ -397,20 +409,20 @@ def print_function_lines(
 ) -> Iterator[tuple[str, Line | None]]:
     """Yield (text, line of the kernel or None) of a function in C, in order.
 
-    None belongs to the head, to the casts of unread arguments, to titles of sections and to the closing brace. The
-    arguments are those of `print_function`.
+    None belongs to the head (comment and signature), to the casts of unused arguments, to titles of sections and to the
+    closing brace. The arguments are those of `print_function`.
     """
     attribute = f"__attribute__(({kernel.attribute})) " if kernel.attribute else ""
     inline = "inline " if kernel.inline else ""
     static = "" if is_called_by_engine else "static "
     result = "int" if kernel.status else "void"
     signature = f"{attribute}{static}{inline}{result} {kernel.name}({print_arguments(kernel.arguments)})"
-    joined = signature.replace(", ", ",\n").replace(" ", "\0").replace("\n", " ")  # an argument is never parted
+    joined = signature.replace(", ", ",\n").replace(" ", "\0").replace("\n", " ")  # no line break within an argument
     signature = "\n".join(textwrap.wrap(joined, WIDTH, subsequent_indent="    ")).replace("\0", " ")
     yield f"{print_comment(kernel.doc)}{signature}\n{{", None
     names_used |= _find_names_used(kernel)
-    if unread := ", ".join(f"(void){a.name}" for a in kernel.arguments if a.name not in names_used):
-        yield "\n".join(break_code(f"    {unread};")), None
+    if void_casts := ", ".join(f"(void){a.name}" for a in kernel.arguments if a.name not in names_used):
+        yield "\n".join(break_code(f"    {void_casts};")), None
     for k, section in enumerate(readable_sections.sections):
         title = [f"    /* {sanitize_comment(section.title)} */"] * bool(section.title)
         if heading := [*([""] * bool(k)), *title]:
@@ -422,29 +434,30 @@ def print_function_lines(
 
 
 def print_kernel_parts(kernel: Kernel) -> Iterator[PrintedPart]:
-    """Yield (kernel, its readable lines, [(text, line or None)]) of each part into which a kernel is split.
+    """Yield (kernel, its readable form, [(C text, line or None)]) of each function into which a kernel is outlined.
 
-    A short kernel is its only part. Parts come before the functions that call them; equal parts are printed once.
+    A short kernel is its only part. Parts come before the function that calls them, and clones are merged
+    (equal_parts.py). The first text of each is its head, or the table of a merged part.
     """
-    *parts, main = split_kernel(divide_long_sums(kernel))
-    printed, calls = join_equal_parts([_print_part(part) for part in parts], _print_head)
+    *parts, main = split_kernel(split_long_sums(kernel))
+    printed, calls = merge_equal_parts([_print_part(part) for part in parts], _print_head)
     yield from printed
     yield _print_part(redirect_calls(main, calls))
 
 
 def _print_part(part: Kernel) -> PrintedPart:
-    """Return (kernel, its readable lines, [(text, line or None)]) of a kernel that is not split."""
+    """Return (kernel, its readable form, [(C text, line or None)]) of a kernel that is one C function."""
     readable_lines = make_readable(part)
     return part, readable_lines, list(_print_part_lines(part, readable_lines))
 
 
 def _print_head(part: Kernel, readable_lines: Readable) -> str:
-    """Return the comment and the signature of a part."""
+    """Return the comment and the signature of a part, up to its opening brace."""
     return next(iter(_print_part_lines(part, readable_lines)))[0]
 
 
 def _print_part_lines(part: Kernel, readable_lines: Readable) -> Iterator[tuple[str, Line | None]]:
-    """Yield (text, line or None) of a kernel that is not split."""
+    """Yield (C text, line of the kernel or None) of a kernel as one function, not static if in CALLED_BY_ENGINE."""
     line_printer = LinePrinter(CPrinter(readable_lines))
     is_called_by_engine = part.name in CALLED_BY_ENGINE
     return print_function_lines(part, line_printer, readable_lines, is_called_by_engine=is_called_by_engine)

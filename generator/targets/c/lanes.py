@@ -1,4 +1,4 @@
-"""Writes lanes.c, the functions of a scene for ensembles in SIMD lanes, in tree (reduced) coordinates."""
+"""Writes lanes.c: the functions of a scene, vectorized over runs (SIMD lanes), in tree (reduced) coordinates."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ from gudgeon.generator.targets.c.play import print_dry_calls, print_film_calls, 
 
 MAIN = "lanes.c"
 _KERNELS = ("closures", "closure_rates", "reduced_dynamics", "closing_step")
-_PICK_SLOPES = """
-/* Those of b where the mask is set. */
-static inline void pick_slopes(LaneSlopes *a, LaneBits mask, const LaneSlopes *b)
+_SELECT_SLOPES = """
+/* Replace the forces and derivatives in `a` by those in `b` in the lanes of a mask. */
+static inline void select_slopes(LaneSlopes *a, LaneBits mask, const LaneSlopes *b)
 {
     for (int i = 0; i < 4; i++) {
         a->value[i] = select_value(mask, b->value[i], a->value[i]);
@@ -36,7 +36,7 @@ def print_lanes_files(program: Program, render: Render) -> dict[str, str]:
     """Return {"lanes.c": text}: the kernels of single runs in the reduced formulation, printed for vectors of runs.
 
     The file has the linearized equations and Newton's matrix. With a Taylor series, a library compiled with LANE_SERIES
-    has the series instead. The file includes the file's curves if the text calls one.
+    has the series instead. The file includes curves.c if it calls a curve. The program must have a tree.
     """
     assert program.tree
     model = program.model
@@ -46,7 +46,7 @@ def print_lanes_files(program: Program, render: Render) -> dict[str, str]:
     assert program.methods
     joint_functions = [
         *map(lanes_printer.print_kernel, program.laws),
-        *(_print_joint_function(joint, render, model.law_states) for joint in program.joints),
+        *(_print_joint_in_lanes(joint, render, model.law_states) for joint in program.joints),
     ]
     kernels = (*program.tree.unpaired_kernels, program.methods.unpaired_correction_kernel)
     kernels_in_lanes = [kernel for kernel in kernels if kernel.name in _KERNELS]
@@ -63,20 +63,20 @@ def print_lanes_files(program: Program, render: Render) -> dict[str, str]:
             series=series,
             curves=curves,
             integrates=True,
-            engine_includes=_print_includes("batch/lane_tries.c", "batch/lane_flow.c"),
+            engine_includes=_print_engine_includes("batch/lane_tries.c", "batch/lane_flow.c"),
         )
     }
 
 
-def _print_includes(*files: str) -> str:
-    """Return the lines that include files of the engine."""
+def _print_engine_includes(*files: str) -> str:
+    """Return #include lines of files of the engine, given by their paths below engine/."""
     return "\n".join(f'#include "engine/{file}"' for file in files)
 
 
 def _print_kinematic_file(program: Program, render: Render, parameters: Sequence[str]) -> str:
     """Return the text of lanes.c of a kinematically driven scene: Newton's step, motion of bodies, right-hand side.
 
-    `parameters`: names of the fields of Parameters.
+    `parameters`: names of the fields of Parameters, of which LaneParameters has one vector each.
     """
     assert program.tree and program.kinematics
     motion = [kernel for kernel in program.tree.unpaired_kernels if kernel.name == "reduced_dynamics"]
@@ -90,14 +90,14 @@ def _print_kinematic_file(program: Program, render: Render, parameters: Sequence
         series="",
         curves=bool(print_curve_tables(program.model.scene.mechanism.curves, (text,))),
         integrates=False,
-        engine_includes=_print_includes("kinematic/lane_runs.c"),
+        engine_includes=_print_engine_includes("kinematic/lane_runs.c"),
     )
 
 
-def _print_joint_function(joint: JointFunctions, render: Render, n_states: int) -> str:
-    """Return the function of a joint with play for lanes, from a template.
+def _print_joint_in_lanes(joint: JointFunctions, render: Render, n_states: int) -> str:
+    """Return the C functions of a joint with play for lanes: dry contact and film, if present, and the total force.
 
-    Each joint has `n_states` internal states of laws. Dry contact and film are included as far as the joint has them.
+    They come from the template lane_pin.c.jinja. n_states: internal states of laws that each joint of the scene has.
     """
     clearance = joint.clearance
     step_names = ("gap", "before_dry", "after_dry", "before_film", "after_film", "share")
@@ -114,7 +114,7 @@ def _print_joint_function(joint: JointFunctions, render: Render, n_states: int) 
         film=clearance.film is not None,
         ratio_name="unclipped" if clearance.clip_ratio else "ratio",
         rates=print_state_rates("rate", clearance, n_states, "broadcast(0.0)"),
-        still=print_state_rates("", clearance, n_states, "broadcast(0.0)"),
+        zero_rates=print_state_rates("", clearance, n_states, "broadcast(0.0)"),
         first=joint.switch_indices.start,
         last=joint.switch_indices.stop,
         states=n_states,
@@ -126,24 +126,25 @@ def _print_joint_function(joint: JointFunctions, render: Render, n_states: int) 
 def _print_linearized_equations(
     joints: Sequence[JointFunctions], methods: Methods, render: Render, n_states: int
 ) -> str:
-    """Return the linearized equations of motion and Newton's matrix for lanes, without the tables of newton.c.
+    """Return the linearized equations of motion and Newton's matrix for lanes, without the index tables of newton.c.
 
-    Derivatives of the joints' forces come first, then the kernels for real and complex steps.
+    Derivatives of the joints' forces come first, then the kernels for real and complex steps of implicit methods.
+    n_states: internal states of laws that each joint has.
     """
     newton = methods.newton
-    pick_slopes = _PICK_SLOPES.replace("i < 4", f"i < {4 + n_states}").replace("k < 5", f"k < {5 + n_states}")
-    slopes = [print_shared_slopes(joints, render, "Lanes", "LaneSlopes", n_states) + pick_slopes] if joints else []
+    select_slopes = _SELECT_SLOPES.replace("i < 4", f"i < {4 + n_states}").replace("k < 5", f"k < {5 + n_states}")
+    slopes = [print_shared_slopes(joints, render, "Lanes", "LaneSlopes", n_states) + select_slopes] if joints else []
     slopes += map(lanes_printer.print_kernel, methods.derivative_kernels)
     for clearance in (joint.clearance for joint in joints):
         slopes.append(
-            _print_force_tangent(
+            _print_tangent_in_lanes(
                 newton.system.model, clearance, methods.derivative_calls[clearance.name], render, n_states
             )
         )
-    state_kernels = map(lanes_printer.print_kernel_with_fallback_mask, (newton.linearize_kernel, newton.factor_kernel))
+    state_kernels = map(lanes_printer.print_kernel_with_fallback, (newton.linearize_kernel, newton.factor_kernel))
     factor, solve_kernels = methods.complex_kernels[:1], methods.complex_kernels[1:]
-    complex_ = [
-        *map(lanes_printer.print_kernel_with_fallback_mask, factor),
+    complex_step_texts = [
+        *map(lanes_printer.print_kernel_with_fallback, factor),
         *map(lanes_printer.print_kernel, solve_kernels),
     ]
     return "\n".join(
@@ -151,21 +152,22 @@ def _print_linearized_equations(
             *slopes,
             *state_kernels,
             *map(lanes_printer.print_kernel, (newton.substitute_kernel, newton.solve_kernel)),
-            *complex_,
+            *complex_step_texts,
         ]
     )
 
 
-def _print_force_tangent(
+def _print_tangent_in_lanes(
     model: Model,
     clearance: Clearance,
     derivative_calls: Mapping[str, SharedFunctionCall],
     render: Render,
     n_states: int,
 ) -> str:
-    """Return the function with the derivatives of the force of a joint with play, for lanes.
+    """Return the C function `tangent_<joint>_` for lanes: the derivatives of the force of a joint with play.
 
-    derivative_calls: the calls of the derivatives of film, dry contact and their blend; a missing part is left out.
+    derivative_calls: the calls of the derivatives by part, "film", "dry" and "share" (the fraction of the dry contact).
+    Parts that the joint does not have are missing. n_states: internal states of laws that each joint has.
     """
     arguments_and_result = {"film": (STATE, "out"), "dry": (STATE, "&dry"), "share": (("delta",), "share")}
     calls = {

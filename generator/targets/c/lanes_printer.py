@@ -1,7 +1,7 @@
-"""Prints generated functions for SIMD lanes, one run per lane: the same statements with vectors (lanes.h).
+"""Prints kernels for SIMD lanes, one run per lane: the same statements with vectors (lanes.h), masks for branches.
 
-The order of operations is kept, so that each lane rounds as a single run does. Masks replace branches. A lane in which
-a single run would take another path is marked as rare.
+The order of operations is kept, so that each lane rounds as a single run does. Lanes in which a single run would take
+another path are added to the mask `rare`. Their steps fall back to the scalar code of single runs.
 """
 
 from __future__ import annotations
@@ -49,27 +49,30 @@ _TYPES: dict[Type, Type] = {
     "PinSlopes": "LaneSlopes",
     "Wide": "Lanes",
 }
-_RARE = make_output_argument("rare", "LaneBits")
+_FALLBACK_MASK = make_output_argument("rare", "LaneBits")  # lanes that the scalar code must compute
 # Lines of single runs without a counterpart in lanes, such as the treatment of vanishing pivots.
 _SINGLE_RUN_LINES = (Status, ReturnIfOnlyJoints, Jump, SolveDependentRows, Return)
 
 
 class LanesPrinter(printer.CPrinter):
-    """Print symbols as vectors; numbers stay numbers where C allows it."""
+    """Print expressions of vectors in C; symbols are vectors, constants stay scalars where C allows it."""
 
     def _print_vector(self, expr: sp.Expr) -> str:
-        """Print an expression as a vector: a constant fills all lanes."""
+        """Print an expression as a vector: a constant is broadcast to all lanes."""
         text: str = self._print(expr)
         return text if expr.free_symbols else f"broadcast({text})"
 
     def _print_call(self, function_name: str, *arguments: sp.Expr) -> str:
-        """Print a call of a function of vectors; with constant arguments only, the call of the function of numbers."""
+        """Print a call of a vector function; with constant arguments only, the call of the scalar function."""
         if not any(argument.free_symbols for argument in arguments):
             return super()._print_call(function_name, *arguments)
         return f"lanes_{function_name}({', '.join(map(self._print_vector, arguments))})"
 
     def _print_nested_calls(self, function_name: str, expr: sp.Expr) -> str:
-        """Print nested calls of a function of two vectors, for example a maximum; constants come last."""
+        """Print an associative function, such as a maximum, as nested calls of two vectors; constants come last.
+
+        An expression without symbols is printed as a scalar.
+        """
         if not expr.free_symbols:
             return super()._print_nested_calls(function_name, expr)
         arguments = sorted(expr.args, key=lambda a: (a.is_Number, str(a)))
@@ -92,7 +95,7 @@ class LanesPrinter(printer.CPrinter):
         return f"(lanes_fabs({self._print_vector(expr.args[0])}) + 1e-150)"
 
     def _print_CurveOf(self, expr: CurveOf) -> str:
-        """Print the value of a curve at a vector."""
+        """Print the value of a curve, or its derivative, at a vector; at a constant, the scalar call."""
         if not expr.free_symbols:
             return super()._print_CurveOf(expr)
         return f"lanes_curve({make_curve_name(expr.name)}, {expr.order}, {self._print_vector(expr.args[2])})"
@@ -107,12 +110,12 @@ class LanesPrinter(printer.CPrinter):
         return f"lanes_knots({make_curve_name(expr.name)}, {self._print_vector(expr.args[1])})"
 
     def _print_Select(self, expr: sp.Expr) -> str:
-        """Print Select(branch, a, b), a select by the sign of a vector: a for branch ≥ 0, b for branch < 0.
+        """Print Select(branch, a, b), a select by the sign of a vector: b for branch < 0, else a (also for NaN).
 
-        If `of.branches` holds the expression, its variable's name is printed. SymPy calls the method by this name.
+        If `readable.branches` contains the expression, the name of its local is printed.
         """
-        if expr in self.of.branches:
-            return self.of.branches[expr]
+        if expr in self.readable.branches:
+            return self.readable.branches[expr]
         branch, a, b = map(self._print_vector, expr.args)
         return f"select_value({branch} < 0.0, {b}, {a})"
 
@@ -126,7 +129,7 @@ class LaneLines(functions.LinePrinter):
         super().__init__(printer, "Lanes")
 
     def print_expression(self, value: Value) -> str:
-        """Return a value as a vector in C; a condition becomes a choice by a mask."""
+        """Return a value as a vector in C; a conditional value becomes a select by the mask of its test."""
         match value:
             case sp.Basic():
                 return self.printer._print_vector(value)
@@ -137,20 +140,19 @@ class LaneLines(functions.LinePrinter):
                 return super().print_expression(value)
 
     def print_test(self, test: Test) -> str:
-        """Return a comparison as a mask of lanes in C; bounds stay numbers where possible."""
+        """Return a comparison as a mask of lanes in C; constant bounds stay scalars.
+
+        A test without a relation is value > 0. A test that is relative to the value itself (`is_relative_to_value`)
+        checks that the value, or its magnitude if that is compared, is positive and finite.
+        """
         value_printer = ValuePrinter(self.printer)
-        if not test.relation:
-            return f"{value_printer.print_expression(test.value)} > 0.0"
-        if not test.is_relative_to_value:
-            number_test = value_printer.print_test(replace(test, compares_magnitude=False))
-            return (
-                f"lanes_fabs({value_printer.print_expression(test.value)}){number_test.removeprefix(value_printer.print_expression(test.value))}"
-                if test.compares_magnitude
-                else number_test
-            )
         value = value_printer.print_expression(test.value)
-        size = f"lanes_fabs({value})" if test.compares_magnitude else value
-        return f"({size} > 0.0) & ({size} < INFINITY)"
+        if not test.relation:
+            return f"{value} > 0.0"
+        left_side = f"lanes_fabs({value})" if test.compares_magnitude else value
+        if test.is_relative_to_value:
+            return f"({left_side} > 0.0) & ({left_side} < INFINITY)"
+        return left_side + value_printer.print_test(replace(test, compares_magnitude=False)).removeprefix(value)
 
     def _print_line(self, line: Line) -> Sequence[str]:
         """Return one line of a kernel as lines of C for vectors.
@@ -220,38 +222,39 @@ def print_statements(statements: Sequence[Statement]) -> str:
 
 
 def print_kernel(kernel: Kernel) -> str:
-    """Return a kernel as a C function for vectors, which marks the lanes that it cannot compute in `rare`.
+    """Return a kernel as a C function for vectors without a status.
 
-    Lines of single runs without a counterpart in lanes are left out. The function returns no status.
+    Lines of single runs without a counterpart in lanes, such as the treatment of vanishing pivots, are left out. The
+    function marks lanes that it cannot compute in `rare`, which must be an argument of a kernel with guards or sines.
     """
-    kept_sections = (
+    lane_sections = (
         Section(section.title, tuple(x for x in section.statements if not isinstance(x, _SINGLE_RUN_LINES)))
         for section in kernel.sections
     )
     arguments = tuple(replace(a, type=_TYPES.get(a.type, a.type)) for a in kernel.arguments)
-    sections = tuple(section for section in kept_sections if section.statements)
+    sections = tuple(section for section in lane_sections if section.statements)
     lanes_kernel = replace(kernel, sections=sections, arguments=arguments, status=False)
-    marks_rare = any(isinstance(x, (Guard, Sines)) for section in sections for x in section.statements)
+    marks_lanes = any(isinstance(x, (Guard, Sines)) for section in sections for x in section.statements)
     readable_lines = make_readable(lanes_kernel)
     return functions.print_function(
         lanes_kernel,
         LaneLines(LanesPrinter(readable_lines)),
         readable_lines,
-        frozenset([_RARE.name] if marks_rare else []),
+        frozenset([_FALLBACK_MASK.name] if marks_lanes else []),
     )
 
 
 def print_motion_kernel(kernel: Kernel) -> str:
-    """Return a kernel as a C function for vectors whose sines are computed one angle at a time for all lanes.
+    """Return a kernel of the motion as a C function for vectors, with the further argument `rare`.
 
-    The function has the further argument `rare`. Kernels of the motion are printed so.
+    Its sines and cosines are computed one angle at a time for all lanes, which marks lanes with large angles in `rare`.
     """
-    return print_kernel_with_fallback_mask(call_sines_by_lane(kernel))
+    return print_kernel_with_fallback(call_sines_by_lane(kernel))
 
 
-def print_kernel_with_fallback_mask(kernel: Kernel) -> str:
+def print_kernel_with_fallback(kernel: Kernel) -> str:
     """Return a kernel as a C function for vectors with the further argument `rare`, a mask of lanes.
 
-    The C function marks the lanes in which it is not valid; the engine computes them as single runs.
+    The C function adds the lanes in which a pivot fails its test; for these the engine falls back to single runs.
     """
-    return print_kernel(replace(kernel, arguments=(*kernel.arguments, _RARE)))
+    return print_kernel(replace(kernel, arguments=(*kernel.arguments, _FALLBACK_MASK)))

@@ -1,4 +1,4 @@
-"""Finds the lines of a function in the emitted C files, so that a page of equations can highlight them."""
+"""Maps functions and assignments to their lines in the emitted C files, for highlighting in a page of equations."""
 
 from __future__ import annotations
 
@@ -59,11 +59,12 @@ def locate_function(kernel: Kernel, files: Mapping[str, str]) -> Iterator[Locate
 
 
 def _find_stores(text: Sequence[str], line: Line | str | None, first_line: int) -> list[StoredLines]:
-    """Return the variables that a text of C stores to, each with its lines in the file.
+    """Return the variables to which a printed line stores, each with its lines in the file; [] without an assignment.
 
-    text: the lines of C, which begin at line `first_line` of the file. line: the kernel's line that the text prints, or
-    the name of a local; lines that are not assignments give []. A branch gives two entries, one for each side of its
-    switching point. None belongs to lines that the kernel does not contain.
+    A branch gives two entries, one for each of its two values.
+
+    text: the printed C, which begins at line `first_line` of the file. line: the line of the kernel that it prints, or
+    the name of the local that it sets; None for neither.
     """
     lines = range(first_line, first_line + len(text))
     if isinstance(line, str):
@@ -80,10 +81,10 @@ def _find_stores(text: Sequence[str], line: Line | str | None, first_line: int) 
 def locate_stores(
     function_text: str, stores: Iterable[tuple[str, Line | str]], files: Mapping[str, str]
 ) -> tuple[str, list[StoredLines]]:
-    """Return the file of a function that a template printed, and the lines that store to its variables.
+    """Return (file, stores with their lines) of a function that a template printed; ("", []) if no file contains it.
 
-    stores: (text of C, the kernel's line or the name of a local) of each assignment, found in order. files: the text of
-    each file by name. ("", []) is returned if no file contains the function.
+    stores: (C text, line of the kernel or name of the local) of each assignment, in the order of the function. files:
+    the text of each file by name.
     """
     file, lines = locate_text(function_text, files)
     remaining_text, line_number, located_stores = wrap_file(function_text), lines.start, list[StoredLines]()

@@ -1,9 +1,8 @@
-"""Writes model.h: what the engine must know of a scene, as sizes, fields of Parameters and small tables."""
+"""Writes model.h: sizes (macros), the struct Parameters and index tables of a scene, which the engine reads."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
-from fractions import Fraction
+from collections.abc import Iterable, Sequence
 from itertools import accumulate
 from typing import Any
 
@@ -13,8 +12,6 @@ from gudgeon.contract.kernel_source import ENGINE_ENDS
 from gudgeon.generator.equations.model import SIGNS, Model, find_eccentricity_rows
 from gudgeon.generator.equations.notes import find_drives_with_jumps, has_jumps
 from gudgeon.generator.equations.play import Clearance
-from gudgeon.generator.field import Field
-from gudgeon.generator.format.sections import FILE
 from gudgeon.generator.ir.kernels import Kernel
 from gudgeon.generator.kernels import outputs
 from gudgeon.generator.kernels.event_functions import depends_on_state, make_ranges_kernel
@@ -25,105 +22,18 @@ from gudgeon.generator.solvers.kkt import KKT
 from gudgeon.generator.solvers.pivots import EARLY, LIGHT_PIVOT, NEARLY_SINGULAR, SINGULAR, VANISHING
 from gudgeon.generator.solvers.square_rows import SINGULAR_SQUARE
 from gudgeon.generator.symbols.curves import KnotsOf
-from gudgeon.generator.symbols.parameter_table import ParameterTable
 from gudgeon.generator.symbols.switches import PeriodsOf
 from gudgeon.generator.targets.c import printer
-from gudgeon.generator.targets.c.printer import break_code, sanitize_comment
-from gudgeon.language.units import DIMENSIONLESS, POWER, PRESSURE, VISCOSITY, Dimension
+from gudgeon.generator.targets.c.parameter_fields import list_parameter_fields
+from gudgeon.generator.targets.c.printer import break_code
 
-_UNIT_NAMES = {PRESSURE: "Pa", VISCOSITY: "Pa*s", POWER: "W"}
-
-
-def list_parameter_fields(parameter_table: ParameterTable) -> list[tuple[str, str]]:
-    """Return (name, comment) of each field of the C struct Parameters, in order.
-
-    Entries of the file come first, then derived parameters. A table is one array field. The comment has the address
-    and the unit.
-    """
-    dimensions: dict[sp.Symbol, Dimension | None] = {}
-    fields = []
-    table_entries = {symbol for table in parameter_table.tables.values() for symbol in table[1:]}
-    sizes = {table[0]: f"{name}[{len(table)}]" for name, table in parameter_table.tables.items()}
-    for entry in parameter_table.entries.values():
-        dimensions[entry.symbol] = entry.dimension
-        if entry.symbol in table_entries:
-            continue
-        is_angle = entry.address.endswith(".theta") and entry.dimension == DIMENSIONLESS
-        unit = "rad" if is_angle else _describe_law_unit(entry.address) or format_unit(entry.dimension)
-        name = sizes.get(entry.symbol, parameter_table.find_field_name(entry.symbol))
-        address = entry.address.rpartition(".")[0] if entry.symbol in sizes else entry.address
-        fields.append((name, sanitize_comment(f"{address}, {unit}")))
-    for symbol, value in parameter_table.derived.items():
-        dimensions[symbol] = _derive_dimension(value, dimensions)
-        dimension = dimensions[symbol]
-        comment_parts = (parameter_table.symbols.info[symbol].meaning, format_unit(dimension) if dimension else "")
-        fields.append(
-            (parameter_table.find_field_name(symbol), sanitize_comment(", ".join(filter(None, comment_parts))))
-        )
-    return fields
-
-
-def _describe_law_unit(address: str) -> str:
-    """Return the meaning of a law's coefficient in N/m^n, whose unit depends on an exponent; "" for other addresses."""
-    field: Field | None = FILE if address.startswith("contacts.") else None
-    for part in address.split("."):
-        field = field and field.find_field(part)
-    return field.meaning if field and field.any_dimension else ""
-
-
-def format_unit(dimension: Dimension) -> str:
-    """Return a dimension as a unit in ASCII: N*m, Pa, N*s/m^1.5, kg*m^2; "1" for a plain number and rad."""
-    if unit := _UNIT_NAMES.get(dimension):
-        return unit
-    powers = {"kg": dimension.mass, "m": dimension.length, "s": dimension.time}
-    if dimension.mass == 1 and dimension.time in (-1, -2):
-        powers = {"N": Fraction(1), "m": dimension.length - 1, "s": dimension.time + 2}
-    numerator, divisors = _print_unit_product(powers), _print_unit_product({unit: -n for unit, n in powers.items()})
-    denominator = f"({divisors})" if "*" in divisors else divisors
-    return f"{numerator or 1}/{denominator}" if divisors else numerator or "1"
-
-
-def _print_unit_product(powers: Mapping[str, Fraction]) -> str:
-    """Return the product of the units with positive powers: "N*s", "m^1.5"; "" if there are none."""
-    printed_powers = {
-        unit: f"{float(n):g}" if n.denominator in (1, 2, 4) else f"({n})" for unit, n in powers.items() if n > 0
-    }
-    return "*".join(unit if n == "1" else f"{unit}^{n}" for unit, n in printed_powers.items())
-
-
-def _derive_dimension(value: sp.Expr, dimensions: dict[sp.Symbol, Dimension | None]) -> Dimension | None:
-    """Return the dimension of a derived parameter's expression; None if it depends on an exponent that is a parameter.
-
-    dimensions: those of the parameters before it. A sum has the dimension of its first term that has one; max, min and
-    abs have that of their first argument. Numbers and other functions are dimensionless. Only rational exponents count.
-    """
-    if value.is_Symbol:
-        return dimensions.get(value)
-    if value.is_Add:
-        return next((d for term in value.args if (d := _derive_dimension(term, dimensions))), DIMENSIONLESS)
-    if value.is_Mul:
-        product: Dimension | None = DIMENSIONLESS
-        for factor in value.args:
-            factor_dimension = _derive_dimension(factor, dimensions)
-            product = product * factor_dimension if product and factor_dimension else None
-        return product
-    if value.is_Pow:
-        base, exponent = _derive_dimension(value.base, dimensions), value.exp
-        if base is None or base == DIMENSIONLESS:
-            return base
-        return base ** Fraction(int(exponent.p), int(exponent.q)) if exponent.is_Rational else None
-    if isinstance(value, (sp.Max, sp.Min, sp.Abs)):
-        return _derive_dimension(value.args[0], dimensions)
-    return DIMENSIONLESS
-
-
-Sizes = dict[str, tuple[int | float, str]]
+Sizes = dict[str, tuple[int | float, str]]  # macro -> (value, meaning)
 
 _POSITION = {"vx": "x", "vy": "y", "omega": "theta"}  # coordinate of which each rate is the derivative
-_MAX_PENETRATION = "max_valid_penetration"
+_PENETRATION_LIMIT = "max_valid_penetration"
 _PARAMETER_MEANINGS = {
     "radial_clearance": "Radial clearance of joint i with play, m.",
-    _MAX_PENETRATION: "The penetration beyond which contact laws are not valid, m: a tenth of the bearing's radius.",
+    _PENETRATION_LIMIT: "The penetration beyond which contact laws are not valid, m: a tenth of the bearing's radius.",
     "min_approach_speed": "The smallest approach speed that is stored at an onset, m/s.",
     "breakaway": "The deflection at which friction with an internal state slides, m; 0: unknown.",
     "restitution_of": "Rigid surfaces: separation speed divided by approach speed.",
@@ -144,10 +54,10 @@ _GAINS = {"two_alpha": "baumgarte_two_alpha", "beta_squared": "baumgarte_beta_sq
 
 
 def make_header_values(program: Program, bounds: Kernel | None) -> dict[str, Any]:
-    """Return the substitutions of the template of model.h by name.
+    """Return {variable of the template model.h.jinja: value}.
 
-    They are fields of Parameters, #defines of sizes and thresholds, tables, and gains of Newton's matrix. bounds: the
-    kernel of `make_bounds_kernel`, or None.
+    The values are fields of Parameters, #defines of sizes and thresholds, tables, and Baumgarte's gains in Newton's
+    matrix. bounds: the kernel of `make_bounds_kernel`, or None.
     """
     model, scene_sizes = program.model, list_size_macros(program, bounds)
     if series := program.series:
@@ -168,7 +78,7 @@ def make_header_values(program: Program, bounds: Kernel | None) -> dict[str, Any
 
 
 def list_size_macros(program: Program, bounds: Kernel | None) -> Sizes:
-    """Return {macro: (value, meaning)} of all sizes in model.h; code for what has size 0 is left out of the library.
+    """Return {macro: (value, meaning)} of all sizes in model.h, by which the engine sizes arrays and leaves out code.
 
     bounds: the kernel of `make_bounds_kernel`, or None.
     """
@@ -192,7 +102,7 @@ def _list_linkage_sizes(program: Program) -> Sizes:
         "N_DRIVES": (len(model.scene.mechanism.drives), "drives"),
         "N_CLEARANCES": (len(model.clearances), "joints with play"),
         "LAW_STATES": (model.law_states, "internal states of the laws of a joint with play, at most"),
-        "N_FRICTIONS": (len(model.frictions), "slips that friction may stop"),
+        "N_FRICTIONS": (len(model.frictions), "friction elements, which may stick"),
         "N_SWITCHES": (switches, "switching functions of min, max, abs and sign"),
         "N_USER_EVENTS": (len(model.events), "expressions whose zeros are events"),
         "N_SERIES": (len(outputs.find_element_series(model)), "results of force elements"),
@@ -204,28 +114,35 @@ def _list_motion_sizes(program: Program) -> Sizes:
 
     Flags have the values 0 and 1.
     """
-    integrated, chain, course, tree = program.integrated, program.integrated.chain, program.kinematics, program.tree
-    system, newton = integrated.system, program.methods.newton if program.methods else None
+    integrated, kinematics, tree = program.integrated, program.kinematics, program.tree
+    driven_loops, system = integrated.chain, integrated.system
+    newton = program.methods.newton if program.methods else None
     return {
         "INTEGRATES": (int(program.integrates), "1: integrated; 0: no degree of freedom, drives determine positions"),
         "TREE": (int(tree is not None), "1: tree coordinates; 0: coordinates of all bodies"),
-        "POSITIONS_IN_TREE": (int(course is not None and course.rows is not None), "the same for kinematic analysis"),
+        "POSITIONS_IN_TREE": (
+            int(kinematics is not None and kinematics.rows is not None),
+            "the same for kinematic analysis",
+        ),
         "N_X": (len(system.q), "coordinates that are integrated"),
         "N_LOOPS": (len(system.rows), "constraint equations of these"),
-        "N_DEPENDENT": (len(system.dependent), "coordinates that drives determine through loops"),
-        "N_LED": (
-            len(system.dependent) + 2 * len(chain.directions) if chain else 0,
+        "N_DEPENDENT": (len(system.dependent), "dependent coordinates, which drives determine through loops"),
+        "N_DEPENDENT_VALUES": (
+            len(system.dependent) + 2 * len(driven_loops.directions) if driven_loops else 0,
             "these, and cosines and sines of their angles",
         ),
         "SMOOTH_DRIVEN_LOOPS": (
             int(bool(tree and tree.chains and not tree.chains.switch_kernel)),
-            "their drives have no switching functions",
+            "1: drives of driven loops have no switching functions",
         ),
         "TREE_PIVOTS": (
-            len(integrated.pivots) - len(chain.rows) if chain else 0,
+            len(integrated.pivots) - len(driven_loops.rows) if driven_loops else 0,
             "statuses of pivots before those of driven loops",
         ),
-        "RESCUED": (int(tree is not None and tree.has_fallback), "pivots may vanish: absolute equations replace them"),
+        "HAS_ABSOLUTE_FALLBACK": (
+            int(tree is not None and tree.has_fallback),
+            "1: if a pivot vanishes, absolute coordinates are used",
+        ),
         "LARGEST_BLOCK": (_find_largest_block_size(program), "constraint equations that are solved together"),
         "N_VALUES": (newton.values.size if newton else 0, "values of the linearized equations"),
         "N_FACTORS": (newton.factors.size if newton else 0, "values of their factors L and U"),
@@ -235,40 +152,55 @@ def _list_motion_sizes(program: Program) -> Sizes:
 
 
 def _list_monitoring_sizes(program: Program, bounds: Kernel | None) -> Sizes:
-    """Return {macro: (value, meaning)} of what is monitored within a step: event functions, time terms, jumps.
+    """Return {macro: (value, meaning)} of event functions, terms of time and jumps that the integrator monitors.
 
-    Macros for rigid contacts, remainders, curves, contours and guides exist only if the scene has them. `bounds`: the
-    kernel of `make_bounds_kernel`, or None.
+    Macros for rigid contacts, mod(), curves, contours and guides exist only if the scene has them. `bounds`: the kernel
+    of `make_bounds_kernel`, or None.
     """
     model = program.model
     sizes: Sizes = {
         "DRIVE_IMPULSES": (
             int(bool(find_drives_with_jumps(model))),
-            "drives' rates may jump, and there are degrees of freedom",
+            "1: rates of drives may jump, and there are degrees of freedom",
         ),
-        "RATE_JUMPS": (int(has_jumps(model)), "the rate of a drive may jump"),
-        "N_WATCHED": (len(find_monitored_switches(program)) + len(model.events), "monitored functions and events"),
-        "KNOWN_BOUNDS": (int(bounds is not None), "bounds of monitored functions over ranges of the state are known"),
-        "WATCHES_STATE": (int(bounds is not None and depends_on_state(bounds)), "they depend on more than time"),
-        "N_TERMS": (program.time_terms.count, "terms of time only, which a step may miss"),
-        "N_PULSES": (program.time_terms.pulses, "the first of these: a step of any motion may miss them"),
+        "RATE_JUMPS": (int(has_jumps(model)), "1: the rate of a drive may jump"),
+        "N_WATCHED": (
+            len(find_monitored_switches(program)) + len(model.events),
+            "monitored switching functions and user events",
+        ),
+        "KNOWN_BOUNDS": (
+            int(bounds is not None),
+            "1: bounds of monitored functions over ranges of the state are known",
+        ),
+        "WATCHES_STATE": (
+            int(bounds is not None and depends_on_state(bounds)),
+            "1: the bounds depend on the state, not only on time",
+        ),
+        "N_TERMS": (program.time_terms.count, "terms that depend on time only, whose changes a step may miss"),
+        "N_TRANSIENTS": (
+            program.time_terms.pulses,
+            "the first of these: transients that a step of any motion may miss",
+        ),
     }
     systems = (model, program.integrated.system.model)
     switches = [switch.g for some in systems for switch in some.symbols.switches.switch_by_key.values()]
     if model.rigid:
         sizes["N_RIGID"] = (len(model.rigid), "joints with play and rigid surfaces")
     if model.rigid_with_friction:
-        sizes["N_RUBBED"] = (len(model.rigid_with_friction), "of them, with friction")
+        sizes["N_RIGID_WITH_FRICTION"] = (len(model.rigid_with_friction), "of these, joints with friction")
     if unused_switches := find_unused_switches(program):
-        sizes["N_IDLE"] = (len(unused_switches), "of N_SWITCHES: those that the integrated equations do not contain")
+        sizes["N_UNUSED_SWITCHES"] = (
+            len(unused_switches),
+            "switching functions that the integrated equations do not contain",
+        )
     if any(g.has(PeriodsOf) for g in switches):
-        sizes["PERIODS"] = (1, "mod restarts within the motion")
+        sizes["PERIODS"] = (1, "1: mod() passes from one period to the next within the motion")
     if any(g.has(KnotsOf) for g in switches):
-        sizes["KNOTS"] = (1, "curves change from piece to piece within the motion")
+        sizes["KNOTS"] = (1, "1: curves pass from one piece to the next within the motion")
     if any(clearance.contour for clearance in model.clearances):
-        sizes["CONTOURS"] = (1, "bearings are not circular")
-    if corners := find_first_corners(model):
-        sizes["WALLS"] = (len(corners), "guides in which sliders have play: corners at walls")
+        sizes["CONTOURS"] = (1, "1: some bearings are not circular")
+    if first_corners := find_first_corners(model):
+        sizes["WALLS"] = (len(first_corners), "guides in which sliders have play: corners at walls")
         sizes["SLIDER_CORNERS"] = (len(CORNERS), "corners of each slider")
     return sizes
 
@@ -276,47 +208,58 @@ def _list_monitoring_sizes(program: Program, bounds: Kernel | None) -> Sizes:
 def _list_start_sizes(program: Program) -> Sizes:
     """Return {macro: (value, meaning)} of the coordinates that the start guesses or sets and of the rates that it sets.
 
-    N_APART, the number of specified eccentricities of journals, exists only if there are any.
+    N_ECCENTRICITIES, the number of specified eccentricities of journals, exists only if there are any.
     """
     start_indices, guess = _find_start_indices(program.model), program.model.scene.mechanism.start.guess
     eccentricity_constraints = find_eccentricity_rows(program.model)
     sizes: Sizes = {
-        "N_GUESS": (len(start_indices["guess_place"]), "coordinates that the start gives as guesses"),
-        "GUESSED_POINTS": (int(any(name.count(".") > 1 for name in guess)), "some of them are coordinates of points"),
-        "N_SET": (len(start_indices["set_place"]), "coordinates that the start sets"),
-        "N_RATES": (len(start_indices["rate_place"]), "velocities that the start sets"),
+        "N_GUESS": (len(start_indices["guess_coordinate"]), "coordinates that the start gives as guesses"),
+        "GUESSED_POINTS": (
+            int(any(name.count(".") > 1 for name in guess)),
+            "1: some guesses are coordinates of points",
+        ),
+        "N_SET": (len(start_indices["set_coordinate"]), "coordinates that the start sets"),
+        "N_RATES": (len(start_indices["rate_coordinate"]), "velocities that the start sets"),
     }
     return (
         sizes
-        | {"N_APART": (len(eccentricity_constraints), "constraint equations kept open: eccentricities of journals")}
+        | {
+            "N_ECCENTRICITIES": (
+                len(eccentricity_constraints),
+                "constraint equations kept open: eccentricities of journals",
+            )
+        }
         if eccentricity_constraints
         else sizes
     )
 
 
 def find_first_corners(model: Model) -> list[int]:
-    """Return the index among joints with play of the first corner of each guide with play; three others follow it."""
+    """Return the index, among joints with play, of the first corner of each slider with play in a guide.
+
+    Each corner counts as a joint with play; the other corners of the slider follow the first one.
+    """
     return [k for k, c in enumerate(model.clearances) if c.wall][:: len(CORNERS)]
 
 
 def make_bounds_kernel(program: Program) -> Kernel | None:
-    """Return the kernel that bounds event functions over ranges of the state.
+    """Return the kernel that bounds event functions over ranges of the state by interval arithmetic.
 
-    None is returned if nothing is monitored, or if event functions depend on forces or driven loops.
+    None is returned if no event function is monitored, or if one depends on forces or driven loops.
     """
-    model, corners = program.model, find_monitored_switches(program)
-    watched = (
+    model, switch_indices = program.model, find_monitored_switches(program)
+    event_functions = (
         program.integrated.event_functions if program.integrates else program.event_functions if model.events else None
     )
-    if watched is None or not (corners or model.events):
+    if event_functions is None or not (switch_indices or model.events):
         return None
-    return make_ranges_kernel(watched, corners, len(model.events))
+    return make_ranges_kernel(event_functions, switch_indices, len(model.events))
 
 
 def find_monitored_switches(program: Program) -> list[int]:
-    """Return the indices of the switching functions that the integrator monitors.
+    """Return the indices of the switching functions whose zeros the integrator monitors as events.
 
-    Without integration they are those of the scene itself, without those of laws.
+    In a kinematic analysis they are all switching functions except those of contact laws.
     """
     if program.integrates:
         return program.integrated.switch_indices
@@ -324,7 +267,10 @@ def find_monitored_switches(program: Program) -> list[int]:
 
 
 def find_unused_switches(program: Program) -> list[int]:
-    """Return the indices of switching functions that only the full formulation evaluates; [] without integration."""
+    """Return the indices of switching functions that the integrated equations do not contain; [] without integration.
+
+    Only the full formulation evaluates them. In a run of the reduced one, the engine sets their values to NaN.
+    """
     integrated_switches, all_switches = program.integrated.system.model.symbols.switches, program.model.symbols.switches
     used_indices = {switch.index for switch in integrated_switches.switch_by_key.values()}
     return (
@@ -335,21 +281,21 @@ def find_unused_switches(program: Program) -> list[int]:
 
 
 def get_max_penetration(clearance: Clearance) -> sp.Expr:
-    """Return the penetration in m up to which contact laws are valid.
+    """Return the expression of the penetration (m) up to which the contact laws of a joint are valid.
 
-    It is a tenth of the bearing's radius, or the law's own limit if that is smaller.
+    It is a tenth of the bearing's radius, or the law's own limit (MAX_PENETRATION) if that is smaller.
     """
     tenth = sp.sympify(clearance.pair.R_i) / 10
     return sp.Min(clearance.constants[MAX_PENETRATION], tenth) if MAX_PENETRATION in clearance.constants else tenth
 
 
 def _find_largest_block_size(program: Program) -> int:
-    """Return the largest number of constraint equations that are solved together; 0 for none.
+    """Return the largest number of constraint equations that a kinematic solution solves together; 0 without one.
 
-    Such blocks occur in positions that follow from drives and in driven loops.
+    Blocks of equations occur in positions of kinematically driven scenes and in driven loops of a tree.
     """
-    rows, chains = program.kinematics and program.kinematics.rows, program.tree and program.tree.chains
-    return max(rows.largest if rows else 0, chains.square.largest if chains else 0)
+    rows, loop_kernels = program.kinematics and program.kinematics.rows, program.tree and program.tree.chains
+    return max(rows.largest if rows else 0, loop_kernels.square.largest if loop_kernels else 0)
 
 
 def _print_defines(sizes: Sizes) -> list[str]:
@@ -361,7 +307,7 @@ def _print_defines(sizes: Sizes) -> list[str]:
 def _print_tables(program: Program, scene_sizes: Sizes) -> list[str]:
     """Return the tables of model.h as C: indices of start values, constraint equations and coordinates, and flags.
 
-    Tables for rigid contacts, guides, eccentricities and monitoring exist only if the scene needs them.
+    Tables for rigid contacts, guides, eccentricities and monitored functions exist only if the scene needs them.
     """
     model, start_indices, drives = (
         program.model,
@@ -373,25 +319,25 @@ def _print_tables(program: Program, scene_sizes: Sizes) -> list[str]:
     tables: dict[tuple[str, str], Sequence[int]] = {
         ("signed char", "event_direction"): [SIGNS[event.direction] for event in model.events],
         ("unsigned char", "event_stops"): [int(event.action == "stop") for event in model.events],
-        ("int", "guess_place"): start_indices["guess_place"],
-        ("int", "set_place"): start_indices["set_place"],
-        ("int", "rate_place"): start_indices["rate_place"],
+        ("int", "guess_coordinate"): start_indices["guess_coordinate"],
+        ("int", "set_coordinate"): start_indices["set_coordinate"],
+        ("int", "rate_coordinate"): start_indices["rate_coordinate"],
         ("int", "drive_row"): [row_index[d] for d in drives],
         ("unsigned char", "row_is_length"): [int(row.unit == "m") for row in model.all_rows],
-        ("int", "kept_row"): [row_index[row.name] for row in model.rows],
+        ("int", "motion_row"): [row_index[row.name] for row in model.rows],
         ("int", "phi_q_first"): [0, *accumulate(len(row.phi_q) for row in model.all_rows)],
-        ("short", "phi_q_place"): [coordinate_index[q] for row in model.all_rows for q in row.phi_q],
+        ("short", "phi_q_column"): [coordinate_index[q] for row in model.all_rows for q in row.phi_q],
         ("unsigned char", "is_angle"): program.integrated.angles,
         ("unsigned char", "film_joint"): [int(c.film is not None) for c in model.clearances],
     }
     if eccentricity_constraints := [k for k, _, _ in find_eccentricity_rows(model)]:
-        tables |= {("int", "apart_row"): eccentricity_constraints}
+        tables |= {("int", "eccentricity_row"): eccentricity_constraints}
     if model.rigid:
         tables |= {("unsigned char", "rigid_joint"): [int(c.rigid) for c in model.clearances]}
-    if corners := find_first_corners(model):
-        tables |= {("int", "first_corner"): corners}
+    if first_corners := find_first_corners(model):
+        tables |= {("int", "first_corner"): first_corners}
     if unused_switches := find_unused_switches(program):
-        tables |= {("short", "idle"): unused_switches}
+        tables |= {("short", "unused_switch"): unused_switches}
     if program.integrates:
         tables |= _list_monitoring_tables(program, scene_sizes) | {
             ("int", "friction_of_pivot"): _find_friction_indices_of_pivots(program.integrated.kkt)
@@ -405,9 +351,11 @@ def _print_table(c_type: str, name: str, values: Iterable[int]) -> str:
 
 
 def _list_monitoring_tables(program: Program, scene_sizes: Sizes) -> dict[tuple[str, str], Sequence[int]]:
-    """Return {(C type, name): values} of the monitored event functions, their inverse index and continuous switches.
+    """Return {(C type, table): values} of the tables by which the integrator monitors event functions.
 
-    Indices count gaps of joints with play, then switching functions, frictions and user events, as in C.
+    `watched` lists the monitored functions, `watched_index` their positions in it (−1: none), and
+    `is_continuous_switch` has a flag for each switching function. Indices count gaps of joints with play, then
+    switching functions, frictions and user events.
     """
     count = {name: value for name, (value, _) in scene_sizes.items()}
     first = int(count["N_CLEARANCES"] + count["N_SWITCHES"] + count["N_FRICTIONS"])
@@ -416,16 +364,15 @@ def _list_monitoring_tables(program: Program, scene_sizes: Sizes) -> dict[tuple[
     position = {k: i for i, k in enumerate(event_functions)}
     return {
         ("short", "watched"): event_functions,
-        ("short", "watched_as"): [position.get(k, -1) for k in range(first + int(count["N_USER_EVENTS"]))],
-        ("unsigned char", "meets"): _mark_continuous_switches(program.model, int(count["N_SWITCHES"])),
+        ("short", "watched_index"): [position.get(k, -1) for k in range(first + int(count["N_USER_EVENTS"]))],
+        ("unsigned char", "is_continuous_switch"): _mark_continuous_switches(program.model, int(count["N_SWITCHES"])),
     }
 
 
 def _mark_continuous_switches(model: Model, n_switches: int) -> list[int]:
-    """Return a flag for each switching function: 1 for those of contact laws whose branches meet without a jump.
+    """Return `n_switches` flags: 1 for a switching function at which a force is continuous, 0 if it may jump.
 
-    The list has `n_switches` flags. Other switching functions, and those of films with the option `as_printed`, may
-    jump and have 0.
+    Those of contact laws are continuous, except films with the option `as_printed`. All others have 0.
     """
     joints_as_printed = {c.name for c in model.clearances if c.film is not None and c.film.options.get("as_printed")}
     owners = {switch.index: switch.owner for switch in model.symbols.switches.switch_by_key.values()}
@@ -433,34 +380,38 @@ def _mark_continuous_switches(model: Model, n_switches: int) -> list[int]:
 
 
 def _find_friction_indices_of_pivots(kkt: KKT) -> list[int]:
-    """Return the index of the friction element of each pivot that follows the pivots of constraint equations."""
+    """Return the index of the friction element of each friction pivot of a KKT matrix, in the order of elimination.
+
+    Pivots of friction elements follow those of the constraint equations.
+    """
     names = [friction.name for friction in kkt.frictions]
     return [names.index(pivot) for pivot in kkt.pivots[len(kkt.rows) : len(kkt.rows) + len(names)]]
 
 
 def _find_start_indices(model: Model) -> dict[str, list[int]]:
-    """Return the indices in q of guessed and set coordinates, and in v of set velocities, by table name.
+    """Return {table: indices}: in q those of guessed and set coordinates, in v those of set velocities.
 
-    A guess that is not a coordinate, but that of a point, has the index 0.
+    A guess that is the coordinate of a point, not of a body, has the index 0.
     """
     coordinate_index = {model.symbols.info[q].meaning: k for k, q in enumerate(model.q)}
     start = model.scene.mechanism.start
     rates = (name.partition(".") for name in start.rates)
     return {
-        "guess_place": [coordinate_index.get(name, 0) for name in start.guess],
-        "set_place": [coordinate_index[name] for name in start.set],
-        "rate_place": [coordinate_index[f"{body}.{_POSITION[rate]}"] for body, _, rate in rates],
+        "guess_coordinate": [coordinate_index.get(name, 0) for name in start.guess],
+        "set_coordinate": [coordinate_index[name] for name in start.set],
+        "rate_coordinate": [coordinate_index[f"{body}.{_POSITION[rate]}"] for body, _, rate in rates],
     }
 
 
 def list_joint_parameters(model: Model) -> list[tuple[str, str, list[str]]]:
     """Return (meaning, name of the C function, [C expression for each joint]) of the parameters of joints with play.
 
-    Breakaway, restitution and threshold are included only if laws with internal states or rigid contacts exist.
+    Each C function returns one parameter, such as the radial clearance, of joint i. Breakaway is included only if laws
+    have internal states, restitution and threshold only if contacts are rigid.
     """
     values = {
         "radial_clearance": [c.pair.c for c in model.clearances],
-        _MAX_PENETRATION: [get_max_penetration(c) for c in model.clearances],
+        _PENETRATION_LIMIT: [get_max_penetration(c) for c in model.clearances],
         "min_approach_speed": [c.velocity_floor for c in model.clearances],
     }
     if model.law_states:
@@ -472,9 +423,11 @@ def list_joint_parameters(model: Model) -> list[tuple[str, str, list[str]]]:
         }
     meanings = dict(_PARAMETER_MEANINGS)
     if any(MAX_PENETRATION in c.constants for c in model.clearances):
-        meanings[_MAX_PENETRATION] = meanings[_MAX_PENETRATION].replace("radius.", "radius, or the limit of a law.")
+        meanings[_PENETRATION_LIMIT] = meanings[_PENETRATION_LIMIT].replace("radius.", "radius, or the limit of a law.")
     if any(c.wall for c in model.clearances):
-        meanings[_MAX_PENETRATION] = meanings[_MAX_PENETRATION].replace("radius", "radius, of half a guide's width", 1)
+        meanings[_PENETRATION_LIMIT] = meanings[_PENETRATION_LIMIT].replace(
+            "radius", "radius, of half a guide's width", 1
+        )
     return [
         (
             meanings[name],

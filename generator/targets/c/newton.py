@@ -1,4 +1,4 @@
-"""Writes the C of the linearized equations: derivatives of the forces of joints with play, and Newton's matrix."""
+"""Writes newton.c: Jacobian of the equations of motion for implicit methods, with the tangents of contact forces."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ Render = Callable[..., str]  # template name, substitutions -> text
 
 STATE = ("e", "deltadot", "de_t", "omega_i", "omega_j", "contact")
 _BLENDING = """
-/* F = share F + (1 - share) film, slopes as well; `share` with its derivative by e. */
+/* Replace force and derivatives in F by the blend share F + (1 - share) film. share: fraction, its derivative by e. */
 static inline void blend_slopes({type} *F, const {type} *film, const {number} *share)
 {
     for (int i = 0; i < 4; i++) {
@@ -34,7 +34,10 @@ static inline void blend_slopes({type} *F, const {type} *film, const {number} *s
 
 
 def print_newton_functions(newton: Newton, render: Render) -> str:
-    """Return the kernels and index tables of one linearized system as C: linearize, factorize, substitute, solve."""
+    """Return the C of the linearized system: kernels that linearize, factorize, substitute and solve; index tables.
+
+    A table lists row, column, index in the stored values and sign of each entry of the linearization.
+    """
     kernels = [newton.linearize_kernel, newton.factor_kernel, newton.substitute_kernel, newton.solve_kernel]
     counts = [(f"n_{name}".upper(), len(entries)) for name, entries in newton.tables.items()]
     return render(
@@ -46,21 +49,21 @@ def print_newton_functions(newton: Newton, render: Render) -> str:
 
 
 def print_tangent_functions(joints: Sequence[JointFunctions], methods: Methods, render: Render, n_states: int) -> str:
-    """Return the C function `tangent_<joint>` of every joint with play, after the shared derivatives of laws.
+    """Return the C function `tangent_<joint>_` of every joint with play, after the shared derivatives of laws.
 
-    Each joint has `n_states` internal states of laws. Contours and walls of guides have their own templates. "" without
-    play.
+    It computes the derivatives of a joint's force by position and velocity. Contours and walls of guides have their own
+    templates. n_states: internal states of laws of each joint. "" is returned without play.
     """
     if not joints:
         return ""
     contours = any(joint.clearance.contour for joint in joints)
     dimensions = {"rows": 4 + n_states, "columns": 5 + n_states}
-    functions_ = [CONTOURS * contours + print_shared_slopes(joints, render, "double", "PinSlopes", n_states)]
-    functions_ += [render("play/contour_slopes.c.jinja")] * contours
-    functions_ += map(functions.print_kernel, methods.derivative_kernels)
+    texts = [CONTOURS * contours + print_shared_slopes(joints, render, "double", "PinSlopes", n_states)]
+    texts += [render("play/contour_slopes.c.jinja")] * contours
+    texts += map(functions.print_kernel, methods.derivative_kernels)
     for clearance in (joint.clearance for joint in joints):
         if clearance.contour:
-            functions_.append(
+            texts.append(
                 _print_contour_tangent(
                     clearance, clearance.contour, methods.derivative_calls[clearance.name]["dry"], render
                 )
@@ -70,7 +73,7 @@ def print_tangent_functions(joints: Sequence[JointFunctions], methods: Methods, 
         code = _print_slope_selection(clearance, clearance_parameter, methods.derivative_calls[clearance.name])
         if clearance.wall:
             rise = print_expression(read_parameters_from_struct(methods.newton.system.model, clearance.wall.rise))
-            functions_.append(
+            texts.append(
                 render(
                     "play/wall_tangent.c.jinja",
                     joint=clearance.label,
@@ -81,10 +84,10 @@ def print_tangent_functions(joints: Sequence[JointFunctions], methods: Methods, 
                 )
             )
             continue
-        functions_.append(
+        texts.append(
             render("play/tangent.c.jinja", joint=clearance.label, c=clearance_parameter, slopes=code, **dimensions)
         )
-    return "\n".join(functions_)
+    return "\n".join(texts)
 
 
 def _print_contour_tangent(
@@ -99,8 +102,8 @@ def _print_contour_tangent(
         "play/contour_tangent.c.jinja",
         joint=clearance.label,
         c=f"p->{clearance.pair.c}",
-        worn=[print_expression(contour.compute_depth(beta_i, order)) for order in range(3)],
-        unread="g" in functions.find_unused_branch_arguments([dry_slopes_call]),
+        depth_derivatives=[print_expression(contour.compute_depth(beta_i, order)) for order in range(3)],
+        is_g_unused="g" in functions.find_unused_branch_arguments([dry_slopes_call]),
         call=functions.print_shared_call(dry_slopes_call, (*arguments, "contact"), ("&F",)),
     )
 
@@ -108,10 +111,12 @@ def _print_contour_tangent(
 def print_shared_slopes(
     joints: Sequence[JointFunctions], render: Render, number_type: str, slopes_type: str, n_states: int
 ) -> str:
-    """Return the C functions that combine derivatives of joints with play, for numbers or for vectors.
+    """Return the C functions that turn derivatives of contact forces to ground axes and blend film with dry contact.
 
-    number_type, slopes_type: the C types of a value and of a set of derivatives. n_states: internal states of laws of
-    each joint. Blending and walls of guides are included if a joint needs them.
+    Blending and walls of guides are included if a joint needs them.
+
+    number_type, slopes_type: the C types of a value and of a set of derivatives, for single runs or lanes. n_states:
+    internal states of laws of each joint.
     """
     blend_function = (
         _BLENDING.replace("{number}", number_type)
@@ -133,17 +138,18 @@ def _print_slope_selection(
 
     A film alone is always evaluated. Without a film, an open contact gives zeros; with both, an open contact has those
     of the film, a closed one the blend. `clearance_parameter`: the C expression of the clearance. `calls`: the
-    functions of the derivatives by part, "dry", "film" and "share".
+    functions of the derivatives by part, "dry", "film" and "share" (the fraction of the dry contact).
     """
 
     def print_call(part_name: str, result: str, *arguments: str) -> str:
-        """Return the call of the derivatives of one part, `dry`, `film` or `share`."""
+        """Return the C call of the derivatives of one part; without `arguments`, it passes the motion (STATE)."""
         return functions.print_shared_call(calls[part_name], arguments or STATE, (result,))
 
-    unread = functions.find_unused_branch_arguments(calls.values())
+    unused_arguments = functions.find_unused_branch_arguments(calls.values())
     if clearance.normal is None:
-        return "\n".join(f"    {line}" for line in (*(f"(void){name};" for name in unread), print_call("film", "out")))
-    lines = [*["(void)g;"] * ("g" in unread), f"const double delta = e - {clearance_parameter};"]
+        lines = [*(f"(void){name};" for name in unused_arguments), print_call("film", "out")]
+        return "\n".join(f"    {line}" for line in lines)
+    lines = [*["(void)g;"] * ("g" in unused_arguments), f"const double delta = e - {clearance_parameter};"]
     if clearance.film is None:
         lines += ["*out = (PinSlopes){0};", f"if ({CLOSED})", f"    {print_call('dry', 'out')}"]
     else:
@@ -160,5 +166,5 @@ def _print_table_rows(entries: list[tuple[int, int, int, int]]) -> str:
     entries: (row, column, index in the stored values, sign) of each entry.
     """
     row_texts = [f"{{{', '.join(map(str, entry))}}}" for entry in entries] or ["{0, 0, 0, 0}"]
-    joined = " ".join(f"{row},".replace(" ", "\0") for row in row_texts).removesuffix(",")  # a row is never parted
+    joined = " ".join(f"{row},".replace(" ", "\0") for row in row_texts).removesuffix(",")  # no break within a row
     return textwrap.fill(joined, 110, initial_indent="    ", subsequent_indent="    ").replace("\0", " ")

@@ -1,4 +1,4 @@
-"""Writes the C of joints with play: selects the Jinja templates and the texts that are inserted."""
+"""Writes the C force functions of joints with play: dry contact, lubrication film and their blend, from templates."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _ARGUMENTS = (
     "double e_x, double e_y, double de_x, double de_y, double omega_i, double omega_j,%s\n"
     "    const ContactState *contact, const Parameters *p, const double *branch, double *g, Clearance *out"
 )
-_OF_CONTOUR = ("e", "steep", "worn_slope")  # further arguments of the dry contact of a contour
+_CONTOUR_ARGUMENTS = ("e", "steep", "worn_slope")  # further arguments of the dry contact of a contour
 CONTOURS = '#include "engine/scene/contour.h"\n\n'
 _STORE = """\
     *out = (Clearance){.Fx = F.n * n_x - F.t * n_y, .Fy = F.n * n_y + F.t * n_x, .F_n = F.n, .F_t = F.t,
@@ -27,18 +27,23 @@ _STORE = """\
         .moment_first = F.M_i%s, .moment_second = F.M_j, .delta = delta, .power = 0.0%s};"""
 _JOURNAL = ("e_x", "e_y", "")
 _AT_WALL = ("e * n_x", "e * n_y", " + along * F.n")  # of a slider's corner: along its wall's normal
-_RATIO = "contact->closed ? deltadot / contact->deltadot_minus : 1.0"
-_IN_BLOW = "if (contact->smooth)\n        F_along_t_dry = contact->along; /* a blow asks what it does */"
+_RATIO = "contact->closed ? deltadot / contact->deltadot_minus : 1.0"  # δ̇/δ̇⁻
+_PRESCRIBED_FRICTION = (
+    "if (contact->smooth)\n        F_along_t_dry = contact->along; /* impacts prescribe the friction */"
+)
 CLOSED = "branch ? contact->closed : delta > 0.0"
 _BLENDED = "        F.{0} += (1.0 - share) * (film.{0} - F.{0});"  # in play/clearance_transition.c.jinja
 
 
-Stores = list[tuple[str, Line | str]]
+Stores = list[tuple[str, Line | str]]  # (C text, line of the kernel or name of the local that the text sets)
 
 
 @dataclass(frozen=True)
 class PrintedFunction:
-    """Represent a function of a joint with play and its stores in order: text with the line, or a local's name."""
+    """Represent a C function of a joint with play: its name, its text, and its assignments in order (`stores`).
+
+    The page of equations finds the lines of each assignment by `stores` (lines.py).
+    """
 
     name: str
     text: str
@@ -48,37 +53,41 @@ class PrintedFunction:
 def print_clearances_file(program: Program, render: Render) -> str:
     """Return the text of clearance.c: all force laws, then the functions of each joint with play."""
     n_states = program.model.law_states
-    joint_functions = (print_clearance_functions(joint, render, n_states) for joint in program.joints)
+    joint_functions = (print_functions_of_joint(joint, render, n_states) for joint in program.joints)
     include = CONTOURS * any(joint.clearance.contour is not None for joint in program.joints)
     return include + "\n".join([*map(functions.print_kernel, program.laws), *joint_functions])
 
 
-def print_clearance_functions(joint: JointFunctions, render: Render, n_states: int) -> str:
-    """Return the C functions of one joint with play; each joint has `n_states` internal states of laws."""
-    return "\n".join(part.text for part in print_joint_functions(joint, render, n_states))
+def print_functions_of_joint(joint: JointFunctions, render: Render, n_states: int) -> str:
+    """Return the C functions of one joint with play as one text: dry contact and film, if present, then total force.
+
+    n_states: the number of internal states of laws that each joint of the scene has.
+    """
+    return "\n".join(part.text for part in make_printed_functions(joint, render, n_states))
 
 
 def get_function_name(part: str, joint: str) -> str:
-    """Return the C name of a joint's function, as the templates in play/ write it; part: clearance, dry or film."""
+    """Return the C name of a joint's function, such as "dry_A_"; part: "clearance", "dry" or "film"."""
     return f"{part}_{joint}_"
 
 
-def print_joint_functions(joint: JointFunctions, render: Render, n_states: int) -> Iterator[PrintedFunction]:
-    """Yield the functions of a joint with their stores: dry contact and film, if it has them, then the total force.
+def make_printed_functions(joint: JointFunctions, render: Render, n_states: int) -> Iterator[PrintedFunction]:
+    """Yield the C functions of a joint: dry contact and film, if it has them, then the total force.
 
-    n_states: the number of internal states of laws that each joint has.
+    render: prints a template of templates/c. n_states: the number of internal states of laws that each joint of the
+    scene has.
     """
     label, clearance = joint.clearance.label, joint.clearance
     if clearance.normal is not None:
-        yield _print_dry_function(joint, render, n_states)
+        yield _make_dry_function(joint, render, n_states)
     if clearance.film is not None:
-        yield _print_film_function(joint, render, n_states)
+        yield _make_film_function(joint, render, n_states)
     text = render(
         _select_template(joint),
         joint=label,
         kind=clearance.kind,
-        arguments=_ARGUMENTS % _print_further_parameters(clearance),
-        further="".join(f", {name}" for name in _list_further_arguments(joint)),
+        arguments=_ARGUMENTS % _declare_further_arguments(clearance),
+        further_arguments="".join(f", {name}" for name in _list_contour_arguments(joint)),
         gap=_print_statements(joint.gap),
         share=_print_statements(joint.share),
         rigid=clearance.rigid,
@@ -96,35 +105,42 @@ def print_joint_functions(joint: JointFunctions, render: Render, n_states: int) 
     yield PrintedFunction(get_function_name("clearance", label), text, stores)
 
 
-def _print_further_parameters(clearance: Clearance) -> str:
-    """Return the declarations of a joint's further arguments: n_x, n_y at a wall, theta_i with a contour, else ""."""
+def _declare_further_arguments(clearance: Clearance) -> str:
+    """Return the C declarations of the arguments that only some joints have: n_x, n_y at a wall, theta_i for a contour.
+
+    "" is returned for other joints.
+    """
     if clearance.wall:
         return " double n_x, double n_y,"
     return " double theta_i," * bool(clearance.contour)
 
 
 def _print_transition_comment(clearance: Clearance) -> str:
-    """Return the text of a C comment about film and dry contact acting together: linear blend or mixed lubrication."""
+    """Return the text of the C comment on the transition from film to dry contact: linear blend or mixed lubrication.
+
+    Only the template of joints with film and dry contact uses it.
+    """
     if clearance.mixed is None:
         return (
             "film for e < c, dry contact for e > c + e_0, a linear blend between them\n"
-            " * (the paper's Eq. 17); fixed over a step."
+            " * (the paper's Eq. 17); frozen over a step."
         )
-    return (
-        "film for e < c; beyond c, the dry contact has the fraction of the law above;\n"
-        " * a step holds what it began with."
-    )
+    return "film for e < c; beyond c, the dry contact has the fraction of the law above;\n * frozen over a step."
 
 
 def _print_mixed_law_comment(clearance: Clearance) -> str:
-    """Return the comment on a law of mixed lubrication, which has no function of its own; "" if there is none."""
+    """Return the C comment on a joint's law of mixed lubrication; "" without one.
+
+    This law is part of the joint's function, and has no function of its own that would carry the comment.
+    """
     return functions.print_comment(describe_law(clearance.mixed)) if clearance.mixed else ""
 
 
-def _print_dry_function(joint: JointFunctions, render: Render, n_states: int) -> PrintedFunction:
-    """Return the function of a joint's dry contact: its text from a template, and its stores in order.
+def _make_dry_function(joint: JointFunctions, render: Render, n_states: int) -> PrintedFunction:
+    """Return the C function `dry_<joint>_`, which computes normal force, friction and moments of the dry contact.
 
-    render: prints a template. n_states: the number of internal states of laws that each joint has.
+    It also returns the rates of the `n_states` internal states of laws. The joint must have a normal law. `render`
+    prints a template.
     """
     label, clearance = joint.clearance.label, joint.clearance
     ratio_name = "unclipped" if clearance.clip_ratio else "ratio"
@@ -133,10 +149,12 @@ def _print_dry_function(joint: JointFunctions, render: Render, n_states: int) ->
         "before": _print_statements(joint.before_dry),
         "after": _print_statements(joint.after_dry),
     }
-    substitutions["along"] = "-F_N" if clearance.contour else "-F_n"
-    substitutions["further"] = "".join(f", double {name}" for name in _list_further_arguments(joint))
+    substitutions["force_along_n"] = "-F_N" if clearance.contour else "-F_n"
+    substitutions["further_arguments"] = "".join(f", double {name}" for name in _list_contour_arguments(joint))
     laws = [joint.laws[role] for role in ("normal", "friction") if role in joint.laws]
-    substitutions["unread"] = functions.find_unused_branch_arguments(laws, (*joint.before_dry, *joint.after_dry))
+    substitutions["unused_arguments"] = functions.find_unused_branch_arguments(
+        laws, (*joint.before_dry, *joint.after_dry)
+    )
     substitutions |= {"law": _join_calls(calls), "rates": print_state_rates("rate", clearance, n_states)}
     text = render(
         "play/dry.c.jinja", joint=label, kind=clearance.kind, ratio=_RATIO, ratio_name=ratio_name, **substitutions
@@ -149,15 +167,17 @@ def _print_dry_function(joint: JointFunctions, render: Render, n_states: int) ->
     return PrintedFunction(get_function_name("dry", label), text, stores)
 
 
-def _list_further_arguments(joint: JointFunctions) -> tuple[str, ...]:
-    """Return the names of further arguments of the dry contact of a contour; () for other joints."""
-    return _OF_CONTOUR if joint.clearance.contour else ()
+def _list_contour_arguments(joint: JointFunctions) -> tuple[str, ...]:
+    """Return the names of the further arguments of the dry contact of a contour; () for other joints."""
+    return _CONTOUR_ARGUMENTS if joint.clearance.contour else ()
 
 
-def _print_film_function(joint: JointFunctions, render: Render, n_states: int) -> PrintedFunction:
-    """Return the function of a joint's film: its text from a template, and its stores in order.
+def _make_film_function(joint: JointFunctions, render: Render, n_states: int) -> PrintedFunction:
+    """Return the C function `film_<joint>_`, which computes the lubrication force of a joint and its moments.
 
-    render: prints a template. n_states: the number of internal states of laws that each joint has.
+    The function computes the inputs of the film law (eccentricity ratio, squeeze velocity) and calls it. It returns
+    force along n and t, moments, zero slip, and zero rates of the `n_states` internal states. The joint must have a
+    film. `render` prints a template.
     """
     calls, label = _list_film_calls(joint, "double"), joint.clearance.label
     substitutions: dict[str, Any] = {
@@ -165,7 +185,7 @@ def _print_film_function(joint: JointFunctions, render: Render, n_states: int) -
         "after": _print_statements(joint.after_film),
         "law": _join_calls(calls),
     }
-    substitutions["unread"] = functions.find_unused_branch_arguments(
+    substitutions["unused_arguments"] = functions.find_unused_branch_arguments(
         [joint.laws["film"]], (*joint.before_film, *joint.after_film)
     )
     text = render(
@@ -181,9 +201,9 @@ def _print_film_function(joint: JointFunctions, render: Render, n_states: int) -
 
 
 def _print_result_store(clearance: Clearance, n_states: int) -> str:
-    """Return the C code that stores a joint's force, motion and torques in *out.
+    """Return the C statement that stores a joint's force in ground axes, its motion and its moments in *out.
 
-    Rates of internal states and the position at a guide's wall are added if the joint has them.
+    Rates of internal states and the position at a guide's wall are added if the joint has them. The power is 0.
     """
     rates = print_state_rates("F.state_rate", clearance, n_states)
     position = _AT_WALL if clearance.wall else _JOURNAL
@@ -195,8 +215,8 @@ def _print_result_store(clearance: Clearance, n_states: int) -> str:
 def print_state_rates(array_name: str, clearance: Clearance, n_states: int, fill_value: str = "0.0") -> str:
     """Return the initializer in C of the `n_states` rates of a joint's internal states; "" if no law has states.
 
-    array_name: the array with the joint's rates, "" for none. fill_value: the rate of states that the joint does not
-    have.
+    Example: "{rate[0], 0.0}". array_name: the array with the joint's rates, "" for none. fill_value: the rate of states
+    that the joint does not have.
     """
     count = len(clearance.states) if array_name else 0
     rates = [f"{array_name}[{k}]" if k < count else fill_value for k in range(n_states)]
@@ -204,17 +224,19 @@ def print_state_rates(array_name: str, clearance: Clearance, n_states: int, fill
 
 
 def print_dry_calls(joint: JointFunctions, penetration: str, number_type: str) -> str:
-    """Return the C code that calls normal force and friction, one call per line.
+    """Return the C lines that call the laws of normal force and friction of a dry contact, for lanes.
 
-    penetration: the penetration that the normal law gets. number_type: the C type of a number.
+    penetration: the C expression of the penetration that the normal law gets. number_type: the C type of a number,
+    "double" or "Lanes". Without a friction law, the friction force is 0.
     """
     return _join_calls(_list_dry_calls(joint, penetration, number_type))
 
 
 def _list_dry_calls(joint: JointFunctions, penetration: str, number_type: str) -> list[tuple[str, str]]:
-    """Return (code, local that it sets or "") for each line of normal force and friction.
+    """Return (C code, local that it sets or "") for each line that computes normal force and friction.
 
-    Without friction its force is 0. For rigid surfaces, a line takes the friction force of an impact instead.
+    Without a friction law, the friction force is 0. For rigid surfaces, a further line prescribes it while an impact is
+    solved. The arguments are those of `print_dry_calls`.
     """
     arguments: Sequence[str] = [penetration, "ratio", *map(print_expression, joint.further_places)]
     normal = functions.print_shared_call(joint.laws["normal"], arguments, ("&F_n",))
@@ -232,7 +254,7 @@ def _list_dry_calls(joint: JointFunctions, penetration: str, number_type: str) -
         calls.append((f"{number_type} F_along_t_dry{f', rate[{len(states)}]' if states else ''};", ""))
         calls.append((friction, "F_along_t_dry"))
         if joint.clearance.rigid:
-            calls.append((_IN_BLOW, ""))
+            calls.append((_PRESCRIBED_FRICTION, ""))
     else:
         zero = "0.0" if number_type == "double" else "broadcast(0.0)"
         calls.append((f"const {number_type} F_along_t_dry = {zero}; /* no friction */", "F_along_t_dry"))
@@ -240,16 +262,19 @@ def _list_dry_calls(joint: JointFunctions, penetration: str, number_type: str) -
 
 
 def print_film_calls(joint: JointFunctions, number_type: str) -> str:
-    """Return the C code that calls the film law for its two forces and its shear torque; number_type: their C type."""
+    """Return the C lines that call the film law for radial force, tangential force and shear torque, for lanes.
+
+    number_type: the C type of a number, "double" or "Lanes".
+    """
     return _join_calls(_list_film_calls(joint, number_type))
 
 
 def _list_film_calls(joint: JointFunctions, number_type: str) -> list[tuple[str, str]]:
-    """Return (code, local that it sets or "") of the film's forces."""
+    """Return (C code, local that it sets or "") for each line that calls the film law, as of `print_film_calls`."""
     results = ("&F_r", "&F_along_t_film", "&T0")
     call = functions.print_shared_call(joint.laws["film"], ("epsilon", "w_n", "w_t"), results)
-    unread = "(void)T0; /* read only with shear */"
-    calls = [(f"{number_type} F_r, F_along_t_film, T0;", ""), (call, "F_r"), (unread, "")]
+    void_cast = "(void)T0; /* read only with shear */"
+    calls = [(f"{number_type} F_r, F_along_t_film, T0;", ""), (call, "F_r"), (void_cast, "")]
     return [(_break_line(code), local) for code, local in calls]
 
 
@@ -269,7 +294,7 @@ def _print_statements(statements: Sequence[Statement]) -> str:
 
 
 def _select_template(joint: JointFunctions) -> str:
-    """Return the name of the template for a joint's force: dry contact, film, or film and dry contact."""
+    """Return the file name of the template for a joint's total force: dry contact, film, or their transition."""
     if joint.clearance.film is None:
         return "play/clearance_dry.c.jinja"
     return "play/clearance_transition.c.jinja" if joint.has_transition else "play/clearance_film.c.jinja"

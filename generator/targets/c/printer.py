@@ -29,11 +29,11 @@ class CPrinter(CachedPrinter, C99CodePrinter):
 
     def __init__(self, readable_lines: Readable = _PLAIN) -> None:
         super().__init__({"math_macros": {}})  # M_PI_2 and the like are not in C11
-        self.of = readable_lines
+        self.readable = readable_lines
 
     def get_name(self, key: Key) -> str:
         """Return the C name of a symbol, local or place in this function."""
-        c_name_or_place = self.of.names.get(key, key)
+        c_name_or_place = self.readable.names.get(key, key)
         return self.print_place(c_name_or_place) if isinstance(c_name_or_place, Place) else c_name_or_place
 
     def print_place(self, place: Place) -> str:
@@ -51,7 +51,7 @@ class CPrinter(CachedPrinter, C99CodePrinter):
         return self.get_name(find_key(expr))
 
     def parenthesize(self, item: sp.Expr, level: float, strict: bool = False) -> str:
-        """Print an operand, in brackets if its operator binds less than `level`, or equally unless `strict`.
+        """Print an operand, in brackets if its precedence is lower than `level`, or equal unless `strict`.
 
         A positive rational number that is printed without a quotient gets no brackets. A number that is printed as a
         fraction of π, such as 2*PI/3, always gets them.
@@ -86,19 +86,20 @@ class CPrinter(CachedPrinter, C99CodePrinter):
         return f"{expr}.0"
 
     def _print_Rational(self, expr: sp.Rational) -> str:
-        """Print a rational number: as a quotient, or as a double if the denominator is a power of two.
+        """Print a rational number as a quotient of doubles, "1.0/3.0", or as a double if that is exact.
 
-        Numbers with more than 15 digits above or below the line are rounded to a double.
+        It is exact if the denominator is a power of two. A numerator or denominator above 10¹⁵ rounds the quotient to a
+        double.
         """
         if max(abs(int(expr.p)), int(expr.q)) > 10**15:
             return _print_double(expr)
         p, q = int(expr.p), int(expr.q)
-        return repr(p / q) if q & (q - 1) == 0 else f"{p}.0/{q}.0"  # a power of two divides exactly
+        return repr(p / q) if q & (q - 1) == 0 else f"{p}.0/{q}.0"
 
     def _print_Mul(self, expr: sp.Mul) -> str:
-        """Print a product; a coefficient outside the range of a double is split into two factors, one on each side.
+        """Print a product; a coefficient that is not a normal double is split into two factors, first and last.
 
-        A fraction of π is printed as such.
+        A rational multiple of π is printed as a fraction of PI if that has the same bits.
         """
         if text := self.print_symbol_product(expr):
             return text
@@ -111,7 +112,7 @@ class CPrinter(CachedPrinter, C99CodePrinter):
         return f"{self._print(first)} * ({self._print(other_factors)}) * {self._print(last)}"
 
     def _print_Pow(self, expr: sp.Pow) -> str:
-        """Print a power: exponents ±2 to ±4 as products, −1 as a quotient, ±1/2 by sqrt, others by pow."""
+        """Print a power: exponents ±2 to ±4 as products, −1 as a quotient, ±1/2 by sqrt(), others by pow()."""
         base, exponent = expr.as_base_exp()
         if exponent.is_Integer and 2 <= abs(int(exponent)) <= 4:
             factor = self.parenthesize(base, 50)
@@ -130,9 +131,9 @@ class CPrinter(CachedPrinter, C99CodePrinter):
         return f"{function_name}({', '.join(map(self._print, arguments))})"
 
     def _print_nested_calls(self, function_name: str, expr: sp.Expr) -> str:
-        """Print nested calls of a function of two arguments.
+        """Print an associative function as nested calls of two arguments, such as max_of(max_of(x, y), 0.0).
 
-        Numbers come last, since max_of(x, 0) keeps a NaN in x.
+        Numbers come last, since max_of(x, 0.0) returns NaN for x = NaN.
         """
         arguments = sorted(expr.args, key=lambda a: (a.is_Number, str(a)))
         text = self._print(arguments[0])
@@ -141,7 +142,10 @@ class CPrinter(CachedPrinter, C99CodePrinter):
         return text
 
     def _print_table_function(self, expr: sp.Expr) -> str:
-        """Print a function of the table of functions (gudgeon.language.functions)."""
+        """Print a function of the table of functions (gudgeon.language.functions) by its C name.
+
+        A minimum or maximum of several arguments becomes nested calls.
+        """
         name = CLASSES[type(expr)].in_c
         return (
             self._print_nested_calls(name, expr)
@@ -164,14 +168,17 @@ class CPrinter(CachedPrinter, C99CodePrinter):
         return f"({self._print(expr.args[0])} >= 0.0 ? 1.0 : 0.0)"
 
     def _print_BranchOf(self, expr: sp.Expr) -> str:
-        """Print the active branch of a switching function (symbols/switches.py)."""
+        """Print the active branch of a switching function (symbols/switches.py): frozen, or the sign of its value."""
         return f"branch_of(branch, g, {self.print_switch_index(int(expr.args[0]))}, {self._print(expr.args[1])})"
 
     def print_switch_index(self, index: int) -> str:
-        """Return the index of a switching function in C, relative to `first_switch` in shared functions."""
-        if self.of.first_switch is None:
+        """Return the index of a switching function in C: "5", or "corner + 2" in a function that joints share.
+
+        `corner` is then the argument with the index of the calling joint's first switching function.
+        """
+        if self.readable.first_switch is None:
             return str(index)
-        offset = index - self.of.first_switch
+        offset = index - self.readable.first_switch
         return f"corner + {offset}" if offset else "corner"
 
     def _print_Magnitude(self, expr: sp.Expr) -> str:
@@ -179,12 +186,12 @@ class CPrinter(CachedPrinter, C99CodePrinter):
         return f"(fabs({self._print(expr.args[0])}) + 1e-150)"
 
     def _print_Select(self, expr: sp.Expr) -> str:
-        """Print a choice by the sign of its first argument: the second unless it is below zero, so that NaN is kept.
+        """Print Select(branch, a, b) as a conditional expression: b for branch < 0, else a (also for NaN).
 
-        The name of its variable is printed if `of.branches` holds the expression.
+        If `readable.branches` contains the expression, the name of its local is printed.
         """
-        if expr in self.of.branches:
-            return self.of.branches[expr]
+        if expr in self.readable.branches:
+            return self.readable.branches[expr]
         branch, a, b = (self._print(argument) for argument in expr.args)
         return f"({branch} < 0.0 ? {b} : {a})"
 
@@ -193,9 +200,9 @@ class CPrinter(CachedPrinter, C99CodePrinter):
         return f"curve({make_curve_name(expr.name)}, {expr.order}, {self._print(expr.args[2])})"
 
     def _print_CurveOn(self, expr: CurveOn) -> str:
-        """Print the value of a curve on the piece that its branch selects."""
-        x, side = map(self._print, expr.args[2:])
-        return f"curve_on({make_curve_name(expr.name)}, {expr.order}, {x}, {side})"
+        """Print the value of a curve, or its derivative, on the piece that its frozen branch selects."""
+        x, branch = map(self._print, expr.args[2:])
+        return f"curve_on({make_curve_name(expr.name)}, {expr.order}, {x}, {branch})"
 
     def _print_KnotsOf(self, expr: KnotsOf) -> str:
         """Print the event function of a curve's knots."""
@@ -232,7 +239,7 @@ class CPrinter(CachedPrinter, C99CodePrinter):
 
 
 def is_normal(number: sp.Expr) -> bool:
-    """Return whether a number is in the normal range of binary64, so that it needs no splitting."""
+    """Return whether a number is in the range of normal doubles (binary64), or 0; `split_number` splits others."""
     return (
         number.is_Integer
         and abs(int(number)) < 10**15
@@ -241,7 +248,10 @@ def is_normal(number: sp.Expr) -> bool:
 
 
 def split_number(number: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
-    """Split a number outside binary64 into two factors of similar size, the second a power of two."""
+    """Return two factors, of similar magnitude, of a number outside the range of normal doubles.
+
+    The first is a float of 17 digits, the second a power of two.
+    """
     power_of_two = sp.Integer(2) ** (int(sp.floor(sp.log(abs(number), 2).n())) // 2)
     return sp.Float(number, 17) / power_of_two, power_of_two
 
@@ -264,7 +274,7 @@ class ValuePrinter:
         self.printer = printer
 
     def print_expression(self, value: Value) -> str:
-        """Return a value as C by its class; any other value is printed as a SymPy expression."""
+        """Return a value of a kernel as a C expression, by its class; other values are SymPy expressions."""
         match value:
             case Place():
                 return self.printer.get_name(value)
@@ -283,10 +293,10 @@ class ValuePrinter:
                 return self.printer.doprint(value)
 
     def print_test(self, test: Test) -> str:
-        """Return a comparison as C.
+        """Return a comparison as a C condition; a test without a relation is its value.
 
-        A test of a value itself checks that it is positive (or not 0) and finite. A test without a relation is its
-        value.
+        A test that is relative to the value itself (`is_relative_to_value`) checks that the value is positive (with
+        magnitudes: not 0) and finite.
         """
         value = self.print_expression(test.value)
         left_side = f"fabs({value})" if test.compares_magnitude else value
@@ -302,8 +312,8 @@ class ValuePrinter:
     def _print_factor(self, value: sp.Basic | float) -> str:
         """Return a factor of a test's bound as a C expression.
 
-        A threshold is printed as the C variable that stores it if it has a place in storage, else as its macro in
-        model.h. Other numbers are printed as literals.
+        A threshold is printed as its storage place if it has one, else as its macro in model.h. Other floats are
+        printed as literals.
         """
         if isinstance(value, Threshold):
             return self.printer.get_name(value.place) if value.place else value.name
@@ -315,7 +325,10 @@ print_expression, print_test = _text.print_expression, _text.print_test
 
 
 def sanitize_comment(text: str) -> str:
-    """Return a user's text in ASCII so that it can neither end a C comment nor continue a line."""
+    """Return a user's text in ASCII so that it can neither end a C comment nor continue a line.
+
+    "*/" and "/*" get a space, a backslash becomes "/". Characters that are not printable ASCII, and "?", become ".".
+    """
     return (
         re.sub(r"[^\x20-\x7e]", "?", text)
         .replace("*/", "* /")
@@ -329,7 +342,7 @@ WIDTH = 120
 
 
 def break_code(line: str) -> list[str]:
-    """Return a line of C code as lines of at most WIDTH characters."""
+    """Return a line of C code as lines of at most WIDTH characters, as far as it can be broken (line_breaks.py)."""
     return line_breaks.break_code(line, WIDTH)
 
 
@@ -351,9 +364,9 @@ def _wrap_comment_line(line: str) -> list[str]:
 
 
 def _break_code_line(line: str) -> list[str]:
-    """Return a line outside of comments as lines of at most WIDTH; directives of the preprocessor are kept.
+    """Return a line outside of block comments as lines of at most WIDTH; preprocessor directives stay long.
 
-    A long comment becomes a block comment; a comment after long code is put before it.
+    A long comment becomes a block comment. A comment after code that is too long with it is put before the code.
     """
     if len(line) <= WIDTH:
         return [line]

@@ -1,4 +1,4 @@
-"""Prints generated functions for interval arithmetic: the same statements with bounds and slopes for numbers.
+"""Prints kernels for interval arithmetic: the same statements with intervals (bounds and slopes) for numbers.
 
 The operations are in engine/watch/ranges.h.
 """
@@ -24,33 +24,33 @@ _RANGES = {"q", "v", "t"}  # arguments that are ranges; all others are numbers
 
 
 class RangesPrinter(printer.CPrinter):
-    """Print every operation as a call on ranges; expressions without symbols stay numbers."""
+    """Print every operation as a call of interval arithmetic; expressions without symbols stay scalars."""
 
     def print_place(self, place: Place) -> str:
-        """Return a place as C; a parameter becomes a range of one value."""
+        """Return a storage place as C; a parameter becomes an interval of one value."""
         text = super().print_place(place)
         return f"make_interval({text})" if place.is_parameter else text
 
     def _print_range(self, expr: sp.Expr) -> str:
-        """Print an expression as a range; a constant becomes a range of one value."""
+        """Print an expression as an interval; a constant becomes an interval of one value."""
         text: str = self._print(expr)
         return text if expr.free_symbols else f"make_interval({text})"
 
     def _print_call(self, function_name: str, *arguments: sp.Expr) -> str:
-        """Print a call of a function of ranges; with constant arguments only, the call of the function of numbers."""
+        """Print a call of a function of intervals; with constant arguments only, the call of the scalar function."""
         if not any(argument.free_symbols for argument in arguments):
             return super()._print_call(function_name, *arguments)
         return f"interval_{function_name}({', '.join(map(self._print_range, arguments))})"
 
     def _print_chained_calls(self, function_name: str, arguments: tuple[sp.Expr, ...]) -> str:
-        """Print a function of two ranges applied to all arguments, from the first on."""
+        """Print nested calls of an operation on two intervals, such as interval_add(interval_add(a, b), c)."""
         text = self._print_range(arguments[0])
         for argument in arguments[1:]:
             text = f"interval_{function_name}({text}, {self._print_range(argument)})"
         return text
 
     def _print_Add(self, expr: sp.Expr, order: object = None) -> str:
-        """Print a sum of ranges.
+        """Print a sum as nested calls of interval_add in printing order; one without symbols as a scalar.
 
         `order`: an argument of SymPy, not used.
         """
@@ -59,9 +59,9 @@ class RangesPrinter(printer.CPrinter):
         return self._print_chained_calls("add", order_terms(expr))
 
     def _print_Mul(self, expr: sp.Expr) -> str:
-        """Print a product of ranges as chained calls of "mul"; one without symbols is printed as a number.
+        """Print a product as nested calls of interval_mul; one without symbols as a scalar.
 
-        A coefficient that binary64 cannot hold as a normal number is split into two factors.
+        A coefficient that is not a normal double is split into two factors, first and last.
         """
         if not expr.free_symbols:
             return str(super()._print_Mul(expr))
@@ -73,9 +73,9 @@ class RangesPrinter(printer.CPrinter):
         return self._print_chained_calls("mul", (number, *factors) if number != 1 else tuple(factors))
 
     def _print_Pow(self, expr: sp.Pow) -> str:
-        """Print a power of a range as a call: exponents −1, 2, ±1/2 by functions of their own, others by range_pow.
+        """Print a power as a call: exponents −1, 2 and ±1/2 by special functions, others by interval_pow.
 
-        A power without symbols is printed as a number.
+        A power without symbols is printed as a scalar.
         """
         if not expr.free_symbols:
             return super()._print_Pow(expr)
@@ -88,7 +88,10 @@ class RangesPrinter(printer.CPrinter):
         return self._print_call("pow", base, exponent)
 
     def _print_nested_calls(self, function_name: str, expr: sp.Expr) -> str:
-        """Print nested calls of a function of two ranges, for example a maximum; constants come last."""
+        """Print an associative function, such as a maximum, as nested calls of two intervals; constants come last.
+
+        An expression without symbols is printed as a scalar.
+        """
         if not expr.free_symbols:
             return super()._print_nested_calls(function_name, expr)
         return self._print_chained_calls(function_name, tuple(sorted(expr.args, key=lambda a: (a.is_Number, str(a)))))
@@ -98,11 +101,11 @@ class RangesPrinter(printer.CPrinter):
         return self._print_call("heaviside", expr.args[0])
 
     def _print_BranchOf(self, expr: sp.Expr) -> str:
-        """Print the active branch of a switching function of ranges."""
+        """Print the active branch of a switching function over intervals; values of g are not stored."""
         return f"interval_branch(branch, {int(expr.args[0])}, {self._print_range(expr.args[1])})"
 
     def _print_Slope(self, expr: sp.Expr) -> str:
-        """Print a derivative without its replacement: for ranges 0 times infinity is 0."""
+        """Print a derivative without the difference quotient that replaces it, since for intervals 0 · ∞ is 0."""
         return self._print_range(expr.args[0])
 
     def _print_Magnitude(self, expr: sp.Expr) -> str:
@@ -110,15 +113,15 @@ class RangesPrinter(printer.CPrinter):
         return self._print_call("magnitude", expr.args[0])
 
     def _print_CurveOf(self, expr: CurveOf) -> str:
-        """Print the value of a curve over a range."""
+        """Print the value of a curve, or its derivative, over an interval; at a constant, the scalar call."""
         if not expr.free_symbols:
             return super()._print_CurveOf(expr)
         return f"interval_curve({make_curve_name(expr.name)}, {expr.order}, {self._print_range(expr.args[2])})"
 
     def _print_CurveOn(self, expr: CurveOn) -> str:
-        """Print the value of a curve over a range, on the piece that its branch selects."""
-        x, side = map(self._print_range, expr.args[2:])
-        return f"interval_curve_on({make_curve_name(expr.name)}, {expr.order}, {x}, {side})"
+        """Print the value of a curve over an interval, on the piece that its frozen branch selects."""
+        x, branch = map(self._print_range, expr.args[2:])
+        return f"interval_curve_on({make_curve_name(expr.name)}, {expr.order}, {x}, {branch})"
 
     def _print_KnotsOf(self, expr: KnotsOf) -> str:
         """Print the event function of a curve's knots over a range."""
@@ -135,7 +138,7 @@ class _RangeLines(functions.LinePrinter):
     printer: RangesPrinter
 
     def print_expression(self, value: Value) -> str:
-        """Return a value as a range; a value that depends on no state becomes a range of one value."""
+        """Return a value as an interval; a value that reads neither t, q nor v becomes an interval of one value."""
         if isinstance(value, sp.Basic):
             return self.printer._print_range(value)
         text = super().print_expression(value)
@@ -143,9 +146,10 @@ class _RangeLines(functions.LinePrinter):
 
 
 def print_kernel(kernel: Kernel) -> str:
-    """Return a kernel as a C function of ranges for t, q and v; parameters stay numbers.
+    """Return a kernel as a C function of intervals of t, q and v (interval arithmetic); parameters stay scalars.
 
-    The results in RhsOutputs become ranges in the argument `out`. The engine calls the function.
+    The results in RhsOutputs become intervals in the argument `out`. The engine calls the function to bound event
+    functions over a step.
     """
     arguments = tuple(
         replace(a, name=_NAMES.get(a.name, a.name), type=_TYPES.get(a.type, a.type)) for a in kernel.arguments

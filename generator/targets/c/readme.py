@@ -9,7 +9,7 @@ from gudgeon.generator.kernels.program import Program
 
 NAME = "README.md"
 # In the order of reading.
-_EQUATIONS = {
+_EQUATION_FILES = {
     "model.h": "sizes, `Parameters` (every parameter, with its unit and its address in the YAML), and small tables",
     "parameters.c": "`prepare`: defaults of all parameters, and derived parameters",
     "constraints.c": "Φ, Φ_q, ν, γ and M of the closed linkage; values of the start; joint forces and other outputs",
@@ -19,7 +19,7 @@ _EQUATIONS = {
     "reduced.c": "the same motion in tree coordinates: conversion in both directions, and the accelerations "
     "that are integrated",
 }
-_NUMERICS = {
+_METHOD_FILES = {
     "newton.c": "derivatives of the equations of motion, the solution with Newton's matrix (for stiff methods), and a "
     "projection step onto the constraints",
     "newton_complex.c": "the same matrix at complex steps (for `radau5` and `radau9`)",
@@ -32,12 +32,12 @@ _NUMERICS = {
     "scene.c": "all files together, with the functions that the engine adds: this file is compiled",
     "kernel.json": "names of everything for the Python runtime: coordinates, addresses, results",
 }
-# For scenes without degrees of freedom, which are not integrated.
-_FOLLOWED = {
+# Other purposes in scenes without degrees of freedom, which are not integrated.
+_KINEMATIC_PURPOSES = {
     "reduced.c": "the same motion in tree coordinates: conversion in both directions; forces, and powers that "
     "are integrated to works",
 }
-READABLE = (*_EQUATIONS, "positions.c")  # stored as files in generated/; a compiler alone reads the others there
+READABLE = (*_EQUATION_FILES, "positions.c")  # stored as files in generated/; the others are in its archive
 _ENGINE = (
     "Time loops, methods, contacts, events and batches are the same for all scenes: plain C in the folder `engine`. "
     "`engine/README.md` describes the order of reading. The engine uses the sizes in `model.h`."
@@ -50,13 +50,13 @@ _COMPILED = (
 def print_readme(program: Program, files: Mapping[str, str], further_files: Collection[str] = ("kernel.json",)) -> str:
     """Return the Markdown text of README.md: the order in which to read a scene's files, and what each contains.
 
-    files: text of each file by its name. further_files: names of further files in the folder. A file without an entry
-    is described by its first comment.
+    files: text of each file by its name. further_files: names of further files in the folder. A file that
+    `list_file_purposes` does not have is described by its first comment.
     """
     mechanism, scene = program.model.scene.mechanism, program.model.scene
     names = [*files, *further_files]
-    equations = [name for name in _EQUATIONS if name in names]
-    numerics = [name for name in _NUMERICS if name in names]
+    equations = [name for name in _EQUATION_FILES if name in names]
+    numerics = [name for name in _METHOD_FILES if name in names]
     numerics = [*(name for name in names if name not in (*equations, *numerics)), *numerics]
     purpose_by_file = list_file_purposes(program)
     return "\n".join(
@@ -85,7 +85,7 @@ def print_readme(program: Program, files: Mapping[str, str], further_files: Coll
 
 def list_file_purposes(program: Program) -> dict[str, str]:
     """Return {file: purpose} of all files that a scene may have, in the order in which they are to be read."""
-    return _EQUATIONS | _NUMERICS | ({} if program.integrates else _FOLLOWED)
+    return _EQUATION_FILES | _METHOD_FILES | ({} if program.integrates else _KINEMATIC_PURPOSES)
 
 
 def _describe_sizes(program: Program) -> str:
@@ -101,14 +101,17 @@ def _describe_sizes(program: Program) -> str:
 
 
 def _format_count(items: Sized, singular: str, plural: str = "") -> str:
-    """Return the number of items with its noun: "1 body", "2 bodies"; the plural is singular + "s" unless given."""
+    """Return the number of items with its noun, such as "1 body" or "2 bodies".
+
+    plural: "" for the singular with "s".
+    """
     return f"{len(items)} {singular if len(items) == 1 else plural or singular + 's'}"
 
 
 def _describe_reading_order(program: Program, file_names: Collection[str]) -> list[str]:
-    """Return the lines of README.md that say which files to read first and which symbols they use.
+    """Return the two lines of README.md that say which files to read first and what q, v and p are.
 
-    file_names: the files of the scene, of which positions.c or reduced.c is mentioned if present.
+    file_names: the files of the scene, of which positions.c or else reduced.c is mentioned if present.
     """
     integrated_file = next((name for name in ("positions.c", "reduced.c") if name in file_names), "")
     continuation = f", and `{integrated_file}`, which a run evaluates" if integrated_file else ""
@@ -152,7 +155,7 @@ def _describe_calls(program: Program, file_names: Collection[str]) -> list[str]:
 
 
 def _escape_markdown(text: str) -> str:
-    """Return a text as one line with Markdown's signs escaped."""
+    """Return a text as one line with the special characters of Markdown escaped."""
     return re.sub(r"[\\`*_<>\[\]#|]", r"\\\g<0>", " ".join(text.split()))
 
 

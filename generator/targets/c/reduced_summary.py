@@ -10,7 +10,7 @@ from gudgeon.generator.reduction.frames import CONSTANT
 from gudgeon.generator.reduction.reduction import TreeSystem
 from gudgeon.generator.reduction.tree import TreeEdge
 
-_MAX_LISTED = 40  # bodies, unknowns or closures
+_MAX_LISTED_ITEMS = 40  # bodies, unknowns or closures
 
 
 def describe_reduced_file(system: TreeSystem) -> list[str]:
@@ -24,7 +24,7 @@ def describe_reduced_file(system: TreeSystem) -> list[str]:
         f"{tree_edge.body}: {_describe_position(tree_edge)}; {_describe_angle(system, tree_edge.body)}"
         for tree_edge in tree.edges
     ]
-    stored_coordinates = [f"q[{k}] = {name} ({_get_unit(name)})" for k, name in enumerate(unknowns)]
+    stored_coordinates = [f"q[{k}] = {name} ({_get_coordinate_unit(name)})" for k, name in enumerate(unknowns)]
     if system.driven_loops:
         names = map(format_coordinate_name, system.driven_loops.names)
         stored_coordinates += [f"q[{k}] = {name}, dependent" for k, name in enumerate(names, len(unknowns))]
@@ -60,8 +60,8 @@ def _describe_angle(system: TreeSystem, body: str) -> str:
     """Return in words what the angle of a body is: unknown, prescribed, constant or dependent."""
     terms = [name for name in system.tree.angles[body] if name != CONSTANT]
     if terms == [body]:
-        chain = system.driven_loops.names if system.driven_loops else ()
-        return "its angle is dependent" if body in chain else "its angle is an unknown"
+        dependent_names = system.driven_loops.names if system.driven_loops else ()
+        return "its angle is dependent" if body in dependent_names else "its angle is an unknown"
     if not terms:
         return "its angle is constant"
     drives = system.model.scene.mechanism.drives
@@ -69,19 +69,19 @@ def _describe_angle(system: TreeSystem, body: str) -> str:
     return f"its angle is {kind} {', '.join(terms)}"
 
 
-def _get_unit(name: str) -> str:
+def _get_coordinate_unit(name: str) -> str:
     """Return the unit of a tree coordinate: "rad" for an angle, "m" for others."""
     return "rad" if name.endswith(".theta") else "m"
 
 
 def _format_comment_list(items: Sequence[str], separator: str = "; ") -> list[str]:
-    """Return items as indented comment lines, wrapped, or one item per line if the separator is a line break.
+    """Return items as indented comment lines: one per line if `separator` is a line break, else joined and wrapped.
 
-    Only the first _MAX_LISTED items are printed, followed by the number of the others.
+    Lines break between items only. Of more than _MAX_LISTED_ITEMS items, the first ones and "and N more" are printed.
     """
     shown_items = [
-        *items[:_MAX_LISTED],
-        *([f"and {len(items) - _MAX_LISTED} more"] if len(items) > _MAX_LISTED else []),
+        *items[:_MAX_LISTED_ITEMS],
+        *([f"and {len(items) - _MAX_LISTED_ITEMS} more"] if len(items) > _MAX_LISTED_ITEMS else []),
     ]
     joined = separator.join(item.replace(" ", "\0") for item in shown_items)
     lines = shown_items if separator == "\n" else textwrap.wrap(joined, 104)

@@ -19,7 +19,7 @@ typedef double Wide __attribute__((vector_size({8 * ROW_LENGTH}), aligned(16)));
 
 
 def print_taylor_file(series: Series) -> str:
-    """Return the text of taylor.c: its structs, the function of order 0 and that of each higher order."""
+    """Return the text of taylor.c: its structs, the function of order 0 and the recurrence of the higher orders."""
     kernels = (functions.print_kernel(vectorize_sines(series.values)), functions.print_kernel(series.terms))
     return "\n".join([_HEAD, _print_structs(series, "double"), *kernels])
 

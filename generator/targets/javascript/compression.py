@@ -1,4 +1,4 @@
-"""Compress the JavaScript and CSS of this package for embedding in a page."""
+"""Minifies the JavaScript and CSS of this package for embedding in a page."""
 
 from __future__ import annotations
 
@@ -8,18 +8,18 @@ import re
 _COMMENT = re.compile(r"^ *(?:/\*.*?\*/|//[^\n]*)\n|(?<=\S) // [^\n]*$", re.DOTALL | re.MULTILINE)
 # strings within a line of JavaScript, template strings included
 _TEXT = re.compile(r"""("(?:[^"\\]|\\.)*"|'(?:[^'\\]|\\.)*'|`[^`]*`)""")
-_SPACED = re.compile(
+_SPACED_PUNCTUATION = re.compile(
     r" ?(=>|[!=]==|\?\?=?|&&|\|\||[=,?:;(){}]) ?"
     r"|(?<![-+]) ([-+*/%<>]|[<>]=|>>) (?![-+])"  # not in a - -b
 )
-_LINE_END = re.compile(r"(?<=[{;,(])\n$")  # that ends no statement
+_SUPERFLUOUS_LINE_END = re.compile(r"(?<=[{;,(])\n$")  # after a character that cannot end a statement, or ";"
 
 
 def compress_script(text: str) -> str:
-    """Return a JavaScript file without comments, indents and spaces around punctuation, for embedding in a page.
+    """Return a JavaScript file minified: without comments, indents and spaces around punctuation.
 
-    Ends of lines are kept where they may end statements. Lines keep their spaces within template strings over several
-    lines, and if template strings are nested.
+    Line breaks stay where they may end a statement. Lines of a template string over several lines, or with a nested
+    template string, keep their spaces. The text must be code of this package: comments are found by their position.
     """
     lines, in_template_string = list[str](), False
     for line in re.sub(r"(?m)^ +|^\n", "", _COMMENT.sub("", text)).split("\n"):
@@ -28,13 +28,13 @@ def compress_script(text: str) -> str:
             lines.append(f"{line}\n")
         else:
             parts = _TEXT.split(line)
-            parts[::2] = (_SPACED.sub(lambda match: match[1] or match[2], part) for part in parts[::2])
-            lines.append(_LINE_END.sub("", "".join(parts) + "\n"))
+            parts[::2] = (_SPACED_PUNCTUATION.sub(lambda match: match[1] or match[2], part) for part in parts[::2])
+            lines.append(_SUPERFLUOUS_LINE_END.sub("", "".join(parts) + "\n"))
         in_template_string ^= ends_template_string
     return "".join(lines)
 
 
 def compress_style_sheet(text: str) -> str:
-    """Return CSS without comments, and without spaces around punctuation, for embedding in a page."""
+    """Return CSS minified: without comments, spaces around punctuation and the last semicolon of a rule."""
     without_comments = re.sub(r"/\*.*?\*/", "", text, flags=re.DOTALL)
     return re.sub(r"\s*([{};,>])\s*|(?<=:) ", r"\1", without_comments).replace(";}", "}").strip()

@@ -1,4 +1,4 @@
-"""Writes Φ, Φ_q, ν, γ and the forces of joints with play as JavaScript, for the values that a page shows."""
+"""Emits Φ, Φ_q, ν, γ and the forces of joints with play as JavaScript, for the values that a page shows."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ from gudgeon.generator.kernels.driven_loops import DIRECTIONS, RATES, STEP, THIR
 from gudgeon.generator.kernels.program import Program
 from gudgeon.generator.kernels.reduced import DYNAMICS
 from gudgeon.generator.symbols.symbols import make_identifier
-from gudgeon.generator.targets.javascript.play import list_motion_symbols, print_joint_functions
+from gudgeon.generator.targets.javascript.play import list_motion_symbols, print_joint_methods
 from gudgeon.generator.targets.javascript.printer import CONTOUR, PRELUDE, list_arguments, print_method
 
-_OF_STATES = (
+_STATE_FUNCTIONS = (
     "reduce_state",
     "reduce_accelerations",
     "expand",
@@ -56,13 +56,10 @@ def print_equations_script(program: Program) -> str:
     members_read: set[str] = set()
     methods = [print_method(dynamics, members_read, find_right_hand_side_locals(dynamics, model))]
     methods += [print_method(kernel, members_read) for kernel in (*kernels, *program.laws)]
-    methods += [method_text for joint in program.joints for method_text in print_joint_functions(joint, members_read)]
+    methods += [method_text for joint in program.joints for method_text in print_joint_methods(joint, members_read)]
     tree_methods = print_tree_functions(program, members_read)
-    methods = [
-        *tree_methods.values(),
-        *methods,
-    ]  # nearest to what they are like in C: packed, that takes the least room
-    kernels += [dynamics, *(kernel for kernel in _list_tree_kernels(program) if kernel.name in tree_methods)]
+    methods = [*tree_methods.values(), *methods]  # the order of the similar C, with which the page is compressed
+    kernels += [dynamics, *(kernel for kernel in _list_state_kernels(program) if kernel.name in tree_methods)]
     method_text = ",\n".join(methods)
     members = map(model.parameter_table.find_field_name, model.parameter_table.list_symbols())
     row_index = {row.name: k for k, row in enumerate(model.all_rows)}
@@ -95,22 +92,22 @@ def print_equations_script(program: Program) -> str:
 
 
 def print_tree_functions(program: Program, members_read: set[str]) -> dict[str, str]:
-    """Return {name: JavaScript method} of the functions of reduced.c that can be evaluated from a sample.
+    """Return {name: JavaScript method} of the functions of reduced.c that can be evaluated from a sample of a run.
 
-    members_read: a set that gets the members of p. Driven loops are closed in a sample, and their rates follow from
-    their coordinates. Functions that need friction modes have no counterpart and are left out.
+    A function with a line that JavaScript does not have is left out, such as one that needs friction modes or curves.
+    {} is returned in the full formulation. members_read: a set to which the members of p that are read are added.
     """
     functions = dict[str, str]()
-    for kernel in _list_tree_kernels(program):
+    for kernel in _list_state_kernels(program):
         with suppress(ValueError):
             functions[kernel.name] = print_method(kernel, members_read)
     return functions
 
 
-def _list_tree_kernels(program: Program) -> list[Kernel]:
-    """Return the kernels in tree coordinates that a sample suffices to evaluate; [] in the full formulation."""
+def _list_state_kernels(program: Program) -> list[Kernel]:
+    """Return the kernels in tree coordinates that depend on the state only (_STATE_FUNCTIONS); [] without a tree."""
     tree = program.tree
-    return [kernel for kernel in tree.all_kernels if kernel.name in _OF_STATES] if tree else []
+    return [kernel for kernel in tree.all_kernels if kernel.name in _STATE_FUNCTIONS] if tree else []
 
 
 def _find_closure_indices(program: Program) -> list[int]:
@@ -123,7 +120,10 @@ def _find_closure_indices(program: Program) -> list[int]:
 
 
 def find_right_hand_side_locals(dynamics: Kernel, model: Model) -> set[str]:
-    """Return the names of the locals of `dynamics` on which the right-hand sides of its linear system depend."""
+    """Return the names of the locals of `dynamics` that the right-hand sides of its constraint equations depend on.
+
+    The right-hand sides `rhs_<row>` themselves are included.
+    """
     names = {make_identifier(f"rhs_{row.name}") for row in model.rows}
     dependence = propagate_marks(
         make_readable(dynamics), lambda line: frozenset({"rhs"} if line.target in names else ())
@@ -132,19 +132,23 @@ def find_right_hand_side_locals(dynamics: Kernel, model: Model) -> set[str]:
 
 
 def _map_functions_to_joints(program: Program) -> dict[str, list[str]]:
-    """Return {name of a function: labels of the joints with play that call it}, for functions of joints and of laws."""
-    joints: defaultdict[str, list[str]] = defaultdict(list)
-    for pin in program.joints:
-        parts = (f"{part}_{pin.clearance.label}_" for part in ("clearance", "dry", "film"))
-        for name in (*parts, *(call.kernel.name for call in pin.laws.values())):
-            joints[name].append(pin.clearance.label)
-    return joints
+    """Return {C function: labels of the joints with play that it belongs to}, for functions of joints and of laws.
+
+    A law that several joints share has several labels. Names of parts that a joint does not have are included.
+    """
+    labels: defaultdict[str, list[str]] = defaultdict(list)
+    for joint in program.joints:
+        parts = (f"{part}_{joint.clearance.label}_" for part in ("clearance", "dry", "film"))
+        for name in (*parts, *(call.kernel.name for call in joint.laws.values())):
+            labels[name].append(joint.clearance.label)
+    return labels
 
 
 def _name_motion_locals(model: Model, index: int) -> list[str]:
-    """Return the names of the locals of `play` that contain the motion in joint `index`.
+    """Return the names of the locals of `play` that contain the relative motion in the joint with play `index`, from 0.
 
-    They begin with the first of "play", "joint" and "with_play" that no symbol of the scene begins with.
+    Example: "play_1_e_x". The prefix is the first of "play", "joint" and "with_play" that no symbol of the scene begins
+    with.
     """
     symbol_names = {symbol.name for symbol in model.symbols.info}
     prefix = next(
@@ -158,8 +162,8 @@ def _name_motion_locals(model: Model, index: int) -> list[str]:
 def make_play_kernel(model: Model) -> Kernel:
     """Return the kernel `play`, which stores the motion in each joint with play as locals.
 
-    They are the eccentricity and its rate in ground axes, both angular velocities, then the further arguments of the
-    joint: the normal of a wall, or the angle of a bearing with a contour.
+    The locals contain eccentricity and its rate in ground axes, and both angular velocities. A corner at a wall also
+    has the normal, a bearing with a contour its angle.
     """
     builder = KernelBuilder(model.symbols, "play", ["Joints with play: eccentricity, its rate, angular velocities."])
     for i, clearance in enumerate(model.clearances):

@@ -1,6 +1,7 @@
-"""Prints lines and functions as JavaScript; expressions are those of C, so that the same bits are computed.
+"""Prints kernels as JavaScript; expressions are those of C, so that results are the same bit for bit.
 
-Functions of C are defined in PRELUDE; p is an object with a member for each parameter. Branches are not frozen.
+PRELUDE defines the functions of C that the expressions call. p is an object with a member for each parameter. Branches
+are not frozen.
 """
 
 from __future__ import annotations
@@ -68,9 +69,9 @@ _BRANCH_PLACES = tuple(Place(argument.name) for argument in BRANCHES)
 
 
 class JavaScriptPrinter(CPrinter):
-    """Print C's expressions with JavaScript's paths of places.
+    """Print expressions as in C, but storage places by their JavaScript paths.
 
-    `members_read` is a set that gets the members of p that are read.
+    `members_read` is a set to which the members of p that are read are added.
     """
 
     def __init__(self, readable_lines: Readable, members_read: set[str]) -> None:
@@ -101,9 +102,10 @@ class JavaScriptPrinter(CPrinter):
 def print_method(kernel: Kernel, members_read: set[str], local_names: Collection[str] | None = None) -> str:
     """Return a kernel as a JavaScript method that returns an object with its locals and arrays by name.
 
-    members_read: a set that gets the read members of p. local_names: the locals to compute and return, without arrays
-    and without `rhs`; None: all locals, the arrays, and `rhs` if the kernel fills it. Only a method with all locals
-    ends early if a pivot vanishes; later values are then undefined. Raises ValueError for a line without a counterpart.
+    local_names: the locals to compute and return, without arrays and `rhs`; None: all locals, the arrays, and `rhs` if
+    the kernel fills it. Only a method with all locals ends early if a pivot vanishes; later values are then undefined.
+    `members_read` is a set to which the members of p that are read are added. Raises ValueError for a line without a
+    counterpart.
     """
     readable_lines = make_readable(kernel)
     may_end = local_names is None and any(
@@ -124,21 +126,24 @@ def print_method(kernel: Kernel, members_read: set[str], local_names: Collection
 
 
 def list_arguments(kernel: Kernel) -> list[str]:
-    """Return the names of a function's arguments, without those for branches and without the arrays that it returns."""
+    """Return the names of the arguments of a kernel's JavaScript method: neither branches nor arrays that it fills."""
     read_arguments = (a for a in kernel.arguments if a not in (*BRANCHES, FIRST_SWITCH))
     return [a.name for a in read_arguments if a.access is not Access.WRITTEN]
 
 
 def list_results(kernel: Kernel) -> list[str]:
-    """Return the names of the numbers and arrays that a function stores through arguments, in their order."""
+    """Return the names of the numbers and arrays that a kernel stores through its arguments, in their order.
+
+    `rhs` (RhsOutputs) is not among them.
+    """
     written_arguments = (a for a in kernel.arguments if a.access is Access.WRITTEN and a not in BRANCHES)
     return [a.name for a in written_arguments if a.type is Number.REAL]
 
 
 def _print_outputs_literal(kernel: Kernel) -> str:
-    """Return an object literal with empty entries for the further outputs (RhsOutputs) that a function fills.
+    """Return a JavaScript literal of the `rhs` (RhsOutputs) that a kernel fills: "{lambda: [], clearance: [{}]}".
 
-    "" is returned if it fills none.
+    Arrays of structs have an empty object for each element. "" is returned if the kernel fills none.
     """
     lines = [line for section in kernel.sections for line in section.statements]
     places = [line.target for line in lines if isinstance(line, Statement)]
@@ -153,8 +158,8 @@ def _print_outputs_literal(kernel: Kernel) -> str:
     return f"{{{members}}}" if lengths else ""
 
 
-class _JavaScript(ValuePrinter):
-    """Print values; thresholds become numbers."""
+class JavaScriptValuePrinter(ValuePrinter):
+    """Print values of kernels as JavaScript; thresholds of pivots become numbers."""
 
     def _print_factor(self, value: sp.Basic | float) -> str:
         """Return a factor of a bound in JavaScript; a threshold is printed as a number."""
@@ -167,22 +172,22 @@ class LinePrinter:
     def __init__(self, readable_lines: Readable, members_read: set[str], keyword: str = "const") -> None:
         self.readable_lines, self.value_printer, self.keyword = (
             readable_lines,
-            _JavaScript(JavaScriptPrinter(readable_lines, members_read)),
+            JavaScriptValuePrinter(JavaScriptPrinter(readable_lines, members_read)),
             keyword,
         )
         self.locals: list[str] = []
 
     def print_lines(self, local_names: Collection[str] | None = None) -> list[str]:
-        """Return the lines that store to one of `local_names` in JavaScript; all lines for None."""
+        """Return in JavaScript the lines of the function that store to one of `local_names`; all lines for None."""
         all_lines = (line for section in self.readable_lines.sections for line in section.statements)
         selected = (line for line in all_lines if local_names is None or getattr(line, "target", "") in local_names)
         return [text for line in selected for text in self.print_line(line)]
 
     def print_line(self, line: Line) -> list[str]:
-        """Return one line of a kernel in JavaScript; [] for lines that only single runs of C need.
+        """Return one line of a kernel in JavaScript; [] for lines for vanished pivots and branches.
 
-        A new local is declared and added to `locals`. A test of a pivot that fails leaves the block `solved`; the call
-        of a joint stores the force of its function. Raises ValueError for a line without a counterpart.
+        A new local is declared and added to `locals`. A guard leaves the block `solved` if its test fails. The call of
+        a joint's function stores its force in ground axes. Raises ValueError for a line without a counterpart.
         """
         if isinstance(
             line, (DeclareBranches, Status, ReturnIfOnlyJoints, Jump, SolveDependentRows, Return, LargestRow)
@@ -191,8 +196,8 @@ class LinePrinter:
         if isinstance(line, Sines):
             return self._print_sines(line)
         if isinstance(line, Guard) and isinstance(line.test, Test):
-            only = f"{self.value_printer.print_test(line.condition)} && " if line.condition else ""
-            return [f"if ({only}!({self.value_printer.print_test(line.test)})) break solved;"]
+            condition = f"{self.value_printer.print_test(line.condition)} && " if line.condition else ""
+            return [f"if ({condition}!({self.value_printer.print_test(line.test)})) break solved;"]
         if isinstance(line, Call) and line.function.startswith("clearance_"):
             call_arguments = ", ".join(self._print_argument(x) for x in line.given if x not in _BRANCH_PLACES)
             return [f"Object.assign({line.results[0]}, functions.{line.function}({call_arguments}, {{}}).force);"]
@@ -217,9 +222,9 @@ class LinePrinter:
         return str(value) if isinstance(value, Place) else self.value_printer.print_expression(value)
 
     def _print_sines(self, sines: Sines) -> list[str]:
-        """Return declarations of arrays with the sines and cosines of several angles.
+        """Return the declarations of two arrays, the sines and the cosines of several angles.
 
-        `sines.count` selects an array of groups of four; without it the array has all values.
+        With `sines.count`, they are arrays of groups of four, as in C; otherwise one group of at most four.
         """
         angles, declarations = [self.value_printer.print_expression(angle) for angle in sines.angles], []
         for function, array in zip(("sin", "cos"), sines.arrays, strict=True):

@@ -1,8 +1,8 @@
 """Represents a document of equations before its layout: sections of paragraphs, equations, tables and sketches.
 
-Every formula has a LaTeX and a plain text form; HTML converts the LaTeX to MathML. `of` are the tokens of a block
-(trace.py); blocks that share a token are highlighted together (highlighting.js). `value` is the value that a running
-page shows next to the block (current_values.js); both are for HTML only.
+Every formula has a LaTeX and a plain text form; HTML converts the LaTeX to MathML. `tokens` are the highlighting tokens
+of a block (trace.py); blocks that share a token are highlighted together (highlighting.js). `value` is the name of the
+value that a running page shows next to the block (current_values.js); both are for HTML only.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ class Paragraph:
     """Represent a paragraph of words and formulas."""
 
     text: Text
-    of: Sequence[str] = ()
+    tokens: Sequence[str] = ()
     kind: str = "paragraph"
 
     @property
@@ -42,29 +42,29 @@ class Equation:
 
     left: Name
     terms: tuple[Name, ...]
-    of: Sequence[str] = ()
-    pick: str = ""  # what selecting it lights, if that is not all of `tokens`
+    tokens: Sequence[str] = ()
+    selection_token: str = ""  # the token that selecting the equation highlights; "" for all of `tokens`
     value: str = ""
     kind: str = "equation"
 
 
 @dataclass(frozen=True)
 class Table:
-    """Represent a table; `wide` are the columns with running text, `of` tokens by row.
+    """Represent a table; `text_columns` are the indices of columns with running text.
 
-    `upright`: on a phone its columns become rows.
+    `transposes_on_phone`: on a phone its columns become rows.
     """
 
     header: tuple[Text, ...]
     rows: tuple[tuple[Text, ...], ...]
-    wide: tuple[int, ...] = ()
-    of: tuple[Sequence[str], ...] = ()
-    upright: bool = False
+    text_columns: tuple[int, ...] = ()
+    row_tokens: tuple[Sequence[str], ...] = ()
+    transposes_on_phone: bool = False
     kind: str = "table"
 
-    def tokens(self, row: int) -> Sequence[str]:
+    def get_row_tokens(self, row: int) -> Sequence[str]:
         """Return the highlighting tokens of a row, counted from 0; () if the row has none."""
-        return self.of[row] if row < len(self.of) else ()
+        return self.row_tokens[row] if row < len(self.row_tokens) else ()
 
 
 @dataclass(frozen=True)
@@ -76,7 +76,10 @@ class Sketch:
 
     @property
     def parts(self) -> list[tuple[str, ...]]:
-        """Return the parts of a sketch that may stand below each other; COLUMN_GAP empty columns separate them."""
+        """Return the parts of a sketch that narrow pages may put below each other, each as its lines.
+
+        Parts are separated by a blank line, or by at least COLUMN_GAP columns without a letter.
+        """
         parts = list[tuple[str, ...]]()
         for is_blank, group in groupby(self.lines, lambda line: not line.strip()):
             lines = [] if is_blank else list(group)
@@ -97,7 +100,7 @@ class Sketch:
 
 @dataclass(frozen=True)
 class Picture:
-    """Represent a drawing: SVG in HTML, elsewhere aligned lines of characters, or nothing."""
+    """Represent a drawing: SVG in HTML; aligned lines of characters in LaTeX and text, () for none."""
 
     caption: str
     svg: str
@@ -107,20 +110,20 @@ class Picture:
 
 @dataclass(frozen=True)
 class Listing:
-    """Represent a file line by line, folded, with tokens by line from 1; in HTML only."""
+    """Represent the listing of a file in HTML, with highlighting tokens by line from 1; other formats omit it."""
 
     title: str
     lines: tuple[str, ...]
-    of: Mapping[int, Collection[str]]
+    tokens_by_line: Mapping[int, Collection[str]]
     kind: str = "listing"
 
 
 @dataclass(frozen=True)
 class EmbeddedHtml:
-    """Represent HTML that only a page has."""
+    """Represent HTML that is inserted as it is; other formats omit it."""
 
     html: str
-    kind: str = "carried"
+    kind: str = "html"
 
 
 Block: TypeAlias = Paragraph | Equation | Table | Sketch | Picture | Listing | EmbeddedHtml
@@ -133,7 +136,7 @@ class Section:
     title: str
     blocks: tuple[Block, ...]
     level: int = 1
-    of: Sequence[str] = ()
+    tokens: Sequence[str] = ()
 
 
 @dataclass(frozen=True)
@@ -146,7 +149,7 @@ class Document:
 
 
 def make_paragraph(*text: str | Name, tokens: Sequence[str] = ()) -> Paragraph:
-    """Return words and formulas as a paragraph with highlighting tokens `tokens`."""
+    """Return words and formulas as a paragraph with the given highlighting tokens."""
     return Paragraph(text, tokens)
 
 
@@ -189,12 +192,12 @@ def make_tables(
 
 
 def make_row_token(number: int) -> str:
-    """Return the token of a constraint equation, counted from 1; it also stands for its entries of Φ_q."""
+    """Return the highlighting token of a constraint equation, counted from 1: "row-3"."""
     return f"row-{number}"
 
 
 def make_entry_token(row: int, column: int) -> str:
-    """Return the token of an entry of Φ_q, counted from 1."""
+    """Return the highlighting token of an entry of Φ_q, row and column counted from 1: "entry-3-1"."""
     return f"entry-{row}-{column}"
 
 
@@ -209,11 +212,14 @@ def make_owner_token(row: Row) -> str:
 
 
 def list_entry_tokens(model: Model, number: int, row: Row) -> Iterator[str]:
-    """Return the tokens of the nonzero entries of Φ_q of a constraint equation, whose `number` counts from 1."""
+    """Return the highlighting tokens of the nonzero entries of Φ_q of a constraint equation; `number` counts from 1."""
     column_of = {q: k for k, q in enumerate(model.q, 1)}
     return (make_entry_token(number, column_of[q]) for q in row.phi_q)
 
 
 def list_joint_tokens(clearance: Clearance) -> list[str]:
-    """Return the tokens of a joint with play; a slider's corner has one of its own in addition."""
+    """Return the highlighting tokens of a joint with play, without duplicates.
+
+    A slider's corner has two: its own and that of its joint.
+    """
     return [*dict.fromkeys((f"joint-{clearance.label}", f"joint-{clearance.joint.name}"))]

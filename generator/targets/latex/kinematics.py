@@ -33,9 +33,9 @@ from gudgeon.generator.targets.latex.notation import Notation, list_temporaries
 from gudgeon.generator.targets.latex.pictures import draw_jacobian_pattern
 from gudgeon.generator.targets.latex.theory import GAMMA, LAMBDA, NU, PHI, PHI_Q, name_component
 
-WIDEST = 84  # characters of text that fit side by side in a joint's rows of Φ_q
+MAX_ENTRY_TABLE_WIDTH = 84  # characters of a table with a joint's entries of Φ_q
 
-MAX_OPERATIONS = 400  # operations in one equation that a reader can be asked to read
+MAX_OPERATIONS = 400  # operations of an equation that is printed in full
 
 
 def make_equation(
@@ -48,8 +48,8 @@ def make_equation(
 ) -> Equation:
     """Return the equation left = right, which may break between the terms of the right side.
 
-    An expression on the left is formatted by `notation`. tokens: highlighting tokens; selection_token: the one that
-    selecting the equation highlights, "" for all; value_name: name of the value that a page shows, "" for none.
+    An expression on the left is formatted by `notation`. tokens: highlighting tokens. selection_token: the one that
+    selecting the equation highlights, "" for all. value_name: name of the value that a page shows, "" for none.
     """
     left_name = left if isinstance(left, Name) else notation.format_expression(left)
     return Equation(left_name, notation.format_terms(right), tokens, selection_token, value_name)
@@ -65,9 +65,7 @@ def make_equation_block(
 ) -> Block:
     """Return the equation left = right as a block, or a sentence about its length above MAX_OPERATIONS operations.
 
-    tokens: names of highlighting groups; blocks that share one are highlighted together. selection_token: the one that
-    selecting the equation highlights, "" for all. value_name: name of the value that a page shows, "" for none. A
-    sentence has neither selection token nor value.
+    The arguments are those of `make_equation`. The sentence has neither selection token nor value.
     """
     n_operations = sp.count_ops(right)
     if n_operations <= MAX_OPERATIONS:
@@ -95,7 +93,10 @@ def make_kinematics_sections(model: Model, notation: Notation) -> list[Section]:
 
 
 def _describe_coordinates(model: Model, notation: Notation) -> list[Block]:
-    """Return the table of coordinates and velocities of the bodies, with the values that a page shows."""
+    """Return the blocks on coordinates: an introduction, and the table of coordinates and velocities of the bodies.
+
+    A page shows the current value next to each coordinate and velocity.
+    """
     rows, tokens = [], []
     for body in model.bodies:
         first = body.index + 1
@@ -114,9 +115,10 @@ def _describe_coordinates(model: Model, notation: Notation) -> list[Block]:
 
 
 def _describe_abbreviations(model: Model, notation: Notation) -> Iterator[Block]:
-    """Yield the equations of derived parameters and long drives that the equations show by a symbol.
+    """Yield the definitions of derived parameters and long drives that other equations show by a symbol.
 
-    Constants of laws and temporaries of force elements are left out. Sentences explain where(…) and H if they occur.
+    Constants of laws and temporaries of force elements are left out, since their own sections define them. Sentences
+    explain where(…) and the unit step H if they occur.
     """
     laws = {value for clearance in model.clearances for value in clearance.constants.values()}
     others = laws | set(list_temporaries(model))
@@ -126,7 +128,7 @@ def _describe_abbreviations(model: Model, notation: Notation) -> Iterator[Block]
         if symbol in notation.shown_symbols and symbol not in others
     ]
     yield from equations
-    if any("where(" in term.text for equation_ in equations for term in equation_.terms):
+    if any("where(" in term.text for equation in equations for term in equation.terms):
         yield make_paragraph("where(…) is its second argument if the comparison is true, else the third.")
     if any(
         notation.expand_symbols(value).has(sp.Heaviside) for row in model.rows for value in (row.nu, row.gamma)
@@ -135,7 +137,7 @@ def _describe_abbreviations(model: Model, notation: Notation) -> Iterator[Block]
 
 
 def _describe_constraints(model: Model, notation: Notation) -> list[Block]:
-    """Return the constraint equations of each joint and drive, with entries of Φ_q, ν and γ, and an introduction."""
+    """Return an introduction, then for each joint and drive Φ and the nonzero entries of Φ_q, ν and γ."""
     blocks: list[Block] = [
         make_paragraph(
             "The mechanism is assembled if ",
@@ -174,7 +176,7 @@ def _describe_constraints(model: Model, notation: Notation) -> list[Block]:
 def _make_row_equation(row_number: int, row: Row, model: Model, notation: Notation) -> Equation:
     """Return the equation of Φ's component `row_number`, from 1, with highlighting tokens for each term.
 
-    A term has the tokens of the entries of Φ_q to which it contributes and of its temporaries.
+    A term has the tokens of the entries of Φ_q to which it contributes, and of the locals of C that contain it.
     """
     column_of = {q: i for i, q in enumerate(model.q, 1)}
     term_tokens: dict[sp.Expr, list[str]] = {}
@@ -184,7 +186,7 @@ def _make_row_equation(row_number: int, row: Row, model: Model, notation: Notati
             term_tokens[term] = term_tokens[-term] = name_tokens
 
     def list_tokens(term: sp.Expr) -> list[str]:
-        """Return the highlighting tokens of a term: its entries of Φ_q and its named parts."""
+        """Return the highlighting tokens of a term of Φ: of its entries of Φ_q, then of the locals of C."""
         columns = sorted(column_of[s] for s in model.symbols.expand_definitions(term).free_symbols if s in row.phi_q)
         return [*(make_entry_token(row_number, i) for i in columns), *term_tokens.get(term, ())]
 
@@ -202,7 +204,7 @@ def _make_row_equation(row_number: int, row: Row, model: Model, notation: Notati
 def _group_rows_by_owner(model: Model) -> Iterator[tuple[str, list[tuple[int, Row]]]]:
     """Yield (title, [(number, constraint equation)]) of each joint and drive; numbers count from 1.
 
-    The title has its type and its line of the file.
+    Example of a title: "Joint A, revolute joint, line 12 of the file".
     """
     mechanism = model.scene.mechanism
     for (owner, kind), rows in groupby(enumerate(model.rows, 1), key=lambda pair: (pair[1].owner, pair[1].kind)):
@@ -219,14 +221,17 @@ def _format_row_names(rows: Sequence[tuple[int, Row]]) -> str:
 
 
 def _list_multipliers(rows: Sequence[tuple[int, Row]]) -> list[str | Name]:
-    """Return the parts of a text with the names of the multipliers of constraint equations, each with its value."""
+    """Return the parts of a text "multipliers λ_1, λ_2" of constraint equations; a page shows the values."""
     names = [replace(name_component(LAMBDA, k), value=f"lambda.{k}") for k, _ in rows]
     separated = [part for name in names for part in (", ", name)][1:]
     return [f"multiplier{'s' * (len(rows) > 1)} ", *separated]
 
 
 def _describe_jacobian(model: Model) -> list[Block]:
-    """Return the number of nonzero entries of Φ_q and the picture of their pattern."""
+    """Return a paragraph with the number of nonzero entries of Φ_q, and the picture of its sparsity pattern.
+
+    The picture is missing if it would be too large (`draw_jacobian_pattern`).
+    """
     count = sum(len(row.phi_q) for row in model.rows)
     shape = f"{len(model.rows)} × {len(model.q)}"
     return [
@@ -243,16 +248,16 @@ def _describe_jacobian(model: Model) -> list[Block]:
 def _describe_jacobian_entries(rows: Sequence[tuple[int, Row]], model: Model, notation: Notation) -> list[Block]:
     """Return the Jacobian entries of one joint or drive: a table of the columns of Φ_q with nonzero ones.
 
-    If the table would be wider than WIDEST characters, each entry gets its own equation.
+    If the table would be wider than MAX_ENTRY_TABLE_WIDTH characters, each entry gets its own equation.
     """
     column_of = {q: k for k, q in enumerate(model.q)}
     columns = sorted({q for _, row in rows for q in row.phi_q}, key=column_of.__getitem__)
 
     def make_jacobian_entry(row_number: int, row: Row, q: sp.Symbol) -> Name:
-        """Return one entry of Φ_q as a formula; row_number counts from 1.
+        """Return the entry of Φ_q for coordinate q as a formula, "0" for a zero; row_number counts from 1.
 
-        An entry that is not zero carries its highlighting token. An entry that is not constant also carries the name
-        under which the page reads its numerical value, phi_q.ROW.COLUMN.
+        A nonzero entry has its highlighting token. If it is not constant, it also has the name of the value that a page
+        shows, phi_q.ROW.COLUMN.
         """
         name = notation.format_expression(notation.expand_symbols(row.phi_q.get(q, sp.Integer(0))))
         if q not in row.phi_q:
@@ -260,12 +265,15 @@ def _describe_jacobian_entries(rows: Sequence[tuple[int, Row]], model: Model, no
         constant = row.phi_q[q].is_number
         return replace(
             name,
-            of=[make_entry_token(row_number, column_of[q] + 1)],
+            tokens=[make_entry_token(row_number, column_of[q] + 1)],
             value="" if constant else f"phi_q.{row_number}.{column_of[q] + 1}",
         )
 
     entries = [[make_jacobian_entry(k, row, q) for q in columns] for k, row in rows]
-    if sum(3 + max(len(entry.text) for entry in column) for column in zip(*entries, strict=True)) > WIDEST:
+    if (
+        sum(3 + max(len(entry.text) for entry in column) for column in zip(*entries, strict=True))
+        > MAX_ENTRY_TABLE_WIDTH
+    ):
         return [
             _make_entry_equation(k, q, row, column_of[q], notation)
             for k, row in rows
@@ -294,9 +302,10 @@ def _make_entry_equation(row_number: int, q: sp.Symbol, row: Row, column: int, n
 def _make_component_equations(
     vector: Name, row_numbers: Sequence[int], values: Sequence[sp.Expr], first_row: Row, notation: Notation
 ) -> list[Block]:
-    """Return the equations of the nonzero components of ν or γ by the numbers of their rows.
+    """Return the equations of the nonzero components of ν or γ of one joint or drive.
 
-    vector: NU or GAMMA. first_row: a row of the same joint or drive, for the tokens.
+    vector: NU or GAMMA. row_numbers, values: row number from 1 and value of each component. first_row: a row of the
+    same joint or drive, for the highlighting token.
     """
     name = "nu" if vector is NU else "gamma"
     return [
@@ -313,25 +322,28 @@ def _make_component_equations(
     ]
 
 
-MAX_SORTED_OPERATIONS = 1000  # operations of what is sorted
+MAX_COLLECTED_OPERATIONS = 1000  # of an expression whose terms are collected
 
 
 def format_gamma(row: Row, model: Model, notation: Notation) -> sp.Expr:
-    """Return γ of a row as documents write it: sorted by angular velocities for a joint, as derived for a drive."""
+    """Return γ of a row in the form of a document, an expression in displayed symbols.
+
+    γ of a joint is collected by products of angular velocities; that of a drive stays as derived.
+    """
     value = notation.expand_symbols(row.gamma)
-    return sort_terms_by_rates(value, model) if row.kind == "joint" else value
+    return collect_velocity_products(value, model) if row.kind == "joint" else value
 
 
-def sort_terms_by_rates(value: sp.Expr, model: Model) -> sp.Expr:
-    """Return an equal expression sorted by products of angular velocities.
+def collect_velocity_products(value: sp.Expr, model: Model) -> sp.Expr:
+    """Return an equal expression, a polynomial in products of angular velocities with collected coefficients.
 
-    It is returned unchanged if it contains none, has too many operations, is not a polynomial in the velocities, or
-    would become longer.
+    The expression is returned unchanged if it contains no angular velocity, has more than MAX_COLLECTED_OPERATIONS
+    operations, is not a polynomial in the velocities, or would have more operations.
     """
     angular_velocities = [body.v[2] for body in model.bodies]
     if (
         not value.has(*angular_velocities)
-        or sp.count_ops(value) > MAX_SORTED_OPERATIONS
+        or sp.count_ops(value) > MAX_COLLECTED_OPERATIONS
         or not value.is_polynomial(*model.v)
     ):
         return value
@@ -339,13 +351,13 @@ def sort_terms_by_rates(value: sp.Expr, model: Model) -> sp.Expr:
     for term in sp.Add.make_args(sp.expand(value)):
         coefficient, product = term.as_independent(*angular_velocities, as_Add=False)
         coefficients[product] = coefficients.get(product, sp.Integer(0)) + coefficient
-    sorted_sum = sp.Add(
+    collected = sp.Add(
         *(
             product * min(_find_equivalent_forms(coefficient, model), key=sp.count_ops)
             for product, coefficient in coefficients.items()
         )
     )
-    return min(sorted_sum, value, key=sp.count_ops)
+    return min(collected, value, key=sp.count_ops)
 
 
 def _find_equivalent_forms(coefficient: sp.Expr, model: Model) -> Iterator[sp.Expr]:

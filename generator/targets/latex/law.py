@@ -1,4 +1,4 @@
-"""Writes one force law by itself: its equations for each of its options, its keys, validity and reference."""
+"""Writes the description of one force law: its equations for each of its options, its keys, validity and reference."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ _ROLES: Mapping[str, str] = {
     "film": "the oil film",
     "mixed": "mixed lubrication",
 }
-GIVEN = "given"  # what is chosen of a number that may be left out
+GIVEN = "given"  # the choice of an optional number: the file specifies it
 # Inputs and results of laws: meaning, SI unit.
 _MEANINGS: Mapping[str, tuple[str, str]] = {
     "delta": ("penetration", "m"),
@@ -78,12 +78,16 @@ _MEANINGS: Mapping[str, tuple[str, str]] = {
 
 @dataclass(frozen=True)
 class Form:
-    """Represent a law for one choice of its options: the choice, and its equations, constants of a run first."""
+    """Represent the equations of a law for one choice of its options.
+
+    `selected`: the choice, {} for the defaults. `constants`: equations that are evaluated once per run. `steps`:
+    equations of each evaluation. `used`: (name in Python, symbol) of inputs and results.
+    """
 
     selected: Mapping[str, str | bool]
     constants: tuple[Equation, ...]
     steps: tuple[Equation, ...]
-    used: tuple[tuple[str, Name], ...]  # what it is given and gives, by the name in Python
+    used: tuple[tuple[str, Name], ...]
 
     @property
     def equations(self) -> tuple[Equation, ...]:
@@ -92,10 +96,10 @@ class Form:
 
 
 def derive_forms(law: Law, name: str) -> list[Form]:
-    """Return a law's form with default options, then a form with the equations that each other choice changes.
+    """Return a law's form with default options, then for each other choice a form with the equations that it changes.
 
-    name: the law's name or one of its aliases, which fix options. Optional numbers are left out unless they are
-    chosen. Raises LawError for a user-defined law.
+    A choice is another value of one option, or an optional number that is specified (GIVEN). name: the law's name or
+    one of its aliases, which fix options. Raises LawError for a user-defined law.
     """
     alias_options = law.also.get(name, {})
     defaults = {law_field.name: law_field.default_option for law_field in law.options} | {**alias_options}
@@ -129,8 +133,8 @@ def derive_forms(law: Law, name: str) -> list[Form]:
 
 
 def _select_new_equations(equations: Sequence[Equation], known_equations: Set[str]) -> tuple[Equation, ...]:
-    """Return the equations whose text is not yet known."""
-    return tuple(equation_ for equation_ in equations if print_equation(equation_) not in known_equations)
+    """Return the equations whose text (`print_equation`) is not in `known_equations`."""
+    return tuple(equation for equation in equations if print_equation(equation) not in known_equations)
 
 
 def print_law(law: Law, name: str) -> str:
@@ -172,13 +176,11 @@ def _make_document(law: Law, name: str) -> Document:
 
 
 def _describe_equations(law: Law, default_form: Form, other_forms: Sequence[Form]) -> Iterator[Block]:
-    """Yield the blocks on a law's default form: its symbols, internal states, constants and steps.
+    """Yield the blocks on a law's default form: table of symbols, internal states, constants and steps.
 
-    other_forms: forms of other choices, whose symbols are listed, too.
+    other_forms: forms of other choices, whose inputs and results are listed in the table, too.
     """
-    letters = {
-        name: letter_ for each_form in (*reversed(other_forms), default_form) for name, letter_ in each_form.used
-    }
+    letters = {name: symbol for form in (*reversed(other_forms), default_form) for name, symbol in form.used}
     rows = [make_row(letters[name], *_MEANINGS[name]) for name in _MEANINGS if name in letters]
     yield from make_tables(make_row("symbol", "meaning", "unit"), rows)
     yield from describe_internal_states(law)
@@ -214,7 +216,7 @@ def _list_parameter_cells(parameter: Field) -> tuple[tuple[str | Name, ...], ...
 
 
 def _describe_option(option: Field) -> Block:
-    """Return the paragraph on an option of a law: its values, the default and the meaning."""
+    """Return the paragraph on an option of a law: "NAME: VALUES; without it DEFAULT (MEANING)."."""
     words = ", ".join(map(format_option, option.values))
     return make_paragraph(
         f"{option.name}: {words}; without it {format_option(option.default_option)} ({option.meaning})."
@@ -246,10 +248,12 @@ def _derive_form(
     chosen_names: Sequence[str],
     zero_steps: Set[str],
 ) -> Form:
-    """Return a law's equations for one choice, in symbols of its own.
+    """Return a law's equations for one choice, evaluated with symbols for its parameters (`probe_law`).
 
-    Constants that only repeat a number are replaced by it. Steps that are zero by default are left out while they are
-    zero.
+    Constants that are equal to a parameter are replaced by it.
+
+    selected: the choice. options: the values of all options. chosen_names: optional numbers that are specified.
+    zero_steps: names of steps that are zero by default; they are left out while they are zero.
     """
     parameter_names = [
         law_field.name for law_field in law.parameters if not _is_optional(law_field) or law_field.name in chosen_names
@@ -260,7 +264,7 @@ def _derive_form(
     }
 
     def replace_repeated_constants(value: sp.Expr) -> sp.Expr:
-        """Return a value with repeated constants replaced by their numbers, until none is left."""
+        """Return a value with constants that are equal to a parameter replaced by the parameter, also transitively."""
         while value.free_symbols & {*repeated_constants}:
             value = value.xreplace(repeated_constants)
         return value
@@ -290,7 +294,7 @@ def _derive_form(
     )
 
     def make_equations(definitions: Mapping[sp.Symbol, sp.Expr]) -> tuple[Equation, ...]:
-        """Return {symbol: value} as equations."""
+        """Return {symbol: value} as equations in the notation of the law, in the same order."""
         return tuple(make_equation(left, right, notation) for left, right in definitions.items())
 
     return Form(selected, make_equations(constants), make_equations(steps), letters)
@@ -299,9 +303,9 @@ def _derive_form(
 def _propose_symbol_names(
     law: Law, parameter_names: Sequence[str], constants: Mapping[str, sp.Expr], steps: Mapping[str, sp.Expr]
 ) -> Iterator[tuple[sp.Symbol, Name]]:
-    """Yield (symbol, name) in the order of naming: variables, results, parameters, pair, constants, equations.
+    """Yield (symbol, proposed name) for a law: variables, results, parameters, pair, constants, abbreviations.
 
-    Fixed names come first, so that the law's own abbreviations give way.
+    Names may repeat; the first symbol keeps a name (`assign_unique_names`), so that fixed names come first.
     """
     parameters = {parameter.name: parameter for parameter in law.parameters}
     for name in law.variables:
@@ -323,21 +327,21 @@ def _propose_symbol_names(
 
 
 def _restore_law_names(names: Mapping[sp.Symbol, Name]) -> dict[sp.Symbol, Name]:
-    """Return the names, in which a name with the probe's prefix gets the law's name without it unless that is used."""
+    """Return the names, in which the name "probe_X" of a symbol of `probe_law` becomes "X" if that is unused."""
     used_texts = {name.text for name in names.values()}
     restored = dict(names)
     for symbol, name in names.items():
-        plain_name_ = make_symbol_name(symbol.name.removeprefix(_make_probe_symbol("").name))
-        if name == make_symbol_name(symbol.name) and plain_name_.text not in used_texts:
-            restored[symbol] = plain_name_
+        law_name = make_symbol_name(symbol.name.removeprefix(_make_probe_symbol("").name))
+        if name == make_symbol_name(symbol.name) and law_name.text not in used_texts:
+            restored[symbol] = law_name
     return restored
 
 
 def _make_probe_symbol(name: str) -> sp.Symbol:
-    """Return the symbol of a number in the result of `probe_law`."""
+    """Return the symbol of a parameter, constant or property in the result of `probe_law`."""
     return sp.Symbol(f"probe_{name}", real=True)
 
 
-def print_equation(equation_: Equation) -> str:
+def print_equation(equation: Equation) -> str:
     """Return an equation as one line of plain text."""
-    return f"{equation_.left.text} = {''.join(term.text for term in equation_.terms)}"
+    return f"{equation.left.text} = {''.join(term.text for term in equation.terms)}"

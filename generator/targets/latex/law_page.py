@@ -28,11 +28,11 @@ _CHOICES = {
     "as_printed": "the radial force has the sign that Chen, Gao and Wang (2022) print:",
 }
 _WITHOUT_EQUATIONS = {"geometry", "pulls"}
-_HEADS = {"normal": "The normal force", "friction": "Friction", "film": "Oil films", "mixed": "Mixed lubrication"}
+_HEADINGS = {"normal": "The normal force", "friction": "Friction", "film": "Oil films", "mixed": "Mixed lubrication"}
 
 
-# Laws that most scenes use come first in their role; the others follow by name.
-_FIRST = (
+# Laws that most scenes use; they are described first in their role.
+_COMMON_LAWS = (
     "lankarani_nikravesh",
     "hertz",
     "kelvin_voigt",
@@ -43,19 +43,25 @@ _FIRST = (
 )
 
 
-def list_laws(role: str) -> list[Law]:
-    """Return the bundled laws of a role: first those that most scenes use, then the others by name."""
+def list_laws_of_role(role: str) -> list[Law]:
+    """Return the bundled laws of a role ("normal", "friction", "film", "mixed"): _COMMON_LAWS, then others by name."""
     laws = [law for law in find_bundled_laws().values() if law.role == role]
-    return sorted(laws, key=lambda law: (_FIRST.index(law.name) if law.name in _FIRST else len(_FIRST), law.name))
+    return sorted(
+        laws,
+        key=lambda law: (_COMMON_LAWS.index(law.name) if law.name in _COMMON_LAWS else len(_COMMON_LAWS), law.name),
+    )
 
 
 def print_laws_page() -> str:
-    """Return docs/laws.md below its introduction: a heading for each role and law, as Markdown."""
+    """Return docs/laws.md below its introduction as Markdown: a heading for each role, then for each law.
+
+    Called by `make tables`.
+    """
     lines = []
     for role in RESULTS:
-        laws = list_laws(role)
-        lines += [f"## {_HEADS[role]}", ""]
-        lines += [line for law in laws for line in _describe_law(law)]
+        laws = list_laws_of_role(role)
+        lines += [f"## {_HEADINGS[role]}", ""]
+        lines += [line for law in laws for line in _describe_law_in_markdown(law)]
         lines += _describe_dissipation() if role == "normal" else ()
     return "\n".join(lines)
 
@@ -76,10 +82,10 @@ def _describe_dissipation() -> Iterator[str]:
     yield from ("", f"| `dissipation` | a | {restitutions} | source |", "|" + "---|" * 6)
     default_form, *other_forms = derive_forms(find_bundled_laws()["hertz"], "hertz")
     form_by_value = {DISSIPATION.default: default_form} | {
-        form_.selected.get(DISSIPATION.name): form_ for form_ in other_forms
+        form.selected.get(DISSIPATION.name): form for form in other_forms
     }
     for name in DISSIPATION.values:
-        a = next(print_equation(form_) for form_ in form_by_value[name].equations if form_.left.text in ("a", "a_0"))
+        a = next(print_equation(form) for form in form_by_value[name].equations if form.left.text in ("a", "a_0"))
         formula = (
             "the a that delivers c_e, by Newton's method from Hu and Guo's factor" if name == EXACT else f"`{a[4:]}`"
         )
@@ -96,7 +102,7 @@ def _describe_dissipation() -> Iterator[str]:
     )
 
 
-def _describe_law(law: Law) -> Iterator[str]:
+def _describe_law_in_markdown(law: Law) -> Iterator[str]:
     """Yield the Markdown lines on a law: title, other names, equations, choices, states, keys, validity and source."""
     yield from (f"### `{law.name}`", "", f"{make_sentence(law.title)}", "")
     if law.also:
@@ -125,7 +131,10 @@ def _describe_law(law: Law) -> Iterator[str]:
 
 
 def _print_validity(law: Law) -> Iterator[str]:
-    """Yield the range of validity of a law: one sentence, or a list with an item for each of its clauses."""
+    """Yield the Markdown lines on the validity of a law: one sentence, or a list with an item for each clause.
+
+    Clauses are separated by "; " in `law.validity`. The first one is completed to "the law is valid for …" if needed.
+    """
     first, *others = law.validity.split("; ")
     if not first.startswith(("the law ", "the force ", "for ")):
         article = "a " if first.startswith(("long bearing", "short bearing")) else ""
@@ -138,14 +147,20 @@ def _print_validity(law: Law) -> Iterator[str]:
 
 
 def _replace_greek_names(text: str) -> str:
-    """Return a text of a declaration, which is ASCII for comments in C, with Greek letters for their names."""
+    """Return a text of a declaration with Greek letters for their English names, "epsilon" → "ε" (_GREEK).
+
+    Declarations are ASCII, since they are also comments in C.
+    """
     for name, letter in _GREEK.items():
         text = text.replace(name, letter)
     return text
 
 
 def _describe_choice(form: Form, law: Law) -> Iterator[str]:
-    """Yield what a choice of an option changes: a sentence, or its equations; none for no change."""
+    """Yield the Markdown lines on the changes by another choice of an option: a sentence, its equations, or both.
+
+    Nothing is yielded for a choice without either. _CHOICES has the sentences.
+    """
     choice = ", ".join(
         key if value == GIVEN else f"{key}: {format_option(value)}" for key, value in form.selected.items()
     )
@@ -163,7 +178,7 @@ def _describe_choice(form: Form, law: Law) -> Iterator[str]:
 
 
 def _print_display_equations(law: Law) -> Iterator[str]:
-    """Yield the law as its source writes it, each equation displayed between dollar signs."""
+    """Yield the Markdown lines of the equations in `law.equation` (LaTeX of the source), each between dollar signs."""
     yield from (line for latex in law.equation for line in ("$$", latex, "$$", ""))
 
 
@@ -179,7 +194,7 @@ def _print_keys_table(fields: Sequence[Field]) -> Iterator[str]:
     """
     yield from ("| key | symbol | unit | condition | without it | meaning |", "|" + "---|" * 6)
     for parameter in fields:
-        cells = _list_parameter_cells(parameter) if parameter.kind == NUMBER else _list_option_cells(parameter)
+        cells = _list_number_cells(parameter) if parameter.kind == NUMBER else _list_option_cells(parameter)
         yield (
             "| "
             + " | ".join(
@@ -191,8 +206,11 @@ def _print_keys_table(fields: Sequence[Field]) -> Iterator[str]:
     yield ""
 
 
-def _list_parameter_cells(parameter: Field) -> tuple[str, ...]:
-    """Return the cells of a parameter: symbol, unit, condition, default."""
+def _list_number_cells(parameter: Field) -> tuple[str, ...]:
+    """Return the cells of a numerical key of a law: symbol, unit, condition, effect without the key.
+
+    The last one is "needed", the default, or the words of `parameter.otherwise`.
+    """
     unit = "any" if parameter.dimension is None else format_unit(find_si_unit(parameter.dimension))
     default = (
         "needed"

@@ -1,4 +1,4 @@
-"""Names symbols as textbooks do: \\theta_{\\text{L7}} for LaTeX, θ_L7 for text."""
+"""Makes the names of symbols in LaTeX and plain text, with subscripts and accents: \\theta_{\\text{L7}} and θ_L7."""
 
 from __future__ import annotations
 
@@ -46,18 +46,18 @@ GREEK = {
     "Psi": "Ψ",
     "Omega": "Ω",
 }
-_VARIANT = {"epsilon": r"\varepsilon", "phi": r"\varphi"}
-_AXES = frozenset("xyijnt")  # and roles and directions: subscripts in italics; a name stands upright
+_VARIANT = {"epsilon": r"\varepsilon", "phi": r"\varphi"}  # LaTeX commands that differ from the English name
+_ITALIC_SUBSCRIPTS = frozenset("xyijnt")  # axes, bodies i and j, directions n and t; names of parts are upright
 _DOTS = {0: ("", ""), 1: (r"\dot", "\u0307"), 2: (r"\ddot", "\u0308")}
 
 
 @dataclass(frozen=True)
 class Name:
-    """Represent a symbol or formula in LaTeX and in plain text, with tokens and a value as blocks have them."""
+    """Represent a symbol or formula in LaTeX and in plain text, with highlighting tokens and the name of its value."""
 
     latex: str
     text: str
-    of: Sequence[str] = field(default=(), compare=False)
+    tokens: Sequence[str] = field(default=(), compare=False)
     value: str = field(default="", compare=False)
 
     @property
@@ -95,7 +95,10 @@ def get_greek_command(word: str) -> str:
 
 
 def make_word_name(name: str) -> Name:
-    """Return the name of a user-defined word: omega4 is ω with subscript 4, v_max is v with max, speed is a word."""
+    """Return the name of a user-defined identifier: omega4 is ω with subscript 4, v_max is v with subscript max.
+
+    Only a letter or the name of a Greek letter gets a subscript; other identifiers, such as "speed", stay words.
+    """
     base, _, subscript = name.partition("_")
     numbered = re.fullmatch(r"([A-Za-z]+?)(\d+)", base)
     if numbered and (len(numbered[1]) == 1 or numbered[1] in GREEK):
@@ -106,7 +109,10 @@ def make_word_name(name: str) -> Name:
 
 
 def make_name_from_latex(latex: str) -> Name:
-    r"""Return a name that is given in LaTeX ("c_e", "\mu", "\sigma_{0}") with its plain text."""
+    r"""Return a Name from its LaTeX ("c_e", "\mu", "\sigma_{0}"), with the plain text "c_e", "μ", "σ_0".
+
+    Commands of fonts and accents, braces and spaces are left out of the text.
+    """
     unicode_by_command = {
         **{f"\\{name}": sign for name, sign in GREEK.items()},
         **{v: GREEK[k] for k, v in _VARIANT.items()},
@@ -121,35 +127,38 @@ def make_name_from_latex(latex: str) -> Name:
 def assign_unique_names(proposed: Iterable[tuple[sp.Expr, Name]]) -> dict[sp.Symbol, Name]:
     """Return {symbol: unique name} for pairs (expression, proposed name); other expressions than symbols are left out.
 
-    The first symbol gets the proposed name. Others get the name of their symbol in C if that is a word ("T0"), else
-    primes.
+    The first symbol with a proposed name keeps it. Others get their identifier in C if it has no "_" ("T0"), else the
+    proposed name with primes.
     """
     names: dict[sp.Symbol, Name] = {}
     used_names: set[str] = set()
     for symbol, name in proposed:
         if not isinstance(symbol, sp.Symbol) or symbol in names:
             continue
-        is_taken = name.text in used_names and "_" not in strip_identifier(symbol)
-        name = add_primes(make_symbol_name(strip_identifier(symbol)) if is_taken else name, used_names)
+        uses_identifier = name.text in used_names and "_" not in strip_identifier(symbol)
+        name = add_primes(make_symbol_name(strip_identifier(symbol)) if uses_identifier else name, used_names)
         used_names.add(name.text)
         names[symbol] = name
     return names
 
 
 def add_primes(name: Name, used_names: Collection[str]) -> Name:
-    """Return a name with as many primes as make it different from those that are used."""
+    """Return a name with the smallest number of primes that makes its text differ from all `used_names`."""
     while name.text in used_names:
         name = Name(f"{{{name.latex}}}'", f"{name.text}'")
     return name
 
 
-_FONTS = {"mathrm", "text", "mathit", "operatorname", "bar", "hat", "tilde"}
+_FONTS = {"mathrm", "text", "mathit", "operatorname", "bar", "hat", "tilde"}  # commands without a text of their own
 
 
 def _print_subscripts(subscripts: Sequence[str]) -> str:
-    """Return subscripts in LaTeX, separated by commas: Greek letters, axes and numbers in italics, names upright."""
+    r"""Return subscripts in LaTeX, separated by commas: Greek letters and axes in italics, names in \text{…}.
+
+    Numbers are in \text{…} only next to a name.
+    """
     texts = list[str]()
-    for is_upright, group in groupby(subscripts, key=lambda text: text not in GREEK and text not in _AXES):
+    for is_upright, group in groupby(subscripts, key=lambda text: text not in GREEK and text not in _ITALIC_SUBSCRIPTS):
         members = list(group)
         if is_upright and not all(text.isdigit() for text in members):
             texts.append(rf"\text{{{','.join(map(_escape_underscores, members))}}}")

@@ -1,4 +1,4 @@
-"""Lists the mechanism file and the C of a scene in a page, line by line with tokens."""
+"""Lists the mechanism file and the C of a scene in a page, with highlighting tokens for each line."""
 
 from __future__ import annotations
 
@@ -16,16 +16,16 @@ from gudgeon.generator.targets.javascript.module import print_equations_script
 from gudgeon.generator.targets.latex.document import Block, EmbeddedHtml, Listing, Section, make_paragraph
 from gudgeon.generator.targets.latex.trace import HighlightIndex, list_yaml_tokens
 
-SHOWN = ("parameters.c", "constraints.c", "clearance.c", "dynamics.c", "reduced.c", "positions.c")
-MOST_C = 600_000  # characters of C in a page
-LARGEST_FILE = 1_000_000  # bytes of a mechanism's file
-_CARRIED = "gudgeon-c"  # id of the element with compressed data
+LISTED_C_FILES = ("parameters.c", "constraints.c", "clearance.c", "dynamics.c", "reduced.c", "positions.c")
+MAX_C_CHARACTERS = 600_000  # of C in a page
+MAX_FILE_BYTES = 1_000_000  # of a mechanism's file
+_DATA_ID = "gudgeon-c"  # id of the element with compressed data
 
 
 def make_listing_sections(model: Model, highlights: HighlightIndex) -> list[Section]:
-    """Return the section with the listing of the mechanism's file and that of its C.
+    """Return the section with the listings of the mechanism's file and of its C, in a list.
 
-    The file is left out if it is missing or has changed.
+    The listing of the file is left out if the file cannot be read or has changed (`_read_mechanism_file`).
     """
     blocks: list[Block] = []
     hint = make_paragraph("Select an equation, entry, line or part: everything related to it is highlighted.")
@@ -36,14 +36,15 @@ def make_listing_sections(model: Model, highlights: HighlightIndex) -> list[Sect
 
 
 def _read_mechanism_file(model: Model) -> str | None:
-    """Return the text of the mechanism's file.
+    """Return the text of the mechanism's file, with replacement characters for invalid UTF-8.
 
-    None if it is missing, too large, unreadable or changed since it was read.
+    None is returned if the file is missing, unreadable, larger than MAX_FILE_BYTES, or has another SHA-256 than the
+    mechanism.
     """
     mechanism = model.scene.mechanism
     file = Path(mechanism.file)
     try:
-        if not file.is_file() or file.stat().st_size > LARGEST_FILE:
+        if not file.is_file() or file.stat().st_size > MAX_FILE_BYTES:
             return None
         data = file.read_bytes()
     except (OSError, ValueError):
@@ -52,12 +53,13 @@ def _read_mechanism_file(model: Model) -> str | None:
 
 
 def _print_c_listing(highlights: HighlightIndex) -> str:
-    """Return the HTML of the C listing, compressed in a script element that highlighting.js unfolds.
+    """Return the HTML of the C listing: JSON, compressed by gzip, in a script element that highlighting.js unpacks.
 
-    The files in SHOWN are included while they fit into MOST_C characters; all others are only named.
+    LISTED_C_FILES are included in this order, except files with which the total would exceed MAX_C_CHARACTERS. Files
+    that are not included are named in a note.
     """
-    texts, remaining_size = dict[str, str](), MOST_C
-    for name in SHOWN:
+    texts, remaining_size = dict[str, str](), MAX_C_CHARACTERS
+    for name in LISTED_C_FILES:
         text = highlights.source.files.get(name)
         if text is None or len(text) > remaining_size:
             continue
@@ -81,7 +83,7 @@ def _print_c_listing(highlights: HighlightIndex) -> str:
         ensure_ascii=False,
         separators=(",", ":"),
     )
-    packed = base64.b64encode(gzip.compress(data.encode(), 9, mtime=0)).decode("ascii")
+    compressed = base64.b64encode(gzip.compress(data.encode(), 9, mtime=0)).decode("ascii")
     unlisted_files = sorted(
         name for name in highlights.source.files if name.endswith((".c", ".h")) and name not in texts
     )
@@ -89,13 +91,13 @@ def _print_c_listing(highlights: HighlightIndex) -> str:
     return (
         f"<p>The emitted C. The foot of the page shows the lines that compute the selection.{note}</p>\n"
         "<noscript><p><code>gudgeon emit</code> writes these files.</p>"
-        f'</noscript>\n<div id="{_CARRIED}-files"></div>\n'
-        f'<script type="text/plain" id="{_CARRIED}">{packed}</script>'
+        f'</noscript>\n<div id="{_DATA_ID}-files"></div>\n'
+        f'<script type="text/plain" id="{_DATA_ID}">{compressed}</script>'
     )
 
 
 def _list_line_texts(text: str, text_by_line: Mapping[int, str]) -> list[str]:
-    """Return the entries of `text_by_line` as a list with an item for each line of `text`, "" for lines without one.
+    """Return a list with an item for each line of `text`: its entry in `text_by_line`, or "".
 
     text_by_line: {line number from 1: text}. As JSON the list is smaller than the mapping.
     """
@@ -103,9 +105,10 @@ def _list_line_texts(text: str, text_by_line: Mapping[int, str]) -> list[str]:
 
 
 def _shorten_value_names(text: str, values: Mapping[int, str]) -> dict[int, str]:
-    """Return {line: name of its value}; a name's last part is left out where the line of `text` itself shows it.
+    """Return {line: name of its value}, without the last part of a name if the line of `text` assigns to that name.
 
-    values: {line number from 1: full name}. highlighting.js completes the names.
+    Example: "rhs.F_x" for the line "F_x = …" becomes "rhs.". values: {line number from 1: full name}. highlighting.js
+    completes the names.
     """
     lines, shortened = text.split("\n"), dict[int, str]()
     for line_number, value in values.items():
@@ -117,12 +120,15 @@ def _shorten_value_names(text: str, values: Mapping[int, str]) -> dict[int, str]
 
 @cache
 def _load_script(name: str) -> str:
-    """Return a script of this folder, compressed for embedding; it is read once."""
+    """Return a JavaScript file of this folder, minified for embedding; results are cached."""
     return compress_script(Path(__file__).with_name(name).read_text(encoding="utf-8"))
 
 
 def _print_equations_script(highlights: HighlightIndex) -> str:
-    """Return the script that computes values; "" for scenes with curves, whose pages show only their state."""
+    """Return the JavaScript that computes the values of a page (javascript/module.py); "" for scenes with curves.
+
+    Pages of scenes with curves show only the state.
+    """
     try:
         return print_equations_script(highlights.program)
     except ValueError:
@@ -130,5 +136,5 @@ def _print_equations_script(highlights: HighlightIndex) -> str:
 
 
 def print_scripts() -> str:
-    """Return the scripts of a page: cross-highlighting and values."""
+    """Return the HTML element with the scripts of a page: cross-highlighting and current values."""
     return f'<script>\n"use strict";\n{_load_script("highlighting.js")}{_load_script("current_values.js")}</script>\n'

@@ -12,7 +12,7 @@ from gudgeon.generator.targets.latex.theory import read_sketch
 from gudgeon.generator.targets.latex.values import (
     MAX_CELL_LENGTH,
     ValueFormatter,
-    format_expression_as_written,
+    format_file_expression,
     get_si_unit,
 )
 from gudgeon.language.plot_units import format_unit
@@ -42,7 +42,7 @@ def make_mechanism_sections(model: Model, notation: Notation) -> list[Section]:
 def _describe_bodies(model: Model, values: ValueFormatter) -> list[Block]:
     """Return the tables of bodies, the lengths of their `sides`, shapes, densities of materials and points.
 
-    Each body's row carries its highlighting token. Expressions that are too long for a cell follow as equations.
+    Tables without rows are left out. Expressions that are too long for a cell follow as equations.
     """
     rows, points = [], []
     tokens = [[f"body-{name}"] for name in model.scene.mechanism.bodies]
@@ -80,7 +80,10 @@ def _describe_ground(model: Model, values: ValueFormatter) -> list[Block]:
 
 
 def _describe_joints(model: Model, values: ValueFormatter) -> list[Block]:
-    """Return the tables of joints, of their fields and of angles at the start, then a sketch of each joint type."""
+    """Return the tables of joints, of their fields and of angles at the start, then a sketch of each joint type used.
+
+    The table of joints has the numbers of each joint's constraint equations, or the reason why it has none.
+    """
     rows = []
     for joint in model.scene.mechanism.joints.values():
         row_numbers = [str(k + 1) for k, row in enumerate(model.rows) if row.owner == joint.name]
@@ -108,7 +111,7 @@ def _describe_joints(model: Model, values: ValueFormatter) -> list[Block]:
 
 
 def list_field_rows(part: Joint | ForceElement, values: ValueFormatter) -> list[tuple[Text, ...]]:
-    """Return table rows (name of the part, name of the field, value) of a joint's or force element's fields."""
+    """Return table rows (part, key, value) of the vectors, quantities and options of a joint or force element."""
     fields = [
         *((name, values.format_vector(vector)) for name, vector in part.vectors.items()),
         *((name, values.format_cell(quantity)) for name, quantity in part.quantities.items()),
@@ -118,12 +121,12 @@ def list_field_rows(part: Joint | ForceElement, values: ValueFormatter) -> list[
 
 
 def format_point(ref: PointRef, joins: str) -> str:
-    """Return a point as "body.point"; only the body's name if bodies are joined."""
+    """Return a point as "body.point"; only the body's name if `joins` is "bodies"."""
     return ref.body if joins == "bodies" else f"{ref.body}.{ref.point}"
 
 
 def _describe_drives(model: Model, notation: Notation) -> list[Block]:
-    """Return the table of drives: what each prescribes, its value and the number of its row."""
+    """Return the table of drives: prescribed quantity, value, and number of the constraint equation or "redundant"."""
     rows = []
     for name, drive in model.scene.mechanism.drives.items():
         if drive.kind == "distance":
@@ -140,9 +143,9 @@ def _describe_drives(model: Model, notation: Notation) -> list[Block]:
 
 
 def format_drive_value(model: Model, notation: Notation, drive: str) -> str | Name:
-    """Return the prescribed value of a drive: an angle as a formula, others as the file writes them.
+    """Return the prescribed value of a drive: an angle as a formula, others in the syntax of the file.
 
-    An angle whose formula is too long is written as in the file, too.
+    An angle whose formula has more than 2 · MAX_CELL_LENGTH characters is in the syntax of the file, too.
     """
     expressions = model.scene.mechanism.expressions
     expression, angle_symbols = (
@@ -150,27 +153,23 @@ def format_drive_value(model: Model, notation: Notation, drive: str) -> str | Na
         model.constraints.drive_angles.get(drive),
     )
     if angle_symbols is None:
-        return format_expression_as_written(expression, 0, expressions)
+        return format_file_expression(expression, 0, expressions)
     formula = notation.format_expression(
         notation.expand_symbols(model.symbols.expand_definitions(model.symbols.definitions[angle_symbols[0]]))
     )
-    return (
-        formula
-        if len(formula.text) <= 2 * MAX_CELL_LENGTH
-        else format_expression_as_written(expression, 0, expressions)
-    )
+    return formula if len(formula.text) <= 2 * MAX_CELL_LENGTH else format_file_expression(expression, 0, expressions)
 
 
 def _describe_curves(model: Model) -> list[Block]:
-    """Return the table of curves; f' and f'' are their derivatives."""
+    """Return the table of curves: name and description (interpolation, range) in SI."""
     rows = [make_row(name, f"{curve.describe()} (SI)") for name, curve in model.scene.mechanism.curves.items()]
     return make_tables(make_row("curve", "description"), rows, (1,))
 
 
 def _describe_expressions(model: Model) -> list[Block]:
-    """Return the table of named expressions."""
+    """Return the table of named expressions, in the syntax of the file."""
     rows = [
-        make_row(name, format_expression_as_written(quantity.source_tree or quantity.value))
+        make_row(name, format_file_expression(quantity.source_tree or quantity.value))
         for name, quantity in model.scene.mechanism.expressions.items()
     ]
     return make_tables(make_row("expression", "stands for"), rows, (1,))

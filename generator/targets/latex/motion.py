@@ -24,7 +24,7 @@ from gudgeon.generator.targets.latex.pictures import draw_assembled_matrix
 from gudgeon.generator.targets.latex.theory import PHI_Q, name_component, read_sketch
 from gudgeon.generator.targets.latex.values import ValueFormatter
 
-KKT = Equation(
+EQUATION_OF_MOTION = Equation(
     Name(
         r"\begin{bmatrix} M & \Phi_{q}^{\mathsf{T}} \\ \Phi_{q} & 0 \end{bmatrix}"
         r"\begin{bmatrix} \ddot{q} \\ \lambda \end{bmatrix}",
@@ -37,7 +37,7 @@ KKT = Equation(
         ),
     ),
 )
-FREE = Equation(Name(r"M \ddot{q}", "M·q̈"), (Name("g", "g"),))
+UNCONSTRAINED_EQUATION = Equation(Name(r"M \ddot{q}", "M·q̈"), (Name("g", "g"),))
 PHI_DOT = Name(r"\dot{\Phi} = \Phi_{q} \dot{q} - \nu", "Φ̇ = Φ_q·q̇ - ν")
 
 
@@ -73,7 +73,7 @@ def _describe_masses(model: Model, notation: Notation) -> list[Block]:
 def _describe_elements(model: Model, notation: Notation) -> list[Block]:
     """Return fields, intermediate quantities and potential energy of each force element, then sketches of the types.
 
-    Their contribution to g is in the next section.
+    Friction elements also have slip velocity and force. The section on generalized forces has the contributions to g.
     """
     values, temporary_symbols = ValueFormatter(model, notation), list_temporaries(model)
     frictions = {friction.name: friction for friction in model.frictions}
@@ -136,7 +136,10 @@ def _describe_friction(model: Model, friction: Friction, notation: Notation) -> 
 
 
 def _describe_generalized_forces(model: Model, notation: Notation) -> list[Block]:
-    """Return the nonzero components of g from gravity and force elements, in symbols of the force elements."""
+    """Return the nonzero components of g from gravity and force elements, in symbols of the force elements.
+
+    Notes mention that all other components are zero, and that joints with play add their forces in their own sections.
+    """
     gx, gy = model.gravity
     forces = [f for body in model.bodies for f in (body.mass * gx, body.mass * gy, sp.Integer(0))]
     for element in model.elements.values():
@@ -161,7 +164,7 @@ def _describe_generalized_forces(model: Model, notation: Notation) -> list[Block
 
 
 def _describe_events(model: Model, notation: Notation) -> list[Block]:
-    """Return the expression of each event, its direction and what happens at its zero."""
+    """Return for each event a sentence on direction and action ("record" or "stop"), and the equation of z."""
     directions = {"rising": "rises through zero", "falling": "falls through zero", "both": "crosses zero"}
     actions = {"record": "the time is recorded", "stop": "the run ends"}
     blocks: list[Block] = []
@@ -178,13 +181,13 @@ def _describe_events(model: Model, notation: Notation) -> list[Block]:
 
 
 def _describe_equation_of_motion(model: Model, notation: Notation) -> list[Block]:
-    """Return the equation of motion with multipliers, Baumgarte's gains and the degrees of freedom.
+    """Return the equation of motion with multipliers, Baumgarte's gains, its matrix as a picture, degrees of freedom.
 
     Without constraint equations it is M q̈ = g. A kinematically driven scene has a further note.
     """
     n, m = len(model.q), len(model.rows)
     if not model.rows:
-        return [FREE, *_describe_degrees_of_freedom(model)]
+        return [UNCONSTRAINED_EQUATION, *_describe_degrees_of_freedom(model)]
     alpha, beta = model.baumgarte
     gains = [
         part
@@ -192,7 +195,7 @@ def _describe_equation_of_motion(model: Model, notation: Notation) -> list[Block
         for part in (notation.format_expression(symbol), f" = {_format_default(model, symbol)} 1/s, ")
     ]
     blocks: list[Block] = [
-        KKT,
+        EQUATION_OF_MOTION,
         make_paragraph(
             "with ",
             PHI_DOT,
@@ -224,7 +227,7 @@ def _describe_equation_of_motion(model: Model, notation: Notation) -> list[Block
 
 
 def _describe_degrees_of_freedom(model: Model) -> list[Block]:
-    """Return the degrees of freedom by Grübler's formula, and by the rank of the rows if some are redundant."""
+    """Return the paragraph on the degrees of freedom: Grübler's formula, and the rank of Φ_q if rows are redundant."""
     n, m, dropped = len(model.q), len(model.rows), model.redundancy.dropped
     counted = m + len(dropped)
     by_count, by_rank = (Name(f"{n} - {k} = {n - k}", f"{n} - {k} = {n - k}") for k in (counted, m))
@@ -244,6 +247,6 @@ def _describe_degrees_of_freedom(model: Model) -> list[Block]:
 
 
 def _format_default(model: Model, symbol: sp.Symbol) -> str:
-    """Return the default of a parameter as text; `symbol` must be a run-time parameter."""
+    """Return the default of the run-time parameter with this symbol as text, SI; there must be exactly one."""
     (entry,) = (e for e in model.parameter_table.entries.values() if e.symbol == symbol)
     return f"{entry.default:g}"

@@ -15,8 +15,8 @@ from gudgeon.generator.targets.latex.letters import Name, add_primes, make_symbo
 from gudgeon.generator.targets.latex.printers import TexPrinter, TextPrinter
 from gudgeon.generator.targets.latex.theory import collect_theory_symbols
 
-LONG_DRIVE = 8  # operations beyond which a drive's value keeps a letter of its own
-LONG_CONSTANT = 4  # the same for what is computed once a run
+MAX_DRIVE_OPERATIONS = 8  # of a drive's value that equations contain in full; a longer one has a symbol
+MAX_CONSTANT_OPERATIONS = 4  # the same for a derived parameter
 
 _ONE_LETTER = {
     "mass": "m",
@@ -39,8 +39,8 @@ _ONE_LETTER = {
     "bar": "b",
     "disc": "r",
 }
-_FREE = {"free_length": "l", "free_angle": "theta"}
-_TEMPORARY = {
+_UNSTRESSED = {"free_length": "l", "free_angle": "theta"}  # get the superscript 0
+_TEMPORARY = {  # quantity of a force element -> (letter, number of dots)
     "span": ("Delta", 0),
     "span_rate": ("Delta", 1),
     "length": ("l", 0),
@@ -54,12 +54,12 @@ _RATES = {"vx": ("x", 1), "vy": ("y", 1), "omega": ("theta", 1)}
 
 @dataclass(frozen=True)
 class PrimedSymbol:
-    """Represent a symbol that has a prime because its name without the prime is used for another one."""
+    """Represent a symbol that has primes because another symbol has its name without primes (`plain_name`)."""
 
     name: Name
     meaning: str
-    letter: Name
-    letter_meaning: str
+    plain_name: Name
+    plain_meaning: str
 
 
 @dataclass(frozen=True)
@@ -86,17 +86,17 @@ class Notation:
         return expression
 
     def format_expression(self, expression: sp.Expr) -> Name:
-        """Return an expression as a formula."""
+        """Return an expression as a formula in LaTeX and text, without expanding derived symbols."""
         expression = remove_numerical_forms(sp.sympify(expression))
         return Name(self._latex.doprint(expression), self._text.doprint(expression))
 
     def format_terms(
         self, expression: sp.Expr, list_tokens: Callable[[sp.Expr], Sequence[str]] = lambda _: ()
     ) -> tuple[Name, ...]:
-        """Return the terms of a sum with their signs as formulas; a line may break between them.
+        """Return the terms of a sum as formulas with their signs, between which a line may break.
 
-        `Slope` and `UnevaluatedQuotient` are removed before. list_tokens: function that returns the highlighting tokens
-        of a term.
+        An expression that is not a sum is its only term. Forms for numerics (`Slope`, `UnevaluatedQuotient`) are
+        removed. list_tokens: returns the highlighting tokens of a term; the default returns none.
         """
         expression = remove_numerical_forms(sp.sympify(expression))
         signs = self._text.split_signed_terms(expression)
@@ -121,12 +121,12 @@ class Notation:
 
 
 def make_notation(model: Model) -> Notation:
-    """Return the notation of physics.md for a model, in which every symbol has a unique name.
+    """Return the notation of a model, in which every symbol has a unique name, by the conventions of docs/physics.md.
 
     The order of the terms of sums follows the order of the bodies.
     """
     order = {s: body.index for body in model.bodies for s in (*body.q, *body.v)}
-    for symbol in list_rotated_components(model):  # behind the coordinates of their body
+    for symbol in list_rotated_components(model):  # after the coordinates of their body
         order[symbol] = 1 + min(order[q] for q in model.symbols.rules[symbol])
     names, primed_symbols = _assign_unique_names(model)
     return Notation(model.symbols, names, frozenset(_list_shown_symbols(model)), order, primed_symbols)
@@ -135,7 +135,7 @@ def make_notation(model: Model) -> Notation:
 def _assign_unique_names(model: Model) -> tuple[dict[sp.Symbol, Name], tuple[PrimedSymbol, ...]]:
     """Return ({symbol: unique name}, symbols with primes) of a model.
 
-    A name that is used before, or by the theory, gets primes.
+    A proposed name that an earlier symbol or the theory (theory.py) uses gets primes.
     """
     names: dict[sp.Symbol, Name] = {}
     used_symbol_names, primed_symbols = collect_theory_symbols(model), list[PrimedSymbol]()
@@ -151,16 +151,16 @@ def _assign_unique_names(model: Model) -> tuple[dict[sp.Symbol, Name], tuple[Pri
 
 
 def _describe_symbol(model: Model, symbol: sp.Symbol) -> str:
-    """Return what a symbol is: its meaning, such as its address in the file, or its plain name."""
+    """Return the meaning of a symbol, such as its address in the file; its identifier if no meaning is stored."""
     info = model.symbols.info.get(symbol)
     return (info.meaning if info else "") or strip_identifier(symbol)
 
 
 def _propose_names(model: Model) -> Iterator[tuple[sp.Symbol, Name]]:
-    """Yield (symbol, name) with fixed names first, so that user-defined names give way.
+    """Yield (symbol, proposed name) of all symbols of a model; names may repeat, and the first symbol keeps a name.
 
-    Names may repeat. The order is: time, coordinates, drives, parameters of the file, derived ones, temporaries of
-    force elements, distances of drives, rotated components.
+    The order is: time, coordinates, drives, parameters of the file with user-defined ones last, derived parameters,
+    temporaries of force elements, distances of drives, rotated components.
     """
     yield model.t, make_symbol_name("t")
     for body in model.bodies:
@@ -180,27 +180,20 @@ def _propose_names(model: Model) -> Iterator[tuple[sp.Symbol, Name]]:
     for symbol in list_drive_distances(model):
         yield symbol, _name_drive_distance(strip_identifier(symbol))
     for symbol in list_rotated_components(model):
-        turned_vector = model.geometry.rotated_components.get(symbol)
-        if turned_vector is None:
+        component = model.geometry.rotated_components.get(symbol)
+        if component is None:
             yield symbol, make_symbol_name(strip_identifier(symbol))
-        elif turned_vector.point:
-            yield symbol, make_symbol_name("s", turned_vector.axis, turned_vector.body, turned_vector.point)
-        else:  # numbered from a body's second one on
-            yield (
-                symbol,
-                make_symbol_name(
-                    "u",
-                    turned_vector.axis,
-                    turned_vector.body,
-                    *([str(turned_vector.number)] if turned_vector.number > 1 else []),
-                ),
-            )
+        elif component.point:
+            yield symbol, make_symbol_name("s", component.axis, component.body, component.point)
+        else:  # the first direction of a body has no number
+            number = [str(component.number)] if component.number > 1 else []
+            yield symbol, make_symbol_name("u", component.axis, component.body, *number)
 
 
 def name_parameter(address: str) -> Name:
     """Return the name of a parameter by its address: "bodies.L1.length" is l with the subscript L1.
 
-    An address of an unknown form becomes a word.
+    An address of another form becomes a word, with "_" for ".".
     """
     match address.split("."):
         case ["parameters", name]:
@@ -238,8 +231,8 @@ def name_parameter(address: str) -> Name:
             return make_symbol_name(base, body, dots=dots, superscript="0")
         case [_, owner, field]:
             return (
-                make_symbol_name(_FREE[field], owner, superscript="0")
-                if field in _FREE
+                make_symbol_name(_UNSTRESSED[field], owner, superscript="0")
+                if field in _UNSTRESSED
                 else make_symbol_name(get_field_letter(field), owner)
             )
         case [_, owner, field, axis]:
@@ -254,7 +247,10 @@ def get_field_letter(field: str) -> str:
 
 
 def _name_derived_parameter(model: Model, symbol: sp.Symbol) -> Name:
-    """Return the name of a derived parameter, by the joint or element to which it belongs, else by its own name."""
+    """Return the name of a derived parameter: the letter of its quantity with the joint or element as subscript.
+
+    Components of unit vectors get an axis and a hat. A parameter without an owner keeps its identifier.
+    """
     owner_info = model.parameter_table.roles.get(symbol)
     if owner_info is None:
         return make_symbol_name(strip_identifier(symbol))
@@ -277,9 +273,9 @@ def _name_temporary(meaning: str) -> Name:
 
 
 def _name_drive_distance(name: str) -> Name:
-    """Return the name of a distance that a drive prescribes, from its identifier in C.
+    """Return the name of a component of the vector that a distance drive prescribes, from its identifier in C.
 
-    name: "pull_span_x", "pull_length" or "pull_along_x" of a drive `pull`.
+    name: for a drive `pull`, "pull_span_x" (Δ_x), "pull_length" (l) or "pull_along_x" (unit vector ê_x).
     """
     for marker, base, hat in (("_span_", "Delta", False), ("_along_", "e", True)):
         owner, is_found, axis = name.rpartition(marker)
@@ -289,20 +285,26 @@ def _name_drive_distance(name: str) -> Name:
 
 
 def list_drive_distances(model: Model) -> list[sp.Symbol]:
-    """Return the symbols of distances that drives prescribe, with their directions."""
+    """Return the symbols of vector, length and direction between the two points of each distance drive."""
     meanings = ("span", "its length", "its direction")
     return [s for s in model.symbols.definitions if model.symbols.info[s].meaning in meanings]
 
 
 def list_temporaries(model: Model) -> list[sp.Symbol]:
-    """Return the symbols of intermediate quantities of force elements: neither angles, arms nor drives."""
+    """Return the symbols of intermediate quantities of force elements, such as a spring's length and force.
+
+    They are all definitions except parameters, angles and distances of drives, and rotated components.
+    """
     excluded = {symbol for symbols in model.constraints.drive_angles.values() for symbol in symbols}
     excluded.update(list_drive_distances(model), model.symbols.rules)
     return [s for s in model.symbols.definitions if not model.symbols.info[s].place and s not in excluded]
 
 
 def list_rotated_components(model: Model) -> list[sp.Symbol]:
-    """Return the symbols of components of arms and directions that rotate with a body."""
+    """Return the symbols of components of vectors that rotate with a body: lever arms and directions.
+
+    Sines and cosines themselves, and angles and distances of drives, are left out.
+    """
     excluded = {symbol for symbols in model.constraints.drive_angles.values() for symbol in symbols}
     excluded.update(list_drive_distances(model))
     return [
@@ -315,18 +317,18 @@ def list_rotated_components(model: Model) -> list[sp.Symbol]:
 def _list_shown_symbols(model: Model) -> Iterator[sp.Symbol]:
     """Yield the derived symbols that equations show by their own name instead of their definition.
 
-    They are sums of rotated components, distances, long drives, constants of laws, long derived parameters and
-    temporaries.
+    They are rotated components that are sums, distances of drives, drives above MAX_DRIVE_OPERATIONS, constants of
+    laws, derived parameters above MAX_CONSTANT_OPERATIONS, and temporaries of force elements.
     """
     definitions = model.symbols.definitions
     yield from (symbol for symbol in list_rotated_components(model) if definitions[symbol].is_Add)
     yield from list_drive_distances(model)
     for symbols in model.constraints.drive_angles.values():
-        if sp.count_ops(definitions[symbols[0]]) > LONG_DRIVE:
+        if sp.count_ops(definitions[symbols[0]]) > MAX_DRIVE_OPERATIONS:
             yield from symbols
     for clearance in model.clearances:
         yield from (value for value in clearance.constants.values() if value in definitions)
     for symbol, value in model.parameter_table.derived.items():
-        if sp.count_ops(value) > LONG_CONSTANT and symbol not in model.parameter_table.internal_parameters:
+        if sp.count_ops(value) > MAX_CONSTANT_OPERATIONS and symbol not in model.parameter_table.internal_parameters:
             yield symbol
     yield from list_temporaries(model)

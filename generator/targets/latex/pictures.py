@@ -1,4 +1,4 @@
-"""Draws a document's pictures as small static SVG and as characters: patterns of matrices, the tree of bodies."""
+"""Draws the pictures of a document as static SVG and as characters: sparsity patterns, the spanning tree of bodies."""
 
 from __future__ import annotations
 
@@ -10,11 +10,12 @@ from gudgeon.contract.reduction_log import ReductionLog
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.targets.latex.document import Block, Picture, make_entry_token, make_row_token
 
-SMALL, TINY, LARGE = 10, 6, 20  # side of an entry in a picture of a matrix, of an assembled one; at most
-ROOM = 420  # pixels up to which a small matrix grows
+MIN_CELL_SIDE, MIN_ASSEMBLED_CELL_SIDE = 10, 6  # pixels of an entry of the Jacobian, of the assembled matrix
+MAX_CELL_SIDE = 20  # pixels of an entry
+MAX_GROWN_WIDTH = 420  # pixels up to which the entries of a small matrix are enlarged
 MAX_ROWS, MAX_COLUMNS = 150, 150  # a larger picture is not legible
-WIDEST_GRID = 92  # columns of characters
-FULL, EMPTY = "■", "·"
+MAX_GRID_COLUMNS = 92  # of a pattern in characters
+NONZERO_CHARACTER, ZERO_CHARACTER = "■", "·"
 
 
 @dataclass(frozen=True)
@@ -23,22 +24,25 @@ class NonzeroEntry:
 
     row: int
     column: int
-    of: str = ""
+    token: str = ""
     message: str = ""
 
 
 def print_svg(width: float, height: float, label: str, parts: Sequence[str]) -> str:
-    """Return an SVG picture that scales with its column; `parts` are its elements, colours are those of the page."""
+    """Return an SVG element of a width and height in pixels, with a label for screen readers.
+
+    parts: its child elements; their CSS classes get the colours of the page.
+    """
     size = f'width="{width:g}" height="{height:g}" viewBox="0 0 {width:g} {height:g}"'
     return f'<svg {size} role="img" aria-label="{html.escape(label)}">{"".join(parts)}</svg>'
 
 
 def draw_jacobian_pattern(model: Model) -> list[Block]:
-    """Return the picture of the nonzero entries of Φ_q, in SVG and in characters; [] if it would be too large."""
+    """Return the picture of the sparsity pattern of Φ_q in SVG and in characters; [] if it would be too large."""
     entries = _list_nonzero_entries(model)
     if not _fits_in_picture(len(model.rows), len(model.q)):
         return []
-    cell_side = compute_cell_side(len(model.q), SMALL)
+    cell_side = compute_cell_side(len(model.q), MIN_CELL_SIDE)
     parts = [
         *_print_body_names(model, 24, cell_side),
         *_print_row_numbers(model, 24, cell_side),
@@ -54,7 +58,10 @@ def draw_jacobian_pattern(model: Model) -> list[Block]:
 
 
 def draw_assembled_matrix(model: Model) -> list[Block]:
-    """Return the picture of [M Φ_qᵀ; Φ_q 0] with its blocks distinguished; [] if it would be too large."""
+    """Return the SVG picture of the sparsity pattern of [M Φ_qᵀ; Φ_q 0], with different colours of M and Φ_q.
+
+    [] is returned if it would be too large (`_fits_in_picture`). It has no form in characters.
+    """
     n, m = len(model.q), len(model.rows)
     if not _fits_in_picture(n + m, n + m):
         return []
@@ -62,9 +69,9 @@ def draw_assembled_matrix(model: Model) -> list[Block]:
     masses = [
         NonzeroEntry(k, k, f"body-{body.name}") for body in model.bodies for k in range(body.index, body.index + 3)
     ]
-    jacobian = [NonzeroEntry(n + entry.row, entry.column, entry.of) for entry in entries]
-    transposed = [NonzeroEntry(entry.column, n + entry.row, entry.of) for entry in entries]
-    cell_side = compute_cell_side(n + m, TINY)
+    jacobian = [NonzeroEntry(n + entry.row, entry.column, entry.token) for entry in entries]
+    transposed = [NonzeroEntry(entry.column, n + entry.row, entry.token) for entry in entries]
+    cell_side = compute_cell_side(n + m, MIN_ASSEMBLED_CELL_SIDE)
     total = cell_side * (n + m)
     lines = [
         f'<path class="rule" d="M0 {cell_side * n}H{total}M{cell_side * n} 0V{total}"/>' if m else "",
@@ -80,13 +87,13 @@ def draw_assembled_matrix(model: Model) -> list[Block]:
 
 
 def _fits_in_picture(n_rows: int, n_columns: int) -> bool:
-    """Return whether a matrix is small enough for a picture."""
+    """Return whether a matrix has at most MAX_ROWS rows and MAX_COLUMNS columns, so that its picture is legible."""
     return n_rows <= MAX_ROWS and n_columns <= MAX_COLUMNS
 
 
 def compute_cell_side(n_columns: int, min_side: int) -> int:
-    """Return the side of an entry in pixels; fewer entries are larger."""
-    return min(LARGE, max(min_side, ROOM // max(1, n_columns)))
+    """Return the side of an entry in pixels: MAX_GROWN_WIDTH per column, from `min_side` to MAX_CELL_SIDE."""
+    return min(MAX_CELL_SIDE, max(min_side, MAX_GROWN_WIDTH // max(1, n_columns)))
 
 
 def _list_nonzero_entries(model: Model) -> list[NonzeroEntry]:
@@ -108,7 +115,7 @@ def _print_squares(entries: Sequence[NonzeroEntry], left: int, top: int, css_cla
     """
     squares = (
         f'<rect x="{left + cell_side * entry.column}" y="{top + cell_side * entry.row}" '
-        f'data-of="{html.escape(entry.of)}"/>'
+        f'data-of="{html.escape(entry.token)}"/>'
         for entry in entries
     )
     return [f'<g class="{css_class} cells" style="--cell: {cell_side - 1}px">', *squares, "</g>"]
@@ -142,15 +149,15 @@ def _print_row_numbers(model: Model, top: int, cell_side: int) -> list[str]:
 
 
 def _print_character_grid(n_rows: int, n_columns: int, entries: Sequence[NonzeroEntry]) -> tuple[str, ...]:
-    """Return the pattern of a matrix as lines of characters, FULL for nonzero entries and EMPTY for others.
+    """Return the pattern of a matrix as lines of characters: NONZERO_CHARACTER or ZERO_CHARACTER for each entry.
 
-    Each line begins with the number of its row, from 1. () is returned for more than WIDEST_GRID columns.
+    Each line begins with the number of its row, from 1. () is returned for more than MAX_GRID_COLUMNS columns.
     """
-    if n_columns > WIDEST_GRID:
+    if n_columns > MAX_GRID_COLUMNS:
         return ()
-    grid = [[EMPTY] * n_columns for _ in range(n_rows)]
+    grid = [[ZERO_CHARACTER] * n_columns for _ in range(n_rows)]
     for entry in entries:
-        grid[entry.row][entry.column] = FULL
+        grid[entry.row][entry.column] = NONZERO_CHARACTER
     return tuple(f"{r:>3}  {''.join(line)}" for r, line in enumerate(grid, 1))
 
 
@@ -180,10 +187,10 @@ def _arrange_subtree(
     positions: dict[str, tuple[float, int]],
     lines: list[str],
 ) -> float:
-    """Store (row, depth) of a body and of all bodies below it in `positions`, and return the body's row.
+    """Store (row, depth) of a body and of its descendants in the tree in `positions`, and return the body's row.
 
-    A body is in the middle of its children; a leaf gets the next row. A line of text for each body is added to
-    `lines`.
+    A body is in the middle of its children; a leaf gets `next_row[0]`, which is then incremented. A line of text for
+    each body is added to `lines`. children: (body, joint) of the children of each body. joint: that to the parent.
     """
     lines.append(f"{'   ' * depth}{body}{f'  by {joint}' if joint else ''}")
     child_rows = [
@@ -199,7 +206,7 @@ def _arrange_subtree(
     return row
 
 
-STEP_X, STEP_Y = 120, 34
+STEP_X, STEP_Y = 120, 34  # pixels between two depths and two rows of a tree
 
 
 def _print_tree_svg(

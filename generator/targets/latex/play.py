@@ -1,4 +1,4 @@
-"""Writes the joints with play for a document of equations: geometry, force laws and their parameter values."""
+"""Writes the sections on joints with play (clearance) for a document: geometry, force laws, parameter values."""
 
 from __future__ import annotations
 
@@ -28,21 +28,24 @@ from gudgeon.generator.targets.latex.document import (
 from gudgeon.generator.targets.latex.kinematics import make_equation
 from gudgeon.generator.targets.latex.letters import Name, make_name_from_latex, make_symbol_name
 from gudgeon.generator.targets.latex.notation import Notation
-from gudgeon.generator.targets.latex.plots import plot_law
+from gudgeon.generator.targets.latex.plots import plot_law_of_joints
 from gudgeon.generator.targets.latex.trace import Functions, HighlightIndex
-from gudgeon.generator.targets.latex.values import MAX_CELL_LENGTH, ValueFormatter, format_expression_as_written
+from gudgeon.generator.targets.latex.values import MAX_CELL_LENGTH, ValueFormatter, format_file_expression
 from gudgeon.language.plot_units import format_quantity, format_unit
 from gudgeon.language.units import find_si_unit
 
 
 def describe_contour(joint: JointWithPlay) -> Iterator[Block]:
-    """Yield the equation of the bearing's angle and the paragraph on its contour.
+    """Yield the equation of the angle of a non-circular bearing, and the paragraph on its contour.
 
-    The joint must have a contour. The paragraph states the number of depths d and the direction of the force.
+    The joint must have a contour. The paragraph states the number of depths d, their interpolation, and the direction
+    of the normal force.
     """
     clearance = joint.clearance
     assert clearance.contour
-    yield make_equation(contact.theta_i, joint.notation.expand_symbols(clearance.first.theta), joint.notation, joint.of)
+    yield make_equation(
+        contact.theta_i, joint.notation.expand_symbols(clearance.first.theta), joint.notation, joint.tokens
+    )
     yield make_paragraph(
         f"The bearing is not circular: d is its depth beyond the circle, given by {clearance.contour.count} "
         "depths at equal angles "
@@ -58,10 +61,10 @@ def describe_contour(joint: JointWithPlay) -> Iterator[Block]:
 
 
 def describe_corner(name: str, guide: str, slider: str) -> Block:
-    """Return the paragraph on the position of a slider's corner and on the symbols n and e.
+    """Return the paragraph on the position of a slider's corner, its wall, and the symbols n and e.
 
-    name: the name of its clearance, whose last part contains "front" or not and "upper" or not. guide, slider: points
-    "body.point".
+    name: the name of the corner, "JOINT.front_upper" for example: "front" or at the rear, "upper" (left) or right.
+    guide, slider: points as "body.point".
     """
     corner_name = name.rpartition(".")[2]
     is_front, is_upper = "front" in corner_name, "upper" in corner_name
@@ -74,7 +77,10 @@ def describe_corner(name: str, guide: str, slider: str) -> Block:
 
 
 def describe_rigid_contact(joint: JointWithPlay, approach_speed: Name) -> Block:
-    """Return the paragraph on impacts and closed contacts of rigid surfaces."""
+    """Return the paragraph on impacts and closed contacts of rigid surfaces: restitution, threshold, complementarity.
+
+    It mentions friction in impacts if the joint has a friction law. The joint must have a normal law.
+    """
     assert joint.clearance.normal is not None
     restitution, threshold = (
         joint.notation.format_expression(sp.sympify(joint.clearance.normal.parameters[n]))
@@ -100,7 +106,10 @@ def describe_rigid_contact(joint: JointWithPlay, approach_speed: Name) -> Block:
 
 
 def describe_onset(joint: JointWithPlay, approach_speed: Name) -> Block:
-    """Return the paragraph on when a contact acts, and on the approach speed that is stored at its onset."""
+    """Return the paragraph on the condition δ > 0 of a compliant contact and on the stored approach speed.
+
+    It contains the default of the key `velocity_floor` of the contact. approach_speed: the symbol δ̇⁻.
+    """
     min_approach_speed = joint.model.parameter_table.entries[
         f"contacts.{joint.play.contact.name}.velocity_floor"
     ].default
@@ -119,14 +128,14 @@ def describe_onset(joint: JointWithPlay, approach_speed: Name) -> Block:
 
 
 def describe_internal_states(law: Law) -> Iterator[Block]:
-    """Yield a paragraph for each internal state of a law: its symbol, its meaning, and where it is integrated."""
+    """Yield a paragraph for each internal state of a law: its symbol, its meaning, and when it is integrated."""
     for state in law.states:
         message = f" is the {state.meaning}, 0 at each onset, and integrated with the motion while in contact."
         yield make_paragraph(make_symbol_name(state.name), message)
 
 
 def format_option(value: str | bool) -> str:
-    """Return a value as a file writes it."""
+    """Return the value of an option in the syntax of the file: "true", or a word unchanged."""
     return str(value).lower() if isinstance(value, bool) else value
 
 
@@ -140,28 +149,31 @@ PAIR = (
 class JointWithPlay:
     """Write one joint's equations in its own symbols: c, R_i, K, c_e stand for this joint only.
 
-    of: its highlighting tokens. alike: labels of all joints with the same play.
+    tokens: highlighting tokens of the joint. law_tokens: tokens of its laws. labels_of_equal_play: labels of all joints
+    that `has_equal_play` with it, itself included. quantities: its parameters (`_list_joint_quantities`).
     """
 
     def __init__(self, model: Model, clearance: Clearance, notation: Notation, functions: Functions) -> None:
         self.model, self.clearance, self.functions = model, clearance, functions
         self.play = model.scene.play[clearance.joint.name]
-        self.of = list_joint_tokens(clearance)
-        self.of_law = [f"law-{self.play.contact.name}", *self.of]
-        self.alike = [c.label for c in model.clearances if _have_same_play(model.scene.play[c.joint.name], self.play)]
+        self.tokens = list_joint_tokens(clearance)
+        self.law_tokens = [f"law-{self.play.contact.name}", *self.tokens]
+        self.labels_of_equal_play = [
+            c.label for c in model.clearances if has_equal_play(model.scene.play[c.joint.name], self.play)
+        ]
         self.notation = notation.rename_symbols(contact_names.name_joint_symbols(model, clearance))
-        self.numbers = list(self._list_joint_quantities())
+        self.quantities = list(self._list_joint_quantities())
 
     def _list_joint_quantities(self) -> Iterator[tuple[Quantity, str, str]]:
-        """Yield (quantity, symbol in LaTeX if it is not a run-time parameter, meaning) of the joint's parameters.
+        """Yield (quantity, symbol in LaTeX, meaning) of the joint's parameters, for the table of their values.
 
-        They are dimensions, elastic constants if there is dry contact, numbers of laws and the width of the
-        transition.
+        They are dimensions, elastic constants if there is dry contact, parameters of laws and the width of the
+        transition from film to dry contact.
         """
         bearing = self.play.bearing
-        for field, letter_, meaning in contact_names.GUIDE if isinstance(bearing, Guide) else PAIR:
+        for field, latex_symbol, meaning in contact_names.GUIDE if isinstance(bearing, Guide) else PAIR:
             if (quantity := getattr(bearing, field)) is not None:
-                yield quantity, letter_, meaning
+                yield quantity, latex_symbol, meaning
         i, j = bearing.bearing_material, bearing.journal_material
         section_name, *parts = (
             ("guides", "guide", "slider") if isinstance(bearing, Guide) else ("bearings", "bearing", "journal")
@@ -171,48 +183,55 @@ class JointWithPlay:
             name = self.model.scene.materials.get(f"{section_name}.{bearing.name}.{part}_material", material.name)
             yield material.numbers["E"], f"E{index}", f"modulus of elasticity of {name} ({part})"
             yield material.numbers["nu"], rf"\nu{index}", f"Poisson's ratio of {name} ({part})"
-        for equations, use in contact_names.list_laws(self.model, self.clearance):
-            for parameter, quantity in contact_names.list_given_parameters(equations, use):
+        for equations, use in contact_names.list_joint_laws(self.model, self.clearance):
+            for parameter, quantity in contact_names.list_specified_parameters(equations, use):
                 yield quantity, contact_names.get_latex_symbol(parameter), parameter.meaning
         if self.play.contact.transition is not None:
             yield self.play.contact.transition, "e_0", "width of the transition from film to dry contact"
 
     def list_law_assignments(self, equations: LawEquations) -> list[Assignment]:
-        """Return the equations of a law in this joint's symbols, without results that are zero."""
-        renamed = {
+        """Return the equations of a law as assignments to this joint's symbols, without those of value zero.
+
+        Symbols of steps are replaced by those of the joint. Friction of a contour reads the normal force F_N.
+        """
+        joint_symbols = {
             sp.Symbol(name, real=True): contact_names.get_result_symbol(equations, name) for name in equations.steps
         }
         if self.clearance.contour and equations.law.role == "friction":
-            renamed[sp.Symbol("F_n", real=True)] = contact.F_N
+            joint_symbols[sp.Symbol("F_n", real=True)] = contact.F_N
         return [
-            Assignment(contact_names.get_result_symbol(equations, name), sp.sympify(value).xreplace(renamed))
+            Assignment(contact_names.get_result_symbol(equations, name), sp.sympify(value).xreplace(joint_symbols))
             for name, value in equations.steps.items()
             if value != 0
         ]
 
     def make_equations(self, steps: list[Assignment]) -> list[Block]:
-        """Return an equation symbol = value for each step, in this joint's symbols and with the law's tokens."""
+        """Return an equation symbol = value for each assignment, in this joint's notation and with its law tokens."""
         return [
             make_equation(
-                step.symbol, self.notation.expand_symbols(step.value), self.notation, self.of_law, self.of_law[0]
+                step.symbol,
+                self.notation.expand_symbols(step.value),
+                self.notation,
+                self.law_tokens,
+                self.law_tokens[0],
             )
             for step in steps
         ]
 
 
 def make_play_sections(model: Model, notation: Notation, functions: Functions) -> list[Section]:
-    """Return for each joint with play its geometry, its laws, and its forces on both bodies.
+    """Return for each joint with play the sections on geometry, laws, and contribution to the generalized forces g.
 
-    A joint with the same play as an earlier one refers to that one instead of repeating the laws.
+    A joint that `has_equal_play` with an earlier one refers to that one instead of repeating the laws.
     """
     sections: list[Section] = []
     described: dict[str, Play] = {}
     for clearance in model.clearances:
         joint = JointWithPlay(model, clearance, notation, functions)
-        described_joint = next((name for name, play in described.items() if _have_same_play(play, joint.play)), None)
+        described_joint = next((name for name, play in described.items() if has_equal_play(play, joint.play)), None)
         kind = clearance.kind.capitalize()
         title = f"{kind} {clearance.name} with play"
-        sections.append(Section(title, tuple(_describe_geometry(joint, described_joint is None)), 1, joint.of))
+        sections.append(Section(title, tuple(_describe_geometry(joint, described_joint is None)), 1, joint.tokens))
         if described_joint is None:
             described[clearance.name] = joint.play
             sections += _describe_contact(joint)
@@ -230,17 +249,18 @@ def make_play_sections(model: Model, notation: Notation, functions: Functions) -
     return sections
 
 
-def _have_same_play(first: Play, second: Play) -> bool:
-    """Return whether two joints have the same play: equal bearing and contact, and no contour."""
+def has_equal_play(first: Play, second: Play) -> bool:
+    """Return whether the play of two joints is one object, or has equal bearing and contact without a contour."""
     return first is second or (
         first.bearing == second.bearing and first.contact == second.contact and not first.contour and not second.contour
     )
 
 
 def _describe_geometry(joint: JointWithPlay, is_first: bool) -> list[Block]:
-    """Return the equations of eccentricity and its rate in coordinates.
+    """Return an introduction, and the equations of eccentricity, its rate and both angular velocities in coordinates.
 
-    The contact steps that follow from them are added if `is_first`, for the first joint with this play.
+    A corner at a wall also has the normal, a bearing with a contour its angle. `is_first` tells whether the joint is
+    the first one with this play. The equations of gap, penetration and their rates are then added.
     """
     clearance, expand, notation = joint.clearance, joint.notation.expand_symbols, joint.notation
     joint_ref = clearance.joint
@@ -258,14 +278,14 @@ def _describe_geometry(joint: JointWithPlay, is_first: bool) -> list[Block]:
     if clearance.wall:
         introduction = describe_corner(clearance.name, *point_names)
         steps += zip((contact.n_x, contact.n_y), clearance.wall.normal, strict=True)
-    blocks: list[Block] = [make_equation(symbol, expand(value), notation, joint.of) for symbol, value in steps]
+    blocks: list[Block] = [make_equation(symbol, expand(value), notation, joint.tokens) for symbol, value in steps]
     if clearance.contour:
         blocks += describe_contour(joint)
     return [introduction, *blocks, *(joint.make_equations(contact.make_gap_equations(clearance)) if is_first else [])]
 
 
 def _describe_contact(joint: JointWithPlay) -> list[Section]:
-    """Return the sections on a joint's numbers, dry contact, film, mixed lubrication and total force.
+    """Return the sections on a joint's parameters, dry contact, film, mixed lubrication and total force.
 
     Sections for parts that the joint does not have are left out.
     """
@@ -296,9 +316,13 @@ def _describe_contact(joint: JointWithPlay) -> list[Section]:
 
 
 def _describe_dry_contact(joint: JointWithPlay) -> list[Block]:
-    """Return the blocks on dry contact: onset or impact, normal force, and friction or a note that there is none."""
+    """Return the blocks on dry contact in the order of evaluation; the joint must have a normal law.
+
+    They are: onset (or impact, if the surfaces are rigid), lever arms and slip, normal law, normal force of a contour,
+    friction law (or a note and the equation F_t = 0), and moments.
+    """
     clearance, approach_speed = joint.clearance, joint.notation.format_expression(contact.stored)
-    impact = describe_rigid_contact(joint, approach_speed) if clearance.rigid else describe_onset(joint, approach_speed)
+    onset = describe_rigid_contact(joint, approach_speed) if clearance.rigid else describe_onset(joint, approach_speed)
     friction = (
         _describe_law(joint, "friction")
         if clearance.friction
@@ -307,18 +331,18 @@ def _describe_dry_contact(joint: JointWithPlay) -> list[Block]:
             make_equation(contact.make_part_symbol(contact.F_along_t, "dry"), sp.Integer(0), joint.notation),
         ]
     )
-    friction = [*joint.make_equations(contact.make_contour_normal_force(clearance)), *friction]
     return [
-        impact,
+        onset,
         *joint.make_equations(contact.make_lever_arm_equations(clearance)),
         *_describe_law(joint, "normal"),
+        *joint.make_equations(contact.make_contour_normal_force(clearance)),
         *friction,
         *joint.make_equations(contact.make_dry_moment_equations(clearance)),
     ]
 
 
 def _describe_mixed_lubrication(joint: JointWithPlay) -> list[Block]:
-    """Return the blocks on mixed lubrication: its condition and its law."""
+    """Return the blocks on mixed lubrication: its condition δ > 0, and the law of the fraction of the dry contact."""
     condition = make_paragraph(
         "While ", Name(r"\delta > 0", "δ > 0"), "; otherwise the fraction of the dry contact is 0."
     )
@@ -330,11 +354,11 @@ def _describe_law(joint: JointWithPlay, role: str) -> list[Block]:
 
     role: "normal", "friction", "film" or "mixed"; the joint must have a law of it.
     """
-    equations = next(each_law for each_law in joint.clearance.laws if each_law.law.role == role)
+    equations = next(law_equations for law_equations in joint.clearance.laws if law_equations.law.role == role)
     law = equations.law
     source = law.reference or law.source
     blocks: list[Block] = [
-        make_paragraph(f"{make_sentence(law.title)} Source: {source}. Valid: {law.validity}.", tokens=joint.of_law)
+        make_paragraph(f"{make_sentence(law.title)} Source: {source}. Valid: {law.validity}.", tokens=joint.law_tokens)
     ]
     blocks += [
         make_paragraph(
@@ -342,10 +366,12 @@ def _describe_law(joint: JointWithPlay, role: str) -> list[Block]:
         )
         for option in law.options
         if (value := equations.options.get(option.name)) is not None  # an option may have no effect next to a number
-        and not (joint.clearance.wall and option is GEOMETRY)  # R_i → ∞
+        and not (joint.clearance.wall and option is GEOMETRY)  # a wall is plane
     ]
     blocks += describe_internal_states(law)
-    plot = plot_law(joint.functions, joint.alike, role, law) if isinstance(joint.functions, HighlightIndex) else []
+    plot: list[Block] = []
+    if isinstance(joint.functions, HighlightIndex):
+        plot = plot_law_of_joints(joint.functions, joint.labels_of_equal_play, role, law)
     return [*blocks, *joint.make_equations(joint.list_law_assignments(equations)), *plot]
 
 
@@ -356,7 +382,10 @@ def _format_source(field: Field, value: str | bool) -> str:
 
 
 def _describe_generalized_force(joint: JointWithPlay) -> list[Block]:
-    """Return force and moment of a joint on both bodies as contributions to g; the ground has none."""
+    """Return an introduction, and the equations of the contributions Δg of a joint's force and moments to g.
+
+    Each body except the ground has three components: force along x and y, moment about its centre of mass.
+    """
     clearance, notation = joint.clearance, joint.notation
     blocks: list[Block] = [make_paragraph(f"The {clearance.kind} adds to g, by the numbers of the coordinates:")]
     # which symbol holds the moment depends on the parts that the joint has
@@ -372,19 +401,23 @@ def _describe_generalized_force(joint: JointWithPlay) -> list[Block]:
         )
         for k, component in enumerate(components, point.body.index + 1):
             left = Name(rf"\Delta g_{{{k}}}", f"Δg_{k}")
-            blocks.append(make_equation(left, sp.expand(notation.expand_symbols(component)), notation, joint.of))
+            blocks.append(make_equation(left, sp.expand(notation.expand_symbols(component)), notation, joint.tokens))
     return blocks
 
 
 def describe_parameter_values(joint: JointWithPlay) -> list[Block]:
-    """Return the table of the joint's numbers, then the equations of its derived constants."""
-    slots, values, rows = joint.model.parameter_table, ValueFormatter(joint.model, joint.notation), []
-    for quantity, letter_, meaning in joint.numbers:
-        entry = slots.entries.get(quantity.address)
+    """Return the table of a joint's parameters: symbol, meaning, address, value, unit; then its derived constants.
+
+    Expressions that are too long for a cell follow the table. A quantity that is not a run-time parameter has the value
+    in the file.
+    """
+    table, values, rows = joint.model.parameter_table, ValueFormatter(joint.model, joint.notation), []
+    for quantity, latex_symbol, meaning in joint.quantities:
+        entry = table.entries.get(quantity.address)
         value: Text = (_format_fixed_value(quantity),) if entry is None else values.format_in_si(entry)
         if entry is not None and entry.depends_on_parameters:
             value = (*values.format_dependency(entry), joint.notation.format_expression(sp.Float(entry.default, 17)))
-        name = make_name_from_latex(letter_) if entry is None else joint.notation.format_expression(entry.symbol)
+        name = make_name_from_latex(latex_symbol) if entry is None else joint.notation.format_expression(entry.symbol)
         rows.append(
             make_row(name, meaning, quantity.address, value, format_unit(find_si_unit(quantity.dimension)) or "-")
         )
@@ -405,6 +438,9 @@ def describe_parameter_values(joint: JointWithPlay) -> list[Block]:
 
 
 def _format_fixed_value(quantity: Quantity) -> str:
-    """Return a value that is not a run-time parameter as text: 0, an expression, or "below" if it is too long."""
-    text = "0" if quantity.is_zero else format_expression_as_written(quantity.value)
+    """Return a value that is not a run-time parameter as text: "0", its expression in the file, or "below".
+
+    "below" stands for an expression of more than MAX_CELL_LENGTH characters.
+    """
+    text = "0" if quantity.is_zero else format_file_expression(quantity.value)
     return text if len(text) <= MAX_CELL_LENGTH else "below"

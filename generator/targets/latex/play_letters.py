@@ -61,7 +61,7 @@ from gudgeon.generator.targets.latex.letters import (
     make_word_name,
 )
 
-# Parts of a joint with film and dry contact are told apart by d and f.
+# Indices of the parts of a joint with film and dry contact.
 _PARTS = {"dry": "d", "film": "f"}
 
 NAMES: Mapping[sp.Symbol, Name] = {
@@ -102,7 +102,7 @@ NAMES: Mapping[sp.Symbol, Name] = {
     sp.Symbol("F_r", real=True): make_symbol_name("F", "r"),
     sp.Symbol(CONSTRAINT_VARIABLES[0], real=True): make_symbol_name("lambda", "n"),
 }
-# What the laws call their abbreviations and constants, by the paper's symbols.
+# Symbols of abbreviations and constants of laws, by their names in the laws' Python.
 LAW_SYMBOL_NAMES = {
     "root": make_symbol_name("s", "epsilon"),
     "factor": make_symbol_name("f"),
@@ -123,12 +123,12 @@ LAW_SYMBOL_NAMES = {
     "left": make_symbol_name("y"),
     "F_e": make_symbol_name("F", "el"),
 }
-# Abbreviations of single laws, by the letters of physics.md.
+# Symbols of physics.md for abbreviations of single laws: (law, name in its Python).
 LAW_SPECIFIC_NAMES = {
     ("finite_length", "q"): make_symbol_name("w", "epsilon"),
     ("finite_length", "x"): make_symbol_name("xi"),
 }
-_LETTERS_AT_WALL = (("c", "c"), ("R_i", "h_i"))  # lengths of the slider, which points of bodies have too, keep theirs
+_LENGTHS_AT_WALL = (("c", "c"), ("R_i", "h_i"))  # the dimensions of the slider have the names of the notation
 GUIDE = (
     ("gap", "c", "gap on each side"),
     ("half_length", "a_g", "half the slider's length"),
@@ -139,10 +139,10 @@ RATIO, CLIPPED = Name(r"\frac{\dot{\delta}}{\dot{\delta}^{-}}", "(δ̇/δ̇⁻)"
 
 
 def name_contact_variables(clearance: Clearance) -> dict[sp.Symbol, Name]:
-    """Return {symbol: name} of the contact steps of a joint with play.
+    """Return {symbol: name} of the variables of a joint with play, from eccentricity to force (contact_steps.py).
 
     Forces and moments have the index d (dry) or f (film) if the joint has both. At a corner of a slider at a wall, the
-    moment on the guide has a name for its dry part and one for the total.
+    moment on the guide has one name for the dry contact and one for the total.
     """
     step_names = {**NAMES, ratio: CLIPPED if clearance.clip_ratio else RATIO}
     parts = [part for part in _PARTS if getattr(clearance, "film" if part == "film" else "normal") is not None]
@@ -168,14 +168,14 @@ def name_joint_symbols(model: Model, clearance: Clearance) -> dict[sp.Symbol, Na
 
 
 def _propose_symbol_names(model: Model, clearance: Clearance) -> Iterator[tuple[sp.Expr, Name]]:
-    """Yield (symbol, name) in the order in which symbols get their names.
+    """Yield (symbol, proposed name) for a joint with play; names may repeat, and the first symbol keeps a name.
 
     Contact variables come first, then dimensions, elastic constants, the transition, parameters and constants of laws,
     and variables of laws.
     """
-    pair, laws, wall = clearance.pair, list_laws(model, clearance), clearance.wall
+    pair, laws, wall = clearance.pair, list_joint_laws(model, clearance), clearance.wall
     yield from name_contact_variables(clearance).items()
-    lengths = _LETTERS_AT_WALL if wall else (("c", "c"), ("R_i", "R_i"), ("R_j", "R_j"), ("L", "L"))
+    lengths = _LENGTHS_AT_WALL if wall else (("c", "c"), ("R_i", "R_i"), ("R_j", "R_j"), ("L", "L"))
     pairs = [(getattr(pair, attribute), latex) for attribute, latex in lengths]
     for symbol, latex in pairs:
         if symbol.is_Symbol:
@@ -190,7 +190,7 @@ def _propose_symbol_names(model: Model, clearance: Clearance) -> Iterator[tuple[
     if clearance.transition is not None:
         yield clearance.transition, make_symbol_name("e", "0")
     for equations, use in laws:
-        for parameter, quantity in list_given_parameters(equations, use):
+        for parameter, quantity in list_specified_parameters(equations, use):
             if entry := _find_parameter(model, quantity):
                 yield entry.symbol, make_name_from_latex(get_latex_symbol(parameter))
     for name, value in clearance.constants.items():
@@ -206,13 +206,16 @@ def _find_parameter(model: Model, quantity: Quantity | None) -> ParameterEntry |
     return None if quantity is None else model.parameter_table.entries.get(quantity.address)
 
 
-def list_laws(model: Model, clearance: Clearance) -> list[tuple[LawEquations, LawUse]]:
-    """Return (equations, use in the file) of each law of a joint."""
+def list_joint_laws(model: Model, clearance: Clearance) -> list[tuple[LawEquations, LawUse]]:
+    """Return (equations, use in the file) of each law of a joint with play: normal, friction, film, mixed."""
     return list(zip(clearance.laws, model.scene.play[clearance.joint.name].contact.laws, strict=True))
 
 
-def list_given_parameters(equations: LawEquations, law_use: LawUse) -> list[tuple[Field, Quantity]]:
-    """Return (field, quantity) of the parameters of a law, without optional ones that the file leaves out."""
+def list_specified_parameters(equations: LawEquations, law_use: LawUse) -> list[tuple[Field, Quantity]]:
+    """Return (field, quantity) of the parameters of a law that have a value: specified in the file, or a default.
+
+    Optional parameters that the file leaves out are not in the list.
+    """
     return [
         (parameter, law_use.quantities[parameter.name])
         for parameter in equations.law.parameters
@@ -221,18 +224,24 @@ def list_given_parameters(equations: LawEquations, law_use: LawUse) -> list[tupl
 
 
 def get_result_symbol(equations: LawEquations, name: str) -> sp.Symbol:
-    """Return the symbol of a law's step; a tangential force is that of its part of the joint, film or dry contact."""
+    """Return the symbol of a step of a law by its name in the law's Python.
+
+    The result F_t of a law is the tangential force of the film or of the dry contact, by the role of the law.
+    """
     if name == "F_t" and name in RESULTS[equations.law.role]:
         return make_part_symbol(F_along_t, "film" if equations.law.role == "film" else "dry")
     return sp.Symbol(name, real=True)
 
 
 def name_law_variable(law: Law, name: str) -> Name:
-    """Return the name of an abbreviation or result of a law; the rate of an internal state has a dot."""
+    """Return the name of an abbreviation, constant or result of a law.
+
+    The rate "STATE_rate" of an internal state has a dot; names without an entry in the tables become words.
+    """
     name = name.removesuffix("__")  # of a user-defined law
     rate_names = {f"{state.name}_rate": make_symbol_name(state.name, dots=1) for state in law.states}
-    of_law = LAW_SPECIFIC_NAMES.get((law.name, name))
-    return of_law or (LAW_SYMBOL_NAMES | rate_names).get(name) or make_word_name(name)
+    specific_name = LAW_SPECIFIC_NAMES.get((law.name, name))
+    return specific_name or (LAW_SYMBOL_NAMES | rate_names).get(name) or make_word_name(name)
 
 
 def get_latex_symbol(parameter: Field) -> str:

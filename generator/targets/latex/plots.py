@@ -1,4 +1,4 @@
-"""Plots force laws over their range, evaluated by the functions of the NumPy target."""
+"""Plots force laws over their range as SVG, evaluated by the functions of the NumPy target."""
 
 from __future__ import annotations
 
@@ -23,10 +23,10 @@ from gudgeon.generator.targets.numpy.printer import print_function
 from gudgeon.language.plot_units import choose_prefix, format_label
 from gudgeon.language.units import VELOCITY
 
-POINTS = 61
-MAX_PENETRATION_FRACTION = 0.05  # share of the clearance up to which contact forces are drawn
-FAST = 0.1  # m/s, approach at which a law that reads δ̇ itself is drawn
-WIDTH, HEIGHT, LEFT, RIGHT, TOP, BOTTOM = 420, 204, 62, 408, 16, 172
+N_SAMPLES = 61  # of a curve; twice as many for friction
+MAX_PENETRATION_RATIO = 0.05  # fraction of the clearance up to which contact forces are plotted
+APPROACH_SPEED = 0.1  # m/s: |δ̇| for a law that reads δ̇ itself; max. slip for a friction law without a velocity
+WIDTH, HEIGHT, LEFT, RIGHT, TOP, BOTTOM = 420, 204, 62, 408, 16, 172  # pixels: size of the SVG, limits of the axes
 
 
 @dataclass(frozen=True)
@@ -39,21 +39,24 @@ class Curve:
 
 @dataclass(frozen=True)
 class Plot:
-    """Represent a plot; axes are (symbol, SI unit), `now` is the local on the x axis by function: "dry", "v_t"."""
+    """Represent a plot; axes are (symbol, SI unit).
+
+    `state_local`: the local of the joint's C function that is on the x axis: (part, local), such as ("dry", "v_t").
+    """
 
     x: Any
     curves: tuple[Curve, ...]
     x_axis: tuple[str, str]
     y_axis: tuple[str, str]
-    now: tuple[str, str]
+    state_local: tuple[str, str]
     caption: str
 
 
-def plot_law(functions: Functions, joint_labels: Sequence[str], role: str, law: Law) -> list[Block]:
-    """Return the plot of a law, with a mark for the state of each joint that has it.
+def plot_law_of_joints(functions: Functions, joint_labels: Sequence[str], role: str, law: Law) -> list[Block]:
+    """Return the plot of a law of the first of `joint_labels`, with a mark for the current state of each joint.
 
-    role: "normal", "friction", "film" or "mixed". [] is returned for rigid contacts and laws with internal states, and
-    if the law is missing or cannot be evaluated to finite values.
+    role: "normal", "friction" or "film". [] is returned for "mixed", rigid contacts and laws with internal states, and
+    if the law cannot be evaluated to finite values for arrays.
     """
     pin_indices = {joint.clearance.label: k for k, joint in enumerate(functions.program.joints)}
     joint = functions.program.joints[pin_indices[joint_labels[0]]]
@@ -63,18 +66,18 @@ def plot_law(functions: Functions, joint_labels: Sequence[str], role: str, law: 
     parameters = _evaluate_parameters(functions)
     try:
         with np.errstate(all="ignore"):
-            plot = _DRAWN[role](functions, joint, call, parameters)
-    except (ArithmeticError, ValueError, TypeError, AttributeError):  # a law of the user's own that arrays do not fit
+            plot = _PLOT_BY_ROLE[role](functions, joint, call, parameters)
+    except (ArithmeticError, ValueError, TypeError, AttributeError):  # a user-defined law that does not accept arrays
         return []
     if not all(np.isfinite(curve.y).all() for curve in plot.curves):
         return []
-    part, local = plot.now
+    part, local = plot.state_local
     mark_values = {name: f"{get_function_name(part, name)}.{local}" for name in joint_labels}
     return [Picture(plot.caption, print_plot_svg(plot, mark_values))]
 
 
 def _evaluate_parameters(functions: Functions) -> Mapping[str, float]:
-    """Return {field: value} of all parameters at their defaults; tables are left out."""
+    """Return {field of Parameters: default value, SI} of all parameters, derived ones included; tables are left out."""
     tables = functions.model.parameter_table.tables
     p = SimpleNamespace(**{name: [0.0] * len(table) for name, table in tables.items()})
     count = len(functions.model.parameter_table.entries)
@@ -83,19 +86,19 @@ def _evaluate_parameters(functions: Functions) -> Mapping[str, float]:
 
 
 def _compile_kernel(functions: Functions, kernel: Kernel) -> Any:
-    """Return a kernel as a Python function, compiled from the NumPy target with the file's curves."""
+    """Return a kernel as a Python function, printed by the NumPy target with the curves that it calls, and compiled."""
     names: dict[str, Any] = {"np": np}
     text = print_function(kernel)
     exec(compile(print_called_curves(functions.model.scene.mechanism.curves, text) + text, "<law>", "exec"), names)
     return names[kernel.name]
 
 
-def _evaluate_law(
+def _call_law_kernel(
     functions: Functions, call: SharedFunctionCall, parameters: Mapping[str, float], *arguments: Any
 ) -> Any:
-    """Return the results of a law, a number or a tuple, for its variables `arguments` (SI, numbers or arrays).
+    """Return the results of a law, one array or a tuple of arrays, for its variables `arguments` (SI).
 
-    parameters: {field: value} of all parameters, of which the law gets those of its call.
+    parameters: {field: value} of all parameters, from which those of the law's call are selected.
     """
     return _compile_kernel(functions, call.kernel)(*arguments, *(parameters[place.member] for place in call.parameters))
 
@@ -112,21 +115,20 @@ def _evaluate_symbol(functions: Functions, parameters: Mapping[str, float], symb
 def _plot_normal_force(
     functions: Functions, joint: JointFunctions, call: SharedFunctionCall, parameters: Mapping[str, float]
 ) -> Plot:
-    """Return the plot of a normal force (N) over the penetration (m), a curve for each of three ratios δ̇/δ̇⁻: 1, 0, −1.
+    """Return the plot of a normal force (N) over the penetration (m), with a curve for each ratio δ̇/δ̇⁻ of 1, 0, −1.
 
-    The penetration goes up to MAX_PENETRATION_FRACTION of the clearance. A law that reads the rate itself gets the
-    ratio times FAST m/s.
+    The penetration goes up to MAX_PENETRATION_RATIO of the clearance. A law that reads the rate itself gets the
+    ratio times APPROACH_SPEED.
     """
-    delta = np.linspace(0.0, MAX_PENETRATION_FRACTION, POINTS) * _evaluate_symbol(
+    delta = np.linspace(0.0, MAX_PENETRATION_RATIO, N_SAMPLES) * _evaluate_symbol(
         functions, parameters, joint.clearance.pair.c
     )
     curves = []
     for ratio in (1.0, 0.0, -1.0):
-        rate_argument = [ratio * FAST] if joint.further_variables else []
-        y = np.broadcast_to(_evaluate_law(functions, call, parameters, delta, ratio, *rate_argument), delta.shape)
-        curves.append(
-            Curve(y, f"δ̇/δ̇⁻ = {ratio:g}" + (f", δ̇ = {ratio * FAST:g} m/s" if joint.further_variables else ""))
-        )
+        rate_argument = [ratio * APPROACH_SPEED] if joint.further_variables else []
+        y = np.broadcast_to(_call_law_kernel(functions, call, parameters, delta, ratio, *rate_argument), delta.shape)
+        rate_label = f", δ̇ = {ratio * APPROACH_SPEED:g} m/s" if joint.further_variables else ""
+        curves.append(Curve(y, f"δ̇/δ̇⁻ = {ratio:g}{rate_label}"))
     caption = "The normal force over the penetration, while the surfaces approach, rest and separate"
     return Plot(delta, tuple(curves), ("δ", "m"), ("F_n", "N"), ("clearance", "delta"), caption)
 
@@ -134,20 +136,20 @@ def _plot_normal_force(
 def _plot_friction(
     functions: Functions, joint: JointFunctions, call: SharedFunctionCall, parameters: Mapping[str, float]
 ) -> Plot:
-    """Return the plot of a friction force over the slip, for a normal force of 1 N.
+    """Return the plot of a friction force over the slip velocity, for a normal force of 1 N.
 
-    The slip reaches three times the largest velocity among the law's numbers.
+    The slip reaches three times the largest velocity among the law's parameters, or three times APPROACH_SPEED.
     """
     law = joint.clearance.friction
-    numbers = law.parameters if law else {}
-    speed_names = (
-        {law_field.name for law_field in law.law.parameters if law_field.dimension == VELOCITY} if law else set()
-    )
-    speeds = [
-        _evaluate_symbol(functions, parameters, symbol) for name, symbol in numbers.items() if name in speed_names
+    law_parameters = law.parameters if law else {}
+    velocity_names = {field.name for field in law.law.parameters if field.dimension == VELOCITY} if law else set()
+    velocities = [
+        _evaluate_symbol(functions, parameters, symbol)
+        for name, symbol in law_parameters.items()
+        if name in velocity_names
     ]
-    v_t = np.linspace(-1.0, 1.0, 2 * POINTS) * 3.0 * (max(speeds, default=0.0) or FAST)
-    y = np.broadcast_to(_evaluate_law(functions, call, parameters, 1.0, v_t), v_t.shape)
+    v_t = np.linspace(-1.0, 1.0, 2 * N_SAMPLES) * 3.0 * (max(velocities, default=0.0) or APPROACH_SPEED)
+    y = np.broadcast_to(_call_law_kernel(functions, call, parameters, 1.0, v_t), v_t.shape)
     caption = "Friction over the slip, for a normal force of 1 N"
     return Plot(v_t, (Curve(y, ""),), ("v_t", "m/s"), ("F_t/F_n", ""), ("dry", "v_t"), caption)
 
@@ -159,8 +161,8 @@ def _plot_film(
 
     Both surfaces rotate at 1 rad/s and the journal rests, so that w_n = 0 and w_t = −ε/2 (in clearances per second).
     """
-    epsilon = np.linspace(0.0, 0.9, POINTS)
-    radial, tangential, *_ = _evaluate_law(functions, call, parameters, epsilon, 0.0 * epsilon, -0.5 * epsilon)
+    epsilon = np.linspace(0.0, 0.9, N_SAMPLES)
+    radial, tangential, *_ = _call_law_kernel(functions, call, parameters, epsilon, 0.0 * epsilon, -0.5 * epsilon)
     curves = (
         Curve(np.broadcast_to(radial, epsilon.shape), "F_r"),
         Curve(np.broadcast_to(tangential, epsilon.shape), "F_t"),
@@ -169,24 +171,24 @@ def _plot_film(
     return Plot(epsilon, curves, ("ε", ""), ("F", "N"), ("film", "epsilon"), caption)
 
 
-_DRAWN = {"normal": _plot_normal_force, "friction": _plot_friction, "film": _plot_film}
+_PLOT_BY_ROLE = {"normal": _plot_normal_force, "friction": _plot_friction, "film": _plot_film}
 
 
 def print_plot_svg(plot: Plot, mark_values: Mapping[str, str]) -> str:
-    """Return the plot as SVG: axes with limits, labelled curves, marks for the present state of each joint.
+    """Return the plot as SVG: axes with limits, labelled curves, marks for the current state of each joint.
 
-    mark_values: {joint: name of the value that a running page shows}.
+    The y axis includes 0. mark_values: {label of a joint: name of the value at which the page puts its mark}.
     """
     y_min, y_max = (float(f([f(curve.y) for curve in plot.curves])) for f in (np.min, np.max))
     y_min, y_max = min(y_min, 0.0), max(y_max, 0.0) if y_max > y_min or y_max > 0.0 else y_min + 1.0
     x_min, x_max = float(plot.x[0]), float(plot.x[-1])
 
     def scale_x(x: Any) -> Any:
-        """Return the horizontal position of x."""
+        """Return the horizontal position (pixels) of x, a number or array."""
         return LEFT + (RIGHT - LEFT) * (x - x_min) / (x_max - x_min or 1.0)
 
     def scale_y(y: Any) -> Any:
-        """Return the vertical position of y."""
+        """Return the vertical position (pixels) of y, a number or array."""
         return BOTTOM - (BOTTOM - TOP) * (y - y_min) / (y_max - y_min or 1.0)
 
     parts = [
@@ -206,9 +208,9 @@ def print_plot_svg(plot: Plot, mark_values: Mapping[str, str]) -> str:
 
 
 def _print_axis_labels(plot: Plot, y_min: float, y_max: float, x_min: float, x_max: float) -> list[str]:
-    """Return the SVG of labels and limits of the axes, in units that suit their ranges.
+    """Return the SVG texts of the axes: limits, and labels with prefixes of units that suit the ranges.
 
-    The arguments are the limits of both axes.
+    Limits are in SI units.
     """
     x_scale, x_unit = choose_prefix(max(abs(x_min), abs(x_max)), plot.x_axis[1])
     y_scale, y_unit = choose_prefix(max(abs(y_min), abs(y_max)), plot.y_axis[1])
@@ -232,14 +234,17 @@ def _format_number(value: float) -> str:
 
 
 def _print_label(text: str) -> str:
-    """Return a label in SVG; the character after "_" becomes a subscript."""
+    """Return a label as SVG text, escaped; the character after each "_" becomes a subscript."""
     first, *others = html.escape(text).split("_")
     subscripts = (f'<tspan class="small" dy="3">{x[:1]}</tspan><tspan dy="-3">&#8203;{x[1:]}</tspan>' for x in others)
     return "".join((first, *subscripts))
 
 
 def _print_state_mark(name: str, value_name: str, x_min: float, x_max: float, n_curves: int) -> str:
-    """Return the SVG of a line at the joint's state with a dot per curve, hidden until current_values.js moves it."""
+    """Return the SVG group that marks a joint's state: a vertical line, a dot per curve and the label `name`.
+
+    It is hidden until current_values.js moves it. x_min, x_max: limits of the x axis.
+    """
     dots = '<circle r="3"/>' * n_curves
     return (
         f'<g class="state-marker" data-value="tmp.law.{value_name}" data-range="{x_min!r} {x_max!r} {LEFT} {RIGHT}"'

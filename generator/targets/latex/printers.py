@@ -1,4 +1,4 @@
-"""Prints SymPy expressions as LaTeX and text; terms of a sum follow the order of the bodies."""
+"""Prints SymPy expressions as LaTeX and plain text; terms of a sum follow the order of the bodies."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ from gudgeon.generator.symbols.symbols import strip_identifier
 from gudgeon.generator.targets.latex.letters import Name
 from gudgeon.language.functions import IN_SYMPY, Function
 
-LONG = 70  # characters of text beyond which a term is written so that a line may break inside it
-_NO_BODY = 1 << 30
-_PRIME = "'"  # a derivative
+MAX_UNBREAKABLE_LENGTH = 70  # characters of plain text of a term without line breaks
+_AFTER_ALL_BODIES = 1 << 30  # sort key of terms without coordinates
+_PRIME = "'"  # marks a derivative
 
 
 class _BodyOrder:
@@ -29,19 +29,19 @@ class _BodyOrder:
     _order: Mapping[sp.Symbol, int]
 
     def _as_ordered_terms(self, expr: sp.Expr, order: str | None = None) -> list[sp.Expr]:
-        """Return the terms of a sum in this order."""
+        """Return the terms of a sum sorted by `_get_sort_key`, else in SymPy's order, which `order` selects."""
         terms = super()._as_ordered_terms(expr, order=order)  # type: ignore[misc]
         return sorted(terms, key=self._get_sort_key)
 
     def _get_sort_key(self, term: sp.Expr) -> tuple[int, bool]:
-        """Return the sort key of a term: the lowest body among its symbols, and products after single symbols.
+        """Return the sort key of a term: the minimum index of a body among its symbols, then False for a single symbol.
 
-        Terms without coordinates come last, those with a minus sign after the others.
+        Terms without coordinates are sorted last, those with a minus sign after the others.
         """
         body_indices = [self._order[s] for s in term.free_symbols if s in self._order]
         if body_indices:
             return min(body_indices), not term.as_coeff_Mul()[1].is_Symbol
-        return _NO_BODY, term.could_extract_minus_sign()
+        return _AFTER_ALL_BODIES, term.could_extract_minus_sign()
 
 
 class TextPrinter(_BodyOrder, StrPrinter):
@@ -70,14 +70,14 @@ class TextPrinter(_BodyOrder, StrPrinter):
         return self._names.get(expr, strip_identifier(expr))
 
     def _print_Float(self, expr: sp.Float) -> str:
-        """Print a number, an angle as a fraction of π or in degrees."""
+        """Print a number: as an angle if `format_angle` finds one, else in decimal."""
         angle = format_angle(float(expr))
         return angle.text if angle else format_number(float(expr))
 
     def parenthesize(self, item: sp.Expr, level: int, strict: bool = False) -> str:
-        """Print an expression, in brackets if it binds less than `level`.
+        """Print an operand, in brackets if its precedence is lower than `level`.
 
-        A fraction of π in a product gets brackets, too.
+        A number that is printed as a fraction of π, such as π/2, gets them in products, too.
         """
         text = str(super().parenthesize(item, level, strict))
         return f"({text})" if item.is_Float and "/" in text and level >= PRECEDENCE["Mul"] else text
@@ -123,9 +123,9 @@ class TextPrinter(_BodyOrder, StrPrinter):
         return f"H({self._print(expr.args[0])})"
 
     def _print_Select(self, expr: sp.Expr) -> str:
-        """Print a choice as the file writes it: where(left < right, first, second)."""
-        left, right, below, otherwise = map(self._print, split_comparison(expr))
-        return f"where({left} < {right}, {below}, {otherwise})"
+        """Print a Select as the function of the file's expressions: where(left < right, first, second)."""
+        left, right, if_less, otherwise = map(self._print, split_where_condition(expr))
+        return f"where({left} < {right}, {if_less}, {otherwise})"
 
 
 class TexPrinter(_BodyOrder, LatexPrinter):
@@ -146,21 +146,22 @@ class TexPrinter(_BodyOrder, LatexPrinter):
         self._text = TextPrinter({symbol: "x" * name.width for symbol, name in names.items()}, order)
 
     def print_breakable_formula(self, expr: sp.Expr) -> str:
-        """Return an expression in LaTeX; one longer than LONG is printed so that a line may break in it.
+        """Return an expression in LaTeX, in breakable form if its plain text exceeds MAX_UNBREAKABLE_LENGTH characters.
 
-        A long one has brackets of fixed size and fractions with slashes.
+        A line may break within the breakable form. It has brackets of fixed size, fractions with slashes and no roots
+        with a bar.
         """
-        if len(self._text.doprint(expr)) <= LONG:
+        if len(self._text.doprint(expr)) <= MAX_UNBREAKABLE_LENGTH:
             return str(self.doprint(expr))
-        breakable_text = str(TexPrinter(self._names, self._order, True).doprint(expr))  # behind commas and factors too
+        breakable_text = str(TexPrinter(self._names, self._order, True).doprint(expr))
         return (
             breakable_text.replace(r"\left(", r"\bigl(").replace(r"\right)", r"\bigr)").replace(", ", r", \allowbreak ")
         )
 
     def _print_Mul(self, expr: sp.Expr) -> str:
-        """Print a product; a quotient of numbers precedes it as a small fraction.
+        r"""Print a product; a rational coefficient precedes it as a \tfrac.
 
-        Where lines must be able to break, a fraction is written with a slash.
+        In the breakable form, a quotient is written with a slash unless its denominator is a number.
         """
         coefficient, others = expr.as_coeff_Mul()
         numerator, denominator = sp.fraction(expr)
@@ -176,7 +177,7 @@ class TexPrinter(_BodyOrder, LatexPrinter):
         return f"{self.parenthesize(numerator, PRECEDENCE['Mul'])} / {printed_denominator}"
 
     def _print_Pow(self, expr: sp.Pow) -> str:
-        """Print a power; where lines must be able to break, a root is written with a sign before brackets."""
+        r"""Print a power; in the breakable form, a square root is written as \surd before brackets."""
         if self._breakable and expr.exp == sp.S.Half:
             return rf"\surd \left({self._print(expr.base)}\right)"
         return str(super()._print_Pow(expr))
@@ -188,7 +189,7 @@ class TexPrinter(_BodyOrder, LatexPrinter):
         return rf"{'- ' if expr.p < 0 else ''}\tfrac{{{abs(expr.p)}}}{{{expr.q}}}"
 
     def _print_Float(self, expr: sp.Float) -> str:
-        """Print a number: an angle as a fraction of π or in degrees, an exponent as a power of ten."""
+        """Print a number: as an angle if `format_angle` finds one, else in decimal with a power of ten."""
         if angle := format_angle(float(expr)):
             return angle.latex
         mantissa, _, exponent = format_number(float(expr)).partition("e")
@@ -203,7 +204,7 @@ class TexPrinter(_BodyOrder, LatexPrinter):
         return rf"\left({text}\right)^{{{exp}}}" if exp else text
 
     def _print_CurveOf(self, expr: CurveOf, exp: str | None = None) -> str:
-        """Print a curve or its derivative.
+        r"""Print a curve of the file or its derivative, with primes for the order: \mathrm{cam}''(x).
 
         `exp`: an exponent that is printed after it, or None; SymPy passes it.
         """
@@ -220,15 +221,15 @@ class TexPrinter(_BodyOrder, LatexPrinter):
         return self._print_function_call("H", expr, exp)
 
     def _print_Select(self, expr: sp.Expr, exp: str | None = None) -> str:
-        """Print a choice as a brace with two cases; as where(…) if lines must be able to break.
+        """Print a Select as a brace with two cases; in the breakable form as where(…).
 
         `exp`: an exponent that is printed after it, or None; SymPy passes it.
         """
-        left, right, below, otherwise = map(self._print, split_comparison(expr))
-        if self._breakable:  # no line breaks between the cases of a brace
-            text = rf"\operatorname{{where}}\left({left} < {right}, {below}, {otherwise}\right)"
+        left, right, if_less, otherwise = map(self._print, split_where_condition(expr))
+        if self._breakable:  # a line cannot break between the cases of a brace
+            text = rf"\operatorname{{where}}\left({left} < {right}, {if_less}, {otherwise}\right)"
             return rf"{text}^{{{exp}}}" if exp else text
-        cases = rf"{below} & {left} < {right} \\ {otherwise} & \text{{else}}"
+        cases = rf"{if_less} & {left} < {right} \\ {otherwise} & \text{{else}}"
         text = rf"\begin{{cases}} {cases} \end{{cases}}"
         return rf"\left({text}\right)^{{{exp}}}" if exp else text
 
@@ -245,9 +246,9 @@ class TexPrinter(_BodyOrder, LatexPrinter):
 
 
 def _add_print_methods(class_name: str, function: Function) -> None:
-    """Add print methods for a function of the table of functions to both printers.
+    """Add print methods for a function of the table of functions to the classes TextPrinter and TexPrinter.
 
-    A function without a text or LaTeX form keeps SymPy's own method there.
+    class_name: the SymPy class of the function. A function without a text or LaTeX form keeps SymPy's own method there.
     """
 
     def print_text(printer: TextPrinter, expr: sp.Expr) -> str:
@@ -267,17 +268,18 @@ def _add_print_methods(class_name: str, function: Function) -> None:
 for _name, _function in IN_SYMPY.items():
     _add_print_methods(_name, _function)
 
-_SIMPLE = (1, 2, 3, 4, 6)  # of π: what people write as a share of it
-_LONG_NUMBER = 9  # digits from which a number says nothing to people
+_DENOMINATORS_OF_PI = (1, 2, 3, 4, 6)  # of angles that are written as fractions of π
+_MIN_ANGLE_DIGITS = 9  # digits of repr() of a number that is written as an angle
 
 
 @lru_cache(4096)
 def format_angle(value: float) -> Name | None:
-    """Return an angle in rad as a fraction of π or in degrees, where that is shorter: π/2, 39.52°; else None.
+    """Return a number in rad as an angle: a fraction of π (`find_fraction_of_pi`) or degrees, such as π/2 or 39.52°.
 
-    Numbers with fewer than _LONG_NUMBER digits are short enough as they are. Results are cached.
+    Degrees have six digits and must be exact within two units in the last place. None is returned otherwise, and for a
+    number with fewer than _MIN_ANGLE_DIGITS digits. Results are cached.
     """
-    if sum(map(str.isdigit, repr(value))) < _LONG_NUMBER:
+    if sum(map(str.isdigit, repr(value))) < _MIN_ANGLE_DIGITS:
         return None
     if fraction := find_fraction_of_pi(value):
         numerator, denominator = fraction
@@ -292,8 +294,11 @@ def format_angle(value: float) -> Name | None:
 
 
 def find_fraction_of_pi(value: float) -> tuple[int, int] | None:
-    """Return (k, n) if a number is k π/n to its last digit, n in _SIMPLE and |k| at most 12; None otherwise."""
-    for denominator in _SIMPLE:
+    """Return (k, n) if a number is k π/n within one unit in the last place; None otherwise.
+
+    n is in _DENOMINATORS_OF_PI, and |k| from 1 to 12.
+    """
+    for denominator in _DENOMINATORS_OF_PI:
         numerator = round(value * denominator / math.pi)
         if 0 < abs(numerator) <= 12 and abs(numerator * math.pi / denominator - value) <= math.ulp(value):
             return numerator, denominator
@@ -301,7 +306,11 @@ def find_fraction_of_pi(value: float) -> tuple[int, int] | None:
 
 
 def format_number(value: float) -> str:
-    """Return the shortest decimal number that is read back as `value` up to rounding errors: "0.0003", "7e10"."""
+    """Return a number as text: "0.0003", "7e10".
+
+    It has 12 significant digits if they are exact within two units in the last place, else all digits. From 10⁶ on,
+    the number has an exponent.
+    """
     rounded = float(f"{value:.12g}")
     text = repr(rounded if abs(rounded - value) <= 2 * math.ulp(value) else value).removesuffix(".0")
     if "e" not in text and abs(value) >= 1e6:
@@ -309,12 +318,12 @@ def format_number(value: float) -> str:
     return text
 
 
-def split_comparison(choice: sp.Expr) -> tuple[sp.Expr, sp.Expr, sp.Expr, sp.Expr]:
-    """Return (left, right, value if left < right, other value) of a choice, as the file wrote it.
+def split_where_condition(select: sp.Expr) -> tuple[sp.Expr, sp.Expr, sp.Expr, sp.Expr]:
+    """Return (left, right, value if left < right, other value) of a Select, as in where(left < right, …) of the file.
 
-    Terms of the condition with a minus sign are put on the right side.
+    The condition is left − right < 0: its terms with a minus sign are put on the right side.
     """
-    condition, otherwise, if_less = choice.args
+    condition, otherwise, if_less = select.args
     difference = condition.args[0] if isinstance(condition, sp.sign) else condition
     terms = sp.Add.make_args(difference)
     right = [-term for term in terms if term.could_extract_minus_sign()]
@@ -324,9 +333,9 @@ def split_comparison(choice: sp.Expr) -> tuple[sp.Expr, sp.Expr, sp.Expr, sp.Exp
 
 
 def sort_arguments(expr: sp.Expr) -> Sequence[sp.Expr]:
-    """Return the arguments of a function in printing order: of a minimum or maximum numbers last.
+    """Return the arguments of a function in printing order: numbers last for a minimum or maximum.
 
-    Of a step function only the first one is printed.
+    For a step function (Heaviside), only the first argument is returned.
     """
     if isinstance(expr, (sp.Max, sp.Min)):
         return sorted(expr.args, key=lambda argument: (bool(argument.is_Number), str(argument)))

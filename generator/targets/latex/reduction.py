@@ -1,4 +1,4 @@
-"""Writes the integrated equations for a document: how they were reduced, spanning tree, formulation, C files."""
+"""Writes the sections on the reduction to tree coordinates for a document: log, spanning tree, sizes, C files."""
 
 from __future__ import annotations
 
@@ -33,9 +33,9 @@ def make_reduction_sections(functions: Functions) -> list[Section]:
 
 
 def _describe_reduction(source: KernelSource, joints: Collection[str]) -> list[Block]:
-    """Return the log of the reduction as `gudgeon check -v` prints it, and the picture of the tree.
+    """Return tables of the reduction's steps and results, as `gudgeon check -v` prints them, and the tree's picture.
 
-    joints: the names of the file's joints.
+    joints: the names of the file's joints, which the picture links with their equations.
     """
     step_rows = [make_row(f"{n:,}", f"{m:,}", f"{text}.") for n, m, text in describe_reduction_steps(source)]
     outcome_rows = [make_row(name, f"{text}.") for name, text in describe_reduced_system(source)]
@@ -50,7 +50,10 @@ def _describe_reduction(source: KernelSource, joints: Collection[str]) -> list[B
 
 
 def _compare_formulations(functions: Functions) -> list[Block]:
-    """Return a table of sizes and operations of both formulations, and one of operations of each C function."""
+    """Return a table that compares sizes and operations of both formulations, and one of operations of each C function.
+
+    "none" stands for a formulation without the quantity.
+    """
     source, log = functions.source, functions.source.story
     counts = source.operations
     reduced_function = "compute_body_motion" if "compute_body_motion" in counts else "reduced_dynamics"
@@ -78,7 +81,7 @@ def _compare_matrices(
     """
 
     def get_full_and_reduced(property_name: str) -> tuple[int | None, int | None]:
-        """Return a property of the factored matrix in the full and in the reduced formulation."""
+        """Return (full, reduced) of a property of the factored matrix; None without a matrix."""
         full, reduced = (getattr(solve, property_name) if solve else None for solve in (full_solve, reduced_solve))
         return full, reduced
 

@@ -1,6 +1,6 @@
 """Renders a document of equations as LaTeX, plain text or HTML: layout and escaping.
 
-Text in LaTeX can only be read as text: nothing in it is a command, all of it is ASCII.
+Text in LaTeX is escaped completely: it contains no command of the user, and all of it is ASCII.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from gudgeon.generator.targets.latex import to_html
 from gudgeon.generator.targets.latex.document import Document, Equation, Paragraph, Picture, Sketch, Table, Text
 from gudgeon.generator.targets.latex.letters import GREEK, Name, get_greek_command
 
-_SPECIAL = {
+_TEXT_COMMANDS = {
     "\\": r"\textbackslash{}",
     "{": r"\{",
     "}": r"\}",
@@ -55,7 +55,7 @@ _SPECIAL = {
     "Ł": r"\L{}",
     "ı": r"\i{}",
 }
-_MATH = {
+_MATH_COMMANDS = {
     **{sign: get_greek_command(name) for name, sign in GREEK.items()},
     "−": "-",
     "±": r"\pm",
@@ -77,7 +77,7 @@ _MATH = {
     "⁻": "{}^{-}",
     "ᵀ": r"{}^{\top}",
 }
-_MARKS = {
+_TEXT_ACCENTS = {
     "\u0300": "`",
     "\u0301": "'",
     "\u0302": "^",
@@ -92,21 +92,21 @@ _MARKS = {
     "\u0327": "c",
     "\u0328": "k",
 }
-_ACCENTS = {"\u0302": "hat", "\u0307": "dot", "\u0308": "ddot"}  # of a mathematical sign
+_MATH_ACCENTS = {"\u0302": "hat", "\u0307": "dot", "\u0308": "ddot"}  # of a mathematical sign
 
 
 def escape_latex(text: str) -> str:
-    """Return a text for running LaTeX; a character that plain pdflatex lacks becomes its number."""
-    return "".join(map(_escape_character, _split_clusters(text)))
+    """Return a text escaped for LaTeX paragraphs; a character that plain pdflatex lacks becomes "[U+0416]"."""
+    return "".join(map(_escape_character, _split_graphemes(text)))
 
 
 def escape_sketch_line(line: str) -> str:
-    """Return a line of a sketch in LaTeX, in which every character has the same width."""
-    return "".join(map(_escape_sketch_character, _split_clusters(line)))
+    r"""Return a line of a sketch in LaTeX for a typewriter font; characters beyond ASCII are in cells of one width."""
+    return "".join(map(_escape_sketch_character, _split_graphemes(line)))
 
 
 def _escape_sketch_character(cluster: str) -> str:
-    """Return a character of a sketch in LaTeX: a space as ~, ASCII as it is or by its code, others in a cell."""
+    r"""Return a character of a sketch in LaTeX: a space as ~, ASCII as it is or by \char, others in a \cell."""
     if cluster == " ":
         return "~"
     if cluster.isascii():  # a typewriter font has all of ASCII in its places
@@ -114,8 +114,8 @@ def _escape_sketch_character(cluster: str) -> str:
     return rf"\cell{{{escape_latex(cluster)}}}"
 
 
-def _split_clusters(text: str) -> list[str]:
-    """Return the characters of a text, each together with the combining marks after it."""
+def _split_graphemes(text: str) -> list[str]:
+    """Return the characters of a text in normal form C, each together with the combining marks after it."""
     clusters: list[str] = []
     for character in unicodedata.normalize("NFC", text):
         if unicodedata.combining(character) and clusters:
@@ -126,34 +126,36 @@ def _split_clusters(text: str) -> list[str]:
 
 
 def _escape_character(cluster: str) -> str:
-    """Return a character, with its marks, in LaTeX: escaped, as a formula, with accents, or as [U+number].
+    """Return a character with its combining marks in LaTeX: escaped, as a formula, with one accent, or as [U+number].
 
-    Control characters become "".
+    Control characters become "". Each code point of a character that LaTeX lacks is written, such as "[U+0416]".
     """
-    if cluster in _SPECIAL:
-        return _SPECIAL[cluster]
-    if cluster in _MATH:
-        return f"${_MATH[cluster]}$"
+    if cluster in _TEXT_COMMANDS:
+        return _TEXT_COMMANDS[cluster]
+    if cluster in _MATH_COMMANDS:
+        return f"${_MATH_COMMANDS[cluster]}$"
     if cluster.isascii():
         return cluster if cluster.isprintable() else ""
-    letter_, *marks = list(unicodedata.normalize("NFD", cluster))
-    if len(marks) == 1 and marks[0] in _MARKS and (letter_ in _MATH or letter_.isascii()):
-        if letter_ in _MATH:
-            return rf"$\{_ACCENTS.get(marks[0], 'bar')}{{{_MATH[letter_]}}}$"
-        return rf"\{_MARKS[marks[0]]}{{{_escape_character(letter_)}}}"
+    letter, *marks = list(unicodedata.normalize("NFD", cluster))
+    if len(marks) == 1 and marks[0] in _TEXT_ACCENTS and (letter in _MATH_COMMANDS or letter.isascii()):
+        if letter in _MATH_COMMANDS:
+            return rf"$\{_MATH_ACCENTS.get(marks[0], 'bar')}{{{_MATH_COMMANDS[letter]}}}$"
+        return rf"\{_TEXT_ACCENTS[marks[0]]}{{{_escape_character(letter)}}}"
     return "".join(f"[U+{ord(c):04X}]" for c in cluster)
 
 
 WIDTH = 100  # characters of a line of text
-WIDE = 44  # characters of a column with running text
-LETTER = {r"\small": 0.0106, r"\footnotesize": 0.0096, r"\scriptsize": 0.009}  # shares of a line that one takes
-GAP = 0.025  # between two columns
+TEXT_COLUMN_WIDTH = 44  # characters of a column with running text
+# Widths of a character in each size, and of the gap between two columns, as fractions of \linewidth.
+_CHARACTER_WIDTHS = {r"\small": 0.0106, r"\footnotesize": 0.0096, r"\scriptsize": 0.009}
+_COLUMN_GAP = 0.025
 
 
 def render_document(document: Document, suffix: str, **page_parts: str) -> str:
-    """Return the document in the format of a file's suffix: "tex", "txt" or "html", without trailing spaces.
+    """Return the document in the format of a file's suffix, "tex", "txt" or "html", without trailing spaces.
 
-    page_parts: further HTML by its name in the template, such as `head`; for "html" only.
+    page_parts: text of the template's variables: `head`, `app` and `scripts` for "html" (required), `drawing` and
+    `caption` for "tex" (optional).
     """
     text = _get_template_environment().get_template(f"equations.{suffix}.jinja").render(document=document, **page_parts)
     return "\n".join(line.rstrip() for line in text.splitlines()).strip("\n") + "\n"
@@ -161,9 +163,9 @@ def render_document(document: Document, suffix: str, **page_parts: str) -> str:
 
 @cache
 def _get_template_environment() -> jinja2.Environment:
-    """Return the cached Jinja environment of the document templates.
+    """Return the Jinja environment of the document templates; it is created at the first call and cached.
 
-    Its delimiters do not occur in LaTeX; its filters write parts of a document in each format.
+    Its delimiters << >>, <% %> do not occur in LaTeX. Its filters print parts of a document in each format.
     """
 
     def load_template(name: str) -> str:
@@ -228,19 +230,27 @@ def _print_tex_terms(equation: Equation) -> str:
 
 
 def _print_tex_columns(table: Table) -> str:
-    """Return the column specification of a table in LaTeX; columns with running text share the remaining width."""
-    widths = [_measure_column(table, k) for k in range(len(table.header)) if k not in table.wide]
-    used_width = LETTER[_select_tex_size(table)] * sum(widths) + GAP * len(table.header)
-    column_width = max(0.12, min(0.34, 1.0 - used_width)) / max(1, len(table.wide))
-    return "".join(rf"p{{{column_width:.2f}\linewidth}}" if k in table.wide else "l" for k in range(len(table.header)))
+    r"""Return the column specification of a table in LaTeX, such as "llp{0.34\linewidth}".
+
+    Columns with running text share the remaining width, each from 0.12 to 0.34 of a line.
+    """
+    widths = [_measure_column(table, k) for k in range(len(table.header)) if k not in table.text_columns]
+    used_width = _CHARACTER_WIDTHS[_select_tex_size(table)] * sum(widths) + _COLUMN_GAP * len(table.header)
+    column_width = max(0.12, min(0.34, 1.0 - used_width)) / max(1, len(table.text_columns))
+    return "".join(
+        rf"p{{{column_width:.2f}\linewidth}}" if k in table.text_columns else "l" for k in range(len(table.header))
+    )
 
 
 def _select_tex_size(block: Sketch | Picture | Table) -> str:
-    """Return the LaTeX font size of a sketch, picture or table, smaller for longer lines."""
+    r"""Return the LaTeX font size that fits the longest line of a sketch, picture or table.
+
+    A table is \small, \footnotesize from 106 characters on, \scriptsize from 126 on; others are \footnotesize up to 98.
+    """
     if not isinstance(block, Table):
         return r"\footnotesize" if max(map(len, block.lines), default=0) <= 98 else r"\scriptsize"
     widths = [_measure_column(block, k) for k in range(len(block.header))]
-    width = sum(2 + min(WIDE, w) if k in block.wide else 2 + w for k, w in enumerate(widths))
+    width = sum(2 + min(TEXT_COLUMN_WIDTH, w) if k in block.text_columns else 2 + w for k, w in enumerate(widths))
     return r"\small" if width <= 105 else r"\footnotesize" if width <= 125 else r"\scriptsize"
 
 
@@ -266,11 +276,16 @@ def _print_plain_equation(equation: Equation) -> str:
 
 
 def _print_plain_table(table: Table) -> str:
-    """Return a table as plain text with aligned columns and a rule below the header; running text is wrapped."""
+    """Return a table as plain text with aligned columns and a rule below the header.
+
+    Columns with running text are wrapped at TEXT_COLUMN_WIDTH characters; their rows have several lines.
+    """
     rows = [[[_print_plain_line(cell)] for cell in table.header]]
     rows += [
         [
-            textwrap.wrap(_print_plain_line(cell), WIDE) or [""] if k in table.wide else [_print_plain_line(cell)]
+            textwrap.wrap(_print_plain_line(cell), TEXT_COLUMN_WIDTH) or [""]
+            if k in table.text_columns
+            else [_print_plain_line(cell)]
             for k, cell in enumerate(row)
         ]
         for row in table.rows

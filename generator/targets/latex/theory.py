@@ -1,4 +1,4 @@
-"""Contains the standard symbols of a document of equations, with their meaning; other names must differ from them.
+"""Lists the symbols that a document of equations reserves, with their meanings; user-defined names must differ.
 
 The sketches of joint types and force elements contain such symbols, too.
 """
@@ -22,30 +22,32 @@ from gudgeon.generator.targets.latex.letters import Name, make_name_from_latex, 
 from gudgeon.generator.targets.latex.play_letters import (
     get_latex_symbol,
     get_result_symbol,
-    list_given_parameters,
-    list_laws,
+    list_joint_laws,
+    list_specified_parameters,
     name_contact_variables,
     name_joint_symbols,
 )
 
-_RAISED = str.maketrans(dict.fromkeys("²³⁰¹⁻", " "))
+_SUPERSCRIPTS_TO_SPACES = str.maketrans(dict.fromkeys("²³⁰¹⁻", " "))
 
 
 def read_sketch(type_: JointType | ElementType) -> list[str]:
-    """Return the description of a joint type or force element as lines: a summary, then its sketch."""
+    """Return the docstring of a joint type or force element as lines: its first line, then the lines of the sketch."""
     summary, _, sketch = inspect.cleandoc(type_.doc or "").partition("\n")
     return [summary, *sketch.strip("\n").splitlines()]
 
 
 def find_sketch_symbols(lines: list[str]) -> Iterator[str]:
-    """Yield the symbols that stand alone in the lines of a sketch, with subscripts; those with dots also without them.
+    """Yield the symbols in the lines of a joint type's or force element's sketch, in their order and with repetitions.
 
-    Parts of a drawing ("o---"), initials ("L. C. Bo") and articles are not symbols.
+    A symbol is one letter, with dots (time derivatives) and a subscript if it has them, such as "θ_i". A symbol with
+    dots is also yielded without them. A letter next to a letter, digit, ".", "-" or "'" is not a symbol ("o---",
+    "L. C. Bo"), and neither is "a", "A" or "I" before a word.
     """
-    lone_letter = re.compile(r"(?<![\w.'-])(?!(?:a|A|I) [a-z]{2})([^\W\d_]\u0307?\u0307?(?:_\w+)?)(?![\w.'-])")
+    symbol = re.compile(r"(?<![\w.'-])(?!(?:a|A|I) [a-z]{2})([^\W\d_]\u0307?\u0307?(?:_\w+)?)(?![\w.'-])")
     for line in lines:
-        for letter_ in lone_letter.findall(unicodedata.normalize("NFD", line).translate(_RAISED)):
-            yield from dict.fromkeys((letter_, letter_.replace("\u0307", "")))
+        for text in symbol.findall(unicodedata.normalize("NFD", line).translate(_SUPERSCRIPTS_TO_SPACES)):
+            yield from dict.fromkeys((text, text.replace("\u0307", "")))
 
 
 PHI, NU, GAMMA = Name(r"\Phi", "Φ"), Name(r"\nu", "ν"), Name(r"\gamma", "γ")
@@ -60,19 +62,19 @@ def name_component(vector: Name, index: int) -> Name:
 def collect_theory_symbols(model: Model) -> dict[str, str]:
     """Return {plain text of a symbol: meaning} of the theory in a scene's document; user-defined names avoid these.
 
-    The first meaning of a symbol counts; t, time, is left out.
+    A symbol with several meanings has the first one. The time t is left out, since a user cannot define it.
     """
     meanings: dict[str, str] = {}
     for text, meaning in _list_theory_symbols(model):
         meanings.setdefault(text, meaning)
-    meanings.pop("t", None)  # time everywhere
+    meanings.pop("t", None)
     return meanings
 
 
 def _list_theory_symbols(model: Model) -> Iterator[tuple[str, str]]:
-    """Yield (symbol, meaning) of everything that a scene's document uses without a name from the file.
+    """Yield (plain text of a symbol, meaning) of all reserved symbols of a scene's document; symbols may repeat.
 
-    It contains constraint equations, the unit step, curves, joints with play, force elements, events and sketches, as
+    They are those of constraint equations, unit step, curves, joints with play, force elements, events and sketches, as
     far as the scene has them.
     """
     yield from (("n", "number of coordinates"), ("q", "coordinates"), ("x", "an axis"), ("y", "an axis"))
@@ -126,7 +128,7 @@ def _list_sketch_symbols(type_: JointType | ElementType) -> Iterator[tuple[str, 
 
 
 def _list_clearance_symbols(model: Model, clearance: Clearance) -> Iterator[str]:
-    """Yield the symbols of a joint with play: those of its steps, parameters, laws and parts."""
+    """Yield the plain text of the symbols of a joint with play: variables, parameters, laws, indices i, j, n, d, f."""
     used_symbols = {contact.stored, *_list_assignment_symbols(_list_clearance_assignments(clearance))}
     step_names = name_contact_variables(clearance)
     yield from (
@@ -134,10 +136,10 @@ def _list_clearance_symbols(model: Model, clearance: Clearance) -> Iterator[str]
         for symbol, name in name_joint_symbols(model, clearance).items()
         if symbol in used_symbols or symbol not in step_names
     )
-    for equations, use in list_laws(model, clearance):
+    for equations, use in list_joint_laws(model, clearance):
         yield from (
             make_name_from_latex(get_latex_symbol(parameter)).text
-            for parameter, _ in list_given_parameters(equations, use)
+            for parameter, _ in list_specified_parameters(equations, use)
         )
     yield from ("i", "j", "n")
     if clearance.normal is not None and clearance.film is not None:

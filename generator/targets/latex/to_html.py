@@ -18,14 +18,14 @@ from gudgeon.generator.targets.latex.document import Listing, Text
 from gudgeon.generator.targets.latex.letters import Name
 from gudgeon.generator.targets.latex.notation import make_notation
 
-_FUNCTIONS = ("sin", "cos", "tan")
+_TRIGONOMETRIC_FUNCTIONS = ("sin", "cos", "tan")
 
 
 def print_attributes(tokens: Collection[str], selection_token: str = "", is_focusable: bool = False) -> str:
-    """Return the attribute `data-of` and others of an HTML element, with a leading space; "" without tokens.
+    """Return the attributes of an HTML element for cross-highlighting, with a leading space; "" without tokens.
 
-    tokens: the highlighting tokens. selection_token: the token that selecting the element highlights; "" for all.
-    is_focusable: whether the keyboard can reach the element.
+    tokens: the highlighting tokens, for `data-of`. selection_token: the token that selecting the element highlights,
+    for `data-pick`; "" for all. is_focusable: whether the keyboard can reach the element.
     """
     if not tokens:
         return ""
@@ -44,9 +44,9 @@ def print_line(text: Text) -> str:
 
 
 def print_formula(name: Name) -> str:
-    """Return a formula as MathML with its value, within an element with its tokens if it has any."""
+    """Return a formula as MathML, then the element of its value; within a span with its tokens if it has any."""
     mathml_text = "".join(map(convert_to_mathml, _split_formula(name.latex))) + print_value_element(name.value)
-    return f"<span{print_attributes(name.of)}>{mathml_text}</span>" if name.of else mathml_text
+    return f"<span{print_attributes(name.tokens)}>{mathml_text}</span>" if name.tokens else mathml_text
 
 
 def _split_formula(latex: str) -> Iterator[str]:
@@ -62,7 +62,7 @@ def _split_formula(latex: str) -> Iterator[str]:
 
 
 def convert_to_mathml(latex: str) -> str:
-    """Return a formula in LaTeX as MathML without superfluous elements and attributes.
+    """Return a formula in LaTeX as MathML (latex2mathml) without superfluous elements and attributes.
 
     Raises GudgeonError if the extra `docs` is not installed.
     """
@@ -72,16 +72,16 @@ def convert_to_mathml(latex: str) -> str:
         raise GudgeonError("HTML needs latex2mathml: pip install 'gudgeon[docs]'") from error
     latex_text = latex.replace(r"^{\circ}", "°").replace(
         r"\surd ", r"\text{√}"
-    )  # which no font has to raise, nor to stretch
+    )  # signs that need no superscript and no stretching
     root = convert_to_element(latex_text)
-    root.attrib.clear()  # what a page takes for granted
+    root.attrib.clear()  # the namespace and the display mode are defaults in HTML
     for row in list(root.iter()):
         _insert_function_spaces(row)
         _unescape_text(row)
         _unwrap_rows(row)
     xml_text = tostring(root, encoding="unicode").replace(" />", "/>").replace(r"\_", "_")
-    xml_text = xml_text.replace(' fence="true"', "")  # which changes nothing that is seen
-    return xml_text.replace('"0.167em"', '".17em"')  # of a thin space there are hundreds on a page
+    xml_text = xml_text.replace(' fence="true"', "")  # has no visible effect
+    return xml_text.replace('"0.167em"', '".17em"')  # shorter, since a page has hundreds of thin spaces
 
 
 def _unescape_text(element: Element) -> None:
@@ -90,9 +90,9 @@ def _unescape_text(element: Element) -> None:
 
 
 def _unwrap_rows(element: Element) -> None:
-    """Remove rows and styles around a single child of an element, in place; the child gets their attributes.
+    """Replace each child of an element that is an mrow or mstyle around one element by that element, in place.
 
-    An empty row before a sign stays, since it makes the sign binary.
+    The inner element gets the attributes. An empty mrow before an operator stays, since it makes the operator binary.
     """
     for k, child in enumerate(element):
         while child.tag in ("mrow", "mstyle") and len(child) == 1 and not (child.text or "").strip():
@@ -102,17 +102,22 @@ def _unwrap_rows(element: Element) -> None:
 
 
 def _insert_function_spaces(element: Element) -> None:
-    """Insert a thin space between the name of a function and its argument, in place, since browsers omit it."""
+    """Insert a thin space between sin, cos or tan and its argument, in place, since browsers omit it."""
     for k, (name, argument) in reversed(list(enumerate(pairwise(element)))):
         base_of_power = element.tag == "msup" and k == 0
-        if name.tag == "mi" and name.text in _FUNCTIONS and argument.tag.startswith(("mr", "ms")) and not base_of_power:
+        if (
+            name.tag == "mi"
+            and name.text in _TRIGONOMETRIC_FUNCTIONS
+            and argument.tag.startswith(("mr", "ms"))
+            and not base_of_power
+        ):
             element.insert(k + 1, Element("mspace", {"width": "0.167em"}))
 
 
 def print_listing(block: Listing) -> str:
-    """Return a file as HTML with an element per line, its tokens and a folding frame."""
+    """Return the listing of a file as HTML: a foldable element (details) with a span for each line and its tokens."""
     lines = (
-        f'<span class="line"{print_attributes(sorted(block.of.get(k, ())), is_focusable=True)}>'
+        f'<span class="line"{print_attributes(sorted(block.tokens_by_line.get(k, ())), is_focusable=True)}>'
         f"{html.escape(text) or ' '}</span>"
         for k, text in enumerate(block.lines, 1)
     )

@@ -1,4 +1,4 @@
-"""Writes the equations of a scene as one document in LaTeX, plain text or HTML."""
+"""Assembles the document of a scene's equations and renders it as LaTeX, plain text or HTML (`gudgeon equations`)."""
 
 from __future__ import annotations
 
@@ -44,9 +44,10 @@ PAPER = (
 
 
 def make_document(model: Model, functions: Functions) -> Document:
-    """Return the document of everything that is derived for one scene, in the order of a lecture.
+    """Return the document of a scene: mechanism, kinematics, motion, joints with play, reduction, parts left out.
 
-    functions: the functions of the scene (trace.py).
+    A table of primed symbols comes first, and the reference of the paper last, if the sections use them. functions: the
+    functions of the scene (trace.py).
     """
     mechanism, notation = model.scene.mechanism, make_notation(model)
     scene_notes = write_scene_notes(model)
@@ -66,23 +67,23 @@ def make_document(model: Model, functions: Functions) -> Document:
     return Document(
         format_one_line(mechanism.title or mechanism.name),
         facts,
-        add_paper_section(add_symbols_section(sections, notation)),
+        append_paper_section(prepend_symbols_section(sections, notation)),
     )
 
 
-def add_symbols_section(sections: Sequence[Section], notation: Notation) -> tuple[Section, ...]:
+def prepend_symbols_section(sections: Sequence[Section], notation: Notation) -> tuple[Section, ...]:
     """Return the sections, preceded by a table of the primed symbols and their meaning if there are any."""
-    table_blocks = make_primes_table(
+    table_blocks = make_primed_symbols_table(
         notation, (name for section in sections for block in section.blocks for name in _list_formulas(block))
     )
     return (Section("Symbols", tuple(table_blocks)), *sections) if table_blocks else (*sections,)
 
 
-def make_primes_table(notation: Notation, formulas: Iterable[Name]) -> list[Block]:
-    """Return the table of primed symbols that occur in the given formulas; [] if there are none."""
+def make_primed_symbols_table(notation: Notation, formulas: Iterable[Name]) -> list[Block]:
+    """Return an introduction and the table of the primed symbols that occur in `formulas`; [] if there are none."""
     text = " ".join(name.text for name in formulas)
     rows = [
-        make_row(primed_symbol.name, primed_symbol.meaning, primed_symbol.letter, primed_symbol.letter_meaning)
+        make_row(primed_symbol.name, primed_symbol.meaning, primed_symbol.plain_name, primed_symbol.plain_meaning)
         for primed_symbol in notation.primed_symbols
         if primed_symbol.name.text in text
     ]
@@ -99,20 +100,20 @@ def _list_formulas(block: Block) -> Iterator[Name]:
 
 
 def _list_texts(block: Block) -> list[Text]:
-    """Return the running texts of a block: of a paragraph or of the cells of a table; [] for other blocks."""
+    """Return the texts of a block, a paragraph's or those of a table's cells and header; [] for other blocks."""
     if isinstance(block, Table):
         return [cell for row in (block.header, *block.rows) for cell in row]
     return [block.text] if isinstance(block, Paragraph) else []
 
 
-def add_paper_section(sections: Sequence[Section]) -> tuple[Section, ...]:
-    """Return the sections, followed by one that names the paper if any block mentions it."""
+def append_paper_section(sections: Sequence[Section]) -> tuple[Section, ...]:
+    """Return the sections, followed by one with the reference of the paper if any block contains "the paper"."""
     is_named = any(_mentions_paper(block) for section in sections for block in section.blocks)
     return (*sections, Section("The paper", (make_paragraph(PAPER),))) if is_named else (*sections,)
 
 
 def _mentions_paper(block: Block) -> bool:
-    """Return whether a sketch, a sentence or a cell mentions the paper."""
+    """Return whether a block contains the words "the paper": a sketch, picture, paragraph or cell of a table."""
     if isinstance(block, (Sketch, Picture)):
         return any("the paper" in line for line in block.lines)
     return any(isinstance(part, str) and "the paper" in part for text in _list_texts(block) for part in text)

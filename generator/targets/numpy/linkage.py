@@ -16,7 +16,7 @@ from gudgeon.generator.targets.numpy.module import Array, ClosedLinkage
 class NumPyLinkage:
     """Evaluate functions of (t, q, p) of the closed linkage; p is an array in the order of `source`.
 
-    `p` contains the defaults, or the `given` values as ClosedLinkage.prepare accepts them.
+    The attribute `p` contains the defaults, with `given_values` as ClosedLinkage.prepare accepts them; None: defaults.
     """
 
     def __init__(
@@ -29,12 +29,12 @@ class NumPyLinkage:
         self.source, self.n, self.closed = source, len(model.q), closed_linkage or ClosedLinkage(model)
         self.defaults = self.closed.prepare(given_values)
         self.names = [model.parameter_table.find_field_name(symbol) for symbol in model.parameter_table.list_symbols()]
-        self.p = np.array([_get_parameter(self.defaults, name) for name in self.names])
+        self.p = np.array([read_parameter(self.defaults, name) for name in self.names])
 
     def get_parameters(self, p: Array) -> SimpleNamespace:
-        """Return the array p as a namespace of parameters by name; tables are lists.
+        """Return the array p as a namespace of parameters by field name; tables are lists.
 
-        For `self.p` itself the stored namespace is returned.
+        For the object `self.p` itself the stored namespace is returned, without a copy.
         """
         if p is self.p:
             return self.defaults
@@ -64,8 +64,11 @@ class NumPyLinkage:
         return self.closed.start_values(self.get_parameters(p))
 
 
-def _get_parameter(parameters: SimpleNamespace, name: str) -> float:
-    """Return a parameter by its name, or an entry of a table such as "contour_A[3]"; NaN if it does not exist."""
+def read_parameter(parameters: SimpleNamespace, name: str) -> float:
+    """Return a parameter by its field name, or an entry of a table such as "contour_A[3]".
+
+    NaN is returned for a parameter that does not exist.
+    """
     table, _, index = name.partition("[")
     value: Any = getattr(parameters, table, np.nan)
     return float(value[int(index[:-1])]) if index else float(value)

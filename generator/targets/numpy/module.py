@@ -1,4 +1,4 @@
-"""Writes a scene's equations as a Python module with NumPy, and evaluates them."""
+"""Emits a scene's equations as the text of a Python module with NumPy, compiles and evaluates them."""
 
 from __future__ import annotations
 
@@ -91,9 +91,9 @@ class ClosedLinkage:
         return self._compute_parameters(chosen | values) if chosen else p
 
     def _compute_parameters(self, values: Mapping[str, float]) -> SimpleNamespace:
-        """Return all parameters by name, for values by full address in SI.
+        """Return all parameters by field name, with `values` {full address: SI}, defaults and derived parameters.
 
-        Parameters without a value have their defaults.
+        Calls the emitted function `prepare`. Divisions by zero give infinities, as in C.
         """
         addresses = self.model.parameter_table.entries
         p = _Doubles(**{name: [0.0] * len(table) for name, table in self.model.parameter_table.tables.items()})
@@ -103,24 +103,25 @@ class ClosedLinkage:
         return SimpleNamespace(**{name: float(x) if isinstance(x, np.float64) else x for name, x in vars(p).items()})
 
     def _find_chosen_properties(self, values: Mapping[str, float], p: SimpleNamespace) -> dict[str, float]:
-        """Return {address: value} of the properties of materials that are chosen by name.
+        """Return {address: value} of the properties that follow from materials chosen by name; {} without a choice.
 
-        values: those that the run specifies, by address; a choice is the index of its name. p: the parameters before
-        the choice.
+        values: {address: SI} of a run, in which a choice has the index of its name. p: all parameters without the
+        choice. Example: a choice of "steel" for the bearing's material gives its E and nu.
         """
-        slots, properties = self.model.parameter_table, dict[str, float]()
-        for choice in (address for address in values if slots.entries[address].choice_words):
-            name = slots.entries[choice].choice_words[int(values[choice])]
-            for address in slots.entries:
+        table, properties = self.model.parameter_table, dict[str, float]()
+        for choice in (address for address in values if table.entries[address].choice_words):
+            name = table.entries[choice].choice_words[int(values[choice])]
+            for address in table.entries:
                 if address.startswith(f"{choice}."):
-                    entry = slots.entries[f"materials.{name}.{address.removeprefix(f'{choice}.')}"]
-                    properties[address] = getattr(p, slots.find_field_name(entry.symbol))
+                    entry = table.entries[f"materials.{name}.{address.removeprefix(f'{choice}.')}"]
+                    properties[address] = getattr(p, table.find_field_name(entry.symbol))
         return properties
 
     def _convert_given_values(self, given_values: Mapping[str, float | str]) -> dict[str, float]:
-        """Return the given values by full address in SI; a choice becomes the index of its name.
+        """Return {full address: value in SI} of the given values; a choice becomes the index of its name.
 
-        A key may be a full address or the name of a parameter. Raises UnknownNameError and BadValueError (`prepare`).
+        A key is a full address or the name of a parameter, a value a number in SI or a text such as "0.5 mm". Raises
+        UnknownNameError for an unknown address or choice, BadValueError for an invalid or repeated value.
         """
         entries, values = self.model.parameter_table.entries, dict[str, float]()
         for key, value in given_values.items():
@@ -143,10 +144,10 @@ class ClosedLinkage:
             values[address] = check_number(number, address)
         return values
 
-    def _evaluate(self, function_name: str, size: int, *arguments: Any) -> Array:
-        """Call a function of `source` with `arguments` and return the array of `size` values that it fills.
+    def _call_array_function(self, function_name: str, size: int, *arguments: Any) -> Array:
+        """Call a function of `source` with `arguments` and a zero array of `size` values, and return the filled array.
 
-        Warnings of NumPy are suppressed, since the caller gets infinities as C has them.
+        Warnings of NumPy are suppressed, since infinities are returned as in C.
         """
         values = np.zeros(size)
         with np.errstate(all="ignore"):
@@ -155,32 +156,35 @@ class ClosedLinkage:
 
     def mass(self, p: SimpleNamespace) -> Array:
         """Return the diagonal of M, (n,)."""
-        return self._evaluate("mass_matrix", self.n, p)
+        return self._call_array_function("mass_matrix", self.n, p)
 
     def phi(self, t: float, q: ArrayLike, p: SimpleNamespace) -> Array:
         """Return Φ(q, t), (m,), in m and rad."""
-        return self._evaluate("constraints", self.m, t, _convert_to_list(q), p)
+        return self._call_array_function("constraints", self.m, t, _convert_to_list(q), p)
 
     def phi_q(self, t: float, q: ArrayLike, p: SimpleNamespace) -> Array:
         """Return the Jacobian ∂Φ/∂q, (m, n)."""
-        return self._evaluate("jacobian", self.m * self.n, t, _convert_to_list(q), p).reshape(self.m, self.n)
+        return self._call_array_function("jacobian", self.m * self.n, t, _convert_to_list(q), p).reshape(self.m, self.n)
 
     def nu(self, t: float, q: ArrayLike, p: SimpleNamespace) -> Array:
         """Return ν = −Φ_t, (m,), of Φ_q v = ν."""
-        return self._evaluate("velocity_rhs", self.m, t, _convert_to_list(q), p)
+        return self._call_array_function("velocity_rhs", self.m, t, _convert_to_list(q), p)
 
     def gamma(self, t: float, q: ArrayLike, v: ArrayLike, p: SimpleNamespace) -> Array:
         """Return γ, (m,), of Φ_q a = γ."""
-        return self._evaluate("acceleration_rhs", self.m, t, _convert_to_list(q), _convert_to_list(v), p)
+        return self._call_array_function("acceleration_rhs", self.m, t, _convert_to_list(q), _convert_to_list(v), p)
 
     def start_values(self, p: SimpleNamespace) -> tuple[Array, Array, Array]:
-        """Return (guesses, exact values, rates) of the start as arrays; the last two end with those of journals."""
+        """Return (guesses, set coordinates, set velocities) of the start as three arrays, SI.
+
+        The last two end with the eccentricities of journals and their rates.
+        """
         start, n_eccentricities = self.model.scene.mechanism.start, len(find_eccentricity_rows(self.model))
         sizes = (len(start.guess), len(start.set) + n_eccentricities, len(start.rates) + n_eccentricities)
-        guess, exact_values, rates = (np.zeros(size) for size in sizes)
+        guess, set_values, rates = (np.zeros(size) for size in sizes)
         with np.errstate(all="ignore"):
-            self.functions["start_values"](p, guess, exact_values, rates)
-        return guess, exact_values, rates
+            self.functions["start_values"](p, guess, set_values, rates)
+        return guess, set_values, rates
 
 
 class NumPyModel(ClosedLinkage):
@@ -212,26 +216,26 @@ class NumPyModel(ClosedLinkage):
     ) -> SimpleNamespace:
         """Solve [M Φ_qᵀ; Φ_q 0][a; λ] = [g; γ − …]: return accelerations a (n,), `lambda_`, forces `clearance`, powers.
 
-        `latches` (joints with play,): rate (m/s) with which a contact closed, NaN while it is open; none given: all
-        are open; the force of a closed one whose surfaces do not give is NaN, for only a run finds it. `modes`
-        (frictions,): 0 stick, ±1 slip with that sign; a scene with friction that may stick must be given them, for
-        only a run finds out which it is. `states` (joints with play, most states of a law): the laws' internal states,
-        m, whose rates are `clearance[i].state_rate`. `status` is 0, or the number of the pivot that vanished. Raises
-        ArrayError for another number of latches or modes.
+        `latches` (joints with play,): the approach speed (m/s) stored at the onset of a closed contact, NaN for an open
+        one; (): all contacts are open. The force of a closed rigid contact is NaN, since only the engine computes it.
+        `modes` (frictions,): 0 stick, ±1 slip with that sign; required if friction may stick. `states` (joints with
+        play, max. number of states of a law): internal states of laws in m, whose rates are `clearance[i].state_rate`.
+        `status` is 0, or the number of the pivot that vanished. Raises ArrayError for another number of latches or
+        modes.
         """
         model = self.model
-        approach_speeds = _order_numbers_by_name(
+        approach_speeds = _check_number_per_name(
             "latches", latches, [c.name for c in model.clearances], [np.nan] * len(model.clearances)
         )
         internal_states = np.broadcast_to(
             np.asarray(states, dtype=float), (len(model.clearances), model.law_states)
         ).tolist()
-        memory = SimpleNamespace(
+        discrete = SimpleNamespace(
             contact=[
                 SimpleNamespace(closed=bool(x == x), deltadot_minus=float(x), force=np.nan, state=z)
                 for x, z in zip(approach_speeds, internal_states, strict=True)
             ],
-            mode=_order_numbers_by_name("modes", modes, [friction.name for friction in model.frictions]),
+            mode=_check_number_per_name("modes", modes, [friction.name for friction in model.frictions]),
         )
         m = len(model.rows)
         rhs = SimpleNamespace(
@@ -246,12 +250,14 @@ class NumPyModel(ClosedLinkage):
             status=0,
         )
         with np.errstate(all="ignore"):
-            rhs.status = self.functions["dynamics"](t, _convert_to_list(q), _convert_to_list(v), memory, p, rhs.a, rhs)
+            rhs.status = self.functions["dynamics"](
+                t, _convert_to_list(q), _convert_to_list(v), discrete, p, rhs.a, rhs
+            )
         return rhs
 
 
 def _print_module_docstring(model: Model) -> str:
-    """Return the head of the module: a docstring with the scene and the order of q and v, and the import of NumPy."""
+    """Return the beginning of the emitted module: its docstring with the order of q and v, and the import of NumPy."""
     mechanism = model.scene.mechanism
     title = f"{mechanism.title or mechanism.name}: scene {model.scene.name} of the mechanism {mechanism.name}."
     docstring_lines = [*textwrap.wrap(title, WIDTH - 7), "", *textwrap.wrap(_ABOUT, WIDTH - 7), ""]
@@ -264,23 +270,25 @@ def _print_module_docstring(model: Model) -> str:
 
 
 def _print_thresholds(kernel: Kernel) -> list[str]:
-    """Return the definitions of the thresholds that a kernel's tests name, as lines with blank lines.
+    """Return the definitions of the thresholds of pivots that a kernel's guards name, as one text in a list.
 
-    [] if there are none.
+    [] is returned if there are none.
     """
     tests = (line.test for section in kernel.sections for line in section.statements if isinstance(line, Guard))
     bounds = (x for test in tests if isinstance(test, Test) and not test.is_relative_to_value for x in test.bound)
     limits = {x.name: float(x) for x in bounds if isinstance(x, Threshold)}
-    head = print_comment("A constraint equation is dependent if less than this fraction of its pivot is left.")
-    return ["\n".join([*head, *(f"{name} = {value!r}" for name, value in sorted(limits.items()))])] if limits else []
+    comment = print_comment("A constraint equation is dependent if less than this fraction of its pivot is left.")
+    definitions = [f"{name} = {value!r}" for name, value in sorted(limits.items())]
+    return ["\n".join([*comment, *definitions])] if limits else []
 
 
-def _order_numbers_by_name(
+def _check_number_per_name(
     argument_name: str, values: ArrayLike, names: list[str], default_numbers: list[float] | None = None
 ) -> list[float]:
-    """Return one number for each name; `default_numbers` are the values if nothing is given. Raises ArrayError.
+    """Return `values` as a list with one number for each name.
 
-    None: there are no default values.
+    default_numbers: the result for an empty `values`; None: no defaults. Raises ArrayError for another number of
+    values, with argument_name and the names in the message.
     """
     numbers = np.asarray(values, dtype=float)
     if numbers.shape == (0,) and default_numbers is not None:
@@ -297,24 +305,24 @@ def _order_numbers_by_name(
 
 
 def _convert_to_list(values: ArrayLike) -> list[float]:
-    """Return an array as a list, whose elements have faster arithmetic."""
+    """Return an array as a list of Python floats, whose arithmetic is faster than that of NumPy scalars."""
     return np.asarray(values, dtype=float).tolist()
 
 
 def _compile_functions(source: str) -> dict[str, Any]:
-    """Compile a Python text that this target has written, and return the names that it defines."""
+    """Execute emitted Python source, and return {name: object} of what it defines."""
     names: dict[str, Any] = {}
     exec(compile(source, "<equations>", "exec"), names)
     return names
 
 
-_CURVE = f'''def curve(of, order, x):
-    """A cubic spline (order 0) or a derivative of it: NaN outside its range, or repeated there."""
-    knots, c, repeats = of
+_CURVE = f'''def curve(table, order, x):
+    """Return a cubic spline or its derivative; outside its range NaN, unless it is periodic."""
+    knots, c, is_periodic = table
     first, last = knots[0], knots[-1]
     margin = {MARGIN} * (last - first)
-    inside = repeats | ((x >= first - margin) & (x <= last + margin))
-    x = x - (last - first) * np.floor((x - first) / (last - first)) if repeats else x
+    inside = is_periodic | ((x >= first - margin) & (x <= last + margin))
+    x = x - (last - first) * np.floor((x - first) / (last - first)) if is_periodic else x
     k = np.clip(np.searchsorted(knots, x, side="right") - 1, 0, len(c) - 1)
     h, (c0, c1, c2, c3) = x - knots[k], np.moveaxis(c[k], -1, 0)
     value = (c0 + h * (c1 + h * (c2 + h * c3)), c1 + h * (2.0 * c2 + h * (3.0 * c3)),
@@ -322,18 +330,19 @@ _CURVE = f'''def curve(of, order, x):
     return np.where(inside, value, np.nan)[()]
 
 
-def knots(of, x):
-    """By its sign, whether x is in a piece with an even number or an odd one; 0 at knots."""
-    of, _, repeats = of
-    x = x - (of[-1] - of[0]) * np.floor((x - of[0]) / (of[-1] - of[0])) if repeats else x
-    k = np.clip(np.searchsorted(of, x, side="right") - 1, 0, len(of) - 2)
-    return np.where(k % 2, -1.0, 1.0) * np.where(x == of[k], 0.0, 1.0)'''
+def knots(table, x):
+    """Return 1 in pieces with an even number, -1 in the others, 0 at knots."""
+    knots, _, is_periodic = table
+    length = knots[-1] - knots[0]
+    x = x - length * np.floor((x - knots[0]) / length) if is_periodic else x
+    k = np.clip(np.searchsorted(knots, x, side="right") - 1, 0, len(knots) - 2)
+    return np.where(k % 2, -1.0, 1.0) * np.where(x == knots[k], 0.0, 1.0)'''
 
 
 def print_called_curves(curves: Mapping[str, Curve], text: str, existing_text: str = "") -> str:
-    """Return the Python tables of the curves that a text calls, and the functions that evaluate them.
+    """Return the Python tables of the curves that a Python text calls, after the functions that evaluate them.
 
-    Parts that the text `existing_text` contains are left out; "" is returned if the text calls no curve.
+    Parts that `existing_text` already contains are left out. "" is returned if the text calls no curve.
     """
     called_curves = [curve for curve in curves.values() if f"({make_curve_name(curve.name)}," in text]
     parts = [_CURVE, *map(_print_curve_table, called_curves)] if called_curves else []
@@ -341,9 +350,9 @@ def print_called_curves(curves: Mapping[str, Curve], text: str, existing_text: s
 
 
 def _print_curve_table(curve: Curve) -> str:
-    """Return the Python table of a curve: knots, coefficients of its pieces, and whether it repeats.
+    """Return the Python assignment of a curve's table: (knots, coefficients of each piece, whether it is periodic).
 
-    A long curve is written as hexadecimal bytes.
+    A long curve (`Curve.is_long`) is written as hexadecimal bytes.
     """
     if curve.is_long:
         x, c = (np.asarray(table, "<f8").tobytes().hex() for table in (curve.x, curve.coefficients))
@@ -378,7 +387,7 @@ def _print_curve_table(curve: Curve) -> str:
 _DRY = ("F_n", "F_along_t_dry", "M_i_dry", "M_j_dry")
 CONTOUR = '''\
 def contour(depth, order, angle):
-    """Depths at equal angles, polynomials of degree five between them; of order 1 and 2 its derivatives."""
+    """Return the depth of a contour (polynomials of degree five) or its derivative."""
     count = len(depth)
     x = count*(angle/(2*np.pi) - np.floor(angle/(2*np.pi)))
     k = min(int(x), count - 1)
@@ -400,7 +409,7 @@ def print_joint_function(joint_with_play: JointFunctions) -> str:
     joint, clearance = joint_with_play.clearance.label, joint_with_play.clearance
     description = f"Force of joint {clearance.name} on the journal, from the eccentricity e and its rate."
     if clearance.wall:
-        description = f"Force on corner {clearance.name}, from where it is, seen from the guide's point, and its rate."
+        description = f"Force on corner {clearance.name}, from its position relative to the guide's point and its rate."
     body = [*print_docstring([description])]
     body += print_statements(joint_with_play.gap)
     if clearance.normal is None:
@@ -440,20 +449,21 @@ def print_joint_function(joint_with_play: JointFunctions) -> str:
 
 
 def _print_dry_contact(joint: JointFunctions) -> list[str]:
-    """Return the lines of dry contact for δ > 0; at an onset the approach speed is the present one, ratio 1.
+    """Return the Python lines that compute normal force, friction and moments of a dry contact, and assign them to `F`.
 
-    Without friction its force is 0.
+    The ratio δ̇/δ̇⁻ has the stored approach speed if the contact is closed, and is 1 otherwise. The friction is 0
+    without a friction law. The rates of internal states are stored in `out`. The caller prints the condition δ > 0.
     """
-    ratio, states = "unclipped" if joint.clearance.clip_ratio else "ratio", range(len(joint.clearance.states))
-    states_read, rates = [f"contact.state[{k}]" for k in states], [f"out.state_rate[{k}]" for k in states]
+    ratio_name, states = "unclipped" if joint.clearance.clip_ratio else "ratio", range(len(joint.clearance.states))
+    state_values, state_rates = [f"contact.state[{k}]" for k in states], [f"out.state_rate[{k}]" for k in states]
     normal_force = "F_N" if joint.contour_normal_force else "F_n"
     friction_call = (
-        _print_law_call(joint.laws["friction"], normal_force, "v_t", *states_read)
+        _print_law_call(joint.laws["friction"], normal_force, "v_t", *state_values)
         if "friction" in joint.laws
         else "0.0"
     )
     return [
-        f"{ratio} = deltadot / contact.deltadot_minus if contact.closed else 1.0",
+        f"{ratio_name} = deltadot / contact.deltadot_minus if contact.closed else 1.0",
         *print_statements(joint.before_dry),
         *print_assignment(
             "F_n",
@@ -461,14 +471,17 @@ def _print_dry_contact(joint: JointFunctions) -> list[str]:
             is_call=True,
         ),
         *print_statements(joint.contour_normal_force),
-        *print_assignment(", ".join(["F_along_t_dry", *rates]), friction_call, is_call=True),
+        *print_assignment(", ".join(["F_along_t_dry", *state_rates]), friction_call, is_call=True),
         *print_statements(joint.after_dry),
         f"F = -{normal_force}, {', '.join(_DRY[1:])}",
     ]
 
 
 def _print_film(joint: JointFunctions) -> list[str]:
-    """Return the lines that compute a film's forces and moments."""
+    """Return the Python lines that compute the lubrication forces F_r and F_along_t_film and the moments of a joint.
+
+    The joint must have a film.
+    """
     film_call = print_assignment(
         "F_r, F_along_t_film, T0", _print_law_call(joint.laws["film"], "epsilon", "w_n", "w_t"), is_call=True
     )

@@ -1,7 +1,7 @@
-"""Prints SymPy expressions, lines and functions as Python with NumPy.
+"""Prints SymPy expressions and kernels as Python with NumPy, for `model.numpy()` and for plots of laws.
 
-Branches of switching functions are not frozen, and vanishing pivots are not treated. Lines fit a page: code is broken
-inside brackets, comments follow it.
+Branches of switching functions are not frozen, and vanishing pivots are not treated. Lines are at most WIDTH characters
+long: code is broken inside brackets.
 """
 
 from __future__ import annotations
@@ -38,13 +38,8 @@ from gudgeon.generator.symbols.storage import Key, Place, Result, find_key
 from gudgeon.generator.targets import line_breaks
 from gudgeon.generator.targets.cached_printer import CachedPrinter
 
-_NOWHERE = (
-    Status,
-    ReturnIfOnlyJoints,
-    Jump,
-    SolveDependentRows,
-    DeclareBranches,
-)  # vanished pivots, held corners, what single runs ask for
+# Lines for vanished pivots, frozen branches and calls that need the joints' forces only.
+_OMITTED_LINES = (Status, ReturnIfOnlyJoints, Jump, SolveDependentRows, DeclareBranches)
 _BRANCH_PLACES = tuple(Place(argument.name) for argument in BRANCHES)
 _BRANCH_ARGUMENTS = ("branch", "g", "corner")
 
@@ -58,15 +53,15 @@ def print_name(key: Key) -> str:
 
 
 class NumPyPrinter(CachedPrinter, PythonCodePrinter):
-    """Print expressions as Python for numbers and arrays alike; conditions of C become np.where."""
+    """Print expressions as Python for scalars and arrays alike; conditional expressions of C become np.where."""
 
     def __init__(self, readable_lines: Readable) -> None:
         super().__init__({"fully_qualified_modules": False})
-        self.of = readable_lines
+        self.readable = readable_lines
 
     def get_name(self, key: Key) -> str:
         """Return the name of a local or place in this function."""
-        return print_name(self.of.names.get(key, key))
+        return print_name(self.readable.names.get(key, key))
 
     def _print_Symbol(self, expr: sp.Symbol) -> str:
         """Print a symbol by its name in the function."""
@@ -78,7 +73,7 @@ class NumPyPrinter(CachedPrinter, PythonCodePrinter):
         return fraction.format("np.pi") if fraction else repr(float(expr))
 
     def parenthesize(self, item: sp.Expr, level: float, strict: bool = False) -> str:
-        """Print an operand, in brackets if its operator binds less than `level`, or equally unless `strict`.
+        """Print an operand, in brackets if its precedence is lower than `level`, or equal unless `strict`.
 
         A number that is printed as a fraction of π, such as 2*np.pi/3, always gets brackets.
         """
@@ -87,7 +82,7 @@ class NumPyPrinter(CachedPrinter, PythonCodePrinter):
         return super().parenthesize(item, level, strict)
 
     def _print_Mul(self, expr: sp.Mul) -> str:
-        """Print a product, a fraction of π as such."""
+        """Print a product; a rational multiple of π is printed as a fraction of np.pi if that has the same bits."""
         if text := self.print_symbol_product(expr):
             return text
         fraction = convert_to_fraction_of_pi(expr)
@@ -108,21 +103,21 @@ class NumPyPrinter(CachedPrinter, PythonCodePrinter):
         return "np.pi"
 
     def _print_Pow(self, expr: sp.Pow, rational: bool = False) -> str:
-        """Print a power: roots by np.sqrt, other powers that are not whole by np.power.
+        """Print a power: exponents ±1/2 by np.sqrt, −1 as a quotient, other integers by **, all others by np.power.
 
-        A negative base gives NaN there.
+        np.power returns NaN for a negative base.
         """
         base, exponent = expr.as_base_exp()
         if exponent in (sp.Rational(1, 2), sp.Rational(-1, 2)):
             return f"{'' if exponent > 0 else '1/'}np.sqrt({self._print(base)})"
         if exponent == -1:
             return f"1/{self.parenthesize(base, 60)}"
-        if not exponent.is_integer:  # of a negative number it is none
+        if not exponent.is_integer:
             return f"np.power({self._print(base)}, {self._print(exponent)})"
         return f"{self.parenthesize(base, 70)}**{self.parenthesize(exponent, 70)}"
 
     def _print_table_function(self, expr: sp.Expr) -> str:
-        """Print a function of the table of functions; a minimum or maximum as nested calls of two arguments."""
+        """Print a function of the table of functions by its NumPy name; np.maximum and np.minimum as nested calls."""
         name, arguments = f"np.{CLASSES[type(expr)].in_numpy}", list(map(self._print, expr.args))
         if isinstance(expr, (sp.Max, sp.Min)):
             return reduce(lambda first, other: f"{name}({first}, {other})", arguments)
@@ -145,12 +140,12 @@ class NumPyPrinter(CachedPrinter, PythonCodePrinter):
         return f"(np.abs({self._print(expr.args[0])}) + 1e-150)"
 
     def _print_Select(self, expr: sp.Expr) -> str:
-        """Print Select(branch, a, b), a choice by a sign: b for branch < 0, else a.
+        """Print Select(branch, a, b) as np.where: b for branch < 0, else a (also for NaN).
 
-        The name of its variable is printed if `of.branches` contains the expression.
+        If `readable.branches` contains the expression, the name of its local is printed.
         """
-        if expr in self.of.branches:
-            return self.get_name(self.of.branches[expr])
+        if expr in self.readable.branches:
+            return self.get_name(self.readable.branches[expr])
         branch, a, b = map(self._print, expr.args)
         return f"np.where({branch} < 0, {b}, {a})"
 
@@ -189,8 +184,9 @@ class NumPyPrinter(CachedPrinter, PythonCodePrinter):
 
     def _print_Slope(self, expr: sp.Expr) -> str:
         """Print a derivative, or a difference quotient where it is not finite."""
-        slope, ahead, behind, way = map(self._print, expr.args)
-        return f"np.where(np.isfinite({slope}), {slope}, ({ahead} - ({behind}))/({way}))"
+        derivative, value_after, value_before, distance = map(self._print, expr.args)
+        quotient = f"({value_after} - ({value_before}))/({distance})"
+        return f"np.where(np.isfinite({derivative}), {derivative}, {quotient})"
 
     def _print_NextAbove(self, expr: sp.Expr) -> str:
         """Print a value slightly above its argument."""
@@ -213,11 +209,11 @@ class LinePrinter:
         self.printer = NumPyPrinter(readable_lines)
 
     def print_lines(self, lines: Iterable[Line]) -> list[str]:
-        """Return lines of a kernel as Python, broken to fit; lines for single runs of C are left out."""
-        return [text for item in lines if not isinstance(item, _NOWHERE) for text in self._print_line(item)]
+        """Return lines of a kernel as lines of Python without indent, wrapped; _OMITTED_LINES are left out."""
+        return [text for item in lines if not isinstance(item, _OMITTED_LINES) for text in self._print_line(item)]
 
     def print_expression(self, value: Value) -> str:
-        """Return a value as Python by its class; any other value is printed as a SymPy expression."""
+        """Return a value of a kernel as a Python expression, by its class; other values are SymPy expressions."""
         match value:
             case Place():
                 return self.printer.get_name(value)
@@ -232,9 +228,10 @@ class LinePrinter:
                 return str(self.printer.doprint(value))
 
     def print_test(self, test: Test) -> str:
-        """Return a comparison as Python; a test without a relation is its value.
+        """Return a comparison as a Python condition; a test without a relation is its value.
 
-        A test of a value itself checks that the value, or its magnitude if that is compared, is positive and finite.
+        A test that is relative to the value itself (`is_relative_to_value`) checks that the value, or its magnitude if
+        that is compared, is positive and finite.
         """
         value = self.print_expression(test.value)
         left_side = f"np.abs({value})" if test.compares_magnitude else value
@@ -250,10 +247,10 @@ class LinePrinter:
         return repr(value) if isinstance(value, float) else self.print_expression(value)
 
     def _print_line(self, line: Line) -> list[str]:
-        """Return one line of a kernel as lines of Python, broken to fit.
+        """Return one line of a kernel as lines of Python, wrapped.
 
-        A branch becomes np.where. A test of a pivot that fails returns its number, the end of the function 0. Raises
-        ValueError for a kind of line without a counterpart.
+        A branch becomes np.where. A guard returns the number of its pivot if the test fails; the end of the function
+        returns 0. Raises ValueError for a class of lines without a counterpart.
         """
         match line:
             case Statement():
@@ -284,7 +281,7 @@ class LinePrinter:
 
 
 def print_statements(statements: Sequence[Statement]) -> list[str]:
-    """Return statements as lines of Python for a function that is not a kernel."""
+    """Return statements as lines of Python without indent, for a function that is not a kernel, such as a joint's."""
     readable_statements = make_readable_statements(statements)
     return LinePrinter(readable_statements).print_lines(
         line for section in readable_statements.sections for line in section.statements
@@ -292,9 +289,10 @@ def print_statements(statements: Sequence[Statement]) -> list[str]:
 
 
 def print_function(kernel: Kernel) -> str:
-    """Return a kernel as a Python function with its docstring.
+    """Return a kernel as the text of a Python function with its docstring.
 
-    Numbers that C returns through pointers are returned. The arguments for branches are left out.
+    Scalars that C stores through pointers become return values; arrays are filled in place. The arguments for branches
+    are left out.
     """
     targets = [line.target for section in kernel.sections for line in section.statements if isinstance(line, Statement)]
     returned = [a.name for a in kernel.arguments if Result(a.name) in targets]
@@ -303,26 +301,24 @@ def print_function(kernel: Kernel) -> str:
     readable_kernel = make_readable(kernel)
     for section in readable_kernel.sections:
         body = LinePrinter(readable_kernel).print_lines(section.statements)
-        has_rescue = any(
-            isinstance(line, SolveDependentRows) for line in section.statements
-        )  # of which the title tells
-        text += indent_lines([*print_comment("" if has_rescue else section.title), *body]) if body else []
+        is_titled = not any(isinstance(line, SolveDependentRows) for line in section.statements)
+        text += indent_lines([*print_comment(section.title if is_titled else ""), *body]) if body else []
     return "\n".join([*text, *([f"    return {', '.join(returned)}"] if returned else [])])
 
 
 WIDTH = 100
-_WIDTH = WIDTH - 12  # of what stands in a function and in two conditions at most
+_WIDTH = WIDTH - 12  # of a line without its indent, which is at most that of a function with two nested conditions
 
 
 def break_code(text: str) -> list[str]:
-    """Return a line of Python as lines, broken inside brackets if it is long."""
+    """Return a line of Python as lines of at most _WIDTH characters, as far as it can be broken inside brackets."""
     return line_breaks.break_code(text, _WIDTH, min_depth=1)
 
 
 def print_assignment(target: str, value: str, comment: str = "", is_call: bool = False) -> list[str]:
-    """Return `target = value` as lines of Python; a long value that is not one call is put in brackets.
+    """Return `target = value` as lines of Python; a value longer than a line is put in brackets unless `is_call`.
 
-    The comment follows if it fits, else precedes.
+    The comment follows on the same line if it fits, else precedes. is_call: whether the value has its own brackets.
     """
     line = f"{target} = {value}"
     lines = break_code(line if is_call or len(line) <= _WIDTH else f"{target} = ({value})")
@@ -345,18 +341,18 @@ def print_docstring(doc: Sequence[str]) -> list[str]:
 
 
 def _wrap_docstring_line(line: str) -> list[str]:
-    """Return a line of a docstring wrapped to the width; continuation lines have two more spaces.
+    """Return a line of a docstring wrapped at WIDTH − 7; continuation lines have two more spaces of indent.
 
-    [""] for an empty line.
+    [""] is returned for an empty line.
     """
     indent = line[: len(line) - len(line.lstrip())]
     return textwrap.wrap(line, WIDTH - 7, subsequent_indent=f"{indent}  ", break_on_hyphens=False) or [""]
 
 
 def remove_line_breaks(text: str, keep_spaces: bool = False) -> str:
-    """Return a user's text without characters that could end a line.
+    """Return a user's text as one line: characters that are not printable, such as line breaks, become spaces.
 
-    Spaces are reduced to single ones; `keep_spaces` preserves them.
+    Several spaces become one, unless `keep_spaces`.
     """
     printable = "".join(c if c.isprintable() else " " for c in text)
     return printable.rstrip() if keep_spaces else " ".join(printable.split())

@@ -1,4 +1,4 @@
-"""Computes reference values of a scene's functions in NumPy, with which the compiled library is compared.
+"""Computes reference values of a scene's functions in NumPy, with which the runtime verifies the compiled library.
 
 They are stored with the emitted C, and the runtime compares them with the library that it loads
 (runtime/model/reference.py). Different printers write NumPy and C from the same statements.
@@ -17,26 +17,27 @@ from gudgeon.contract.kernel_source import KernelSource, make_given_parameters
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.kernels.outputs import find_constraining_joints, find_element_series
 from gudgeon.generator.kernels.program import Program
-from gudgeon.generator.targets.numpy.linkage import NumPyLinkage, _get_parameter
+from gudgeon.generator.targets.numpy.linkage import NumPyLinkage, read_parameter
 from gudgeon.generator.targets.numpy.module import NumPyModel, _compile_functions, print_called_curves
 from gudgeon.generator.targets.numpy.printer import print_function
 
 Array = NDArray[np.float64]
 MAX_COORDINATES = 300  # for larger linkages Python takes longer to compile the text than C
-N_STATES = 2  # all joints with play open; all closed
-N_TRIED, N_MORE = 96, 6  # candidate states for contacts and films, and how many of each kind are kept at most
-SLOWEST, FASTEST = -4.0, 1.0  # range of powers of ten by which velocities of candidate states are multiplied
-SENSITIVE = 1e-8  # of the largest value: a change by NEARBY that disqualifies a state (a singular position)
-NEARBY = 1e-12
-CLOSINGS = 6  # Gauss–Newton steps towards a closed linkage
+N_JOINT_STATES = 2  # all joints with play open; all closed
+N_CANDIDATES = 96  # random candidate states for contacts and films
+MAX_SELECTED = 6  # of candidates in contact, and of candidates in the clearance or film
+MIN_SPEED_EXPONENT, MAX_SPEED_EXPONENT = -4.0, 1.0  # powers of ten by which velocities of candidates are multiplied
+RELATIVE_PERTURBATION = 1e-12  # of q, to find ill-conditioned states near singular positions
+SENSITIVITY_TOL = 1e-8  # change of a value by the perturbation, relative to the largest value, that excludes a state
+N_GAUSS_NEWTON_STEPS = 6  # to close the linkage
 
 
 def compute_reference_values(program: Program, source: KernelSource) -> dict[str, Any]:
     """Return {"p": parameters, "given": …, "states": [{t, q, v, memory, values}]} for the emitted `source`.
 
-    Numbers are SI; "values" has the arrays of an Evaluation by name, flat, and phi, nu, gamma and mass. "given" has the
-    parameters of two runs in which every second one is given, from the first and from the second on. {} for large
-    linkages.
+    Numbers are SI; "values" has the arrays of an Evaluation by name, flat, and phi, nu, gamma and mass. "given" has all
+    parameters of two runs, in which the user specifies every second parameter (`_compute_given_parameters`). {} is
+    returned above MAX_COORDINATES coordinates, and if an arithmetic error occurs where C has an infinity.
     """
     if len(program.model.q) > MAX_COORDINATES:
         return {}
@@ -47,10 +48,10 @@ def compute_reference_values(program: Program, source: KernelSource) -> dict[str
 
 
 def _compute_reference(program: Program, source: KernelSource) -> dict[str, Any]:
-    """Return the reference values of a scene at states near a closed linkage.
+    """Return the reference values of a scene (`compute_reference_values`) at states near a closed linkage.
 
-    Raises ArithmeticError where C has an infinity.
-    Candidate states whose values change with the last digits of q are left out.
+    States that are ill-conditioned (`_is_well_conditioned`) or cannot be evaluated are left out. Raises ArithmeticError
+    where C has an infinity.
     """
     model = program.model
     numpy_model = NumPyModel(program)
@@ -60,22 +61,27 @@ def _compute_reference(program: Program, source: KernelSource) -> dict[str, Any]
     imports = f"import numpy as np\n\n\n{print_called_curves(model.scene.mechanism.curves, text)}"
     outputs = _compile_functions(f"{imports}{text}")["outputs"]
     states, candidates = [], []
-    for k in range(N_STATES):
+    for k in range(N_JOINT_STATES):
         t = float(f"{0.05 + 0.3 * rng.uniform():.9f}")
-        q = _find_nearly_closed_position(numpy_model, t, linkage.defaults, min([1e-3, *clearances]), rng)
+        q = _sample_position(numpy_model, t, linkage.defaults, min([1e-3, *clearances]), rng)
         v = np.array([float(f"{x:.4g}") for x in rng.normal(0.0, 0.3, len(q))])
         latches = [0.1 if k and not model.rigid else np.nan] * len(model.clearances)
         candidates.append((t, q, v, (latches, [1.0 - 2.0 * k] * len(model.frictions), 0.0)))
-    for t, q, v, memory in [
+    for t, q, v, discrete_states in [
         *candidates,
-        *_find_contact_states(numpy_model, linkage.defaults, candidates[-1], min([1e-3, *clearances]), rng),
+        *_sample_contact_states(numpy_model, linkage.defaults, candidates[-1], min([1e-3, *clearances]), rng),
     ]:
         values, neighbour = (
-            _evaluate_functions(model, numpy_model, outputs, linkage.defaults, (t, x, v), memory)
-            for x in (q, q * (1.0 + NEARBY))
+            _evaluate_functions(model, numpy_model, outputs, linkage.defaults, (t, x, v), discrete_states)
+            for x in (q, q * (1.0 + RELATIVE_PERTURBATION))
         )
-        if values and neighbour and all(_is_steady(values[name], neighbour[name]) for name in values if name != "phi"):
-            flat_states = [*memory[0], *memory[1], *[memory[2]] * len(source.states)]
+        if (
+            values
+            and neighbour
+            and all(_is_well_conditioned(values[name], neighbour[name]) for name in values if name != "phi")
+        ):
+            approach_speeds, modes, internal_state = discrete_states
+            flat_states = [*approach_speeds, *modes, *[internal_state] * len(source.states)]
             states.append(
                 {
                     "t": t,
@@ -93,43 +99,45 @@ def _compute_reference(program: Program, source: KernelSource) -> dict[str, Any]
 
 
 def _compute_given_parameters(numpy_model: NumPyModel, linkage: NumPyLinkage) -> list[list[float | None]]:
-    """Return the parameters of two runs in which every second parameter is given, first or second of each pair.
+    """Return the parameters of two runs: the user specifies those with even indices, then those with odd indices.
 
-    Values have seven digits; None stands for one that is not finite.
+    They test how defaults depend on specified parameters. Values have seven digits; None stands for one that is not
+    finite.
     """
-    slots, parameters = linkage.source.slots, []
+    entries, parameters = linkage.source.slots, []
     for first in range(2):
         with np.errstate(all="ignore"):
             p = numpy_model._compute_parameters(
-                {slots[k].address: value for k, value in make_given_parameters(slots, first).items()}
+                {entries[k].address: value for k, value in make_given_parameters(entries, first).items()}
             )
-        parameters.append(_round_to_seven_digits(np.array([_get_parameter(p, name) for name in linkage.names])))
+        parameters.append(_round_to_seven_digits(np.array([read_parameter(p, name) for name in linkage.names])))
     return parameters
 
 
-def _find_contact_states(
+def _sample_contact_states(
     numpy_model: NumPyModel,
     p: Any,
     start_state: tuple[float, Array, Array, Any],
     displacement_scale: float,
     rng: np.random.Generator,
 ) -> list[tuple[float, Array, Array, Any]]:
-    """Return states (t, q, v, discrete states) in which contacts and films are fast or slow, slip and separate.
+    """Return random states (t, q, v, discrete states) with various contacts and films: approach, slip, separation.
 
-    Of N_TRIED random candidates those are selected whose forces differ most (`_list_force_features`); [] without play.
-    A candidate with a vanished pivot or an infinity is dropped.
+    N_CANDIDATES candidates near the closed linkage are evaluated; those with a vanished pivot or an infinity are
+    dropped. `_select_diverse_states` selects among those in contact and among the others. [] is returned without play.
+    start_state: gives time, number of contacts and friction modes. displacement_scale: m or rad.
     """
     model, (t, q, _, (latches, modes, _)) = numpy_model.model, start_state
     if not model.clearances:
         return []
     candidates: tuple[list[Any], list[Any]] = [], []  # in contact; free, or in a film
-    q = _find_nearly_closed_position(numpy_model, t, p, 0.0, rng)
-    for n in range(N_TRIED):
+    q = _sample_position(numpy_model, t, p, 0.0, rng)
+    for n in range(N_CANDIDATES):
         if n % 2 == 0:
             is_free = n % 4 == 0 or bool(model.rigid)
             distance = displacement_scale * 10.0 ** rng.uniform(-1.5 if is_free else -1.0, -0.3 if is_free else 0.3)
             x = _round_to_digits(q + distance * rng.normal(0.0, 1.0, len(q)), 7)
-            velocities = 10.0 ** rng.uniform(SLOWEST, FASTEST) * rng.normal(0.0, 0.3, len(q))
+            velocities = 10.0 ** rng.uniform(MIN_SPEED_EXPONENT, MAX_SPEED_EXPONENT) * rng.normal(0.0, 0.3, len(q))
             onset = np.nan if is_free else float(f"{10.0 ** rng.uniform(-3.0, 0.0):.4g}")
         internal_state = float(f"{10.0 ** rng.uniform(-7.0, -4.0):.4g}")
         state = (
@@ -144,16 +152,17 @@ def _find_contact_states(
             continue
         if not result.status and np.isfinite(result.a).all():
             candidates[int(is_free)].append((_list_force_features(result), state))
-    return [state for states in candidates for state in _select_most_different(states)]
+    return [state for states in candidates for state in _select_diverse_states(states)]
 
 
-def _select_most_different(candidates: list[tuple[set[tuple[Any, ...]], Any]]) -> list[Any]:
-    """Return at most N_MORE states of candidates (features, state) that together have the most features.
+def _select_diverse_states(candidates: list[tuple[set[tuple[Any, ...]], Any]]) -> list[Any]:
+    """Return at most MAX_SELECTED states of candidates (set of features, state) by a greedy set cover of the features.
 
-    The list `candidates` is emptied on the way. The selection ends when no candidate adds a feature.
+    Each step selects the candidate with the most features that no selected state has, until none adds one. Selected
+    candidates are removed from the list `candidates`.
     """
     known_features, selected = set[tuple[Any, ...]](), list[Any]()
-    while candidates and len(selected) < N_MORE:
+    while candidates and len(selected) < MAX_SELECTED:
         best = max(range(len(candidates)), key=lambda k: len(candidates[k][0] - known_features))
         features, state = candidates.pop(best)
         if not features - known_features:
@@ -164,9 +173,10 @@ def _select_most_different(candidates: list[tuple[set[tuple[Any, ...]], Any]]) -
 
 
 def _list_force_features(result: Any) -> set[tuple[Any, ...]]:
-    """Return a set of features of the forces in joints with play: contact or film, signs, direction, approach.
+    """Return a set of discrete features of the forces in joints with play, by which states are compared.
 
-    Joints without a force have none.
+    They are, for each joint with a force: contact or film, the signs of both components and of the penetration rate,
+    and the order of magnitude of the tangential fraction.
     """
     features = set[tuple[Any, ...]]()
     for k, joint in enumerate(result.clearance):
@@ -187,22 +197,26 @@ def _round_to_digits(values: Array, n: int) -> Array:
     return np.array([float(f"{x:.{n}g}") for x in values])
 
 
-def _is_steady(value: Array, neighbour: Array) -> bool:
-    """Return whether values are finite and change by at most SENSITIVE of the largest if the state changes slightly."""
+def _is_well_conditioned(value: Array, neighbour: Array) -> bool:
+    """Return whether values are finite and insensitive to rounding of the state.
+
+    value, neighbour: the values at q and at q (1 + RELATIVE_PERTURBATION). They may differ by SENSITIVITY_TOL of the
+    largest magnitude in `value`.
+    """
     scale = max(float(np.abs(value).max(initial=0.0)), 1e-300)
-    return bool(np.isfinite(value).all() and (np.abs(neighbour - value) <= SENSITIVE * scale).all())
+    return bool(np.isfinite(value).all() and (np.abs(neighbour - value) <= SENSITIVITY_TOL * scale).all())
 
 
-def _find_nearly_closed_position(
+def _sample_position(
     numpy_model: NumPyModel, t: float, p: Any, displacement_scale: float, rng: np.random.Generator
 ) -> Array:
-    """Return positions q (n,) near those that satisfy Φ = 0, displaced at random, rounded to seven digits.
+    """Return random positions q (n,) that nearly satisfy Φ = 0, rounded to seven digits.
 
-    displacement_scale: standard deviation of the displacements, m or rad. A few Gauss–Newton steps from a random
-    position close the linkage; they end early at a value that is not finite.
+    N_GAUSS_NEWTON_STEPS steps from a random position close the linkage; they end early at a value that is not finite.
+    Normally distributed displacements follow. displacement_scale: their standard deviation, m or rad.
     """
     q = rng.uniform(0.1, 0.6, numpy_model.n)
-    for _ in range(CLOSINGS if numpy_model.m else 0):
+    for _ in range(N_GAUSS_NEWTON_STEPS if numpy_model.m else 0):
         phi, phi_q = numpy_model.phi(t, q, p), numpy_model.phi_q(t, q, p)
         if not (np.isfinite(phi).all() and np.isfinite(phi_q).all()):
             break
@@ -253,8 +267,8 @@ def _evaluate_functions(
 
 
 def _round_to_seven_digits(values: Array) -> list[float | None]:
-    """Return a flat list of values with seven digits, as the last ones depend on the machine.
+    """Return a flat list of values with seven significant digits, since the last digits depend on the machine.
 
-    None for those not finite.
+    None stands for a value that is not finite.
     """
     return [float(f"{x:.7g}") if np.isfinite(x) else None for x in np.asarray(values, dtype=float).ravel()]

@@ -22,10 +22,10 @@
 #define N_X 1
 #define N_LOOPS 0
 #define N_DEPENDENT 0
-#define N_LED 0
+#define N_DEPENDENT_VALUES 0
 #define SMOOTH_DRIVEN_LOOPS 0
 #define TREE_PIVOTS 0
-#define RESCUED 0
+#define HAS_ABSOLUTE_FALLBACK 0
 #define LARGEST_BLOCK 0
 #define N_VALUES 0
 #define N_FACTORS 0
@@ -37,7 +37,7 @@
 #define KNOWN_BOUNDS 0
 #define WATCHES_STATE 0
 #define N_TERMS 0
-#define N_PULSES 0
+#define N_TRANSIENTS 0
 #define N_GUESS 0
 #define GUESSED_POINTS 0
 #define N_SET 0
@@ -58,19 +58,19 @@ typedef struct Parameters {
 
 static const signed char event_direction[] = {0};
 static const unsigned char event_stops[] = {0};
-static const int guess_place[] = {0};
-static const int set_place[] = {0};
-static const int rate_place[] = {0};
+static const int guess_coordinate[] = {0};
+static const int set_coordinate[] = {0};
+static const int rate_coordinate[] = {0};
 static const int drive_row[] = {0};
 static const unsigned char row_is_length[] = {0};
-static const int kept_row[] = {0};
+static const int motion_row[] = {0};
 static const int phi_q_first[] = {0};
-static const short phi_q_place[] = {0};
+static const short phi_q_column[] = {0};
 static const unsigned char is_angle[] = {0};
 static const unsigned char film_joint[] = {0};
 static const short watched[] = {0};
-static const short watched_as[] = {-1, -1};
-static const unsigned char meets[] = {0};
+static const short watched_index[] = {-1, -1};
+static const unsigned char is_continuous_switch[] = {0};
 static const int friction_of_pivot[] = {0};
 
 static inline double baumgarte_two_alpha(const Parameters *p) { (void)p; return 0.0; }
