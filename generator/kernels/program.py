@@ -53,7 +53,7 @@ class Integrated:
     reduced: bool
     event_functions: Kernel | None  # event functions, if they do not depend on forces (event_functions.py)
     pivots: tuple[str, ...]  # equations to which a status number of motion() refers
-    chain: DrivenLoops | None = None
+    driven_loops: DrivenLoops | None = None
 
     @property
     def switch_indices(self) -> list[int]:
@@ -74,12 +74,16 @@ class TreeFunctions:
     unpaired_kernels: tuple[Kernel, ...]
     kernels: tuple[Kernel, ...]
     has_fallback: bool
-    chains: DrivenLoopKernels | None
+    driven_loop_kernels: DrivenLoopKernels | None
 
     @property
     def all_kernels(self) -> tuple[Kernel, ...]:
         """Return all functions of the reduced formulation in the order of printing."""
-        return (*self.conversions, *self.kernels, *(self.chains.kernels if self.chains else ()))
+        return (
+            *self.conversions,
+            *self.kernels,
+            *(self.driven_loop_kernels.kernels if self.driven_loop_kernels else ()),
+        )
 
 
 @dataclass(frozen=True)
@@ -155,8 +159,8 @@ class Program:
 
     @cached_property
     def prepare(self) -> Kernel:
-        """Return the C function that fills the parameter table; call it when all parameters have been derived."""
-        return closed_linkage.make_prepare_kernel(self.model)
+        """Return the kernel that fills the parameter table; call it when all parameters have been derived."""
+        return closed_linkage.make_parameter_table_kernel(self.model)
 
     @property
     def integrates(self) -> bool:
@@ -170,21 +174,21 @@ class Program:
 
     @property
     def right_hand_side(self) -> list[Kernel]:
-        """Return the right-hand side in absolute coordinates, followed by its event functions if they are used.
+        """Return the kernel of the right-hand side in absolute coordinates, then that of its event functions if used.
 
-        The result is a list. Event functions are used in the full formulation of a scene that is integrated, unless
-        they depend on forces.
+        The latter is used in the full formulation of a scene that is integrated, unless the event functions depend on
+        forces.
         """
         watches = self.event_functions is not None and self.formulation == "full" and self.integrates
         return [self.dynamics, self.event_functions] if watches and self.event_functions else [self.dynamics]
 
     @property
     def has_lanes(self) -> bool:
-        """Return whether several runs of the scene can be integrated together, each in one lane of a vector.
+        """Return whether several runs of the scene can be integrated together, each in one SIMD lane of a vector.
 
         That needs the reduced formulation. Dry friction, rigid contacts, contours of bearings, driven loops and more
-        than MAX_COORDINATES_FOR_LANES coordinates exclude it. A kinematically driven scene has lanes unless it has user
-        events or a block of equations whose rows are exchanged for pivots.
+        than MAX_COORDINATES_FOR_LANES absolute coordinates exclude it. A kinematically driven scene has lanes unless
+        it has user events or a block of equations whose rows are exchanged for pivots.
         """
         if self.kinematics:
             kernels = self.kinematics.unpaired_kernels
@@ -193,11 +197,14 @@ class Program:
         has_contours = any(clearance.contour for clearance in self.model.clearances)
         is_large = len(self.model.q) > MAX_COORDINATES_FOR_LANES
         is_excluded = self.model.has_changing_constraints or has_contours or is_large
-        return self.methods is not None and self.tree is not None and not (self.tree.chains or is_excluded)
+        return self.methods is not None and self.tree is not None and not (self.tree.driven_loop_kernels or is_excluded)
 
 
 def _has_pivoted_block(kernels: Iterable[Kernel]) -> bool:
-    """Return whether a kernel solves a dense block with an order of rows that differs between lanes."""
+    """Return whether a kernel solves a dense block with row pivoting, whose order of rows may differ between lanes.
+
+    The sign of it is a declared integer local, the index of the pivot row.
+    """
     lines = (line for kernel in kernels for section in kernel.sections for line in section.statements)
     return any(isinstance(line, Declare) and line.type is Number.INTEGER for line in lines)
 
@@ -217,12 +224,12 @@ def make_program(model: Model, formulation: str = "reduced") -> Program:
     dynamics = make_dynamics_kernel(system, kkt)
     closed = (
         closed_linkage.make_mass_kernel(model),
-        *closed_linkage.make_row_kernels(model),
+        *closed_linkage.make_constraint_kernels(model),
         closed_linkage.make_start_kernel(model),
         outputs.make_outputs_kernel(model),
     )
     laws = SharedFunctions()
-    pins = tuple(make_joint_functions(model, clearance, laws) for clearance in model.clearances)
+    joint_functions = tuple(make_joint_functions(model, clearance, laws) for clearance in model.clearances)
     tree, in_tree = _derive_tree_functions(model, kkt.pivots) if not full else (None, None)
     watched = make_event_function_kernel(dynamics, model)
     angles = tuple(int(model.symbols.info[q].meaning.endswith(".theta")) for q in model.q)
@@ -236,7 +243,7 @@ def make_program(model: Model, formulation: str = "reduced") -> Program:
         dynamics,
         watched,
         tuple(laws.kernels),
-        pins,
+        joint_functions,
         tree,
         integrated,
         find_time_terms(dynamics, motion_may_stop=bool(model.frictions or model.rigid)),
@@ -261,10 +268,10 @@ def _derive_tree_functions(model: Model, pivots: tuple[str, ...]) -> tuple[TreeF
     conversions = tuple(
         vectorize_sines(remove_unused_locals(kernel)) for kernel in make_conversion_kernels(model, system)
     )
-    unpaired, kkt, chains = make_reduced_kernels(system)
-    kernels, rescued = tuple(vectorize_sines(kernel) for kernel in unpaired), has_singular_fallback(system)
-    tree = TreeFunctions(system, conversions, tuple(unpaired), kernels, rescued, chains)
-    pivots = pivots if rescued else kkt.pivots
+    unpaired, kkt, driven_loop_kernels = make_reduced_kernels(system)
+    kernels, has_fallback = tuple(vectorize_sines(kernel) for kernel in unpaired), has_singular_fallback(system)
+    tree = TreeFunctions(system, conversions, tuple(unpaired), kernels, has_fallback, driven_loop_kernels)
+    pivots = pivots if has_fallback else kkt.pivots
     if system.driven_loops:
         pivots = (*pivots, *(row.name for row in system.driven_loops.rows))
     angles = tuple(int("." not in name) for name in system.unknowns)

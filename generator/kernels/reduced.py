@@ -38,7 +38,7 @@ def has_singular_fallback(system: TreeSystem) -> bool:
 
 
 def make_conversion_kernels(model: Model, system: TreeSystem) -> list[Kernel]:
-    """Return the C functions that convert tree coordinates to absolute ones and back."""
+    """Return the kernels that convert tree coordinates to absolute ones and back."""
     return [_make_expand_kernel(system), *_make_reduce_kernels(model, system)]
 
 
@@ -53,16 +53,16 @@ def make_reduced_kernels(system: TreeSystem) -> tuple[list[Kernel], KKT, DrivenL
         system, kkt, DYNAMICS, _DOC, is_stabilized=False, append_fallback=_append_absolute_solution
     )
     projection, _ = make_projection_kernel(system, system.rows, "reduced_project")
-    chains = DrivenLoopKernels(system, system.driven_loops) if system.driven_loops else None
+    driven_loop_kernels = DrivenLoopKernels(system, system.driven_loops) if system.driven_loops else None
     is_driven = len(system.q) == len(system.rows) and not (system.model.clearances or system.frictions)
-    loop_switches = chains.switch_kernel if chains else None
+    loop_switches = driven_loop_kernels.switch_kernel if driven_loop_kernels else None
     watched = (
         None if is_driven else make_event_function_kernel(dynamics, system.model, loop_switches)
     )  # a driven motion has no events here
     if watched and system.driven_loops and reads_coordinate_beyond(watched, len(system.q)):
-        watched = None  # chains are closed by rates()
+        watched = None  # rates() closes driven loops
     kernels = (*_make_closure_kernels(system), dynamics, *([watched] if watched else []), projection)
-    return [remove_unused_locals(kernel) for kernel in kernels], kkt, chains
+    return [remove_unused_locals(kernel) for kernel in kernels], kkt, driven_loop_kernels
 
 
 def _append_absolute_solution(builder: KernelBuilder, kkt: KKT, right_sides: Mapping[int, sp.Expr]) -> None:
@@ -78,7 +78,7 @@ def _append_absolute_solution(builder: KernelBuilder, kkt: KKT, right_sides: Map
 
 
 def _make_expand_kernel(system: TreeSystem) -> Kernel:
-    """Return the C function of the absolute coordinates and velocities of all bodies at a state of the tree.
+    """Return the kernel of the absolute coordinates and velocities of all bodies at a state of the tree.
 
     They are written to `all_q` and `all_v`.
     """
@@ -98,9 +98,9 @@ def _make_expand_kernel(system: TreeSystem) -> Kernel:
 
 
 def _make_reduce_kernels(model: Model, system: TreeSystem) -> list[Kernel]:
-    """Return the C functions that compute tree coordinates and rates, and accelerations, from absolute ones.
+    """Return the kernels that compute tree coordinates and rates, and their second rates, from absolute ones.
 
-    The second function is left out if the absolute formulation never solves (`has_singular_fallback`).
+    The second kernel is left out if the absolute formulation is not a fallback (`has_singular_fallback`).
     """
     coordinate_pairs = list(zip(model.q, model.v, strict=True))
     differentiate, find_variables = model.symbols.differentiate, model.symbols.find_variables
@@ -175,13 +175,13 @@ def _compute_slide(model: Model, tree_edge: TreeEdge) -> sp.Expr:
 
 
 def _make_closure_kernels(system: TreeSystem) -> list[Kernel]:
-    """Return the C functions of Φ of the loop closures (m and rad) and of its rate Φ̇ = Φ_q v − ν, in a list.
+    """Return the kernels of Φ of the loop closures (m and rad) and of its rate Φ̇ = Φ_q v − ν, in a list.
 
     Each writes one value for each closure to `out`.
     """
 
     def make_kernel(name: str, doc: str, reads_velocity: bool, get_value: Callable[[Row], sp.Expr]) -> Kernel:
-        """Return the C function `name` that writes one value of each closure to `out`.
+        """Return the kernel `name` that writes one value of each closure to `out`.
 
         `reads_velocity`: the value depends on rates.
         """

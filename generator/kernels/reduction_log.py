@@ -54,9 +54,10 @@ def _list_unknown_names(model: Model, system: System) -> tuple[str, ...]:
 
 
 def _measure_factorization(kkt: KKT) -> Solve:
-    """Return the size and cost of a factorization: unknowns n, equations, non-zeros of the matrix and of L, products.
+    """Return the size and cost of a sparse factorization, as counted by its symbolic elimination.
 
-    Non-zeros of the matrix [M Φ_qᵀ; Φ_q 0] include both triangles and the diagonal of M.
+    These are: unknowns n, equations, non-zeros of the matrix and of L, products. Non-zeros of [M Φ_qᵀ; Φ_q 0] include
+    both triangles and the diagonal of M.
     """
     elimination = kkt.elimination
     return Solve(
@@ -142,10 +143,10 @@ def _make_angle_steps(model: Model, tree: Tree) -> Iterator[Step]:
 
 
 def _make_shared_point_steps(tree: Tree) -> Iterator[Step]:
-    """Yield for each shared point the exchange of pairs of points that coincide: those of the file for those in use.
+    """Yield for each shared point (multiple joint) the exchange of the file's pairs of bodies for those in use.
 
     A shared point is one at which three or more bodies meet. Pairs in use are those of tree and closures. Points whose
-    pairs stay are left out.
+    pairs all stay are left out.
     """
     for hub in tree.shared_points:
         joints_in_use = [tree_edge.joint for tree_edge in tree.edges if tree_edge.joint in hub.pairs]

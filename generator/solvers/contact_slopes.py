@@ -51,7 +51,7 @@ def find_input_variables(clearance: Clearance) -> tuple[sp.Symbol, ...]:
 
 
 def _make_kernel_arguments(clearance: Clearance) -> tuple[Argument, ...]:
-    """Return the arguments of the C function that computes one part of a joint's force and its derivatives.
+    """Return the arguments of the kernel that computes one part of a joint's force and its derivatives.
 
     They are the input variables, the contact state, the parameters, those of the branches, and the result `out`.
     """
@@ -61,10 +61,10 @@ def _make_kernel_arguments(clearance: Clearance) -> tuple[Argument, ...]:
 
 
 class _DerivativeBuilder:
-    """Builder of one C function: steps and laws with their tangents by the inputs."""
+    """Builder of one kernel: steps and laws with their tangents by the inputs."""
 
     def __init__(self, model: Model, clearance: Clearance, part: str) -> None:
-        """Begin the C function of one `part` of a joint's force, "film" or "dry", and of its derivatives by the inputs.
+        """Begin the kernel of one `part` of a joint's force, "film" or "dry", and of its derivatives by the inputs.
 
         Internal states of laws (bristle states) are inputs too.
         """
@@ -130,7 +130,7 @@ class _DerivativeBuilder:
 
 
 def make_film_derivative_kernel(model: Model, clearance: Clearance, film: LawEquations) -> Kernel:
-    """Return the C function of the film's force and moments and of their derivatives.
+    """Return the kernel of the film's force and moments and of their derivatives.
 
     The values are (F along n, F along t, M_i, M_j). The derivatives are by (e, δ̇, ė_t, ω_i, ω_j).
     """
@@ -152,7 +152,7 @@ def make_film_derivative_kernel(model: Model, clearance: Clearance, film: LawEqu
 
 
 def make_dry_derivative_kernel(model: Model, clearance: Clearance, normal: LawEquations) -> Kernel:
-    """Return the C function of the dry contact's force and moments and of their derivatives by the inputs.
+    """Return the kernel of the dry contact's force and moments and of their derivatives by the inputs.
 
     It is defined at δ < 0 too, with zero force, since samples before a separation lie there. While the contact is open,
     the ratio of velocities is 1 with derivative 0. `normal`: the normal law.
@@ -220,7 +220,7 @@ def read_parameters_from_struct(model: Model, value: sp.Expr) -> sp.Expr:
 
 
 def make_fraction_derivative_kernel(model: Model, clearance: Clearance) -> Kernel:
-    """Return the C function of the fraction of the dry contact in a transition, and of its derivative by δ.
+    """Return the kernel of the fraction of the dry contact in a transition, and of its derivative by δ.
 
     The rate of δ with e is 1 without a contour. A law of mixed lubrication may define the fraction; it reads max(δ, 0).
     """

@@ -53,10 +53,10 @@ ZERO = sp.Integer(0)
 
 
 class Newton:
-    """The C functions of Newton's method for one system: linearize, factor, substitute and solve."""
+    """The kernels of Newton's method for one system: linearize, factor, substitute and solve."""
 
     def __init__(self, system: System) -> None:
-        """Derive the C functions linearize, factor, substitute and solve, in this order.
+        """Derive the kernels linearize, factor, substitute and solve, in this order.
 
         Each reads values that the one before stores. `system`: the equations of motion that are integrated.
         """
@@ -83,7 +83,7 @@ class Newton:
         return KernelBuilder(self.model.symbols, name, doc)
 
     def _make_linearize_kernel(self) -> Kernel:
-        """Return the C function that writes all parts of the linearization at a state to `lin->value`.
+        """Return the kernel that writes all parts of the linearization at a state to `lin->value`.
 
         Afterwards `self.parts` is in symbols that read them there, and `self.sticks` and `self.tables` are set.
         """
@@ -229,7 +229,7 @@ class Newton:
             builder.append_line(Statement(ETA_STICK.name, ETA / (1 + ETA * derive_stick_gain(self.model))))
 
     def _make_factor_kernel(self) -> Kernel:
-        """Return the C function that factorizes Newton's matrix at η as L U, L with unit diagonal.
+        """Return the kernel that factorizes Newton's matrix at η as L U, L with unit diagonal.
 
         Entries that are neither numbers nor known are stored in `lin->lu`. It sets `elimination`, `lower`, `upper` and
         `inverse`. The function returns 0, or the number of the node, from 1, whose pivot vanished.
@@ -278,7 +278,7 @@ class Newton:
         return replace(kernel, sections=(parameter_section, *kernel.sections)) if reads_parameters else kernel
 
     def _make_substitute_kernel(self) -> Kernel:
-        """Return the C function that overwrites x = b by the solution of N x = b, N Newton's matrix factorized as L U.
+        """Return the kernel that overwrites x = b by the solution of N x = b, N Newton's matrix factorized as L U.
 
         x has one element for each node: coordinates, then equations, frictions and internal states.
         """
@@ -305,7 +305,7 @@ class Newton:
         return self._finish_function(builder, (self.linearization_argument, make_output_argument("x")))
 
     def _make_solve_kernel(self) -> Kernel:
-        """Return the C function that solves (1/η − J) u = r + s f_t for u.
+        """Return the kernel that solves (1/η − J) u = r + s f_t for u.
 
         r and u are vectors (q, v, works, internal states); s is a number. It calls the function of
         `_make_substitute_kernel`.

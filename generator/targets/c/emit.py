@@ -89,7 +89,7 @@ def describe_program(
         motion_pivots=integrated.pivots,
         operations=_count_operations(program),
         tree=tree.system.unknowns if tree else (),
-        chain=integrated.chain,
+        chain=integrated.driven_loops,
         closures=tuple(row.name for row in tree.system.rows) if tree else (),
         formulation=program.formulation,
         story=build_reduction_log(
@@ -331,7 +331,7 @@ def print_reduced_file(model: Model, tree: TreeFunctions, render: Render, print_
     texts += [print_kernels(*tree.conversions), print_kernels(*tree.kernels)]
     if tree.has_fallback:
         texts.append(render("multipliers.c.jinja", multipliers=_print_closure_multipliers(model, tree.system)))
-    if chains := tree.chains:
+    if chains := tree.driven_loop_kernels:
         kernels = print_kernels(*chains.kernels)
         texts.append(
             render(

@@ -204,7 +204,8 @@ def _list_motion_sizes(program: Program) -> Sizes:
 
     Flags have the values 0 and 1.
     """
-    integrated, chain, course, tree = program.integrated, program.integrated.chain, program.kinematics, program.tree
+    integrated, course, tree = program.integrated, program.kinematics, program.tree
+    chain = integrated.driven_loops
     system, newton = integrated.system, program.methods.newton if program.methods else None
     return {
         "INTEGRATES": (int(program.integrates), "1: integrated; 0: no degree of freedom, drives determine positions"),
@@ -218,7 +219,7 @@ def _list_motion_sizes(program: Program) -> Sizes:
             "these, and cosines and sines of their angles",
         ),
         "SMOOTH_DRIVEN_LOOPS": (
-            int(bool(tree and tree.chains and not tree.chains.switch_kernel)),
+            int(bool(tree and tree.driven_loop_kernels and not tree.driven_loop_kernels.switch_kernel)),
             "their drives have no switching functions",
         ),
         "TREE_PIVOTS": (
@@ -348,7 +349,7 @@ def _find_largest_block_size(program: Program) -> int:
 
     Such blocks occur in positions that follow from drives and in driven loops.
     """
-    rows, chains = program.kinematics and program.kinematics.rows, program.tree and program.tree.chains
+    rows, chains = program.kinematics and program.kinematics.rows, program.tree and program.tree.driven_loop_kernels
     return max(rows.largest if rows else 0, chains.square.largest if chains else 0)
 
 

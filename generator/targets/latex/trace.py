@@ -108,7 +108,7 @@ class _TokenCollector:
         members = map(self.model.parameter_table.find_field_name, self.model.parameter_table.list_symbols())
         self.place_in_p = {f"{PARAMETERS}.{member}": k for k, member in enumerate(members, 1)}
         tree = program.tree
-        in_chains = tree.chains.loops.rows if tree and tree.chains else ()
+        in_chains = tree.driven_loop_kernels.loops.rows if tree and tree.driven_loop_kernels else ()
         self.in_chains = {make_identifier(f"phi_{row.name}"): row.name for row in in_chains}
         self.shown = {name for row in self.model.rows for name in find_symbol_names(row.phi)}
 
