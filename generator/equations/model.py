@@ -449,7 +449,7 @@ def add_further_parameters(model: Model) -> None:
         model.parameter_table.get_or_add_constant(STICK, "alpha_stick", BAUMGARTE, make_dimension(time=-1))
 
 
-def derive_stick_gain(model: Model) -> sp.Expr:
+def derive_stick_baumgarte_gain(model: Model) -> sp.Expr:
     """Return 2α, in 1/s, of Baumgarte's term for sticking friction as a derived parameter; α is "baumgarte.stick".
 
     Methods that project the state stabilize no other equation.

@@ -9,7 +9,7 @@ import sympy as sp
 
 from gudgeon.generator.equations.contact_points import Wall
 from gudgeon.generator.equations.loads import PointLoad
-from gudgeon.generator.equations.model import Model, derive_stick_gain
+from gudgeon.generator.equations.model import Model, derive_stick_baumgarte_gain
 from gudgeon.generator.equations.play import Clearance
 from gudgeon.generator.equations.system import System
 from gudgeon.generator.ir.branches import ReturnIfOnlyJoints
@@ -193,7 +193,7 @@ def _append_slip_velocities(
     if kkt.frictions:
         builder.begin_section("friction: slip, or stick as a constraint equation")
     coordinate_index = {q: k for k, q in enumerate(kkt.system.q)}
-    two_alpha = derive_stick_gain(model) if kkt.frictions else ZERO
+    two_alpha = derive_stick_baumgarte_gain(model) if kkt.frictions else ZERO
     for index, friction in enumerate(kkt.frictions):
         name, node = friction.name, kkt.first_friction + index
         v = builder.append_local(f"slip_{name}", friction.slip.v)

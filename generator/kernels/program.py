@@ -15,7 +15,7 @@ from functools import cached_property
 import sympy as sp
 
 from gudgeon.contract.methods import STAGES
-from gudgeon.generator.equations.model import Model, derive_stick_gain
+from gudgeon.generator.equations.model import Model, derive_stick_baumgarte_gain
 from gudgeon.generator.equations.system import System, make_absolute_system
 from gudgeon.generator.ir.kernels import Kernel, remove_unused_locals
 from gudgeon.generator.ir.series import Series
@@ -292,7 +292,7 @@ def _derive_methods(model: Model, integrated: Integrated, with_complex_kernels: 
         clearance.name: make_derivative_calls(model, clearance, derivatives) for clearance in model.clearances
     }
     newton = Newton(integrated.system)
-    gains = {"stick": derive_stick_gain(model)} if model.frictions else {}
+    gains = {"stick": derive_stick_baumgarte_gain(model)} if model.frictions else {}
     if not integrated.reduced:
         alpha, beta = model.baumgarte
         gains["two_alpha"] = model.parameter_table.derive_parameter("two_alpha", 2 * alpha)

@@ -23,7 +23,7 @@ from dataclasses import replace
 import sympy as sp
 
 from gudgeon.contract.boundary import N_WORK
-from gudgeon.generator.equations.model import derive_stick_gain
+from gudgeon.generator.equations.model import derive_stick_baumgarte_gain
 from gudgeon.generator.equations.system import System
 from gudgeon.generator.ir.complex_parts import convert_to_complex
 from gudgeon.generator.ir.differentiation import Tangents
@@ -83,9 +83,10 @@ class Newton:
         return KernelBuilder(self.model.symbols, name, doc)
 
     def _make_linearize_kernel(self) -> Kernel:
-        """Return the kernel that writes all parts of the linearization at a state to `lin->value`.
+        """Return the kernel `linearize`, which writes all parts of the linearization at a state to `lin->value`.
 
-        Afterwards `self.parts` is in symbols that read them there, and `self.sticks` and `self.tables` are set.
+        It also copies the parameters to `lin`. Sets `parts` (entries as symbols that read `lin->value`), `stick_flags`
+        (such symbols, 1 at stick and 0 at slip, by friction element) and `tables` (`_make_tables`).
         """
         builder = self._begin_function(
             "linearize",
@@ -99,7 +100,9 @@ class Newton:
         parts = linearization.derive_parts()
         builder.begin_section("results")
         self.parts = self._store_parts(builder, parts, linearization.tangents)
-        self.sticks = [self.values.store_value(builder, stick, f"is_{stick.name}") for stick in linearization.sticks]
+        self.stick_flags = [
+            self.values.store_value(builder, stick, f"is_{stick.name}") for stick in linearization.stick_flags
+        ]
         self.tables = self._make_tables(builder)
         builder.append_store(self.linearization_argument[PARAMETERS.name], Place(PARAMETERS.name))
         arguments = (
@@ -197,7 +200,7 @@ class Newton:
         return entries | {(k, node): value for (node, k), value in parts.phi_q.items()}
 
     def _name_entry(self, builder: KernelBuilder, index: Pair, value: sp.Expr) -> sp.Expr:
-        """Return an entry of Newton's matrix: unchanged if it is a number or ± a symbol, else as a new local.
+        """Return an entry of Newton's matrix as a new local; a number or ± a symbol is returned unchanged.
 
         `index`: its row and column, from which the local is named.
         """
@@ -217,7 +220,7 @@ class Newton:
         """Append the factors η/κ of constraints and of sticks to the function, those that are in `scales`.
 
         η = h γ of the method. κ = 1 + 2αη + β²η² for constraints (Baumgarte's α and β), 1 + 2αη for sticks, with α of
-        `derive_stick_gain`. The section "eta/kappa" begins also without a factor.
+        `derive_stick_baumgarte_gain`. The section "eta/kappa" begins also without a factor.
         """
         alpha, beta = self.model.baumgarte
         derive = self.model.parameter_table.derive_parameter
@@ -226,13 +229,13 @@ class Newton:
         if ETA_ROW in scales:
             builder.append_line(Statement(ETA_ROW.name, ETA / (1 + ETA * (two_alpha + ETA * beta_squared))))
         if ETA_STICK in scales:
-            builder.append_line(Statement(ETA_STICK.name, ETA / (1 + ETA * derive_stick_gain(self.model))))
+            builder.append_line(Statement(ETA_STICK.name, ETA / (1 + ETA * derive_stick_baumgarte_gain(self.model))))
 
     def _make_factor_kernel(self) -> Kernel:
-        """Return the kernel that factorizes Newton's matrix at η as L U, L with unit diagonal.
+        """Return the kernel `newton_factor`, which factorizes Newton's matrix at η as L U, L with unit diagonal.
 
-        Entries that are neither numbers nor known are stored in `lin->lu`. It sets `elimination`, `lower`, `upper` and
-        `inverse`. The function returns 0, or the number of the node, from 1, whose pivot vanished.
+        Factors that are neither numbers nor ± symbols are stored in `lin->lu`. Sets `elimination`, `lower`, `upper`
+        and `inverse`. The function returns 0, or the number of the node, from 1, whose pivot vanished.
         """
         states = range(self.first_state, self.nodes)
         note = ", internal states" if states else ""
@@ -431,11 +434,11 @@ class Factors:
         return subtract_products(value, factors)
 
     def _invert_pivot(self, k: int) -> sp.Expr:
-        """Return 1/pivot of node k, and append a test of the pivot that fails with the number k + 1.
+        """Return 1/pivot of node k, and append a test of the pivot, upon whose failure the function returns k + 1.
 
         The pivot of a constraint equation is compared with its value if the equation were independent of the others,
-        any other one with its entry. Constant entries, missing internal states and masses need no test; at slip 0 is
-        returned.
+        any other one with its entry. Constant entries, missing internal states and masses need no test. The value of a
+        friction element that slips is 0 at run time.
         """
         newton, builder, name = self.newton, self.builder, self.newton.names[k]
         entry = self.entries.get((newton.equation.get(k, k), k), ZERO)
@@ -463,7 +466,7 @@ class Factors:
             else scale
         )
         size = entry if k < newton.n or k >= states else scale
-        stick = newton.sticks[k - newton.n - newton.m] if newton.n + newton.m <= k < states else None
+        stick = newton.stick_flags[k - newton.n - newton.m] if newton.n + newton.m <= k < states else None
         is_sticking = Test(stick, "!=", (0.0,)) if stick is not None else None
         builder.append_line(
             Guard(
@@ -477,10 +480,10 @@ class Factors:
         return newton.factors.store_local(builder, builder.append_local(f"inverse_pivot_{name}", value))
 
     def _store_factor(self, name: str, value: sp.Expr) -> sp.Expr:
-        """Return a factor as a value that other functions may read, as they read the array `lin->lu`.
+        """Return a factor as a value that the other kernels can read, from `lin->lu` if necessary.
 
-        A number or ± a symbol other than η and η/κ is unchanged; another value becomes the local `name`. The local is
-        stored.
+        A number or ± a symbol other than η and η/κ is unchanged. Any other value becomes the local `name`, which is
+        stored in `lin->lu`.
         """
         is_stored_elsewhere = is_simple(value) and not value.free_symbols & {
             ETA,
