@@ -66,7 +66,7 @@ class System:
     prescribed: tuple[PrescribedCoordinate, ...]
     rows: tuple[Row, ...]
     frictions: tuple[Friction, ...]
-    dependent: tuple[DependentCoordinate, ...] = field(default=(), kw_only=True)  # of driven chains (driven_chains.py)
+    dependent: tuple[DependentCoordinate, ...] = field(default=(), kw_only=True)  # of driven chains (driven_loops.py)
     in_tree: ClassVar[bool] = False  # whether the coordinates are those of a tree
 
     def compute_inertia_about_joints(self, k: int) -> sp.Expr:

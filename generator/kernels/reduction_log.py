@@ -97,7 +97,7 @@ def _make_reduction_steps(model: Model, system: TreeSystem) -> Iterator[Step]:
             _list_joint_names(matching_edges),
             tuple(f"{tree_edge.body}.{axis}" for tree_edge in matching_edges for axis in "xy"),
             tuple(name for tree_edge in matching_edges for name in tree_edge.coordinates),
-            tuple(row for tree_edge in matching_edges for row in tree_edge.rows),
+            tuple(row for tree_edge in matching_edges for row in tree_edge.satisfied_rows),
         )
     if system.slides:
         names = dict.fromkeys(k for expression in system.slides.values() for k in expression if k != CONSTANT)
