@@ -107,7 +107,7 @@ class Constraints(Freezable):
         dr)/length. Written out, the second derivatives of the root would be thousands of terms. P and Q are
         `first_point` and `second_point`; each call defines new symbols.
         """
-        define, rules = self.symbols.add_definition, self.symbols.rules
+        define, rules = self.symbols.add_definition, self.symbols.derivative_rules
         difference = (second_point.x - first_point.x, second_point.y - first_point.y)
         x, y = (
             define(f"{drive_name}_span_{axis}", value, None, "span")
@@ -149,7 +149,10 @@ class Constraints(Freezable):
         second_derivative = define(
             f"{drive.name}_acceleration", _differentiate_by_time(first_derivative, self.t), None, "its second rate"
         )
-        self.symbols.rules[f], self.symbols.rules[rate] = {self.t: rate}, {self.t: second_derivative}
+        self.symbols.derivative_rules[f], self.symbols.derivative_rules[rate] = (
+            {self.t: rate},
+            {self.t: second_derivative},
+        )
         self.drive_angles[drive.name] = f, rate, second_derivative
         return f
 

@@ -92,10 +92,10 @@ class JointFields:
                 )
             )
             value = differentiate(value, phi)
-        bases = sorted({base for s in angle.free_symbols for base in symbols.rules.get(s, (s,))}, key=str)
+        bases = sorted({base for s in angle.free_symbols for base in symbols.derivative_rules.get(s, (s,))}, key=str)
         rates = {base: rate for base in bases if (rate := symbols.differentiate(angle, base)) != 0}
         for function, next_derivative in pairwise(derivatives):
-            symbols.rules[function] = {base: rate * next_derivative for base, rate in rates.items()}
+            symbols.derivative_rules[function] = {base: rate * next_derivative for base, rate in rates.items()}
         return derivatives[0]
 
     def derive_parameter(self, name: str, expression: sp.Expr) -> sp.Expr:

@@ -219,7 +219,10 @@ class Geometry(Freezable):
             define, name = self.symbols.add_definition, body.name
             cos = define(f"cos_theta_{name}", sp.cos(body.theta), None, f"cos of {name}.theta")
             sin = define(f"sin_theta_{name}", sp.sin(body.theta), None, f"sin of {name}.theta")
-            self.symbols.rules[cos], self.symbols.rules[sin] = {body.theta: -sin}, {body.theta: cos}
+            self.symbols.derivative_rules[cos], self.symbols.derivative_rules[sin] = (
+                {body.theta: -sin},
+                {body.theta: cos},
+            )
             self._angles[name] = cos, sin
         return self._angles[body.name]
 
@@ -243,7 +246,7 @@ class Geometry(Freezable):
                 return cos * s[0] - sin * s[1], sin * s[0] + cos * s[1]
             x = self.symbols.add_definition(f"{base_name}_x", cos * s[0] - sin * s[1], None, "A(theta) s, x")
             y = self.symbols.add_definition(f"{base_name}_y", sin * s[0] + cos * s[1], None, "A(theta) s, y")
-            self.symbols.rules[x], self.symbols.rules[y] = {body.theta: -y}, {body.theta: x}
+            self.symbols.derivative_rules[x], self.symbols.derivative_rules[y] = {body.theta: -y}, {body.theta: x}
             self._rotated_vectors[body.name, *s] = x, y
             first_components = (
                 component

@@ -45,7 +45,7 @@ class FractionOfPi:
         return self.numerator * math.pi / self.denominator
 
     @property
-    def is_one(self) -> bool:
+    def is_pi(self) -> bool:
         """Return whether the number is π itself."""
         return self.numerator == self.denominator == 1
 
@@ -59,9 +59,10 @@ class FractionOfPi:
 
 
 def convert_to_fraction_of_pi(number: sp.Expr) -> FractionOfPi | None:
-    """Return a number as a fraction of π that has the same bits as a float; None if there is none.
+    """Return a number as a fraction of π that has the same bits as a float, such as 3 π/2; None if there is none.
 
-    `number`: a SymPy float, or a rational number times π. A float must be k π/d with d a divisor of 360 and |k| ≤ 1000.
+    `number`: a SymPy float, or a rational number times π. A float must be k π/d with d a divisor of 360 and |k| ≤
+    1000. An exact integer multiple of π gives None.
     """
     if number.is_Float:
         return _find_fraction_of_pi(float(sp.Float(number, 17)))
@@ -95,7 +96,8 @@ def make_readable(kernel: Kernel, name_branches: bool = True) -> Readable:
     """Return the readable form of a kernel: without copies of arguments and parameters, with a line for each branch.
 
     A branch is a conditional value, of min or `where` for example; `name_branches` False leaves it inside the
-    expressions. Empty sections are removed; values and the order of their terms stay.
+    expressions. The lines `y = value` and `p.x = y` are merged. Empty sections are removed; values and the order of
+    their terms stay.
     """
     arguments = {argument.name for argument in kernel.arguments}
     names = dict(kernel.names)

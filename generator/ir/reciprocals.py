@@ -55,7 +55,8 @@ def share_reciprocals(kernel: Kernel) -> Kernel:
 def _share_denominators(sections: tuple[Section, ...]) -> list[Section]:
     """Return the sections with 1/x as a local for each denominator x that occurs more than once.
 
-    The local is assigned before the first statement that reads it, and divisions become products with it.
+    The local is assigned before the first statement that reads it, and divisions become products with it: common
+    subexpression elimination.
     """
     statements = [s for section in sections for s in section.statements if isinstance(s, Statement)]
     values = [s.value for s in statements if isinstance(s.value, sp.Expr)]

@@ -73,11 +73,11 @@ def _find_angle(statement: Line) -> sp.Symbol | None:
 
 
 def _group_sines_in_section(section: Section, make_lines: _MakeLines, n_groups: int) -> tuple[Section, int]:
-    """Return the section with its cosines and sines in groups, as early as possible, and the number of groups so far.
+    """Return the section with its cosines and sines in groups, as early as possible, and the new number of groups.
 
     `make_lines` makes the lines of groups; `n_groups`: the number before. Statements that the angles depend on come
-    first, then the groups, then the rest. A section with lines that are not assignments, or without angles, is returned
-    unchanged.
+    first, then the groups, then the rest. A section with lines that are not assignments of expressions, or without
+    angles, is returned unchanged.
     """
     statements = [
         statement

@@ -86,21 +86,21 @@ class Declare(Line):
 
 @dataclass(frozen=True)
 class Call(Line):
-    """A call `function(given, …, results, …)`; structs are passed by their address."""
+    """A call `function(inputs, …, results, …)`; structs are passed by their address."""
 
     function: str
-    given: tuple[sp.Basic | Place, ...]
+    inputs: tuple[sp.Basic | Place, ...]
     results: tuple[Place, ...]
 
     @property
     def expressions(self) -> tuple[sp.Basic, ...]:
         """Return the expressions that are passed."""
-        return tuple(x for x in self.given if isinstance(x, sp.Basic))
+        return tuple(x for x in self.inputs if isinstance(x, sp.Basic))
 
     @property
     def names(self) -> Names:
         """Return the arguments and arrays that are passed."""
-        return frozenset(x.base for x in self.given if isinstance(x, Place))
+        return frozenset(x.base for x in self.inputs if isinstance(x, Place))
 
     @property
     def writes(self) -> Names:  # type: ignore[override]
@@ -110,11 +110,10 @@ class Call(Line):
 
 @dataclass(frozen=True)
 class Guard(Line):
-    """A test, or a call that must return 0; if it fails, the function fails with a number.
+    """A test, or a call that must return 0; if it fails, the function ends with a status number.
 
-    To fail is to return the number, or to store it as `pivot` and to jump to the code for dependent equations. With
-    `condition`
-    the test is made only where that holds.
+    Without `jumps` it returns the number. With `jumps` it stores the number as `pivot` and jumps to the code for
+    dependent equations. With `condition` the test is made only where that holds.
     """
 
     test: Test | Call
@@ -252,8 +251,8 @@ class LargestRow(Line):
 
 
 @dataclass(frozen=True)
-class MarkUnread(Line):
-    """A mark that a local is deliberately not read."""
+class MarkUnused(Line):
+    """A mark that a local is deliberately not read: C casts it to void."""
 
     name: str
 

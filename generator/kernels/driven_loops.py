@@ -29,7 +29,7 @@ from gudgeon.generator.ir.kernels import (
 )
 from gudgeon.generator.ir.signatures import DISCRETE, PARAMETERS, STATE, Number, make_output_argument
 from gudgeon.generator.ir.sine_pairs import vectorize_sines
-from gudgeon.generator.ir.statements import DeclareBranches, LargestRow, MarkUnread, Return, Statement
+from gudgeon.generator.ir.statements import DeclareBranches, LargestRow, MarkUnused, Return, Statement
 from gudgeon.generator.reduction.driven_loops import DrivenLoops
 from gudgeon.generator.solvers.square_rows import SquareSystem
 from gudgeon.generator.symbols.storage import Place
@@ -262,6 +262,6 @@ class DrivenLoopKernels:
         for branch in dict.fromkeys(branches):
             name = f"side_{branch.args[0]}"
             builder.append_line(Statement(name, branch))
-            builder.append_line(MarkUnread(name))
+            builder.append_line(MarkUnused(name))
         kernel = builder.build_kernel((*STATE[:2], DISCRETE, PARAMETERS, make_output_argument("g")), owner="")
         return replace(kernel, sections=(FROZEN_BRANCHES_SECTION, *kernel.sections))

@@ -103,13 +103,16 @@ def _make_reduce_kernels(model: Model, system: TreeSystem) -> list[Kernel]:
     The second kernel is left out if the absolute formulation is not a fallback (`has_singular_fallback`).
     """
     coordinate_pairs = list(zip(model.q, model.v, strict=True))
-    differentiate, find_variables = model.symbols.differentiate, model.symbols.find_variables
+    differentiate, find_differentiation_variables = (
+        model.symbols.differentiate,
+        model.symbols.find_differentiation_variables,
+    )
     names = (*system.unknowns, *(system.driven_loops.names if system.driven_loops else ()))
     positions = _express_tree_coordinates(model, system, names)
 
     def compute_rate(value: sp.Expr) -> sp.Expr:
         """Return the sum of the derivatives of a value by the coordinates, times their rates."""
-        variables = find_variables(value)
+        variables = find_differentiation_variables(value)
         return sp.Add(*(differentiate(value, q) * v for q, v in coordinate_pairs if q in variables))
 
     rates = [compute_rate(position) for position in positions]
@@ -133,7 +136,7 @@ def _make_reduce_kernels(model: Model, system: TreeSystem) -> list[Kernel]:
     for k, (position, rate) in enumerate(zip(positions, rates, strict=True)):
         if k == len(system.unknowns):
             break
-        variables = find_variables(position)
+        variables = find_differentiation_variables(position)
         terms = [
             differentiate(position, q) * PlaceSymbol(Place("all_a")[index])
             for index, q in enumerate(model.q)

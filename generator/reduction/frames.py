@@ -124,7 +124,7 @@ class Motions:
         `base_name`: base of its name. The symbol is entered in `symbols` with definition and derivative rules.
         """
         symbol = self.symbols.add_definition(base_name, value)
-        self.symbols.rules[symbol] = self.find_derivative_rules(columns)
+        self.symbols.derivative_rules[symbol] = self.find_derivative_rules(columns)
         return symbol
 
     def define_rate(self, base_name: str, value: sp.Expr, columns: Mapping[str, sp.Expr]) -> sp.Symbol:
@@ -133,7 +133,7 @@ class Motions:
         `base_name`: base of its name. The symbol is entered in `symbols` with definition and derivative rules.
         """
         symbol = self.symbols.add_definition(base_name, value)
-        self.symbols.rules[symbol] = self.find_rate_derivative_rules(columns)
+        self.symbols.derivative_rules[symbol] = self.find_rate_derivative_rules(columns)
         return symbol
 
     def make_frame(self, name: str, affine: Affine) -> Frame:
@@ -151,8 +151,12 @@ class Motions:
         cos = self.symbols.add_definition(f"cos_theta_{name}", sp.cos(theta), None, f"cos of {name}.theta")
         sin = self.symbols.add_definition(f"sin_theta_{name}", sp.sin(theta), None, f"sin of {name}.theta")
         frame = Frame(name, theta, omega, cos, sin, angle_coefficients)
-        self.symbols.rules[cos] = self.find_derivative_rules({k: -c * sin for k, c in angle_coefficients.items()})
-        self.symbols.rules[sin] = self.find_derivative_rules({k: c * cos for k, c in angle_coefficients.items()})
+        self.symbols.derivative_rules[cos] = self.find_derivative_rules(
+            {k: -c * sin for k, c in angle_coefficients.items()}
+        )
+        self.symbols.derivative_rules[sin] = self.find_derivative_rules(
+            {k: c * cos for k, c in angle_coefficients.items()}
+        )
         return frame
 
     def rotate_vector(self, frame: Frame, w: Pair, base_name: str) -> Pair:
@@ -173,10 +177,10 @@ class Motions:
         if (frame.name, x, y) not in self._arms:
             a_x = self.symbols.add_definition(f"{base_name}_x", frame.cos * x - frame.sin * y, None, "A(theta) s, x")
             a_y = self.symbols.add_definition(f"{base_name}_y", frame.sin * x + frame.cos * y, None, "A(theta) s, y")
-            self.symbols.rules[a_x] = self.find_derivative_rules(
+            self.symbols.derivative_rules[a_x] = self.find_derivative_rules(
                 {k: -c * a_y for k, c in frame.angle_coefficients.items()}
             )
-            self.symbols.rules[a_y] = self.find_derivative_rules(
+            self.symbols.derivative_rules[a_y] = self.find_derivative_rules(
                 {k: c * a_x for k, c in frame.angle_coefficients.items()}
             )
             self._arms[frame.name, x, y] = a_x, a_y

@@ -83,10 +83,10 @@ class Inertia:
             k: second.angle_coefficients.get(k, ZERO) - first.angle_coefficients.get(k, ZERO)
             for k in {**first.angle_coefficients, **second.angle_coefficients}
         }
-        self.symbols.rules[cos] = self.motions.find_derivative_rules(
+        self.symbols.derivative_rules[cos] = self.motions.find_derivative_rules(
             {k: -c * sin for k, c in angle_coefficients.items()}
         )
-        self.symbols.rules[sin] = self.motions.find_derivative_rules(
+        self.symbols.derivative_rules[sin] = self.motions.find_derivative_rules(
             {k: c * cos for k, c in angle_coefficients.items()}
         )
 

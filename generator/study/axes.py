@@ -35,17 +35,17 @@ from gudgeon.generator.study.spec import (
 from gudgeon.generator.yaml import Items, Map, Text
 
 _VALUES = "a number, a list of numbers, or {from: …, to: …, count: …}"
-_RANGE = ("from", "to", "count", "spacing")
-_SPREAD = ("mean", "std", "from", "to", "spacing")
-_STARTS = ("count", "seed", "distribution", "relative", "absolute", "ensembles")
+_RANGE_KEYS = ("from", "to", "count", "spacing")
+_DISTRIBUTION_KEYS = ("mean", "std", "from", "to", "spacing")
+_STARTS_KEYS = ("count", "seed", "distribution", "relative", "absolute", "ensembles")
 ENSEMBLE = "all"  # name of the ensemble if the file names none
 
 
 def read_parameters(reader: Reader, root: Map) -> tuple[dict[Text, Text], list[Axis]]:
     """Return the values that all runs share, by address, and the dimensions (Axis) of `parameters:` and `zip:`.
 
-    A single value of a parameter is shared by all runs; a list or range is a dimension, and so is each entry of `zip`.
-    Values are texts of the file. Errors are collected; wrong entries are left out.
+    `parameters: {c: 0.1 mm, omega: [10, 20]}` gives one shared value and one dimension. A range is a dimension too,
+    and so is each entry of `zip`. Values are texts of the file. Errors are collected; wrong entries are left out.
     """
     shared_values, axes = dict[Text, Text](), list[Axis]()
     for key, node in _iterate_section_entries(reader, root, "parameters"):
@@ -74,13 +74,13 @@ def _iterate_section_entries(reader: Reader, root: Map, section: str) -> Iterato
 
 
 def _read_parameter_values(reader: Reader, node: Any, address: str, key: Text) -> ParameterValues:
-    """Return the values of a parameter: a list, or a range from … to … with a count and a spacing.
+    """Return the values of a parameter: a list, or a range {from: 1, to: 5, count: 9, spacing: geometric}.
 
     No values are returned if a key is missing, whose error is collected. Raises BadValueError for another node.
     """
     if not isinstance(node, Map):
         return ParameterValues(check_texts(node, address, key, _VALUES))
-    if not check_keys(reader, node, _RANGE, address, _RANGE[:3]):
+    if not check_keys(reader, node, _RANGE_KEYS, address, _RANGE_KEYS[:3]):
         return ParameterValues(())
     end_values = tuple(
         check_text(node[name], f"{address}.{name}", node.find_key(name), "a number") for name in ("from", "to")
@@ -97,9 +97,10 @@ def _read_spacing(node: Map, address: str) -> str:
 
 
 def _read_zip_entry(reader: Reader, name: Text, group: Map) -> Axis:
-    """Return the dimension of an entry of `zip`: parameters that vary together, all with the same number of values.
+    """Return the dimension of an entry of `zip`, such as `pairs: {c: [1 um, 2 um], omega: [10, 20]}`.
 
-    Raises BadValueError for lists of different lengths and an empty entry, BadNameError for a reserved name.
+    Its parameters vary together, and all must have the same number of values. Raises BadValueError for lists of
+    different lengths and an empty entry, BadNameError for a reserved name.
     """
     dimension = check_label_of_entry(name, "zip") if name == "run" else check_dimension_name(name, "zip")
     columns = {
@@ -119,10 +120,11 @@ def _read_zip_entry(reader: Reader, name: Text, group: Map) -> Axis:
 
 
 def read_draw(reader: Reader, root: Map) -> Draw | None:
-    """Return `draw:`, random points in parameter space; None if the file has none or it is wrong.
+    """Return `draw:`, random points in parameter space, such as {count: 100, parameters: {c: {mean: …, std: …}}}.
 
     The keys count and parameters are required; the default method is the first of SAMPLING_METHODS. Parameters without
-    entries, and names that a dimension cannot have, are errors. Errors are collected.
+    entries, and names that a dimension cannot have, are errors. Errors are collected. Return None without `draw` or
+    after an error.
     """
     if "draw" not in root:
         return None
@@ -156,8 +158,10 @@ def _read_distribution(reader: Reader, key: Text, value: Any) -> Distribution:
     address = f"draw.parameters.{key}"
     node = check_mapping(value, address, key)
     is_normal = "mean" in node or "std" in node
-    required_keys, known_keys = (("mean", "std"), ("mean", "std")) if is_normal else (("from", "to"), _SPREAD[2:])
-    if is_normal and (extra_key := next((name for name in node.list_keys() if name in _SPREAD[2:]), None)):
+    required_keys, known_keys = (
+        (("mean", "std"), ("mean", "std")) if is_normal else (("from", "to"), _DISTRIBUTION_KEYS[2:])
+    )
+    if is_normal and (extra_key := next((name for name in node.list_keys() if name in _DISTRIBUTION_KEYS[2:]), None)):
         message = f"{address} has both a mean and {extra_key}"
         raise UnknownKeyError(message, extra_key.where, "expected mean and std (normal), or from and to (uniform)")
     if not node:
@@ -172,16 +176,17 @@ def _read_distribution(reader: Reader, key: Text, value: Any) -> Distribution:
 
 
 def read_starts(reader: Reader, root: Map) -> Starts | None:
-    """Return `starts:`, perturbed starts of each run; None if the file has none or it is wrong. Errors are collected.
+    """Return `starts:`, perturbed starts of each run, such as {count: 20, relative: {omega: 1e-6}}.
 
     The key count is required; the default distribution is uniform. Deviations without named ensembles form one
-    ensemble, ENSEMBLE; a file with both is wrong.
+    ensemble, ENSEMBLE; a file with both is wrong. Errors are collected. Return None without `starts` or after an
+    error.
     """
     if "starts" not in root:
         return None
     with reader.collect_errors():
         node = check_mapping(root["starts"], "starts", root.find_key("starts"))
-        if not check_keys(reader, node, _STARTS, "starts", ("count",)):
+        if not check_keys(reader, node, _STARTS_KEYS, "starts", ("count",)):
             return None
         has_ensembles, deviation_keys = (
             "ensembles" in node,
@@ -193,7 +198,7 @@ def read_starts(reader: Reader, root: Map) -> Starts | None:
         ensembles = (
             _read_ensembles(reader, node)
             if has_ensembles
-            else {ENSEMBLE: _read_deviations(reader, node, "starts", _STARTS)}
+            else {ENSEMBLE: _read_deviations(reader, node, "starts", _STARTS_KEYS)}
         )
         distributions, key = (UNIFORM, NORMAL), "distribution"
         kind = check_word(node[key], f"starts.{key}", node.find_key(key), distributions) if key in node else UNIFORM
@@ -208,7 +213,7 @@ def _read_ensembles(reader: Reader, node: Map) -> dict[str, Mapping[Text, Deviat
     for name, value in check_mapping(node["ensembles"], "starts.ensembles", node.find_key("ensembles")).list_entries():
         address = f"starts.ensembles.{name}"
         ensembles[check_label_of_entry(name, "ensemble")] = _read_deviations(
-            reader, check_mapping(value, address, name), address, _STARTS[3:5]
+            reader, check_mapping(value, address, name), address, _STARTS_KEYS[3:5]
         )
     if not ensembles:
         raise BadValueError(
@@ -218,7 +223,7 @@ def _read_ensembles(reader: Reader, node: Map) -> dict[str, Mapping[Text, Deviat
 
 
 def _read_deviations(reader: Reader, node: Map, address: str, known_keys: tuple[str, ...]) -> Mapping[Text, Deviation]:
-    """Return relative and absolute deviations by parameter.
+    """Return relative and absolute deviations by parameter, from {relative: {omega: 1e-6}, absolute: {c: 1 um}}.
 
     Raises BadValueError if there are none or a parameter has both. Errors of unknown keys, those not in `known_keys`,
     are collected.
@@ -243,9 +248,11 @@ def _read_deviations(reader: Reader, node: Map, address: str, known_keys: tuple[
 
 
 def read_choices(reader: Reader, root: Map) -> list[Choice]:
-    """Return `choices:`, dimensions of structure: an address with its values, or named options of several overrides.
+    """Return the dimensions of structure in `choices:`: alternatives, each a set of overrides of the mechanism.
 
-    A value twice, or a mapping without options, is an error. Errors are collected; wrong choices are left out.
+    Two forms: `contact.law: [hertz, johnson]` (an address with its values) and `bearings: {dry: {A.film: null}}`
+    (named options, each with several overrides by address). A repeated value, or a mapping without options, is an
+    error. Errors are collected; wrong choices are left out.
     """
     choices = []
     for key, node in _iterate_section_entries(reader, root, "choices"):

@@ -36,10 +36,10 @@ from gudgeon.language.names import make_unknown_name_error
 from gudgeon.language.text_output import format_count
 
 KEYS = ("source", "numbers", "trends")
-NUMBER = ("figure", "says", "measure", "part", "at", "value", "beside", "note", "heading")
-MESSAGES = ("says", "figure", "note", "heading")  # keys that every trend may have
-COMMON = ("measure", "part", "at")
-MORE = {
+NUMBER_CLAIM_KEYS = ("figure", "says", "measure", "part", "at", "value", "beside", "note", "heading")
+DESCRIPTIVE_KEYS = ("says", "figure", "note", "heading")  # keys that every trend may have
+SELECTION_KEYS = ("measure", "part", "at")
+FURTHER_KEYS_OF_KIND = {
     "grows_along": ("by",),
     "alike_along": ("within",),
     "spreads_along": ("more_than",),
@@ -48,9 +48,11 @@ MORE = {
     "exceeds": ("by",),
     "near": ("within",),
 }
-NEEDED = {"alike_along": "within", "spreads_along": "more_than", "larger": "than", "near": "within"}
-STATEMENT_KEYS = tuple(dict.fromkeys((*KINDS, *COMMON, *(key for keys in MORE.values() for key in keys))))
-TREND = (*MESSAGES, *STATEMENT_KEYS, "all", "not_computed")
+REQUIRED_KEY_OF_KIND = {"alike_along": "within", "spreads_along": "more_than", "larger": "than", "near": "within"}
+STATEMENT_KEYS = tuple(
+    dict.fromkeys((*KINDS, *SELECTION_KEYS, *(key for keys in FURTHER_KEYS_OF_KIND.values() for key in keys)))
+)
+TREND_KEYS = (*DESCRIPTIVE_KEYS, *STATEMENT_KEYS, "all", "not_computed")
 
 
 def read_claims(reader: Reader, root: Map) -> Claims:
@@ -73,7 +75,7 @@ def read_claims(reader: Reader, root: Map) -> Claims:
         for name, value in _list_claim_entries(reader, node, "trends"):
             with reader.collect_errors():
                 trends.append(_read_trend_claim(name, check_mapping(value, f"claims.trends.{name}", name)))
-        _check_unique_names(reader, [*(claim.name for claim in numbers), *(claim.name for claim in trends)])
+        _collect_repeated_claim_names(reader, [*(claim.name for claim in numbers), *(claim.name for claim in trends)])
         _check_claim_references(reader, numbers)
         return Claims(source, tuple(numbers), tuple(trends))
     return Claims()
@@ -90,7 +92,7 @@ def _list_claim_entries(reader: Reader, node: Map, section: str) -> Sequence[tup
     return ()
 
 
-def _check_unique_names(reader: Reader, names: Sequence[Text]) -> None:
+def _collect_repeated_claim_names(reader: Reader, names: Sequence[Text]) -> None:
     """Collect an error for each claim whose name was used before, with the location of the first one."""
     for k, name in enumerate(names):
         if name in names[:k]:
@@ -105,13 +107,13 @@ def _check_unique_names(reader: Reader, names: Sequence[Text]) -> None:
 
 
 def _read_number_claim(reader: Reader, name: Text, node: Map) -> NumberClaim:
-    """Return a claim about one published number. Raises an InputError.
+    """Return a claim about one published number, such as {measure: peak, value: 12 N}. Raises an InputError.
 
     It may have a value to compare with, or the name of another claim (key `beside`), not both.
     """
     address = f"claims.numbers.{name}"
     check_label_of_entry(name, "claim")
-    if not check_keys(reader, node, NUMBER, address, ("measure",)):
+    if not check_keys(reader, node, NUMBER_CLAIM_KEYS, address, ("measure",)):
         raise make_missing_key_error("measure", node.where, address)
     measure = check_text(node["measure"], f"{address}.measure", node.find_key("measure"), "the name of a measure")
     value = (
@@ -135,7 +137,7 @@ def _check_claim_references(reader: Reader, numbers: Sequence[NumberClaim]) -> N
     measures = {str(claim.name): claim.measure for claim in numbers}
     for claim in numbers:
         with reader.collect_errors():
-            reference_claim = claim.beside
+            reference_claim = claim.reference_claim
             if reference_claim is None:
                 continue
             if reference_claim not in measures:
@@ -148,7 +150,7 @@ def _check_claim_references(reader: Reader, numbers: Sequence[NumberClaim]) -> N
 
 
 def _read_selection(node: Map, address: str, location_text: Text) -> Selection:
-    """Return the runs that a claim concerns, from its keys `part` and `at`. Raises an InputError.
+    """Return the runs that a claim concerns, from its keys `part` and `at: {c: 0.1 mm}`. Raises an InputError.
 
     `location_text` has the location of the selection. Without these keys, all runs are selected.
     """
@@ -189,11 +191,11 @@ def _read_trend_claim(name: Text, node: Map) -> TrendClaim:
     address = f"claims.trends.{name}"
     check_label_of_entry(name, "claim")
     figure, says, note, heading = (read_line(node, key, address) for key in ("figure", "says", "note", "heading"))
-    if unknown_keys := [key for key in node.list_keys() if key not in TREND]:
-        raise make_unknown_key_error(unknown_keys[0], TREND, address)
+    if unknown_keys := [key for key in node.list_keys() if key not in TREND_KEYS]:
+        raise make_unknown_key_error(unknown_keys[0], TREND_KEYS, address)
     reason = read_line(node, "not_computed", address)
     statement_node = Map.make_map(
-        [(key, value) for key, value in node.list_entries() if key not in MESSAGES], node.where
+        [(key, value) for key, value in node.list_entries() if key not in DESCRIPTIVE_KEYS], node.where
     )
     if reason:
         if extra_keys := [key for key in statement_node.list_keys() if key != "not_computed"]:
@@ -207,7 +209,7 @@ def _read_trend_claim(name: Text, node: Map) -> TrendClaim:
 
 
 def _read_trend_statements(name: Text, node: Map, address: str) -> list[TrendStatement]:
-    """Return the statements of a trend: one, or each of `all`, whose keys override those next to `all`.
+    """Return the statements of a trend: one, or each element of the list `all`, which inherits the keys next to `all`.
 
     Raises an InputError for an unknown key or an empty list.
     """
@@ -239,7 +241,11 @@ def _read_trend_statements(name: Text, node: Map, address: str) -> list[TrendSta
 
 
 def _read_trend_statement(name: Text, node: Map, address: str) -> TrendStatement:
-    """Return one statement: its kind, measures, selections and limits. Raises an InputError."""
+    """Return one statement of a trend, such as {grows_along: c, measure: peak}. Raises an InputError.
+
+    Exactly one key of KINDS is its kind; the value of that key is a dimension, measure, number or selection. The value
+    of `by` or `within` is a factor or a tolerance.
+    """
     selected = [key for key in node.list_keys() if key in KINDS]
     if len(selected) != 1:
         message = (
@@ -247,10 +253,10 @@ def _read_trend_statement(name: Text, node: Map, address: str) -> TrendStatement
         )
         hint = f"expected one of: {', '.join((*KINDS, 'all', 'not_computed'))}"
         raise BadValueError(message, find_location(node, name), hint)
-    kind, known_keys = selected[0], (selected[0], *COMMON, *MORE.get(selected[0], ()))
+    kind, known_keys = selected[0], (selected[0], *SELECTION_KEYS, *FURTHER_KEYS_OF_KIND.get(selected[0], ()))
     if unknown_keys := [key for key in node.list_keys() if key not in known_keys]:
         raise make_unknown_key_error(unknown_keys[0], known_keys, address)
-    if (required_key := NEEDED.get(kind)) and required_key not in node:
+    if (required_key := REQUIRED_KEY_OF_KIND.get(kind)) and required_key not in node:
         raise make_missing_key_error(required_key, node.where, address)
     base_selection = _read_selection(node, address, kind)
     if kind == COUNTS:

@@ -16,7 +16,7 @@ from gudgeon.language.parser import parse
 
 MAX_COUNT, MAX_SEED = 1_000_000, 2**63 - 1
 MAX_TEXT_LENGTH = 1000  # characters of a descriptive text
-_WHOLE = re.compile(r"0|[1-9][0-9]{0,18}")
+_DECIMAL_DIGITS = re.compile(r"0|[1-9][0-9]{0,18}")
 
 
 def check_mapping(node: Any, address: str, key: Any) -> Map:
@@ -40,7 +40,8 @@ def check_keys(
 ) -> bool:
     """Return whether all required keys are present; an error is collected for each missing and each unknown key.
 
-    A missing key is not reported if an unknown key resembles it. `address` is the mapping's address.
+    A missing key is not reported if an unknown key resembles it, as a probable misspelling. `address` is the mapping's
+    address.
     """
     unknown_keys = [key for key in node.list_keys() if key not in known_keys]
     reader.errors.extend(make_unknown_key_error(key, known_keys, address) for key in unknown_keys)
@@ -118,7 +119,7 @@ def check_integer(node: Any, address: str, key: Any, minimum: int = 1, maximum: 
     """Return a whole number from `minimum` to `maximum` that is written in decimal digits. Raises BadValueError."""
     expected_text = f"a whole number from {minimum} to {maximum}"
     digits = check_text(node, address, key, expected_text)
-    if not _WHOLE.fullmatch(digits) or not minimum <= int(digits) <= maximum:
+    if not _DECIMAL_DIGITS.fullmatch(digits) or not minimum <= int(digits) <= maximum:
         raise BadValueError(f"{address} is {describe_node(digits)}", digits.where, f"expected {expected_text}")
     return int(digits)
 

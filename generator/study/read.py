@@ -49,7 +49,7 @@ _SET = "value of "  # prefix of locations of values from the command line
 
 
 def check_dataset_names(reader: Reader, study: StudyFile, root: Map) -> None:
-    """Collect an error for each name of the dataset that is reserved or used twice.
+    """Collect an error for each name of a study's dataset that is reserved or used twice.
 
     Checked are parameters, zips, choices, measures and stored series of one part. `root` is the part's tree.
     """
@@ -92,7 +92,7 @@ def _iterate_dataset_names(study: StudyFile, root: Map, zip_keys: list[Text]) ->
 
 
 def _find_conflicting_choices(reader: Reader, study: StudyFile, keys_of_parameters: dict[str, Text]) -> Iterator[str]:
-    """Yield the names of choices that change a parameter which all runs are given.
+    """Yield the names of choices that change a parameter which is set for all runs.
 
     An error is collected for each. `keys_of_parameters` maps the parameters of all runs to the keys that set them.
     """
@@ -260,7 +260,7 @@ def _read_part(reader: Reader, root: Map, file: str, settings: Mapping[str, str]
             raise BadValueError(f"the title has {len(title)} characters", title.where, hint)
     with reader.collect_errors():
         if "scenes" in root:
-            scenes = _check_unique_names(
+            scenes = _require_unique_names(
                 check_texts(root["scenes"], "scenes", root.find_key("scenes"), "names of scenes"), "scene"
             )
             is_single_scene = isinstance(root["scenes"], Text)
@@ -304,7 +304,7 @@ def _select_result_settings(root: Map) -> dict[str, Any]:
     return {key: value for key, value in convert_to_texts(root).items() if key not in ("claims", "titles", "about")}
 
 
-def _check_unique_names(names: tuple[Text, ...], kind: str) -> tuple[Text, ...]:
+def _require_unique_names(names: tuple[Text, ...], kind: str) -> tuple[Text, ...]:
     """Return the names if each occurs once.
 
     Raises BadNameError at the first that is given twice; `kind` is its kind.
@@ -467,7 +467,7 @@ def _read_stored_series(reader: Reader, root: Map) -> tuple[Text, ...]:
     """Return the names of series that are stored for each run; () if there are none. Errors are collected."""
     with reader.collect_errors():
         if "keep" in root and root["keep"] != []:
-            return _check_unique_names(
+            return _require_unique_names(
                 check_texts(root["keep"], "keep", root.find_key("keep"), "names of series"), "series"
             )
     return ()

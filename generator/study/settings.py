@@ -17,8 +17,8 @@ MAX_DEPTH, MAX_VALUES = 16, 1_000_000
 def build_tree(value: Any, address: str = "", depth: int = 0) -> Any:
     """Return a file's tree for mappings, lists, arrays, numbers and texts in Python; locations are addresses.
 
-    None becomes an empty text, a bool "true" or "false". Raises BadValueError for other types, keys that are not texts,
-    more than 16 levels and more than a million values in a list.
+    None becomes an empty text, a bool "true" or "false"; any iterable is read as a list. Raises BadValueError for
+    other types, keys that are not texts, more than MAX_DEPTH levels and more than MAX_VALUES values in a list.
     """
     location = Location(f"value of {address}" if address else "the study", 1, 1)
     if depth > MAX_DEPTH:

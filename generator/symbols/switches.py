@@ -172,7 +172,7 @@ class DifferentiableMin(_Extreme):
 class Magnitude(sp.Function):
     """|x| of an x that its branch keeps non-negative, except in stages beyond the switching point; never 0.
 
-    It is the base of a broken power: x^1.5 of the held x would be NaN there, |x|^1.5 continues as smoothly.
+    It is the base of a power with a fractional exponent: x^1.5 would be NaN there, |x|^1.5 continues as smoothly.
     """
 
     nargs = 1

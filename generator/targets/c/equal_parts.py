@@ -78,7 +78,7 @@ def redirect_calls(kernel: Kernel, calls: Mapping[str, Call]) -> Kernel:
     def redirect(call: Call) -> Call:
         """Return the new call of a part."""
         new = calls.get(call.function, call)
-        return call if new is call else replace(new, given=(*new.given, *call.given), results=call.results)
+        return call if new is call else replace(new, inputs=(*new.inputs, *call.inputs), results=call.results)
 
     def redirect_line(line: Line) -> Line:
         """Return a line with its call replaced."""

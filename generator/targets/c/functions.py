@@ -24,7 +24,7 @@ from gudgeon.generator.ir.statements import (
     Largest,
     LargestRow,
     Line,
-    MarkUnread,
+    MarkUnused,
     Return,
     ReturnIfFailed,
     Sines,
@@ -154,7 +154,7 @@ class LinePrinter(ValuePrinter):
             case StoreRow():
                 values = ", ".join(map(self.print_expression, line.values))
                 return [f"{line.array}[{line.row}] = (Wide){{{values}}};"]
-            case MarkUnread():
+            case MarkUnused():
                 return [f"(void){self.printer.get_name(line.name)};"]
         return [_PLAIN[type(line)]]
 
@@ -178,7 +178,7 @@ class LinePrinter(ValuePrinter):
     def _print_call(self, call: Call) -> str:
         """Return the call of a function in C without a semicolon: its arguments, then the places of its results."""
         arguments = [
-            self.print_argument(x) if isinstance(x, Place) else self._print_argument_value(x) for x in call.given
+            self.print_argument(x) if isinstance(x, Place) else self._print_argument_value(x) for x in call.inputs
         ]
         return f"{call.function}({', '.join([*arguments, *map(self.print_argument, call.results)])})"
 

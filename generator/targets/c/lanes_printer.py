@@ -166,7 +166,7 @@ class LaneLines(functions.LinePrinter):
             case Guard(test=Test() as test, condition=None):
                 return [f"*rare |= ~({self.print_test(test)});"]
             case Call():
-                values = (*line.given, *line.results)
+                values = (*line.inputs, *line.results)
                 arguments = [
                     self.print_argument(x) if isinstance(x, Place) else self.print_expression(x) for x in values
                 ]

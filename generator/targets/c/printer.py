@@ -56,7 +56,7 @@ class CPrinter(CachedPrinter, C99CodePrinter):
         A positive rational number that is printed without a quotient gets no brackets. A number that is printed as a
         fraction of π, such as 2*PI/3, always gets them.
         """
-        if item.is_Float and (fraction := convert_to_fraction_of_pi(item)) and not fraction.is_one:
+        if item.is_Float and (fraction := convert_to_fraction_of_pi(item)) and not fraction.is_pi:
             return f"({self._print(item)})"
         if item.is_Rational and item.p > 0 and "/" not in (text := self._print(item)):
             return text

@@ -82,7 +82,7 @@ class NumPyPrinter(CachedPrinter, PythonCodePrinter):
 
         A number that is printed as a fraction of π, such as 2*np.pi/3, always gets brackets.
         """
-        if item.is_Float and (fraction := convert_to_fraction_of_pi(item)) and not fraction.is_one:
+        if item.is_Float and (fraction := convert_to_fraction_of_pi(item)) and not fraction.is_pi:
             return f"({self._print(item)})"
         return super().parenthesize(item, level, strict)
 
@@ -269,7 +269,7 @@ class LinePrinter:
                     *indent_lines(self._print_line(line.statement)),
                 ]
             case Call():
-                arguments = [self.print_expression(x) for x in (*line.given, *line.results) if x not in _BRANCH_PLACES]
+                arguments = [self.print_expression(x) for x in (*line.inputs, *line.results) if x not in _BRANCH_PLACES]
                 return break_code(f"{line.function}({', '.join(arguments)})")
             case Guard(test=Test() as test):
                 condition = f"{self.print_test(line.condition)} and " if line.condition else ""
