@@ -112,7 +112,8 @@ def _find_motion_of_least_mass(phi_q: Array, has_mass: NDArray[np.bool_]) -> tup
     """Return (fraction, motion (n,)) of the motion that satisfies the constraints and moves the least mass.
 
     phi_q: the scaled Jacobian (rows, n), possibly without rows; has_mass: mask (n,) of coordinates with mass. The
-    motion has norm 1. The fraction is the norm of its part in coordinates with mass; 0: some motion moves no mass.
+    motion has norm 1. The fraction is the norm of its part in coordinates with mass; 0: some motion moves no mass. The
+    method is two singular value decompositions.
     """
     _, singular_values, right_vectors = (
         np.linalg.svd(phi_q) if len(phi_q) else (None, np.zeros(0), np.eye(len(has_mass)))
@@ -127,7 +128,7 @@ def _find_motion_of_least_mass(phi_q: Array, has_mass: NDArray[np.bool_]) -> tup
 
 
 def _select_redundant_rows(rows: Sequence[Row], matrix: Array, rank_of_matrix: int) -> Redundancy:
-    """Select independent constraint equations, drives first, then in file order; return the others as redundant.
+    """Return the redundant constraint equations after selection of independent ones: drives first, then in file order.
 
     `matrix`: the Jacobian (rows, n) of the equations `rows`, of rank `rank_of_matrix`. The result has the names of the
     redundant equations, and the joints and drives whose multipliers are undetermined. The method is Gram–Schmidt.

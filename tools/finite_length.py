@@ -8,7 +8,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.optimize import least_squares
 
-from gudgeon.generator.kinds.laws.finite_length import G0, G1, G3, REST, fit_function
+from gudgeon.generator.kinds.laws.finite_length import G0, G1, G3, REST, compute_fitted_coefficient
 from gudgeon.reynolds import Bearing, table
 
 RADIUS, CLEARANCE, VISCOSITY = 0.01, 1e-5, 0.1  # m, m, Pa·s; ratios do not depend on them
@@ -38,8 +38,8 @@ def terms(numbers: np.ndarray, s: np.ndarray, ratio: np.ndarray) -> tuple[np.nda
     """Return the terms a0 … a3 of the law's potential V; numbers: coefficients, s: √(1 − ε²), ratio: L/D."""
     g0, g1, (g3,), (rest,) = np.split(numbers, CUTS)
     short = ratio**2 / s**3
-    a0 = np.pi * short / (s**2 + fit_function(s, ratio, g0) * ratio**2)
-    a1 = 8.0 * short / (s**2 + fit_function(s, ratio, g1) * ratio**2)
+    a0 = np.pi * short / (s**2 + compute_fitted_coefficient(s, ratio, g0) * ratio**2)
+    a1 = 8.0 * short / (s**2 + compute_fitted_coefficient(s, ratio, g1) * ratio**2)
     a3 = 4.0 / 3.0 * short * (s / (s**2 + g3 * ratio**2)) ** 2
     return a0, a1, a1 + a3 - (1.0 - rest) * a0, a3
 

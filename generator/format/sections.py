@@ -130,7 +130,7 @@ RATES: Mapping[str, Dimension] = {"vx": VELOCITY, "vy": VELOCITY, "omega": RATE}
 def _list_joint_kinds() -> Mapping[str, Kind]:
     """Return the joint types as kinds of the section `joints`, by name."""
     return {
-        kind: Kind(joint_type.title, joint_type.fields, joint_type.joins, (2,), joint_type.also)
+        kind: Kind(joint_type.title, joint_type.fields, joint_type.joins, (2,), joint_type.foreign_names)
         for kind, joint_type in joint_types().items()
     }
 
@@ -139,7 +139,11 @@ def _list_force_kinds() -> Mapping[str, Kind]:
     """Return the force elements as kinds of the section `forces`, by name."""
     return {
         kind: Kind(
-            element_type.title, element_type.fields, element_type.targets, element_type.counts, element_type.also
+            element_type.title,
+            element_type.fields,
+            element_type.targets,
+            element_type.counts,
+            element_type.foreign_names,
         )
         for kind, element_type in element_types().items()
     }

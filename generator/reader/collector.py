@@ -186,9 +186,9 @@ class Reader:
     def read_quantity(self, text: Text, address: str, expected: Dimension | None, name_scope: str = "") -> Quantity:
         """Read the number or expression at an address, check its dimension, and register and return it as a quantity.
 
-        `expected` is its dimension, None if any. `name_scope` says which names it may use in addition to parameters
-        (generator/field.py). Named expressions are replaced by their trees. An error is collected, and the value is NaN
-        then.
+        `expected` is its dimension, None if any. `name_scope` is the set of names that it may use in addition to
+        parameters, such as OF_TIME (generator/field.py). Named expressions are replaced by their trees. An error is
+        collected, and the value is NaN then.
         """
         tree: Expr = make_unreadable_number(text)
         dimension = expected
@@ -226,7 +226,7 @@ class Reader:
     def find_number_dimension(self, name: str) -> Dimension | None:
         """Return the dimension of a parameter or named expression.
 
-        None if the name is unknown, or if it was defined without a unit and thus fits any dimension.
+        None if the name is unknown, or if it was defined without a unit (`c: 0.1`) and thus fits any dimension.
         """
         return self.expressions[name].dimension if name in self.expressions else self.parameters.get(name)
 
@@ -271,11 +271,12 @@ class Reader:
         return dimensions
 
     def _find_dimension(self, name: Name, location: Location, name_scope: str) -> Dimension | None:
-        """Return the dimension of one name; None if it fits any dimension.
+        """Return the dimension of one name in an expression; None if it fits any dimension.
 
-        Tried in this order: t, parameters, named expressions, and results in the scope `name_scope`. A named expression
-        is checked for names that this value must not contain. Raises an InputError at `location` if the name is unknown
-        or `name_scope` does not allow it.
+        A parameter that is defined without a unit (`c: 0.1`) fits any dimension. The order of search is t, parameters,
+        named expressions, then results such as L1.x if `name_scope` allows them. A named expression is checked for
+        names that this value must not contain. Raises an InputError at `location` if the name is unknown or
+        `name_scope` does not allow it.
         """
         allows_time, result_dimension = name_scope not in CONSTANT_IN_TIME, self.result_scopes.get(name_scope)
         if name.path == "t":

@@ -92,9 +92,9 @@ def _check_expression_size(
 
 
 def _measure_tree(tree: Expr, sizes: Mapping[str, tuple[int, int]]) -> tuple[int, int]:
-    """Return (parts, levels) of a tree; `sizes` contains them for each named expression.
+    """Return (nodes, levels) of an expression tree; `sizes` contains them for each named expression.
 
-    Arguments of functions that are derived with several copies count as often.
+    The arguments of a function in COPIES count as often as its SymPy form repeats them.
     """
     match tree:
         case Name(path=path):

@@ -32,7 +32,7 @@ from gudgeon.language.tree import Number
 
 _MAX_TITLE = 200
 # no control characters, line ends or marks that change the direction of the text after them
-_SHOWN = r"\x20-\x7e\u00a0-\u2027\u202f-\u2065\u206a-\ud7ff\ue000-\uffef\U00010000-\U0010ffff"
+_VISIBLE_CHARACTERS = r"\x20-\x7e\u00a0-\u2027\u202f-\u2065\u206a-\ud7ff\ue000-\uffef\U00010000-\U0010ffff"
 
 
 def read_mechanism(data: bytes, file: str, overrides: Mapping[str, str | float | bool] | None = None) -> Mechanism:
@@ -113,7 +113,7 @@ def _read_title(reader: Reader, root: Map) -> str:
         check_name(root["name"], "mechanism", root["name"].where)
     title = root.get("title", root["name"])
     with reader.collect_errors():
-        invalid = re.search(rf"[^{_SHOWN}]|\\|\*/|/\*|\?\?/", title)
+        invalid = re.search(rf"[^{_VISIBLE_CHARACTERS}]|\\|\*/|/\*|\?\?/", title)
         if invalid or len(title) > _MAX_TITLE:
             fault = f"has {invalid[0]!r}" if invalid else f"has {len(title)} characters"
             hint = f"expected one line of at most {_MAX_TITLE} characters without backslashes or comment signs"

@@ -41,7 +41,7 @@ _STARTS_KEYS = ("count", "seed", "distribution", "relative", "absolute", "ensemb
 ENSEMBLE = "all"  # name of the ensemble if the file names none
 
 
-def read_parameters(reader: Reader, root: Map) -> tuple[dict[Text, Text], list[Axis]]:
+def read_varied_parameters(reader: Reader, root: Map) -> tuple[dict[Text, Text], list[Axis]]:
     """Return the values that all runs share, by address, and the dimensions (Axis) of `parameters:` and `zip:`.
 
     `parameters: {c: 0.1 mm, omega: [10, 20]}` gives one shared value and one dimension. A range is a dimension too,

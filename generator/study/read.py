@@ -10,7 +10,7 @@ from gudgeon.errors import BadNameError, BadValueError, Location, MissingKeyErro
 from gudgeon.generator.format.sections import FORMAT as MECHANISM
 from gudgeon.generator.format.shapes import make_missing_key_error, make_unknown_key_error
 from gudgeon.generator.reader.collector import Reader, TooManyErrors
-from gudgeon.generator.study.axes import read_choices, read_draw, read_parameters, read_starts
+from gudgeon.generator.study.axes import read_choices, read_draw, read_starts, read_varied_parameters
 from gudgeon.generator.study.claims import read_claims
 from gudgeon.generator.study.parts import (
     check_keys,
@@ -245,7 +245,7 @@ def _read_part(reader: Reader, root: Map, file: str, settings: Mapping[str, str]
     """
     if not check_keys(reader, root, KEYS if part_name == "the study" else PART_KEYS, part_name, ("mechanism",)):
         return None
-    parameters = apply_settings(*read_parameters(reader, root), read_draw(reader, root), settings)
+    parameters = apply_settings(*read_varied_parameters(reader, root), read_draw(reader, root), settings)
     starts, choices = read_starts(reader, root), read_choices(reader, root)
     title = mechanism = Text.make_text("", root.where)
     is_single_scene, scenes = True, (*[Text.make_text("ideal", root.where)],)
