@@ -121,7 +121,7 @@ STEPS = (  # symbol of the equations, quantity, Python, C variable, unit
         "N",
     ),
     (steps.steep, "length of the gradient of δ in a bearing with a contour", "", "steep", "1"),
-    (steps.worn, "depth of a contour beyond the circle, at the angle of the journal", "", "worn", "m"),
+    (steps.contour_depth, "depth of a contour beyond the circle, at the angle of the journal", "", "worn", "m"),
     (steps.beta_i, "angle of e in the body of the bearing, with a contour", "", "beta_i", "rad"),
 )
 SECTIONS = (

@@ -37,7 +37,10 @@ class Row:
 
 
 class Constraints(Freezable):
-    """Derives the constraint equations; `t` is the symbol of time, `drive_angles` the prescribed values by drive."""
+    """Derivation of constraint equations; `t` is the symbol of time, `drive_angles` the prescribed values by drive.
+
+    `drive_angles` maps each drive to the symbols of its value and two derivatives by t.
+    """
 
     def __init__(self, geometry: Geometry) -> None:
         """Begin without drives.
@@ -101,11 +104,11 @@ class Constraints(Freezable):
         return quantity, bodies, "rad"
 
     def _define_distance(self, drive_name: str, first_point: PointFrame, second_point: PointFrame) -> sp.Symbol:
-        """Return ‖r_Q − r_P‖ as a symbol, with the rules of its derivatives.
+        """Return the distance ‖r_Q − r_P‖ of two points as a new symbol, with the rules of its derivatives.
 
-        `drive_name` is the base of the symbols' names. With its direction u: d length = u · dr and du = (ẑ × u)(ẑ × u ·
-        dr)/length. Written out, the second derivatives of the root would be thousands of terms. P and Q are
-        `first_point` and `second_point`; each call defines new symbols.
+        `drive_name` is the base of the symbols' names; P and Q are `first_point` and `second_point`. With the
+        direction u: d length = u · dr and du = (ẑ × u)(ẑ × u · dr)/length. Expanded, the second derivatives of the
+        root would be thousands of terms.
         """
         define, rules = self.symbols.add_definition, self.symbols.derivative_rules
         difference = (second_point.x - first_point.x, second_point.y - first_point.y)
@@ -183,7 +186,7 @@ class Constraints(Freezable):
 
 @lru_cache(maxsize=256)
 def has_jumping_rate(drive: Drive) -> bool:
-    """Return whether the rate of a drive may jump: its expression has switching points or a root of a square.
+    """Return whether the rate of a drive may jump: its expression has switching points or the root of a square.
 
     At such a jump the velocities of the linkage jump too, by an impulse. Results are cached.
     """

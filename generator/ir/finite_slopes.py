@@ -143,11 +143,11 @@ def make_slope_or_zero(derivative: sp.Expr) -> Slope:
     return Slope(derivative, *_ZERO_QUOTIENT)
 
 
-def convert_for_intervals(expression: sp.Expr) -> sp.Expr:
-    """Return the expression in the form for interval arithmetic, in which 0 · ∞ is 0.
+def convert_to_heaviside_form(expression: sp.Expr) -> sp.Expr:
+    """Return the expression without `Slope`, and with conditional values by a sign as Heaviside functions.
 
-    Each `Slope` becomes its derivative, and conditional values by a sign become Heaviside functions. Branches that are
-    frozen over a step stay.
+    In this form interval arithmetic sets 0 · ∞ to 0, and SymPy can print it. Each `Slope` becomes its derivative.
+    Branches that are frozen over a step stay.
     """
     expression = remove_slopes(expression)
     return (

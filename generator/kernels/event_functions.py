@@ -18,7 +18,7 @@ from dataclasses import dataclass, replace
 import sympy as sp
 
 from gudgeon.generator.equations.model import Model
-from gudgeon.generator.ir.finite_slopes import convert_for_intervals
+from gudgeon.generator.ir.finite_slopes import convert_to_heaviside_form
 from gudgeon.generator.ir.kernels import Kernel, Section, declare_branches
 from gudgeon.generator.ir.signatures import PARAMETERS, RHS, TIME
 from gudgeon.generator.ir.statements import DeclareBranches, Line, Statement
@@ -250,7 +250,7 @@ class _TermCollector:
         the array is the time or the parameters. Statements must come in the order of the function.
         """
         if isinstance(statement.value, sp.Expr):
-            statement = replace(statement, value=convert_for_intervals(statement.value))
+            statement = replace(statement, value=convert_to_heaviside_form(statement.value))
         value, local = statement.value, statement.declared_local
         if not isinstance(value, sp.Basic):
             if local and isinstance(value, Place) and value.base in (TIME.name, PARAMETERS.name):

@@ -31,8 +31,8 @@ CONTOUR_INPUTS = (
     contact.across,
     contact.omega_i,
     contact.omega_j,
-    contact.worn,
-    contact.worn_slope,
+    contact.contour_depth,
+    contact.contour_slope,
 )
 UNCLIPPED = sp.Symbol("unclipped", real=True)
 _IS_PENETRATING = Test(contact.delta, ">", (0.0,))
