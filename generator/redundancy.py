@@ -91,11 +91,11 @@ def check_mass_matrix(model: Model, source: KernelSource) -> None:
             scale_rows(linkage, linkage.p, linkage.closed_phi_q(0.0, q, linkage.p)[rows_of_scene])
             for q in configurations_near_start
         ]
-        motions_of_least_mass = [_find_motion_of_least_mass(matrix, has_mass) for matrix in matrices]
+        motions_of_min_mass = [_find_motion_of_min_mass(matrix, has_mass) for matrix in matrices]
     except (GudgeonError, ArithmeticError, ValueError):  # as above
         return
-    if all(fraction <= RANK for fraction, _ in motions_of_least_mass):
-        motion = motions_of_least_mass[-1][1]
+    if all(fraction <= RANK for fraction, _ in motions_of_min_mass):
+        motion = motions_of_min_mass[-1][1]
         name = max(bodies_without_inertia, key=lambda body: abs(motion[bodies_without_inertia[body]]))
         inertia = bodies[name].inertia
         location = inertia.where if inertia is not None else bodies[name].where
@@ -108,7 +108,7 @@ def check_mass_matrix(model: Model, source: KernelSource) -> None:
         )
 
 
-def _find_motion_of_least_mass(phi_q: Array, has_mass: NDArray[np.bool_]) -> tuple[float, Array]:
+def _find_motion_of_min_mass(phi_q: Array, has_mass: NDArray[np.bool_]) -> tuple[float, Array]:
     """Return (fraction, motion (n,)) of the motion that satisfies the constraints and moves the least mass.
 
     phi_q: the scaled Jacobian (rows, n), possibly without rows; has_mass: mask (n,) of coordinates with mass. The

@@ -58,7 +58,7 @@ class Constraints(Freezable):
         coordinates.
         """
         kind = joint_types()[joint.kind]
-        first, second = self._point(joint.first), self._point(joint.second)
+        first, second = self._find_point_frame(joint.first), self._find_point_frame(joint.second)
         expressions = kind.rows(first, second, JointFields(joint, self.geometry))
         named_expressions = zip(kind.row_names, kind.row_units, expressions, strict=True)
         other_bodies = [joint.options[name] for name in kind.further_bodies]  # a gear's carrier
@@ -76,7 +76,7 @@ class Constraints(Freezable):
         phi = quantity - self.define_drive_value(drive)
         return [self._derive_row(drive.name, drive.name, "drive", unit, phi, bodies)]
 
-    def _point(self, ref: PointRef) -> PointFrame:
+    def _find_point_frame(self, ref: PointRef) -> PointFrame:
         """Return the frame of a named point."""
         return self.geometry.find_point(ref)
 
@@ -95,7 +95,7 @@ class Constraints(Freezable):
         if any.
         """
         if drive.kind == "distance":
-            first, second = (self._point(ref) for ref in drive.points)
+            first, second = (self._find_point_frame(ref) for ref in drive.points)
             return self._define_distance(drive.name, first, second), self._list_bodies(first, second), "m"
         bodies = [self.geometry.bodies[name] for name in (drive.body, drive.reference) if name]
         if drive.kind == "coordinate" and drive.coordinate != "theta":

@@ -320,7 +320,7 @@ def check_user_defined_laws(scene: Scene) -> None:
         if any(law.name in USER_LAWS for law, _ in laws_in_use):
             names = {law.name: _LawNames(law, law_use) for law, law_use in laws_in_use}
             for law, law_use in (pair for pair in laws_in_use if pair[0].name in USER_LAWS):
-                names[law.name].check_names()
+                names[law.name].check_uniqueness()
                 check_units(law, law_use)
             _check_common_names([names[law.name] for law, _ in laws_in_use if law.role != "film"])
 
@@ -338,7 +338,7 @@ class _LawNames:
         ]
         self.parameter_names = [*law_use.quantities, *probed_law.derived]
 
-    def check_names(self) -> None:
+    def check_uniqueness(self) -> None:
         """Raise LawError for a name that is not an identifier, occurs twice, or has a fixed meaning for the law."""
         fixed_names = {
             *PAIR,

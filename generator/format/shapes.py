@@ -59,7 +59,7 @@ class CheckedTree:
     removed_names: frozenset[str] = frozenset()
 
 
-def check_shape(root: Map) -> CheckedTree:
+def check_tree_structure(root: Map) -> CheckedTree:
     """Return the valid part of a file's tree and the errors of the rest.
 
     Empty optional sections count as absent. Entries with errors are removed until no error remains. Raises

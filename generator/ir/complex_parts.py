@@ -16,7 +16,7 @@ from gudgeon.generator.ir.kernels import LINEARIZATION, Kernel, Section, remove_
 from gudgeon.generator.ir.signatures import Access, Argument
 from gudgeon.generator.ir.statements import Call, Declare, Guard, Line, Statement
 from gudgeon.generator.ir.values import Conditional, Test, Value
-from gudgeon.generator.symbols.storage import Key, Place, PlaceSymbol, find_key
+from gudgeon.generator.symbols.storage import Key, Place, PlaceSymbol, find_value_key
 from gudgeon.generator.symbols.switches import ComparedMagnitude
 
 SUFFIX, IMAGINARY = "_complex", "_i"
@@ -166,7 +166,7 @@ class _ComplexConverter:
     def _find_part_symbols(self, symbol: sp.Symbol) -> Parts | None:
         """Return the symbols of the real and of the imaginary part of a symbol, or None if the symbol is real."""
         name = symbol.name
-        if places := self._find_part_places(find_key(symbol)):
+        if places := self._find_part_places(find_value_key(symbol)):
             return PlaceSymbol(places[0]), PlaceSymbol(places[1])
         return (
             (symbol, sp.Symbol(name + IMAGINARY)) if name in self.complex_locals or name in self.complex_keys else None

@@ -12,7 +12,7 @@ import sympy as sp
 from gudgeon.generator.ir.branches import Branch
 from gudgeon.generator.ir.readable import Readable
 from gudgeon.generator.ir.statements import Statement
-from gudgeon.generator.symbols.storage import Key, Place, find_key
+from gudgeon.generator.symbols.storage import Key, Place, find_value_key
 from gudgeon.generator.symbols.switches import Select
 
 Marks = frozenset[str]
@@ -59,7 +59,9 @@ def _find_used_variables(line: Statement | Branch, function: Readable) -> set[Ke
 
     A conditional value is one that a `Branch` line computes. The target of the line itself is not included.
     """
-    keys = {find_key(symbol) for expression in line.expressions for symbol in expression.free_symbols} | set(line.reads)
+    keys = {find_value_key(symbol) for expression in line.expressions for symbol in expression.free_symbols} | set(
+        line.reads
+    )
     if isinstance(line, Statement) and isinstance(line.value, Place):
         keys.add(line.value)
     for expression in line.expressions:

@@ -252,14 +252,15 @@ def _differentiate_by_sympy(expression: sp.Expr, symbol: sp.Symbol) -> sp.Expr:
 def _may_overflow_when_squared(term: sp.Expr) -> bool:
     """Return whether differentiation of a term would square a value whose square may overflow or underflow.
 
-    Such terms are v^-n with a number n, and atan(v) and similar functions, if v contains extreme parts (`_is_extreme`).
+    Such terms are v^-n with a number n, and atan(v) and similar functions, if v contains extreme parts
+    (`_is_extreme_part`).
     """
     if isinstance(term, _SQUARING_CLASSES):
         squares = term.args[0].is_Mul or bool(_find_unsquared_derivative(term))
-        return squares and any(map(_is_extreme, sp.preorder_traversal(term.args[0])))
+        return squares and any(map(_is_extreme_part, sp.preorder_traversal(term.args[0])))
     if not (term.is_Pow and term.exp.is_number and term.exp.is_extended_negative):
         return False
-    return any(map(_is_extreme, sp.preorder_traversal(term.base)))
+    return any(map(_is_extreme_part, sp.preorder_traversal(term.base)))
 
 
 def _find_unsquared_derivative(term: sp.Expr) -> str:
@@ -270,7 +271,7 @@ def _find_unsquared_derivative(term: sp.Expr) -> str:
     return CLASSES[type(term)].far_derivative if type(term) in CLASSES else ""
 
 
-def _is_extreme(part: sp.Basic) -> bool:
+def _is_extreme_part(part: sp.Basic) -> bool:
     """Return whether a part of an expression may be so large or small that its square overflows or underflows.
 
     Such parts are numbers of magnitude 10^_MAX_SAFE_DECADES or more, products with a factor up to its reciprocal, and

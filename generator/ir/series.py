@@ -46,12 +46,12 @@ from gudgeon.generator.ir.signatures import (
     make_output_argument,
 )
 from gudgeon.generator.ir.statements import Call, Guard, Jump, Line, Return, SolveDependentRows, Statement, Status
-from gudgeon.generator.symbols.storage import Place, PlaceSymbol, find_key
+from gudgeon.generator.symbols.storage import Place, PlaceSymbol, find_value_key
 
 SectionLine = tuple[str, Line]  # a line and its section's title
 
 
-def split_late_sums(lines: Iterable[SectionLine], make_unique_name: Callable[[str], str]) -> list[SectionLine]:
+def split_sums_by_depth(lines: Iterable[SectionLine], make_unique_name: Callable[[str], str]) -> list[SectionLine]:
     """Return the lines, as (section title, line), in which sums are split so that late terms are added last.
 
     This shortens the critical path. A term is computed the later, the more dependent statements precede it. Partial
@@ -256,7 +256,7 @@ class _SeriesBuilder(Rules):
         """
         if not line.declared_local:
             self._values.append((self._title, line))
-            order_k = ZERO if self.is_constant(value) else value * INVERSE_NEXT_ORDER
+            order_k = ZERO if self.is_constant_in_time(value) else value * INVERSE_NEXT_ORDER
             self._terms.append((self._title, replace(line, value=order_k, comment="")))
         elif self._linear and self._title == self._linear.title:
             self._values.append((self._title, line))
@@ -272,13 +272,13 @@ class _SeriesBuilder(Rules):
         """
         symbol = sp.Symbol(target, real=True)
         loads = self._linear.loads if self._linear else {}
-        if self.is_constant(value) and not (as_series or target in loads):
+        if self.is_constant_in_time(value) and not (as_series or target in loads):
             self._values.append((self._title, Statement(target, value)))
             return symbol
         if target not in loads:  # which are equal at order 0 alone
             value, definition = self.symbol_by_value.get(value, value), value
             self.symbol_by_value.setdefault(definition, symbol)
-        order_zero, order_k = self._expand_difference(value, symbol) or self.expand_orders(value, symbol)
+        order_zero, order_k = self._expand_angle_difference(value, symbol) or self.expand_orders(value, symbol)
         if self._linear and target in loads:
             order_k -= self._sum_lower_orders(self._linear, loads[target])
         self.varying.add(target)
@@ -297,14 +297,14 @@ class _SeriesBuilder(Rules):
         terms = []
         for column, x in linear.unknowns.items():
             entry = linear.entries.get((row, column), linear.entries.get((column, row), ZERO))
-            if not self.is_constant(entry):
-                moving = sp.Mul(*(a for a in sp.Mul.make_args(entry) if not self.is_constant(a)))
+            if not self.is_constant_in_time(entry):
+                moving = sp.Mul(*(a for a in sp.Mul.make_args(entry) if not self.is_constant_in_time(a)))
                 factor = self.define_value(moving)
                 product = make_order_zero_symbol(x) * factor + self.add_convolution(Factor(factor.name), Factor(x.name))
                 terms.append(self.express_at_order_zero(entry / moving) * product)
         return sp.Add(*terms)
 
-    def _expand_difference(self, value: sp.Expr, symbol: sp.Symbol) -> OrderPair | None:
+    def _expand_angle_difference(self, value: sp.Expr, symbol: sp.Symbol) -> OrderPair | None:
         """Return orders 0 and k of a local that is the cosine or sine of a difference of angles; None for other locals.
 
         `value`, `symbol`: its definition and symbol. Order k follows from the rate of the difference, without four
@@ -337,7 +337,10 @@ class _SeriesBuilder(Rules):
             n_products = len(products)
             terms = _prune_lines([*self._terms, *_make_factor_stores(products)])
             read_keys = {
-                find_key(s) for _, line in terms for expression in line.expressions for s in expression.free_symbols
+                find_value_key(s)
+                for _, line in terms
+                for expression in line.expressions
+                for s in expression.free_symbols
             }
             products = [product for product in self.products.values() if Place(SUMS)[product.name] in read_keys]
         stored_names = tuple(
@@ -352,11 +355,11 @@ class _SeriesBuilder(Rules):
             for name_ in stored_names
         ]
         values = _prune_lines([*self._values, *storing_lines])
-        arguments_of_values, arguments_of_terms = _make_kernel_arguments()
+        arguments_of_values, arguments_of_terms = _make_series_arguments()
         values_kernel = Kernel(
             f"{name}_values", _DOC_VALUES, arguments_of_values, _group_sections([*values, ("", Return())]), status=True
         )
-        term_sections = _group_sections(split_late_sums(terms, self.make_unique_name))
+        term_sections = _group_sections(split_sums_by_depth(terms, self.make_unique_name))
         return Series(
             values_kernel,
             Kernel(f"{name}_terms", _DOC_TERMS, arguments_of_terms, term_sections),
@@ -365,7 +368,7 @@ class _SeriesBuilder(Rules):
         )
 
 
-def _make_kernel_arguments() -> tuple[tuple[Argument, ...], tuple[Argument, ...]]:
+def _make_series_arguments() -> tuple[tuple[Argument, ...], tuple[Argument, ...]]:
     """Return (arguments of the function for order 0, arguments of that for order k > 0)."""
     rates = (make_output_argument("a"), make_output_argument("power"))
     factors = (make_output_argument(LEFT, "Wide"), make_output_argument(RIGHT, "Wide"))

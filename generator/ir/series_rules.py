@@ -88,7 +88,7 @@ class Rules(ABC):
     def define_partner(self, value: sp.Expr) -> sp.Symbol:
         """Return the symbol of another function of the same argument."""
 
-    def is_constant(self, value: sp.Basic) -> bool:
+    def is_constant_in_time(self, value: sp.Basic) -> bool:
         """Return whether a value has only order 0: it contains no local that varies with time."""
         return not any(s.name in self.varying for s in value.free_symbols)
 
@@ -117,7 +117,7 @@ class Rules(ABC):
         """
         return (
             self.define_local(self.make_unique_name("still"), value, True)
-            if self.is_constant(value)
+            if self.is_constant_in_time(value)
             else self.define_value(value)
         )
 
@@ -128,7 +128,7 @@ class Rules(ABC):
         the symbol of the local that is being defined as this value, which a rule may read. If it is None, a function or
         a power other than x^n with an integer n > 1 becomes a new local.
         """
-        if self.is_constant(value):
+        if self.is_constant_in_time(value):
             return value, sp.Integer(0)
         if value.is_Symbol:
             return value, value
@@ -154,8 +154,8 @@ class Rules(ABC):
         It is a constant times a product of two locals, or a quotient of two; more factors are combined in new locals
         first. `symbol_of_value`: the symbol of the value, or None.
         """
-        constant = sp.Mul(*(factor for factor in sp.Mul.make_args(value) if self.is_constant(factor)))
-        varying = [factor for factor in sp.Mul.make_args(value) if not self.is_constant(factor)]
+        constant = sp.Mul(*(factor for factor in sp.Mul.make_args(value) if self.is_constant_in_time(factor)))
+        varying = [factor for factor in sp.Mul.make_args(value) if not self.is_constant_in_time(factor)]
         denominators = [
             factor for factor in varying if factor.is_Pow and factor.exp.is_number and factor.exp.is_negative
         ]
@@ -218,7 +218,7 @@ class Rules(ABC):
         c = a^n follows from a c' = n a' c, a square root from a = c c, and 1/a as a quotient. `symbol_of_value`: the
         symbol of c. Raise NoTaylorSeries if the exponent varies with time.
         """
-        if not self.is_constant(value.exp):
+        if not self.is_constant_in_time(value.exp):
             raise NoTaylorSeries("a power has an exponent that varies")
         a, n = self.define_value(value.base), value.exp
         if n.is_Integer and n < -1:
@@ -304,7 +304,7 @@ class Rules(ABC):
         product = self.products.setdefault(factors, Product(name, *factors))
         return PlaceSymbol(Place(SUMS)[product.name])
 
-    def define_square_later(self, symbol_of_value: sp.Symbol) -> sp.Symbol:
+    def postpone_square_definition(self, symbol_of_value: sp.Symbol) -> sp.Symbol:
         """Return a new symbol for the square of the local that is being defined.
 
         Its definition is appended to `pending`, so that it follows that of the local.
@@ -348,7 +348,7 @@ def _expand_by_derivative(rules: Rules, derivative: str, u: sp.Symbol, symbol_of
     terms = []
     for coefficient, w in (term.as_coeff_Mul() for term in sp.Add.make_args(numerator)):
         if w == symbol_of_value**2:
-            w = rules.define_square_later(symbol_of_value)
+            w = rules.postpone_square_definition(symbol_of_value)
         elif w.is_Function:
             w = rules.define_partner(w)
         elif not w.is_Symbol and w != 1:

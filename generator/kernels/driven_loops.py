@@ -60,8 +60,8 @@ class DrivenLoopKernels:
         self.system, self.loops, self.symbols = system, loops, system.model.symbols
         loop_system = replace(
             system,
-            q=tuple(k.q for k in loops.known),
-            v=tuple(k.rate for k in loops.known),
+            q=tuple(k.q for k in loops.coordinates),
+            v=tuple(k.rate for k in loops.coordinates),
             rows=loops.rows,
             dependent=(),
         )
@@ -158,7 +158,7 @@ class DrivenLoopKernels:
 
         c are the dependent coordinates; `step` has one component for each, in their order.
         """
-        step_of = dict(zip([k.q for k in self.loops.known], step, strict=True))
+        step_of = dict(zip([k.q for k in self.loops.coordinates], step, strict=True))
         slope = sp.Add(*(entry * step_of[q] for q, entry in row.phi_q.items()))
         return sp.expand(
             sp.Add(*(self.symbols.differentiate(slope, q) * component for q, component in step_of.items()))
@@ -180,7 +180,7 @@ class DrivenLoopKernels:
                 "Returns 0, or the number of a row that depends on others here.",
             ],
         )
-        dependent, rows = self.loops.known, self.loops.rows
+        dependent, rows = self.loops.coordinates, self.loops.rows
         solvers = self.square.factorize(builder)
         builder.begin_section("rates")
         rates = self.square.solve(builder, solvers, [row.nu for row in rows], "rate")
@@ -213,7 +213,7 @@ class DrivenLoopKernels:
                 "Returns 0, or the number of a row that depends on others here.",
             ],
         )
-        dependent, t = self.loops.known, self.system.model.t
+        dependent, t = self.loops.coordinates, self.system.model.t
         solvers = self.square.factorize(builder)
         builder.begin_section("third rates")
         tangents = Tangents(self.symbols, builder, (t,))
@@ -238,7 +238,7 @@ class DrivenLoopKernels:
         at the beginning of the function.
         """
         info, definitions = self.symbols.info, self.symbols.definitions
-        varying = {k.rate for k in self.loops.known}
+        varying = {k.rate for k in self.loops.coordinates}
         system_symbols = {*self.system.v, *self.system.q}
         result = []
         for symbol in [s for s in info if s in definitions and not info[s].place]:

@@ -26,10 +26,12 @@ from gudgeon.generator.symbols.storage import Place
 from gudgeon.generator.symbols.switches import BranchOf, ModOn, PeriodsOf, Select
 from gudgeon.generator.symbols.unevaluated import Unevaluated
 
-WATCHED, _RANGES = "watched_functions", "bound_watched_functions"
-_WATCHED_DOC = ("Event functions: the scene's own switching functions in rhs->g, the user's events in rhs->event.",)
+EVENT_FUNCTIONS, _RANGES = "watched_functions", "bound_watched_functions"
+_EVENT_FUNCTIONS_DOC = (
+    "Event functions: the scene's own switching functions in rhs->g, the user's events in rhs->event.",
+)
 _RANGES_DOC = ("Ranges of the scene's own switching functions and of the user's events over ranges of t, q and v.",)
-_FORCE_OUTPUTS = RHS.name  # what reads this is known only once forces or accelerations are
+_FORCE_OUTPUTS = RHS.name  # a statement that reads it depends on forces or accelerations
 
 
 def make_event_function_kernel(dynamics: Kernel, model: Model, loop_switches: Kernel | None = None) -> Kernel | None:
@@ -81,7 +83,7 @@ def make_event_function_kernel(dynamics: Kernel, model: Model, loop_switches: Ke
         if lines:
             sections.append(Section(section.title, tuple(lines)))
     arguments = tuple(argument for argument in dynamics.arguments if argument.name != "a")
-    renamed = replace(dynamics, name=WATCHED, doc=_WATCHED_DOC)
+    renamed = replace(dynamics, name=EVENT_FUNCTIONS, doc=_EVENT_FUNCTIONS_DOC)
     watched = replace(renamed, arguments=arguments, sections=tuple(sections), status=False)
     return declare_branches(watched, "rhs")
 

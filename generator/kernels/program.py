@@ -25,7 +25,12 @@ from gudgeon.generator.ir.statements import Declare
 from gudgeon.generator.kernels import closed_linkage, outputs
 from gudgeon.generator.kernels.driven_loops import DrivenLoopKernels
 from gudgeon.generator.kernels.dynamics import make_dynamics_kernel
-from gudgeon.generator.kernels.event_functions import WATCHED, TimeTerms, find_time_terms, make_event_function_kernel
+from gudgeon.generator.kernels.event_functions import (
+    EVENT_FUNCTIONS,
+    TimeTerms,
+    find_time_terms,
+    make_event_function_kernel,
+)
 from gudgeon.generator.kernels.kinematic import make_kinematic_kernels
 from gudgeon.generator.kernels.play import JointFunctions, make_derivative_calls, make_joint_functions
 from gudgeon.generator.kernels.projection import make_constraint_correction_kernel, make_projection_kernel
@@ -231,9 +236,9 @@ def make_program(model: Model, formulation: str = "reduced") -> Program:
     laws = SharedFunctions()
     joint_functions = tuple(make_joint_functions(model, clearance, laws) for clearance in model.clearances)
     tree, in_tree = _derive_tree_functions(model, kkt.pivots) if not full else (None, None)
-    watched = make_event_function_kernel(dynamics, model)
+    event_kernel = make_event_function_kernel(dynamics, model)
     angles = tuple(int(model.symbols.info[q].meaning.endswith(".theta")) for q in model.q)
-    absolute_system = Integrated(system, kkt, angles, False, watched, kkt.pivots)
+    absolute_system = Integrated(system, kkt, angles, False, event_kernel, kkt.pivots)
     integrated = in_tree or absolute_system
     program = Program(
         model,
@@ -241,7 +246,7 @@ def make_program(model: Model, formulation: str = "reduced") -> Program:
         kkt,
         closed,
         dynamics,
-        watched,
+        event_kernel,
         tuple(laws.kernels),
         joint_functions,
         tree,
@@ -275,8 +280,8 @@ def _derive_tree_functions(model: Model, pivots: tuple[str, ...]) -> tuple[TreeF
     if system.driven_loops:
         pivots = (*pivots, *(row.name for row in system.driven_loops.rows))
     angles = tuple(int("." not in name) for name in system.unknowns)
-    watched = next((kernel for kernel in unpaired if kernel.name == WATCHED), None)
-    return tree, Integrated(system, kkt, angles, True, watched, pivots, system.driven_loops)
+    event_kernel = next((kernel for kernel in unpaired if kernel.name == EVENT_FUNCTIONS), None)
+    return tree, Integrated(system, kkt, angles, True, event_kernel, pivots, system.driven_loops)
 
 
 def _derive_methods(model: Model, integrated: Integrated, with_complex_kernels: bool) -> Methods:

@@ -87,18 +87,18 @@ def raise_small_masses(system: System) -> System:
     if any(has_jumping_rate(drive) for drive in model.scene.mechanism.drives.values()):
         return system
     # one symbol for the sum: SymPy compares the arguments of each Max by factoring them
-    least_body_mass = MIN_MASS_FRACTION * derive(
+    min_body_mass = MIN_MASS_FRACTION * derive(
         "mass_of_all", sp.Add(*(body.mass for body in model.bodies)), "of projections"
     )
     mass = dict(system.mass)
     for k, q in enumerate(system.q):
-        own_mass, least_mass = mass[k, k], least_body_mass * system.compute_inertia_of_unit_mass(k)
-        if least_mass != 0 and model.parameter_table.is_constant(own_mass):
+        mass_entry, min_mass = mass[k, k], min_body_mass * system.compute_inertia_of_unit_mass(k)
+        if min_mass != 0 and model.parameter_table.is_constant(mass_entry):
             name = f"{'tree_' if system.in_tree else ''}metric_{q.name}"
             # SymPy cannot compare a mass with the sum of all masses, a symbol, and spends long on trying it
-            is_undecided = not find_symbols(least_body_mass) <= find_symbols(own_mass)
-            is_undecided = is_undecided and not own_mass.has(sp.Max, sp.Min)
-            mass[k, k] = derive(name, sp.Max(own_mass, least_mass, evaluate=not is_undecided), "of projections")
+            is_undecided = not find_symbols(min_body_mass) <= find_symbols(mass_entry)
+            is_undecided = is_undecided and not mass_entry.has(sp.Max, sp.Min)
+            mass[k, k] = derive(name, sp.Max(mass_entry, min_mass, evaluate=not is_undecided), "of projections")
             model.parameter_table.internal_parameters.add(mass[k, k])
     return replace(system, mass=mass)
 

@@ -56,12 +56,12 @@ def make_reduced_kernels(system: TreeSystem) -> tuple[list[Kernel], KKT, DrivenL
     driven_loop_kernels = DrivenLoopKernels(system, system.driven_loops) if system.driven_loops else None
     is_driven = len(system.q) == len(system.rows) and not (system.model.clearances or system.frictions)
     loop_switches = driven_loop_kernels.switch_kernel if driven_loop_kernels else None
-    watched = (
+    event_kernel = (
         None if is_driven else make_event_function_kernel(dynamics, system.model, loop_switches)
     )  # a driven motion has no events here
-    if watched and system.driven_loops and reads_coordinate_beyond(watched, len(system.q)):
-        watched = None  # rates() closes driven loops
-    kernels = (*_make_closure_kernels(system), dynamics, *([watched] if watched else []), projection)
+    if event_kernel and system.driven_loops and reads_coordinate_beyond(event_kernel, len(system.q)):
+        event_kernel = None  # rates() closes driven loops
+    kernels = (*_make_closure_kernels(system), dynamics, *([event_kernel] if event_kernel else []), projection)
     return [remove_unused_locals(kernel) for kernel in kernels], kkt, driven_loop_kernels
 
 

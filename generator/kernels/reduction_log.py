@@ -148,16 +148,25 @@ def _make_shared_point_steps(tree: Tree) -> Iterator[Step]:
     A shared point is one at which three or more bodies meet. Pairs in use are those of tree and closures. Points whose
     pairs all stay are left out.
     """
-    for hub in tree.shared_points:
-        joints_in_use = [tree_edge.joint for tree_edge in tree.edges if tree_edge.joint in hub.pairs]
-        joints_in_use += [joint for joint in tree.closing_pairs if joint in hub.pairs]
+    for shared_point in tree.shared_points:
+        joints_in_use = [tree_edge.joint for tree_edge in tree.edges if tree_edge.joint in shared_point.pairs]
+        joints_in_use += [joint for joint in tree.closing_pairs if joint in shared_point.pairs]
         added_rows = tuple(
-            row for joint in joints_in_use if joint and joint not in hub.joints for row in hub.list_pair_rows(joint)
+            row
+            for joint in joints_in_use
+            if joint and joint not in shared_point.joints
+            for row in shared_point.list_pair_rows(joint)
         )
         removed_rows = tuple(
-            row for joint in hub.joints if joint not in joints_in_use for row in hub.list_pair_rows(joint)
+            row
+            for joint in shared_point.joints
+            if joint not in joints_in_use
+            for row in shared_point.list_pair_rows(joint)
         )
         if removed_rows:
             yield Step(
-                message.HUB, tuple(joint.name for joint in hub.joints), rows_gone=removed_rows, rows_come=added_rows
+                message.HUB,
+                tuple(joint.name for joint in shared_point.joints),
+                rows_gone=removed_rows,
+                rows_come=added_rows,
             )

@@ -18,7 +18,7 @@ from gudgeon.generator.ir.kernels import Kernel, Section
 from gudgeon.generator.ir.signatures import BRANCHES, PARAMETERS, Argument, Number
 from gudgeon.generator.ir.statements import Line, Statement
 from gudgeon.generator.ir.values import Conditional
-from gudgeon.generator.symbols.storage import Key, Place, PlaceSymbol, find_key
+from gudgeon.generator.symbols.storage import Key, Place, PlaceSymbol, find_value_key
 from gudgeon.generator.symbols.switches import BranchOf
 
 FIRST_SWITCH = Argument("corner", Number.INTEGER)
@@ -209,7 +209,9 @@ def _list_distinguishing_parts(kernel: Kernel) -> Iterator[object]:
 
     def rename_symbols(expression: sp.Basic) -> sp.Basic:
         """Return an expression with its symbols named, and its switches counted, as in the printed text."""
-        known_names = {s: kernel.names[key] for s in expression.free_symbols if (key := find_key(s)) in kernel.names}
+        known_names = {
+            s: kernel.names[key] for s in expression.free_symbols if (key := find_value_key(s)) in kernel.names
+        }
         symbols = {s: sp.Symbol(str(name), real=True) for s, name in known_names.items()}
         branches = {part: BranchOf(part.args[0] - first_switch, part.args[1]) for part in expression.atoms(BranchOf)}
         return expression.xreplace(branches).xreplace(symbols)

@@ -18,7 +18,7 @@ from gudgeon.errors import (
     combine_errors,
 )
 from gudgeon.generator.field import CONSTANT_IN_TIME, OF_CAM_ANGLE, OF_PENETRATION
-from gudgeon.generator.format.shapes import ANY_NAME, check_shape
+from gudgeon.generator.format.shapes import ANY_NAME, check_tree_structure
 from gudgeon.generator.mechanism import Condition, Quantity, Vector
 from gudgeon.generator.reader.result_names import CamAngleNames, PenetrationNames, ResultDimension
 from gudgeon.generator.reader.unit_or_name import choose_interpretation
@@ -111,7 +111,7 @@ class Reader:
             OF_CAM_ANGLE: CamAngleNames(self.parameters),
         }
 
-    def check_shape(self, root: Map) -> Map:
+    def remove_invalid_entries(self, root: Map) -> Map:
         """Return the file's tree without the entries whose keys or node types are wrong.
 
         Their errors are collected, and the names of the removed entries are stored in `removed_names`. A key that is
@@ -119,7 +119,7 @@ class Reader:
         nothing is left to read.
         """
         with self.collect_errors():
-            checked = check_shape(root)
+            checked = check_tree_structure(root)
             has_duplicates = any(error.message != NO_MERGE for error in self.errors)
             unknown_names = (
                 (ANY_NAME,) if has_duplicates else ()
@@ -147,8 +147,8 @@ class Reader:
     def raise_errors(self) -> None:
         """Raise the collected errors: one error as itself, several as InputErrors; return if there are none.
 
-        Left out are duplicates, unknown names of entries that `check_shape` removed, and errors in expressions that use
-        a refused name: they follow from another error.
+        Left out are duplicates, unknown names of entries that `remove_invalid_entries` removed, and errors in
+        expressions that use a refused name: they follow from another error.
         """
         unique_errors = {_make_error_key(error): error for error in reversed(self.errors)}.values()
         texts_with_refused_names = self._find_texts_with_refused_names()
@@ -164,7 +164,7 @@ class Reader:
             raise combine_errors(errors)
 
     def _is_unknown_name_of_removed_entry(self, error: InputError) -> bool:
-        """Return whether an error reports an unknown name of an entry that `check_shape` removed.
+        """Return whether an error reports an unknown name of an entry that `remove_invalid_entries` removed.
 
         If a whole section was removed (ANY_NAME), this holds for every unknown name.
         """

@@ -45,7 +45,7 @@ def read_mechanism(data: bytes, file: str, overrides: Mapping[str, str | float |
     reader = Reader(file)
     root = apply_overrides(parse_yaml(data, file, reader.errors), overrides or {})
     try:
-        mechanism = _read_sections(reader, reader.check_shape(root), hashlib.sha256(data).hexdigest())
+        mechanism = _read_sections(reader, reader.remove_invalid_entries(root), hashlib.sha256(data).hexdigest())
     except TooManyErrors:
         mechanism = None
     reader.raise_errors()

@@ -92,7 +92,7 @@ class ResultNames:
         self.owners: dict[str, Mapping[str, Dimension]] = dict(_TOTAL_RESULTS)
         self.owners |= dict.fromkeys(map(str, point_names.bodies), _BODY_RESULTS)
         self.owners |= {name: _find_drive_results(kind, root["drives"][name]) for name, kind in drives.items()}
-        self.owners |= dict.fromkeys(point_names.iterate_names(), _POINT_RESULTS)
+        self.owners |= dict.fromkeys(point_names.iterate_point_names(), _POINT_RESULTS)
         self.owners |= {name: dict(element_types()[kind].results) for name, kind in forces.items()}
         for name in point_names.ground:
             self.owners[f"{GROUND}.{name}"] = {"x": LENGTH, "y": LENGTH}
@@ -112,10 +112,10 @@ class ResultNames:
         if owner in self.unreadable_owners:
             return None
         if not dot:
-            candidates = [path for path in self.iterate_names() if path.partition(".")[0] == name.path]
+            candidates = [path for path in self.iterate_result_names() if path.partition(".")[0] == name.path]
             raise make_unknown_name_error("name", name.path, candidates or self.number_kinds, where)
         if owner not in self.owners:
-            raise make_unknown_name_error("name", name.path, self.iterate_names(), where)
+            raise make_unknown_name_error("name", name.path, self.iterate_result_names(), where)
         if result not in self.owners[owner]:
             location = Location(where.file, where.line, where.column + len(owner) + 1)
             raise make_unknown_name_error(f"result of {owner}", result, self.owners[owner], location)
@@ -129,15 +129,17 @@ class ResultNames:
         if "." in name:
             return
         if name in self.number_kinds:
-            same_results = [path for path in self.iterate_names() if path.rpartition(".")[2] == name]
+            same_results = [path for path in self.iterate_result_names() if path.rpartition(".")[2] == name]
             hint = (
                 f"expected {', '.join(same_results[:6])}"
                 if same_results
                 else "expected a result: L1.omega, A.F, drive.torque"
             )
             raise UnknownNameError(f"{str(name)!r} is {self.number_kinds[name]}, not a series", name.where, hint)
-        results_of_owner = [path for path in self.iterate_names() if path.partition(".")[0] == name]
-        raise make_unknown_name_error("series", name, results_of_owner or [*outputs, *self.iterate_names()], name.where)
+        results_of_owner = [path for path in self.iterate_result_names() if path.partition(".")[0] == name]
+        raise make_unknown_name_error(
+            "series", name, results_of_owner or [*outputs, *self.iterate_result_names()], name.where
+        )
 
     def check_result_availability(self, name: Text, scene: str, play: Container[str]) -> None:
         """Raise BadValueError for a result that a joint has only with play, or only without, in other scenes.
@@ -162,7 +164,7 @@ class ResultNames:
             hint = f"expected one of: {', '.join(_JOINT_RESULTS)}; or play of {joint} in scene {scene}"
             raise BadValueError(f"{name}: joint {owner} has no play in scene {scene}", name.where, hint)
 
-    def iterate_names(self) -> Iterator[str]:
+    def iterate_result_names(self) -> Iterator[str]:
         """Return an iterator over the full name of every result, without those of unreadable owners."""
         readable = ((owner, results) for owner, results in self.owners.items() if owner not in self.unreadable_owners)
         return (f"{owner}.{result}" for owner, results in readable for result in results)

@@ -44,12 +44,12 @@ class Direction:
 class DrivenLoops:
     """The coordinates that drives determine through loops, by name, and the closures that determine them.
 
-    `known`: the dependent coordinates with symbols of their rates; `rows`: their closures, block by block in solving
-    order. `directions`: cosines and sines of angles in these closures, stored once for all kernels.
+    `coordinates`: the dependent coordinates with symbols of their rates; `rows`: their closures, block by block in
+    solving order. `directions`: cosines and sines of angles in these closures, stored once for all kernels.
     """
 
     names: tuple[str, ...]
-    known: tuple[DependentCoordinate, ...]
+    coordinates: tuple[DependentCoordinate, ...]
     rows: tuple[Row, ...]
     directions: tuple[Direction, ...] = ()  # once for all kernels
 

@@ -82,7 +82,7 @@ class TreeGeometry(Geometry):
     """Makes the symbols of bodies and points from a tree, for functions that also take a `Geometry`."""
 
     def __init__(self, model: Model, tree: Tree, symbols: Symbols, parameter_table: ParameterTable) -> None:
-        """Begin with the frame of the ground; `place_bodies` adds the coordinates and bodies.
+        """Begin with the frame of the ground; `build_bodies` adds the coordinates and bodies.
 
         `tree`: the spanning tree; `symbols`, `parameter_table`: tables for new symbols and derived parameters.
         """
@@ -99,7 +99,7 @@ class TreeGeometry(Geometry):
         self._points: dict[tuple[str, str], TreePoint] = {}
         self._coms: dict[str, TreePoint] = {}
 
-    def place_bodies(self, motions: Motions, slides: Mapping[str, Affine]) -> None:
+    def build_bodies(self, motions: Motions, slides: Mapping[str, Affine]) -> None:
         """Make coordinates and frames, then position body by body along the tree. Called once.
 
         `motions` makes the symbols of coordinates and frames, and derived parameters of coefficients. It gets an entry
@@ -185,16 +185,16 @@ class TreeGeometry(Geometry):
         if tree_edge.joint is None:
             unit_vectors = ((ONE, ZERO), (ZERO, ONE))
             terms = {(GROUND, name): unit for name, unit in zip(tree_edge.coordinates, unit_vectors, strict=True)}
-            base, own_point = self._make_free_base(terms), (ZERO, ZERO)
+            base, body_point = self._make_free_base(terms), (ZERO, ZERO)
         else:
             first, second = tree_edge.joint.first, tree_edge.joint.second
             parent, child, sign = (first, second, 1) if second.body == body else (second, first, -1)
-            base, own_point = self.find_point(parent), self.local_vectors[body, child.point]
+            base, body_point = self.find_point(parent), self.local_vectors[body, child.point]
             if tree_edge.slides:
                 axis = JointFields(tree_edge.joint, self._model.geometry).direction("axis")
                 w = self.rotate_to_frame(first.body, axis, f"{tree_edge.joint.name}_axis")
                 base = self._make_sliding_base(base, first.body, tree_edge.coordinates[0], (sign * w[0], sign * w[1]))
-        self._base[body] = base, self.rotate_to_frame(body, own_point, f"{body}_base")
+        self._base[body] = base, self.rotate_to_frame(body, body_point, f"{body}_base")
         self._derive_body_symbols(body)
 
     def _make_free_base(self, terms: Terms) -> TreePoint:
@@ -297,9 +297,11 @@ class TreeGeometry(Geometry):
         `base_name`: base of the names of derived parameters and arms; `names`: those of the symbols for (x, y, ẋ, ẏ),
         which longer values become.
         """
-        base, own_base = self._base[body]
+        base, body_base = self._base[body]
         frame, local = self.frame_of[body], self.rotate_to_frame(body, vector, base_name)
-        w = self.motions.derive_vector_parameters(f"{base_name}_span", (local[0] - own_base[0], local[1] - own_base[1]))
+        w = self.motions.derive_vector_parameters(
+            f"{base_name}_span", (local[0] - body_base[0], local[1] - body_base[1])
+        )
         a_x, a_y = self.motions.rotate_vector(frame, w, f"span_{base_name}")
         terms = self._add_terms(base.terms, {(frame.name, ""): w} if w != (ZERO, ZERO) else {}, base_name)
         columns, define_symbol = self.compute_jacobian_columns(terms), self.motions.define_value

@@ -111,7 +111,7 @@ class TreeConstraints(Constraints):
 
     geometry: TreeGeometry
 
-    def _point(self, ref: PointRef) -> PointFrame:
+    def _find_point_frame(self, ref: PointRef) -> PointFrame:
         """Return the frame of a named point with position and velocity as sums of rotated vectors (`expand_arms`)."""
         return self.geometry.find_point(ref).expand_arms()
 
@@ -188,7 +188,7 @@ def _make_tree_geometry(model: Model, tree: Tree, slides: Mapping[str, Affine]) 
         if drive.name in used_names:
             constraints.define_drive_value(drive)
             motions.coordinates[drive.name] = Coordinate(drive.name, *constraints.drive_angles[drive.name])
-    geometry.place_bodies(motions, slides)
+    geometry.build_bodies(motions, slides)
     return geometry, constraints
 
 

@@ -132,7 +132,7 @@ class OperationEstimate:
         """
         key = _make_key(tree_edges)
         if key not in self.costs:
-            self.costs[key] = self._count_operations(tree_edges, limit)
+            self.costs[key] = self._estimate_operations(tree_edges, limit)
         return self.costs[key]
 
     def find_cheapest(self, trees: Sequence[tuple[TreeEdge, ...]]) -> tuple[TreeEdge, ...]:
@@ -147,7 +147,7 @@ class OperationEstimate:
         self.costs = {_make_key(tree_edges): self(tree_edges) for tree_edges in trees}
         return min(trees, key=self)
 
-    def _count_operations(self, tree_edges: tuple[TreeEdge, ...], limit: float) -> int:
+    def _estimate_operations(self, tree_edges: tuple[TreeEdge, ...], limit: float) -> int:
         """Return the estimated operations of the right-hand side on a tree, or a lower bound above `limit`.
 
         Entries of M and of the closures count, and the elimination. Each leaf body without inertia adds

@@ -50,7 +50,7 @@ def find_input_variables(clearance: Clearance) -> tuple[sp.Symbol, ...]:
     return CONTOUR_INPUTS if clearance.contour else INPUTS
 
 
-def _make_kernel_arguments(clearance: Clearance) -> tuple[Argument, ...]:
+def _make_derivative_arguments(clearance: Clearance) -> tuple[Argument, ...]:
     """Return the arguments of the kernel that computes one part of a joint's force and its derivatives.
 
     They are the input variables, the contact state, the parameters, those of the branches, and the result `out`.
@@ -127,7 +127,7 @@ class _DerivativeBuilder:
             slopes: Tangent = self.tangents.compute_gradient(value)
             for column, base in enumerate(self.inputs):
                 self.builder.append_store(Place("out")["slope"][row][column], slopes.get(base, ZERO))
-        return self.builder.build_kernel(_make_kernel_arguments(self.clearance), inline=True, prune=True)
+        return self.builder.build_kernel(_make_derivative_arguments(self.clearance), inline=True, prune=True)
 
 
 def make_film_derivative_kernel(model: Model, clearance: Clearance, film: LawEquations) -> Kernel:

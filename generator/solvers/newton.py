@@ -111,7 +111,7 @@ class Newton:
             PARAMETERS,
             make_input_argument("a"),
             make_input_argument(RHS.name, RHS.type),
-            self._make_written_linearization(),
+            self._make_output_linearization(),
         )
         return declare_branches(builder.build_kernel(arguments, owner="", prune=True))
 
@@ -184,7 +184,7 @@ class Newton:
         stay, other entries become locals.
         """
         parts = self.parts
-        self._append_scales(builder, {self._find_scale(node) for node, _ in {**parts.by_v, **parts.by_q}})
+        self._append_scales(builder, {self._find_eta_factor(node) for node, _ in {**parts.by_v, **parts.by_q}})
         first = self.first_state
         builder.begin_section("matrix")
         entries: dict[Pair, sp.Expr] = dict(parts.mass)
@@ -192,7 +192,7 @@ class Newton:
             index = node, k
             coefficient = parts.by_v.get(index, ZERO) + ETA * parts.by_q.get(index, ZERO)
             value = parts.mass.get(index, ZERO) if node < self.n else parts.phi_q.get(index, ZERO)
-            entries[index] = self._name_entry(builder, index, value + self._find_scale(node) * coefficient)
+            entries[index] = self._name_entry(builder, index, value + self._find_eta_factor(node) * coefficient)
         entries |= {(k, k): sp.Integer(1) for k in range(first, self.nodes)}
         for (node, state), derivative in parts.by_z.items():
             index = node, first + state
@@ -207,7 +207,7 @@ class Newton:
         name = f"n_{self.names[index[0]]}__{self.names[index[1]]}"
         return value if is_simple(value) else builder.append_local(name, value)
 
-    def _find_scale(self, node: int) -> sp.Symbol:
+    def _find_eta_factor(self, node: int) -> sp.Symbol:
         """Return the symbol of the factor, η or η/κ, of the derivatives of the equation `node` in Newton's matrix.
 
         It is η for equations of coordinates and internal states, η/κ for constraints and sticks, whose κ differ.
@@ -264,9 +264,9 @@ class Newton:
             factors.eliminate_node(k, self.elimination.structure[k])
         self.lower, self.upper, self.inverse = factors.lower, factors.upper, factors.inverse
         builder.append_line(Return())
-        return self._finish_function(builder, (Argument("eta"), self._make_written_linearization()), status=True)
+        return self._finish_function(builder, (Argument("eta"), self._make_output_linearization()), status=True)
 
-    def _make_written_linearization(self) -> Argument:
+    def _make_output_linearization(self) -> Argument:
         """Return the argument `linearization_argument` as one that the function writes."""
         return replace(self.linearization_argument, access=Access.WRITTEN)
 
@@ -322,7 +322,7 @@ class Newton:
                 f"{', internal states' if states else ''}.",
             ],
         )
-        self._append_scales(builder, {self._find_scale(node) for node in range(self.nodes)})
+        self._append_scales(builder, {self._find_eta_factor(node) for node in range(self.nodes)})
         builder.begin_section("right-hand side")
         builder.append_line(Declare(Number.REAL, "x", (self.nodes,)))
         beta_squared = self.model.parameter_table.derive_parameter("beta_squared", self.model.baumgarte[1] ** 2)
@@ -344,7 +344,7 @@ class Newton:
         for i in range(self.first_state, self.nodes):
             b[i].append(PlaceSymbol(Place("r")[self._find_state_index(i)]))
         for i, terms in enumerate(b):
-            builder.append_store(Place("x")[i], self._find_scale(i) * sp.Add(*terms))
+            builder.append_store(Place("x")[i], self._find_eta_factor(i) * sp.Add(*terms))
         builder.append_line(Call("newton_substitute", (Place(LINEARIZATION),), (Place("x"),)))
         builder.begin_section("solution")
         for k in range(n):

@@ -83,7 +83,7 @@ def find_elimination_below(
         eager = in_order(True, limit) if partner else None
         plain = in_order(False, min(limit, eager.cost) if eager else limit)
         return min((order for order in (plain, eager) if order), key=lambda order: order.cost, default=None)
-    if _find_least_products(pattern) > limit:
+    if _compute_min_products(pattern) > limit:
         return None
     end = len(pattern) if last is None else last
 
@@ -135,7 +135,7 @@ def find_elimination_below(
     return best
 
 
-def _find_least_products(pattern: Pattern) -> int:
+def _compute_min_products(pattern: Pattern) -> int:
     """Return a lower bound of the products of any elimination of a pattern, from the least degree d of its nodes.
 
     The first pivot couples its d or more neighbours with each other, so that the elimination of these has at least

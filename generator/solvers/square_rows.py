@@ -61,7 +61,7 @@ class SquareSystem:
         return self.blocks is not None
 
     @property
-    def largest(self) -> int:
+    def max_block_size(self) -> int:
         """Return the number of equations of the largest block; more than two need engine/scene/block.c."""
         return max((len(block.rows) for block in self.blocks or ()), default=0)
 

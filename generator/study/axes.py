@@ -9,11 +9,11 @@ from gudgeon.errors import BadValueError, UnknownKeyError
 from gudgeon.generator.reader.collector import Reader
 from gudgeon.generator.study.parts import (
     check_dimension_name,
-    check_integer,
+    check_integer_node,
     check_keys,
     check_label_of_entry,
-    check_mapping,
-    check_text,
+    check_mapping_node,
+    check_text_node,
     check_texts,
     check_word,
     read_seed,
@@ -51,7 +51,7 @@ def read_varied_parameters(reader: Reader, root: Map) -> tuple[dict[Text, Text],
     for key, node in _iterate_section_entries(reader, root, "parameters"):
         with reader.collect_errors():
             if isinstance(node, Text):
-                shared_values[key] = check_text(node, f"parameters.{key}", key, _VALUES)
+                shared_values[key] = check_text_node(node, f"parameters.{key}", key, _VALUES)
             else:
                 name = check_dimension_name(key, "parameter")
                 axes.append(
@@ -59,7 +59,7 @@ def read_varied_parameters(reader: Reader, root: Map) -> tuple[dict[Text, Text],
                 )
     for name, group in _iterate_section_entries(reader, root, "zip"):
         with reader.collect_errors():
-            axes.append(_read_zip_entry(reader, name, check_mapping(group, f"zip.{name}", name)))
+            axes.append(_read_zip_entry(reader, name, check_mapping_node(group, f"zip.{name}", name)))
     return shared_values, axes
 
 
@@ -70,7 +70,7 @@ def _iterate_section_entries(reader: Reader, root: Map, section: str) -> Iterato
     """
     with reader.collect_errors():
         if section in root and not (isinstance(root[section], Text) and root[section].is_null):
-            yield from check_mapping(root[section], section, root.find_key(section)).list_entries()
+            yield from check_mapping_node(root[section], section, root.find_key(section)).list_entries()
 
 
 def _read_parameter_values(reader: Reader, node: Any, address: str, key: Text) -> ParameterValues:
@@ -83,9 +83,9 @@ def _read_parameter_values(reader: Reader, node: Any, address: str, key: Text) -
     if not check_keys(reader, node, _RANGE_KEYS, address, _RANGE_KEYS[:3]):
         return ParameterValues(())
     end_values = tuple(
-        check_text(node[name], f"{address}.{name}", node.find_key(name), "a number") for name in ("from", "to")
+        check_text_node(node[name], f"{address}.{name}", node.find_key(name), "a number") for name in ("from", "to")
     )
-    count = check_integer(node["count"], f"{address}.count", node.find_key("count"), 2)
+    count = check_integer_node(node["count"], f"{address}.count", node.find_key("count"), 2)
     return ParameterValues(end_values, count, _read_spacing(node, address))
 
 
@@ -129,13 +129,13 @@ def read_draw(reader: Reader, root: Map) -> Draw | None:
     if "draw" not in root:
         return None
     with reader.collect_errors():
-        node = check_mapping(root["draw"], "draw", root.find_key("draw"))
+        node = check_mapping_node(root["draw"], "draw", root.find_key("draw"))
         known_keys = ("count", "seed", "method", "parameters")
         if check_keys(reader, node, known_keys, "draw", ("count", "parameters")):
-            parameters = check_mapping(node["parameters"], "draw.parameters", node.find_key("parameters"))
+            parameters = check_mapping_node(node["parameters"], "draw.parameters", node.find_key("parameters"))
             if not parameters:
                 raise BadValueError("draw.parameters is empty", parameters.where, "expected {c: {mean: …, std: …}}")
-            count = check_integer(node["count"], "draw.count", node.find_key("count"))
+            count = check_integer_node(node["count"], "draw.count", node.find_key("count"))
             method = (
                 check_word(node["method"], "draw.method", node.find_key("method"), SAMPLING_METHODS)
                 if "method" in node
@@ -156,7 +156,7 @@ def _read_distribution(reader: Reader, key: Text, value: Any) -> Distribution:
     InputError for an empty mapping and for contradicting keys.
     """
     address = f"draw.parameters.{key}"
-    node = check_mapping(value, address, key)
+    node = check_mapping_node(value, address, key)
     is_normal = "mean" in node or "std" in node
     required_keys, known_keys = (
         (("mean", "std"), ("mean", "std")) if is_normal else (("from", "to"), _DISTRIBUTION_KEYS[2:])
@@ -169,7 +169,7 @@ def _read_distribution(reader: Reader, key: Text, value: Any) -> Distribution:
     if not check_keys(reader, node, known_keys, address, required_keys):
         return Distribution(NORMAL, (key, key))
     first_value, second_value = (
-        check_text(node[name], f"{address}.{name}", node.find_key(name), "a number") for name in required_keys
+        check_text_node(node[name], f"{address}.{name}", node.find_key(name), "a number") for name in required_keys
     )
     kind = NORMAL if is_normal else GEOMETRIC if _read_spacing(node, address) == GEOMETRIC else UNIFORM
     return Distribution(kind, (first_value, second_value))
@@ -185,7 +185,7 @@ def read_starts(reader: Reader, root: Map) -> Starts | None:
     if "starts" not in root:
         return None
     with reader.collect_errors():
-        node = check_mapping(root["starts"], "starts", root.find_key("starts"))
+        node = check_mapping_node(root["starts"], "starts", root.find_key("starts"))
         if not check_keys(reader, node, _STARTS_KEYS, "starts", ("count",)):
             return None
         has_ensembles, deviation_keys = (
@@ -202,7 +202,7 @@ def read_starts(reader: Reader, root: Map) -> Starts | None:
         )
         distributions, key = (UNIFORM, NORMAL), "distribution"
         kind = check_word(node[key], f"starts.{key}", node.find_key(key), distributions) if key in node else UNIFORM
-        count = check_integer(node["count"], "starts.count", node.find_key("count"))
+        count = check_integer_node(node["count"], "starts.count", node.find_key("count"))
         return Starts(count, read_seed(node, "starts"), kind, ensembles, has_ensembles)
     return None
 
@@ -210,10 +210,12 @@ def read_starts(reader: Reader, root: Map) -> Starts | None:
 def _read_ensembles(reader: Reader, node: Map) -> dict[str, Mapping[Text, Deviation]]:
     """Return the named ensembles of perturbed starts, each with its deviations by parameter. Raises an InputError."""
     ensembles = {}
-    for name, value in check_mapping(node["ensembles"], "starts.ensembles", node.find_key("ensembles")).list_entries():
+    for name, value in check_mapping_node(
+        node["ensembles"], "starts.ensembles", node.find_key("ensembles")
+    ).list_entries():
         address = f"starts.ensembles.{name}"
         ensembles[check_label_of_entry(name, "ensemble")] = _read_deviations(
-            reader, check_mapping(value, address, name), address, _STARTS_KEYS[3:5]
+            reader, check_mapping_node(value, address, name), address, _STARTS_KEYS[3:5]
         )
     if not ensembles:
         raise BadValueError(
@@ -232,12 +234,12 @@ def _read_deviations(reader: Reader, node: Map, address: str, known_keys: tuple[
     deviations: dict[Text, Deviation] = {}
     for kind in ("relative", "absolute"):
         if kind in node:
-            for key, size in check_mapping(node[kind], f"{address}.{kind}", node.find_key(kind)).list_entries():
+            for key, size in check_mapping_node(node[kind], f"{address}.{kind}", node.find_key(kind)).list_entries():
                 if key in deviations:
                     message = f"{address}: the size of {key} is both relative and absolute"
                     raise BadValueError(message, key.where, "expected one of the two")
                 deviations[key] = Deviation(
-                    kind == "relative", check_text(size, f"{address}.{kind}.{key}", key, "a size")
+                    kind == "relative", check_text_node(size, f"{address}.{kind}.{key}", key, "a size")
                 )
     if not deviations:
         hint = (
@@ -264,10 +266,10 @@ def read_choices(reader: Reader, root: Map) -> list[Choice]:
                     raise BadValueError(f"choices.{key} has a value twice", key.where, "expected each value once")
                 continue
             options = {}
-            for name, value in check_mapping(node, f"choices.{key}", key).list_entries():
-                overrides = check_mapping(value, f"choices.{key}.{name}", name)
+            for name, value in check_mapping_node(node, f"choices.{key}", key).list_entries():
+                overrides = check_mapping_node(value, f"choices.{key}.{name}", name)
                 options[check_label_of_entry(name, "option")] = {
-                    str(address): check_text(value, f"choices.{key}.{name}.{address}", address)
+                    str(address): check_text_node(value, f"choices.{key}.{name}.{address}", address)
                     for address, value in overrides.list_entries()
                 }
             if not options:

@@ -9,13 +9,13 @@ from gudgeon.errors import BadNameError, BadValueError
 from gudgeon.generator.format.shapes import make_missing_key_error, make_unknown_key_error
 from gudgeon.generator.reader.collector import Reader
 from gudgeon.generator.study.parts import (
-    check_integer,
+    check_integer_node,
     check_keys,
     check_label_of_entry,
-    check_mapping,
-    check_text,
+    check_mapping_node,
+    check_text_node,
     check_texts,
-    find_location,
+    find_node_location,
     read_line,
 )
 from gudgeon.generator.study.spec import (
@@ -63,7 +63,7 @@ def read_claims(reader: Reader, root: Map) -> Claims:
     if "claims" not in root:
         return Claims()
     with reader.collect_errors():
-        node = check_mapping(root["claims"], "claims", root.find_key("claims"))
+        node = check_mapping_node(root["claims"], "claims", root.find_key("claims"))
         check_keys(reader, node, KEYS, "claims")
         source = ""
         with reader.collect_errors():
@@ -71,10 +71,12 @@ def read_claims(reader: Reader, root: Map) -> Claims:
         numbers, trends = list[NumberClaim](), list[TrendClaim]()
         for name, value in _list_claim_entries(reader, node, "numbers"):
             with reader.collect_errors():
-                numbers.append(_read_number_claim(reader, name, check_mapping(value, f"claims.numbers.{name}", name)))
+                numbers.append(
+                    _read_number_claim(reader, name, check_mapping_node(value, f"claims.numbers.{name}", name))
+                )
         for name, value in _list_claim_entries(reader, node, "trends"):
             with reader.collect_errors():
-                trends.append(_read_trend_claim(name, check_mapping(value, f"claims.trends.{name}", name)))
+                trends.append(_read_trend_claim(name, check_mapping_node(value, f"claims.trends.{name}", name)))
         _collect_repeated_claim_names(reader, [*(claim.name for claim in numbers), *(claim.name for claim in trends)])
         _check_claim_references(reader, numbers)
         return Claims(source, tuple(numbers), tuple(trends))
@@ -88,7 +90,7 @@ def _list_claim_entries(reader: Reader, node: Map, section: str) -> Sequence[tup
     """
     with reader.collect_errors():
         if section in node:
-            return check_mapping(node[section], f"claims.{section}", node.find_key(section)).list_entries()
+            return check_mapping_node(node[section], f"claims.{section}", node.find_key(section)).list_entries()
     return ()
 
 
@@ -115,12 +117,16 @@ def _read_number_claim(reader: Reader, name: Text, node: Map) -> NumberClaim:
     check_label_of_entry(name, "claim")
     if not check_keys(reader, node, NUMBER_CLAIM_KEYS, address, ("measure",)):
         raise make_missing_key_error("measure", node.where, address)
-    measure = check_text(node["measure"], f"{address}.measure", node.find_key("measure"), "the name of a measure")
+    measure = check_text_node(node["measure"], f"{address}.measure", node.find_key("measure"), "the name of a measure")
     value = (
-        check_text(node["value"], f"{address}.value", node.find_key("value"), "a number") if "value" in node else None
+        check_text_node(node["value"], f"{address}.value", node.find_key("value"), "a number")
+        if "value" in node
+        else None
     )
     reference_claim = (
-        check_text(node["beside"], f"{address}.beside", node.find_key("beside"), "a name") if "beside" in node else None
+        check_text_node(node["beside"], f"{address}.beside", node.find_key("beside"), "a name")
+        if "beside" in node
+        else None
     )
     if value is not None and reference_claim is not None:
         raise BadValueError(
@@ -155,12 +161,12 @@ def _read_selection(node: Map, address: str, location_text: Text) -> Selection:
     `location_text` has the location of the selection. Without these keys, all runs are selected.
     """
     part = (
-        check_text(node["part"], f"{address}.part", node.find_key("part"), "the name of a part")
+        check_text_node(node["part"], f"{address}.part", node.find_key("part"), "the name of a part")
         if "part" in node
         else None
     )
     coordinate_values = (
-        _read_coordinate_values(check_mapping(node["at"], f"{address}.at", node.find_key("at")), f"{address}.at")
+        _read_coordinate_values(check_mapping_node(node["at"], f"{address}.at", node.find_key("at")), f"{address}.at")
         if "at" in node
         else {}
     )
@@ -169,7 +175,7 @@ def _read_selection(node: Map, address: str, location_text: Text) -> Selection:
 
 def _read_coordinate_values(node: Map, address: str) -> dict[Text, Text]:
     """Return a mapping of coordinates to single values, as texts. Raises BadValueError for another node."""
-    return {key: check_text(value, f"{address}.{key}", key, "one value") for key, value in node.list_entries()}
+    return {key: check_text_node(value, f"{address}.{key}", key, "one value") for key, value in node.list_entries()}
 
 
 def _read_other_selection(node: Map, key: str, address: str, base_selection: Selection) -> Selection:
@@ -177,7 +183,7 @@ def _read_other_selection(node: Map, key: str, address: str, base_selection: Sel
 
     Raises an InputError.
     """
-    selection_node = check_mapping(node[key], f"{address}.{key}", node.find_key(key))
+    selection_node = check_mapping_node(node[key], f"{address}.{key}", node.find_key(key))
     values = _read_coordinate_values(selection_node, f"{address}.{key}")
     part = next((value for name, value in values.items() if name == "part"), base_selection.part)
     inherited_values = {name: value for name, value in base_selection.at.items() if name not in values}
@@ -224,7 +230,7 @@ def _read_trend_statements(name: Text, node: Map, address: str) -> list[TrendSta
         )
     statements = []
     for k, node_in_list in enumerate(statement_nodes):
-        statement_node = check_mapping(node_in_list, f"{address}.all[{k}]", node.find_key("all"))
+        statement_node = check_mapping_node(node_in_list, f"{address}.all[{k}]", node.find_key("all"))
         if unknown_keys := [key for key in statement_node.list_keys() if key not in STATEMENT_KEYS]:
             raise make_unknown_key_error(unknown_keys[0], STATEMENT_KEYS, f"{address}.all[{k}]")
         inherited_entries = [
@@ -252,7 +258,7 @@ def _read_trend_statement(name: Text, node: Map, address: str) -> TrendStatement
             f"{address} has {'nothing to judge it by' if not selected else f'both {selected[0]} and {selected[1]}'}"
         )
         hint = f"expected one of: {', '.join((*KINDS, 'all', 'not_computed'))}"
-        raise BadValueError(message, find_location(node, name), hint)
+        raise BadValueError(message, find_node_location(node, name), hint)
     kind, known_keys = selected[0], (selected[0], *SELECTION_KEYS, *FURTHER_KEYS_OF_KIND.get(selected[0], ()))
     if unknown_keys := [key for key in node.list_keys() if key not in known_keys]:
         raise make_unknown_key_error(unknown_keys[0], known_keys, address)
@@ -260,14 +266,14 @@ def _read_trend_statement(name: Text, node: Map, address: str) -> TrendStatement
         raise make_missing_key_error(required_key, node.where, address)
     base_selection = _read_selection(node, address, kind)
     if kind == COUNTS:
-        counts = _read_expected_counts(check_mapping(node[kind], f"{address}.{kind}", kind), f"{address}.{kind}")
+        counts = _read_expected_counts(check_mapping_node(node[kind], f"{address}.{kind}", kind), f"{address}.{kind}")
         return TrendStatement(kind, (), base_selection, kind, counts=counts)
     if "measure" not in node:
         raise make_missing_key_error("measure", node.where, address)
     measures = check_texts(node["measure"], f"{address}.measure", node.find_key("measure"), "names of measures")
     factor_or_tolerance = next(
         (
-            check_text(node[key], f"{address}.{key}", node.find_key(key), "a number")
+            check_text_node(node[key], f"{address}.{key}", node.find_key(key), "a number")
             for key in ("by", "within")
             if key in node
         ),
@@ -275,7 +281,7 @@ def _read_trend_statement(name: Text, node: Map, address: str) -> TrendStatement
     )
     if kind in SELECTION_COMPARISONS:
         return _read_comparison(node, address, kind, measures, base_selection, factor_or_tolerance)
-    comparison_text = check_text(
+    comparison_text = check_text_node(
         node[kind],
         f"{address}.{kind}",
         kind,
@@ -335,4 +341,4 @@ def _read_expected_counts(node: Map, address: str) -> dict[Text, int]:
     """
     if unknown_keys := [key for key in node.list_keys() if key not in COUNTED_PARTS]:
         raise make_unknown_key_error(unknown_keys[0], COUNTED_PARTS, address)
-    return {key: check_integer(value, f"{address}.{key}", key, 0) for key, value in node.list_entries()}
+    return {key: check_integer_node(value, f"{address}.{key}", key, 0) for key, value in node.list_entries()}

@@ -33,7 +33,7 @@ _LIST: Json = {"anyOf": [_NUMBER, {"type": "array", "items": _NUMBER, "minItems"
 _SPACING: Json = {"enum": [LINEAR, GEOMETRIC]}
 
 
-def make_schema() -> Json:
+def make_study_schema() -> Json:
     """Return the JSON Schema of a study file, with or without parts."""
     value_range = _make_object_schema(
         {"from": _NUMBER, "to": _NUMBER, "count": _make_count_schema(2), "spacing": _SPACING}, "from", "to", "count"

@@ -80,7 +80,7 @@ def remove_section_name(name: str) -> str:
     return name.removeprefix("parameters.")
 
 
-def apply_settings(
+def apply_set_options(
     fixed_parameters: Mapping[Text, Text], axes: Sequence[Axis], draw: Draw | None, settings: Mapping[str, str]
 ) -> VariedParameters:
     """Apply values of `--set`: they replace the file's values of these parameters, fixed or varied.

@@ -33,7 +33,7 @@ def extract_squares(base: sp.Expr, exponent: sp.Expr, decimals: sp.Expr | None =
     atom_by_dummy = {dummy: atom for atom, dummy in atoms.items()}
     powers = []
     for part, count in parts:
-        size = _find_scale(part)
+        size = _find_coefficient_divisor(part)
         factor *= size**count
         powers.append(sp.Pow((part / size).expand().xreplace(atom_by_dummy), count))
     return sp.Mul(factor, *powers) ** exponent
@@ -44,7 +44,7 @@ def convert_to_decimal(number: sp.Expr) -> sp.Expr:
     return sp.Rational(repr(float(number))) if number.is_Float and number.is_finite else number
 
 
-def _find_scale(polynomial: sp.Expr) -> sp.Expr:
+def _find_coefficient_divisor(polynomial: sp.Expr) -> sp.Expr:
     """Return the divisor that keeps the integer coefficients of a polynomial below `_MAX_INTEGER`.
 
     It is 1 if they are below that already, else the magnitude of the leading coefficient.

@@ -91,7 +91,7 @@ class PlaceSymbol(sp.Symbol):
 Key: TypeAlias = str | Place  # identifies a value: the name of a local or definition, or its storage location
 
 
-def find_key(symbol: sp.Symbol) -> Key:
+def find_value_key(symbol: sp.Symbol) -> Key:
     """Return the storage location of a symbol that is read from one (a PlaceSymbol), else the symbol's name."""
     return symbol.place if isinstance(symbol, PlaceSymbol) else str(symbol.name)
 

@@ -78,7 +78,7 @@ def _has_new_extreme_numbers(result: sp.Expr, operands: tuple[sp.Expr, ...]) -> 
     Extreme numbers are beyond `_MAX_DECADES` decades from 1. The product counts only if no operand is a product with a
     high power.
     """
-    extreme_numbers = {part for part in result.atoms(sp.Number) if _is_extreme(part)}
+    extreme_numbers = {part for part in result.atoms(sp.Number) if _is_extreme_number(part)}
     if extreme_numbers and not extreme_numbers <= set().union(*(part.atoms(sp.Number) for part in operands)):
         return True
     return (
@@ -94,7 +94,7 @@ def _count_high_powers(product: sp.Mul) -> int:
     return sum(bool(exponent.is_Number and abs(exponent) > _MAX_POWER) for exponent in exponents)
 
 
-def _is_extreme(x: sp.Number) -> bool:
+def _is_extreme_number(x: sp.Number) -> bool:
     """Return whether a number is finite, not zero, and at least `_MAX_DECADES` decades larger or smaller than 1."""
     magnitude = abs(x)
     return bool(

@@ -274,18 +274,18 @@ def _check_declared_field(declaration: Field, kinds: Mapping[str, str]) -> None:
     default = declaration.default
     expected = "expected a number in SI units, or no default and required=True"
     _require_condition(
-        default is None or _is_number(default), f"the default of {declaration.name} is {default!r}", expected
+        default is None or _is_finite_number(default), f"the default of {declaration.name} is {default!r}", expected
     )
     for bound in declaration.bounds:
         limit = bound.limit
         if isinstance(limit, str):
             _require_condition(limit in kinds, f"a bound of {declaration.name} names a key that the law does not have")
         _require_condition(
-            bound.relation in RELATIONS and (isinstance(limit, str) or _is_number(limit)),
+            bound.relation in RELATIONS and (isinstance(limit, str) or _is_finite_number(limit)),
             f"a bound of {declaration.name} is invalid: {bound.relation!r} {limit!r}",
             f"expected Bound(relation, limit), with {' '.join(RELATIONS)} and a number or a key",
         )
-        if _is_number(default) and not isinstance(limit, str):
+        if _is_finite_number(default) and not isinstance(limit, str):
             is_satisfied = RELATIONS[bound.relation](default, limit)
             _require_condition(
                 is_satisfied,
@@ -294,7 +294,7 @@ def _check_declared_field(declaration: Field, kinds: Mapping[str, str]) -> None:
             )
 
 
-def _is_number(value: object) -> TypeGuard[float]:
+def _is_finite_number(value: object) -> TypeGuard[float]:
     """Return whether a value is a finite number."""
     return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
 

@@ -36,7 +36,7 @@ from gudgeon.generator.ir.statements import (
 from gudgeon.generator.ir.values import NO_NAMES
 from gudgeon.generator.kernels.shared import FIRST_SWITCH, SharedFunctionCall
 from gudgeon.generator.symbols.derivatives import find_symbols
-from gudgeon.generator.symbols.storage import Place, find_key
+from gudgeon.generator.symbols.storage import Place, find_value_key
 from gudgeon.generator.targets.c.equal_parts import PrintedPart, join_equal_parts, redirect_calls
 from gudgeon.generator.targets.c.long_sums import divide_long_sums
 from gudgeon.generator.targets.c.printer import (
@@ -354,7 +354,7 @@ def _find_names_used(kernel: Kernel) -> frozenset[str]:
         for line in section.statements:
             names.update(line.reads, line.writes)
             symbols.update(*map(find_symbols, line.expressions))
-    keys = names.union(map(find_key, symbols))
+    keys = names.union(map(find_value_key, symbols))
     called = (kernel.names.get(key, key) for key in keys)
     corner_argument = NO_NAMES if kernel.first_switch is None else {FIRST_SWITCH.name}
     return frozenset(names) | corner_argument | {key.base if isinstance(key, Place) else key for key in called}

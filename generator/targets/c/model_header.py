@@ -11,7 +11,7 @@ import sympy as sp
 
 from gudgeon.contract.kernel_source import ENGINE_ENDS
 from gudgeon.generator.equations.model import SIGNS, Model, find_eccentricity_rows
-from gudgeon.generator.equations.notes import find_drives_with_jumps, has_jumps
+from gudgeon.generator.equations.notes import find_drives_with_jumps, has_drive_with_jumps
 from gudgeon.generator.equations.play import Clearance
 from gudgeon.generator.field import Field
 from gudgeon.generator.format.sections import FILE
@@ -247,7 +247,7 @@ def _list_monitoring_sizes(program: Program, bounds: Kernel | None) -> Sizes:
             int(bool(find_drives_with_jumps(model))),
             "drives' rates may jump, and there are degrees of freedom",
         ),
-        "RATE_JUMPS": (int(has_jumps(model)), "the rate of a drive may jump"),
+        "RATE_JUMPS": (int(has_drive_with_jumps(model)), "the rate of a drive may jump"),
         "N_WATCHED": (len(find_monitored_switches(program)) + len(model.events), "monitored functions and events"),
         "KNOWN_BOUNDS": (int(bounds is not None), "bounds of monitored functions over ranges of the state are known"),
         "WATCHES_STATE": (int(bounds is not None and depends_on_state(bounds)), "they depend on more than time"),
@@ -350,7 +350,7 @@ def _find_largest_block_size(program: Program) -> int:
     Such blocks occur in positions that follow from drives and in driven loops.
     """
     rows, chains = program.kinematics and program.kinematics.rows, program.tree and program.tree.driven_loop_kernels
-    return max(rows.largest if rows else 0, chains.square.largest if chains else 0)
+    return max(rows.max_block_size if rows else 0, chains.square.max_block_size if chains else 0)
 
 
 def _print_defines(sizes: Sizes) -> list[str]:

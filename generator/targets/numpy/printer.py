@@ -34,7 +34,7 @@ from gudgeon.generator.ir.statements import (
 from gudgeon.generator.ir.values import Conditional, ParameterOrDefault, Sum, Test, Threshold, Value
 from gudgeon.generator.symbols.curves import ContourOf, CurveOf, CurveOn, KnotsOf, make_curve_name
 from gudgeon.generator.symbols.from_expressions import CLASSES
-from gudgeon.generator.symbols.storage import Key, Place, Result, find_key
+from gudgeon.generator.symbols.storage import Key, Place, Result, find_value_key
 from gudgeon.generator.targets import line_breaks
 from gudgeon.generator.targets.cached_printer import CachedPrinter
 
@@ -70,7 +70,7 @@ class NumPyPrinter(CachedPrinter, PythonCodePrinter):
 
     def _print_Symbol(self, expr: sp.Symbol) -> str:
         """Print a symbol by its name in the function."""
-        return self.get_name(find_key(expr))
+        return self.get_name(find_value_key(expr))
 
     def _print_Float(self, expr: sp.Float) -> str:
         """Print a float, a fraction of π as such."""
