@@ -27,7 +27,7 @@ Parts = tuple[sp.Expr, sp.Expr]
 def convert_to_complex(kernel: Kernel, complex_arrays: Iterable[Key], zero_arguments: Iterable[str] = ()) -> Kernel:
     """Return the kernel (generated function) for complex arguments, with "_complex" appended to its name.
 
-    `complex_arrays`: names of the arguments and arrays, or their storage places, that are complex. `zero_arguments`:
+    `complex_arrays`: names of the arguments and arrays, or their storage locations, that are complex. `zero_arguments`:
     names of arguments that are 0 there and are left out. Unused locals are removed. Raise ValueError for a line that
     has no complex counterpart.
     """
@@ -140,7 +140,7 @@ class _ComplexConverter:
     def _split_value(self, value: Value) -> tuple[Value, Value]:
         """Return the real and the imaginary part of the value of a statement; the imaginary part of a real value is 0.
 
-        The value is a storage place, a `Conditional` or an expression. Raise ValueError for other kinds of values.
+        The value is a storage location, a `Conditional` or an expression. Raise ValueError for other kinds of values.
         """
         match value:
             case Place():
@@ -156,7 +156,7 @@ class _ComplexConverter:
     def _find_part_places(self, place: Key) -> tuple[Place, Place] | None:
         """Return the places 2k and 2k + 1 of the real and imaginary part of element k of a complex array.
 
-        Return None if `place` (a storage place or the name of a local) is not an element of a complex array.
+        Return None if `place` (a storage location or the name of a local) is not an element of a complex array.
         """
         match place:
             case Place(base, (*path, int() as k)) if {base, Place(base, (*path,))} & self.complex_keys:

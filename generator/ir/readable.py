@@ -125,8 +125,8 @@ def make_readable_statements(statements: Sequence[Statement]) -> Readable:
 def _remove_copies(lines: Sequence[Line], arguments: Collection[str], names: dict[Key, Key]) -> list[Line]:
     """Return the lines without locals that are copies of arguments or parameters.
 
-    `names` is changed in place: it maps each removed local to the storage place that is read instead. The assignment of
-    a local that the next line stores to a parameter is merged with that line.
+    `names` is changed in place: it maps each removed local to the storage location that is read instead. The
+    assignment of a local that the next line stores to a parameter is merged with that line.
     """
     result: list[Line] = []
     for line in lines:

@@ -158,7 +158,7 @@ def derive_taylor_series(
 ) -> Series:
     """Return the functions for the Taylor coefficients of a kernel's results: one of order 0, one of each higher order.
 
-    `find_place(place)`: where the new functions store the result of a storage place, or None if it is not requested.
+    `find_place(place)`: where the new functions store the result of a storage location, or None if it is not requested.
     `name`: the base of their names. `linear`: a linear system that the kernel solves, or None. Raise NoTaylorSeries for
     operations without a series.
     """
@@ -172,7 +172,7 @@ def derive_taylor_series(
 def _find_needed_lines(kernel: Kernel, find_place: FindPlace) -> list[SectionLine]:
     """Return the lines on which requested results depend, as (section title, line); other stores become locals.
 
-    `find_place(place)` is the new storage place of a requested result, or None. Lines that handle singular equations
+    `find_place(place)` is the new storage location of a requested result, or None. Lines that handle singular equations
     are dropped.
     """
     lines: list[SectionLine] = []
@@ -238,7 +238,7 @@ class _SeriesBuilder(Rules):
                 raise NoTaylorSeries(f"a {type(line).__name__.lower()} of the right-hand side is not an expression")
 
     def _add_input_line(self, line: Statement, place: Place) -> None:
-        """Append a line that reads time, state or a parameter at the storage place `place` to both functions.
+        """Append a line that reads time, state or a parameter at the storage location `place` to both functions.
 
         The local is recorded as a parameter or as varying. Raise NoTaylorSeries for other places.
         """

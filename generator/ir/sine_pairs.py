@@ -23,10 +23,10 @@ _MakeLines = Callable[[Sequence[sp.Symbol], Sequence[Statement], int], tuple[lis
 
 
 def vectorize_sines(kernel: Kernel) -> Kernel:
-    """Return the kernel with its cosines and sines computed four angles at a time, in vectors.
+    """Return the kernel with its cosines and sines computed four angles at a time, in SIMD vectors.
 
-    Each vector is computed as soon as its angles are known. The function is for single runs; lanes use
-    `call_sines_by_lane`.
+    Each vector is computed as soon as its angles are known. Sections with lines other than assignments of expressions
+    stay unchanged. The function is for single runs; lanes use `call_sines_by_lane`.
     """
     return _group_sines(kernel, _make_vectors)
 

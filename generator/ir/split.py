@@ -248,7 +248,10 @@ def _divide_lines(items: Sequence[TitledLine], copies: Mapping[str, Line]) -> li
 
 
 def _divide_movable_lines(lines: Sequence[TitledLine], copies: Mapping[str, Line]) -> list[list[TitledLine]]:
-    """Return movable lines in parts: groups of lines that repeat, and what is between them in parts of equal length."""
+    """Return movable lines in parts: groups of lines that repeat, and the lines between them in parts of equal length.
+
+    The latter have at most _MAX_PART_LINES lines.
+    """
     pieces = []
     first = 0
     shapes = [find_line_shape(item.line, copies) for item in lines]

@@ -46,7 +46,7 @@ class Statement(Line):
 
     @property
     def expressions(self) -> tuple[sp.Basic, ...]:
-        """Return the SymPy expressions in the assigned value, in a tuple; empty for a storage place."""
+        """Return the SymPy expressions in the assigned value, in a tuple; empty for a storage location."""
         return (self.value,) if isinstance(self.value, sp.Basic) else self.value.expressions
 
     @property

@@ -169,7 +169,7 @@ class JointFunctions:
 
     @property
     def further_places(self) -> tuple[Place, ...]:
-        """Return the storage places from which the normal law's further variables are read at a joint.
+        """Return the storage locations from which the normal law's further variables are read at a joint.
 
         They are locals of the same names; for rigid surfaces the contact force in the contact state is the only one.
         """

@@ -84,10 +84,11 @@ class SharedFunctions:
 
 
 def name_joint_parameters(model: Model, clearance: Clearance) -> dict[Place, str]:
-    """Return the names, in the equations of a joint with play, of its parameters by storage place.
+    """Return the names of a joint's parameters in its equations, by storage location, such as `p.pin_radius`: "R_i".
 
     First come the parameters of its laws, then dimensions, derived parameters, the transition, parameters of user
-    expressions and reciprocals. A parameter or name that occurs twice counts once.
+    expressions and reciprocals. A parameter or name that occurs twice counts once. A parameter of the file with the
+    name of another one gets the ending "_file_parameters".
     """
     laws = clearance.laws
     named_symbols = [

@@ -84,6 +84,7 @@ class Reader:
     """
 
     def __init__(self, file: str) -> None:
+        """Begin without errors and values; `file` is the name of the file for messages."""
         self.file = file
         self.errors: list[InputError] = []
         self.quantities: dict[str, Quantity] = {}  # by address

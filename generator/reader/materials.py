@@ -27,6 +27,7 @@ class Materials:
     """
 
     def __init__(self, reader: Reader, section: Map) -> None:
+        """Read the section `materials:`; values of interchangeable materials become run-time parameters."""
         self._reader, self._required_properties = reader, dict[str, tuple[str, ...]]()
         self.by_name: dict[str, Material] = {}
         self.choices: dict[str, Choice] = {}

@@ -79,6 +79,7 @@ class ResultNames:
     def __init__(
         self, point_names: PointNames, root: Map, number_kinds: Mapping[str, str], unreadable_owners: Iterable[str]
     ) -> None:
+        """Collect the results of all bodies, points, joints, drives and forces that the file `root` declares."""
         joints, drives, forces = (
             {
                 str(name): kind
@@ -174,6 +175,7 @@ class MotionNames(ResultNames):
     """Return the dimension of each name on which a force may depend: coordinates and velocities."""
 
     def __init__(self, point_names: PointNames, root: Map, number_kinds: Mapping[str, str]) -> None:
+        """Collect coordinates and velocities of bodies and points; accelerations and results of forces are left out."""
         moving = {"bodies": root["bodies"], "ground": root.get_mapping("ground")}
         super().__init__(point_names, Map.make_map(moving, root.where), number_kinds, ())
         for total in _TOTAL_RESULTS:

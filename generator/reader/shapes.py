@@ -94,6 +94,7 @@ class MassProperties:
     """Contain mass, moment of inertia and centre of mass of one body; a shape sets those that the file omits."""
 
     def __init__(self, reader: Reader, address: str, body_values: Values, materials: Materials) -> None:
+        """Begin with the values of the body with an address, as far as the file has them."""
         self._reader, self._address, self._materials = reader, address, materials
         self.mass, self.inertia = body_values.quantities.get("mass"), body_values.quantities.get("inertia")
         self.length, self.com = body_values.quantities.get("length"), body_values.vectors.get("com")

@@ -60,7 +60,7 @@ def add_directions(
     """Return the driven loops with the directions in their closures, whose cosines and sines C stores after q.
 
     A direction counts if its angle depends on dependent and prescribed coordinates only and a closure reads it. The
-    storage places of its symbols are set. `frames`: all frames; `prescribed_names`: names of the coordinates that
+    storage locations of its symbols are set. `frames`: all frames; `prescribed_names`: names of the coordinates that
     drives prescribe.
     """
     symbols = system.model.symbols

@@ -121,9 +121,9 @@ class TreeGeometry(Geometry):
             self._set_base_point(tree_edge)
 
     def _add_coordinate(self, name: str, index: int) -> int:
-        """Add an unknown coordinate with an index in q and v, and return 1, the number of added coordinates.
+        """Add an unknown coordinate to `motions`, with symbols at an index in q and v; return 1.
 
-        `name`: a body for an angle, else that of a slide.
+        The result is the number of added coordinates. `name`: a body for an angle, else that of a slide.
         """
         new, owner = self.symbols.add_symbol, name.replace(".", "_")
         names = (f"{owner}_theta", f"{owner}_omega") if name in self.tree.free else (owner, f"{owner}_rate")
@@ -294,8 +294,8 @@ class TreeGeometry(Geometry):
     def _make_point(self, body: str, vector: Pair, base_name: str, names: tuple[str, str, str, str]) -> TreePoint:
         """Return the point of a body at s, a vector from its centre of mass in the body's frame.
 
-        `base_name`: base of the names of derived parameters and arms; `names`: those of the symbols for (x, y, ẋ, ẏ),
-        which longer values become.
+        `base_name`: base of the names of derived parameters and rotated vectors. `names`: names for (x, y, ẋ, ẏ); a
+        value that is not a number or ± a symbol becomes a symbol of that name.
         """
         base, body_base = self._base[body]
         frame, local = self.frame_of[body], self.rotate_to_frame(body, vector, base_name)

@@ -91,7 +91,7 @@ def _find_coupled_coordinates(
     return coupled
 
 
-def _make_key(tree_edges: Iterable[TreeEdge]) -> frozenset[tuple[str, str]]:
+def _make_tree_key(tree_edges: Iterable[TreeEdge]) -> frozenset[tuple[str, str]]:
     """Return the set of (body, joint that positions it) of a tree's edges, which identifies the tree.
 
     The joint is "" for a body that moves freely.
@@ -109,7 +109,7 @@ class OperationEstimate:
         used_rows: frozenset[str],
         shared_points: Sequence[SharedPoint],
     ) -> None:
-        """Prepare the estimate for a model.
+        """Begin without estimates for the trees of a model.
 
         `angles`: those of the bodies in free ones; `used_rows`: equations that the angles satisfy already.
         """
@@ -130,7 +130,7 @@ class OperationEstimate:
         `tree_edges`: the edges of the spanning tree. If the operations exceed `limit`, a lower bound above it may be
         returned.
         """
-        key = _make_key(tree_edges)
+        key = _make_tree_key(tree_edges)
         if key not in self.costs:
             self.costs[key] = self._estimate_operations(tree_edges, limit)
         return self.costs[key]
@@ -144,7 +144,7 @@ class OperationEstimate:
         limit = math.inf
         for tree_edges in reversed(trees):
             limit = min(limit, self(tree_edges, limit))
-        self.costs = {_make_key(tree_edges): self(tree_edges) for tree_edges in trees}
+        self.costs = {_make_tree_key(tree_edges): self(tree_edges) for tree_edges in trees}
         return min(trees, key=self)
 
     def _estimate_operations(self, tree_edges: tuple[TreeEdge, ...], limit: float) -> int:

@@ -118,7 +118,7 @@ class Linearization:
         return self.parts
 
     def _make_constant_symbol(self, base_name: str, place: Place) -> sp.Symbol:
-        """Return a new symbol that is read at the storage place `place` and held constant in derivatives."""
+        """Return a new symbol that is read at the storage location `place` and held constant in derivatives."""
         return self.symbols.add_symbol(base_name.replace(".", "_"), place)
 
     def _append_clearance(self, index: int, clearance: Clearance) -> list[PointLoad]:
@@ -247,8 +247,9 @@ class Linearization:
     def _add_friction_equations(self, residual: list[sp.Expr]) -> None:
         """Add the equations of stick, the forces of slip and their power to the parts; stick or slip is held constant.
 
-        `residual`, by coordinate, gets −Jᵀ f in place. f is the friction force: the present one, held constant, at
-        stick, and −sign(v) · kinetic force at slip.
+        `residual`, by coordinate, gets −Jᵀ f in place. f is the friction force: at stick the current one, held
+        constant, at slip −sign(v) · kinetic force. A symbol for each element, 1 at stick and 0 at slip, is appended to
+        `stick_flags`.
         """
         if self.system.frictions:
             self.builder.begin_section("friction: slip, or stick as a constraint equation")

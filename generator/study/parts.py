@@ -74,7 +74,7 @@ def read_line(node: Map, key: str, address: str) -> str:
 def check_paragraph(node: Any, address: str, key: Any) -> str:
     """Return a node as a descriptive text on one line, with single spaces.
 
-    Raises BadValueError for other nodes, and for more than 1000 or invisible characters.
+    Raises BadValueError for other nodes, and for more than MAX_TEXT_LENGTH or invisible characters.
     """
     if not isinstance(node, Text) or node.is_null:
         raise BadValueError(f"{address} is {describe_node(node)}", find_node_location(node, key), "expected a text")

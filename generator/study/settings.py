@@ -83,7 +83,7 @@ def remove_section_name(name: str) -> str:
 def apply_set_options(
     fixed_parameters: Mapping[Text, Text], axes: Sequence[Axis], draw: Draw | None, settings: Mapping[str, str]
 ) -> VariedParameters:
-    """Apply values of `--set`: they replace the file's values of these parameters, fixed or varied.
+    """Return the parameters after the options `--set c=0.2mm`, whose values replace the file's, fixed or varied.
 
     Parameters that vary together with them, in a zip or a draw, are not changed. For each axis that loses parameters,
     `VariedParameters.left_out` has an axis with these parameters alone; those of the draw form one grouped axis there.

@@ -84,7 +84,7 @@ class Symbols(Freezable):
         Switches of joints are shared too. A parameter that is added to the new table gets a name and entry in both.
         """
         other_table = Symbols()
-        other_table._shared_table, other_table.switches = self, self.switches.copy_for_functions()
+        other_table._shared_table, other_table.switches = self, self.switches.copy_joint_switches()
         for symbol, info in self.info.items():
             if info.is_parameter:
                 other_table.add_shared_parameter(symbol)
@@ -149,7 +149,7 @@ class Symbols(Freezable):
         return self._find_place(name) == Place(PARAMETERS)[name]
 
     def _find_place(self, name: str) -> Place | None:
-        """Return the storage place of the symbol with a name; None for a local or an unknown name."""
+        """Return the storage location of the symbol with a name; None for a local or an unknown name."""
         info = self.info.get(make_real_symbol(name))
         return info.place if info else None
 
@@ -158,8 +158,8 @@ class Symbols(Freezable):
     ) -> sp.Symbol:
         """Return a new real symbol, with an unused name made from `base_name`, and record its place, meaning and unit.
 
-        `place`: the storage place where it is read; None: it is defined by an expression. With OWN_FIELD it is a field
-        of Parameters, called as `field_base_name`, or as the symbol if that is "".
+        `place`: the storage location where it is read; None: it is defined by an expression. With OWN_FIELD it is a
+        field of Parameters, called as `field_base_name`, or as the symbol if that is "".
         """
         shared_table = self._shared_table if place and place.is_parameter else None
         name, field_name = (
@@ -230,7 +230,7 @@ class Symbols(Freezable):
     def differentiate_definitions(self, expression: sp.Expr, variable: sp.Symbol) -> sp.Expr:
         """Return the derivative of an expression by `variable`, through the definitions of derived symbols.
 
-        It is for variables that no rule contains: rates that a drive prescribes.
+        It is for variables without derivative rules: rates that a drive prescribes.
         """
         result = sp.Integer(0)
         for symbol in sorted(find_symbols(expression), key=lambda s: s.name):
