@@ -1,4 +1,4 @@
-"""Forward-mode differentiation of expressions by the chain rule, through intermediate variables.
+"""Forward-mode automatic differentiation: expressions by the chain rule, through intermediate variables.
 
 A derived symbol has a tangent, the non-zero derivatives by the base symbols (coordinates, velocities, time, or other
 variables by which a kernel is differentiated). It follows from the symbol's rules, else from its definition. Tangents

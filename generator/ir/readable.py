@@ -1,4 +1,4 @@
-"""Readable form of a generated function: branches as separate lines, no copies of values under other names.
+"""Readable form of a generated function: branches as separate lines, copies of values removed (copy propagation).
 
 Only the text changes: values stay as they are, with the order of their terms, so that every target computes the
 same bits. The names of symbols in the text are in `Kernel.names`, those of branches in `Readable.branches`.

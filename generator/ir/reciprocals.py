@@ -1,4 +1,4 @@
-"""Divisions as products with reciprocals; reciprocals of parameters alone are computed once per run.
+"""Divisions as products with reciprocals (strength reduction); those of parameters are computed once per run.
 
 A division occupies the processor's divider for as long as several products take. Force laws divide by the same
 few lengths repeatedly.

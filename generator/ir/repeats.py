@@ -1,4 +1,4 @@
-"""Division of a sequence of statements into groups that repeat, such as those of equal bars and joints of a chain.
+"""Division of statements into groups that repeat (loop rerolling), such as those of equal bars of a chain.
 
 Statements are compared by their shapes: what they compute, without the names of their operands. Adjacent symbols that
 occur together most often are replaced by a new symbol, again and again (grammar-based compression: N. J. Larsson, A.

@@ -1,4 +1,4 @@
-"""Taylor coefficients of a generated straight-line function: order 0 first, then each higher order.
+"""Taylor-mode automatic differentiation of a straight-line function: coefficients of order 0, then of each order.
 
 Where arguments are series in time every local is one too, and its coefficient of order k follows from those of its
 operands (A. Jorba, M. Zou, A software package for the numerical integration of ODEs by means of high-order Taylor

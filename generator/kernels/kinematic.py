@@ -1,4 +1,4 @@
-"""Functions of a scene without degrees of freedom in tree coordinates: Newton's step, rates, motion of bodies."""
+"""Kinematic analysis, for scenes without degrees of freedom in tree coordinates: Newton's step, rates, body motion."""
 
 from __future__ import annotations
 

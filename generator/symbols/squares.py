@@ -1,4 +1,4 @@
-"""Squares under roots, recognized by exact decimals: t² − 2·0.2202 t + 0.2202² is (t − 0.2202)².
+"""Perfect squares under roots, factored with exact decimals: t² − 2·0.2202 t + 0.2202² is (t − 0.2202)².
 
 There is no tolerance: a sum that is not exactly a square of these decimals stays under its root, however near it is.
 """
