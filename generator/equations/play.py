@@ -180,7 +180,6 @@ def _derive_clearance(
 
         Joints with the same contact and bearing share it.
         """
-        # joints with the same bearing and contact share the parameter
         parameter_name = f"{play.contact.name}_{play.bearing.name}_{name}"
         constants[name] = parameter_table.derive_parameter(parameter_name, expression, meaning)
         return constants[name]

@@ -79,7 +79,7 @@ def _predict_tolerance(program: Program, series: Series) -> float:
     The comparison is made at powers of ten from 10^-MIN_TOL_EXPONENT to 10^-MAX_TOL_EXPONENT. The result lies between
     two of them: 10^(0.5 − exponent).
     """
-    n_rhs, n_rows, cheaper = _count_rhs_operations(program), len(program.integrated.system.rows), 0.0
+    n_rhs, n_rows, tolerance = _count_rhs_operations(program), len(program.integrated.system.rows), 0.0
     for exponent in range(MIN_TOL_EXPONENT, MAX_TOL_EXPONENT + 1):
         rtol = 10.0**-exponent
         order = math.ceil(1.0 - TAYLOR_EFFORT * math.log(rtol / TAYLOR_STRICTNESS))
@@ -90,8 +90,8 @@ def _predict_tolerance(program: Program, series: Series) -> float:
         )
         length_ratio = STEP_LENGTH_RATIO * (rtol / 10.0**-MIN_TOL_EXPONENT) ** -STEP_LENGTH_GROWTH
         is_cheaper = series_cost < length_ratio * (DOP853_STEP_COST + DOP853_RHS_COST * n_rhs)
-        cheaper = (cheaper or 10.0 ** (0.5 - exponent)) if is_cheaper else 0.0
-    return cheaper
+        tolerance = (tolerance or 10.0 ** (0.5 - exponent)) if is_cheaper else 0.0
+    return tolerance
 
 
 def _get_smooth_system(program: Program) -> TreeSystem:

@@ -128,8 +128,8 @@ class ParameterTable(Freezable):
         default_expression = convert_to_sympy(quantity.value, find_symbol) if _has_names(quantity) else None
         default = float(evaluate(quantity.value, find_default))
         value = sp.Float(default, 17) if default_expression is None else default_expression
-        is_short = "." not in base_name and not address.startswith("parameters.")  # gravity.y is not y
-        field_base_name = address if is_short else ""
+        is_unqualified = "." not in base_name and not address.startswith("parameters.")  # gravity.y is not y
+        field_base_name = address if is_unqualified else ""
         symbol = self.symbols.add_symbol(base_name, place, address, field_base_name=field_base_name)
         self.entries[address] = ParameterEntry(symbol, address, value, default, quantity.dimension, (), quantity.value)
         self._default_of[symbol] = default
