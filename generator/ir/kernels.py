@@ -169,11 +169,11 @@ FROZEN_BRANCHES_TITLE = (
 )
 
 
-def declare_branches(kernel: Kernel, output_target: str = "unread") -> Kernel:
+def declare_branches(kernel: Kernel, output_target: str = "local") -> Kernel:
     """Return the kernel with a first section that declares the branches of switching functions (frozen signs).
 
     A kernel that reads no branch is returned unchanged. `output_target`: where the kernel writes the values of its
-    switching functions: "" nowhere, "unread" to the argument g, "rhs" to g and `rhs`.
+    switching functions: "" nowhere, "local" to a local array g that is not read later, "rhs" to the array g of `rhs`.
     """
     if not _has_branch_reads(kernel):
         return kernel

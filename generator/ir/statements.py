@@ -264,18 +264,21 @@ class MarkUnused(Line):
 
 @dataclass(frozen=True)
 class DeclareBranches(Line):
-    """The declaration of frozen branches, and of where switching functions are written: "" nowhere, "unread", "rhs"."""
+    """The declaration of frozen branches, and of where switching functions are written: `output_target`.
+
+    It is "" (nowhere), "local" (a local array g that is not read later) or "rhs" (the array g of `rhs`).
+    """
 
     output_target: str
     held: bool = True
 
     @property
     def names(self) -> Names:
-        """Return the names of the arguments that the declaration reads.
+        """Return the names that the declaration declares or reads.
 
         These are `branch`, the outputs for switching functions by `output_target`, and `discrete` if branches are held.
         """
-        outputs = {"": [], "unread": ["g"], "rhs": ["g", "rhs"]}[self.output_target]
+        outputs = {"": [], "local": ["g"], "rhs": ["g", "rhs"]}[self.output_target]
         return frozenset(["branch", *outputs, *(["discrete"] if self.held else [])])
 
 

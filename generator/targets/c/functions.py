@@ -283,7 +283,7 @@ def _print_branch_arrays(branches: DeclareBranches) -> list[str]:
         if branches.held
         else "NULL; /* of corners within corners: as they are */"
     )
-    declarations = {"": [], "unread": ["double g[N_SWITCHES + 1];"], "rhs": ["double *const g = rhs->g;"]}[
+    declarations = {"": [], "local": ["double g[N_SWITCHES + 1];"], "rhs": ["double *const g = rhs->g;"]}[
         branches.output_target
     ]
     return [f"const double *const branch = {stored_branches}", *declarations]

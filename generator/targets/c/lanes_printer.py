@@ -182,7 +182,7 @@ class LaneLines(functions.LinePrinter):
                 )
                 declarations_of_target = {
                     "": [],
-                    "unread": [local_array],
+                    "local": [local_array],
                     "rhs": ["Lanes *const g = reported_branches(rhs);"],
                 }
                 return [f"const Lanes *const branch = {stored_branches};", *declarations_of_target[line.output_target]]
