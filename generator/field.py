@@ -59,7 +59,7 @@ class Bound(NamedTuple):
     why: str = ""  # text of the message, "a mass is positive"; {name} is the field's name. "": its meaning
 
     def format_reason(self, field: Field, owner_name: str) -> str:
-        """Return the text that an error message gives as the reason for a value that violates the bound.
+        """Return the reason of a violated bound for an error message, such as "a mass is positive".
 
         It is `why` with {name} replaced by the field's name. Without `why` it is the meaning of the field, followed by
         `owner_name`, the name of the law or mapping, in parentheses.
@@ -78,8 +78,8 @@ class Kind:
     title: str
     fields: tuple[Field, ...]
     targets: str = ""  # "points", "bodies" or "coordinates"; a law has none
-    counts: tuple[int, ...] = ()  # how many targets there may be
-    also: tuple[str, ...] = ()  # names in other programs, for hints
+    counts: tuple[int, ...] = ()  # allowed numbers of targets
+    foreign_names: tuple[str, ...] = ()  # names in other programs, for hints
     like: str = ""  # the kind of which this is another name, with some options fixed
 
 
@@ -136,9 +136,9 @@ class Field:
     def list_fields(self, node: Any = ()) -> tuple[Field, ...]:
         """Return the fields of the allowed keys of a mapping.
 
-        A field without kinds returns its own `fields`. Otherwise the fields are those of the kinds that `node` names:
-        by its key `law` if the field is a law and has this key, else by all its keys. If `node` names no known kind,
-        the fields of all kinds are returned.
+        A field without `kinds` returns its own `fields`. Otherwise the fields are those of the kinds that `node`
+        contains: by its key `law` if the field is a law and has this key, else by all its keys. If `node` contains no
+        known kind, the fields of all kinds are returned.
         """
         if self.kinds is None:
             return self.fields

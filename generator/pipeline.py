@@ -63,10 +63,10 @@ def build_closed_linkage(
     return linkage, [r for r, row in enumerate(model.all_rows) if row.name in names_of_remaining_rows]
 
 
-def _make_document_symbols(model: Model) -> Any:
+def _make_formula_writer(model: Model) -> Any:
     """Return the FormulaWriter of a model, which prints its equations in the notation of its documents.
 
-    The LaTeX target is imported here.
+    The LaTeX target is imported here, at the first use.
     """
     from gudgeon.generator.targets.latex.to_html import FormulaWriter
 
@@ -76,7 +76,7 @@ def _make_document_symbols(model: Model) -> Any:
 # Targets of `Model.written` by name, for the full formulation; "letters": how documents write the equations.
 TARGETS: Mapping[str, Callable[[Model], Any]] = {
     "numpy": lambda model: NumPyModel(make_program(model, "full")),
-    "letters": _make_document_symbols,
+    "letters": _make_formula_writer,
 }
 
 

@@ -91,11 +91,11 @@ def check_mass_matrix(model: Model, source: KernelSource) -> None:
             scale_rows(linkage, linkage.p, linkage.closed_phi_q(0.0, q, linkage.p)[rows_of_scene])
             for q in configurations_near_start
         ]
-        motions_of_least_mass = [_find_motion_of_least_mass(matrix, has_mass) for matrix in matrices]
+        motions_of_min_mass = [_find_motion_of_min_mass(matrix, has_mass) for matrix in matrices]
     except (GudgeonError, ArithmeticError, ValueError):  # as above
         return
-    if all(fraction <= RANK for fraction, _ in motions_of_least_mass):
-        motion = motions_of_least_mass[-1][1]
+    if all(fraction <= RANK for fraction, _ in motions_of_min_mass):
+        motion = motions_of_min_mass[-1][1]
         name = max(bodies_without_inertia, key=lambda body: abs(motion[bodies_without_inertia[body]]))
         inertia = bodies[name].inertia
         location = inertia.where if inertia is not None else bodies[name].where
@@ -108,11 +108,12 @@ def check_mass_matrix(model: Model, source: KernelSource) -> None:
         )
 
 
-def _find_motion_of_least_mass(phi_q: Array, has_mass: NDArray[np.bool_]) -> tuple[float, Array]:
+def _find_motion_of_min_mass(phi_q: Array, has_mass: NDArray[np.bool_]) -> tuple[float, Array]:
     """Return (fraction, motion (n,)) of the motion that satisfies the constraints and moves the least mass.
 
     phi_q: the scaled Jacobian (rows, n), possibly without rows; has_mass: mask (n,) of coordinates with mass. The
-    motion has norm 1. The fraction is the norm of its part in coordinates with mass; 0: some motion moves no mass.
+    motion has norm 1. The fraction is the norm of its part in coordinates with mass; 0: some motion moves no mass. The
+    method is two singular value decompositions.
     """
     _, singular_values, right_vectors = (
         np.linalg.svd(phi_q) if len(phi_q) else (None, np.zeros(0), np.eye(len(has_mass)))
@@ -127,7 +128,7 @@ def _find_motion_of_least_mass(phi_q: Array, has_mass: NDArray[np.bool_]) -> tup
 
 
 def _select_redundant_rows(rows: Sequence[Row], matrix: Array, rank_of_matrix: int) -> Redundancy:
-    """Select independent constraint equations, drives first, then in file order; return the others as redundant.
+    """Return the redundant constraint equations after selection of independent ones: drives first, then in file order.
 
     `matrix`: the Jacobian (rows, n) of the equations `rows`, of rank `rank_of_matrix`. The result has the names of the
     redundant equations, and the joints and drives whose multipliers are undetermined. The method is Gram–Schmidt.

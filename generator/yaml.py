@@ -54,9 +54,10 @@ class Events:
     def join_pieces(self, event: Any, in_mapping: bool) -> Any:
         """Return `event`, a value in brackets, joined with the texts after it that belong into its parentheses.
 
-        `in_mapping`: the value is in a mapping in braces, where each further piece is a key without value. The joined
-        events are consumed and `event` is changed. It is returned unchanged if its parentheses match. A list item is
-        also unchanged if its parentheses stay open after all pieces: it may be a broken component of a vector.
+        Example: `{value: ramp(t, 0, 1 s)}`, which YAML splits at the commas. `in_mapping`: the value is in a mapping
+        in braces, where each further piece is a key without value. The joined events are consumed and `event` is
+        changed. It is returned unchanged if its parentheses match. A list item is also unchanged if its parentheses
+        stay open after all pieces: it may be a broken component of a vector.
         """
         if not _is_plain_scalar(event) or _count_open_parentheses(event.value) <= 0:
             return event
@@ -113,7 +114,7 @@ MAX_TAG = 10_000  # characters: the time that ruamel takes for one grows with th
 MAX_DUPLICATES = 50  # reported keys that are given twice
 _TAG = re.compile(rf"!\S{{{MAX_TAG}}}")
 # errors that ruamel raises on hostile text in addition to its own: "%YAML 1.13" fails an assertion
-_OF_RUAMEL = (ValueError, RecursionError, LookupError, AttributeError, TypeError, AssertionError, ArithmeticError)
+_RUAMEL_ERRORS = (ValueError, RecursionError, LookupError, AttributeError, TypeError, AssertionError, ArithmeticError)
 
 
 class Text(str):
@@ -207,7 +208,7 @@ def parse_yaml(
         root = composer.compose_document()
     except YAMLError as error:
         raise _translate_error(error, text, file) from None
-    except _OF_RUAMEL:
+    except _RUAMEL_ERRORS:
         hint = "check the characters after % and after backslashes in double quotes"
         raise NotYamlError("not YAML: a directive or an escape cannot be read", Location(file, 1, 1), hint) from None
     duplicates = composer.duplicates[:MAX_DUPLICATES]

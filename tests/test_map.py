@@ -11,12 +11,12 @@ NO_COMMENT = (".jinja",)  # what a template writes first may be its `else`
 
 
 def test_the_map_is_current() -> None:
-    assert (ROOT / "docs" / "map.md").read_text(encoding="utf-8") == MAP["file_map"]()
+    assert (ROOT / "docs" / "map.md").read_text(encoding="utf-8") == MAP["make_file_map"]()
 
 
 def test_the_notation_is_current_and_each_symbol_has_one_meaning() -> None:
     tool = runpy.run_path(str(ROOT / "tools" / "notation.py"))
-    written = tool["notation"]()
+    written = tool["make_notation_page"]()
     assert (ROOT / "docs" / "notation.md").read_text(encoding="utf-8") == written
     for row in ("| $c$ | radial clearance", "`JOINT.deltadot` | `deltadot` | m/s |", "| `hertz` |"):
         assert row in written
@@ -27,8 +27,8 @@ def test_the_notation_is_current_and_each_symbol_has_one_meaning() -> None:
 
 
 def test_each_source_file_has_a_first_sentence() -> None:
-    files = [file for top in MAP["FOLDERS"] for _, files in MAP["source_folders"](ROOT / top) for file in files]
-    silent = [str(file.relative_to(ROOT)) for file in files if not MAP["first_sentence"](file)]
+    files = [file for top in MAP["FOLDERS"] for _, files in MAP["iterate_source_folders"](ROOT / top) for file in files]
+    silent = [str(file.relative_to(ROOT)) for file in files if not MAP["find_first_sentence"](file)]
     assert len(files) > 500
     assert [name for name in silent if not name.endswith(NO_COMMENT)] == []
 
@@ -37,7 +37,7 @@ def test_the_first_sentence_of_a_comment(tmp_path: Path) -> None:
     (tmp_path / "a.c").write_text("/*\n * Steps of\n * a run. It ends\n *\n * there. */\nint a;\n", encoding="utf-8")
     (tmp_path / "b.py").write_text('"""Numbers of J. Doe: x. Further ones."""\n', encoding="utf-8")
     (tmp_path / "c.py").write_text("x = 1\n", encoding="utf-8")
-    assert [MAP["first_sentence"](tmp_path / name) for name in ("a.c", "b.py", "c.py")] == [
+    assert [MAP["find_first_sentence"](tmp_path / name) for name in ("a.c", "b.py", "c.py")] == [
         "Steps of a run",
         "Numbers of J. Doe: x",
         "",

@@ -10,7 +10,7 @@ PROSE = runpy.run_path(str(ROOT / "tools" / "prose.py"))
 
 
 def test_the_pages_comply() -> None:
-    pages = PROSE["checked_pages"]()
+    pages = PROSE["list_checked_pages"]()
     found = [(page.name, *one) for page in pages for one in PROSE["check_page"](page.read_text(encoding="utf-8"))]
     assert len(pages) > 20 and found == []
 

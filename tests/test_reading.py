@@ -24,9 +24,9 @@ def test_its_quotations_are_current() -> None:
 
 def test_a_line_that_a_file_does_not_have_is_reported() -> None:
     with pytest.raises(SystemExit, match="no line with 'nothing of this'"):
-        QUOTES["quoted"]("README.md", "nothing of this", "end")
+        QUOTES["find_quoted_lines"]("README.md", "nothing of this", "end")
     with pytest.raises(SystemExit, match="to which a page quotes"):
-        QUOTES["quoted"]("README.md", "# gudgeon", "nothing of this")
+        QUOTES["find_quoted_lines"]("README.md", "# gudgeon", "nothing of this")
 
 
 @needs_compiler

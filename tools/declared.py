@@ -32,11 +32,11 @@ WIDTH, LINE = 112, 120
 IN_JAVASCRIPT = ("Status", "Capacity", "Count", "Residual", "Peak", "ImpactColumn", "Work")
 
 
-def declared() -> str:
+def make_ffi_module() -> str:
     """Return the text of runtime/loading/declared.py."""
     declarations = list_all_declarations()
     lines = [HEAD.format(of=compute_digest([declarations]))]
-    for name, value in _ffi_arguments(declarations).items():
+    for name, value in _find_ffi_arguments(declarations).items():
         if isinstance(value, tuple):
             entries = "".join(f"        {_format_entry(entry)},\n" for entry in value)
             whole = f"    {name}=({_format_entry(value[0])},),\n" if len(value) == 1 else ""
@@ -49,51 +49,56 @@ def declared() -> str:
     return "".join([*lines, ")\n"])
 
 
-def enumerations() -> dict[str, dict[str, int]]:
+def read_enumerations() -> dict[str, dict[str, int]]:
     """Return the enumerators of each enumeration of engine/boundary.h, by increasing value."""
     text = BOUNDARY.read_text(encoding="utf-8")
     ffi = FFI()
     ffi.cdef("".join(f"{line}\n" for line in text.splitlines() if not line.startswith("#")))
     tags = re.findall(r"^enum (\w+)", text, re.MULTILINE)
     members = {name: ffi.typeof(f"enum {name}").relements for name in tags}
-    return {name: dict(sorted(own.items(), key=lambda member: member[1])) for name, own in members.items()}
+    return {name: dict(sorted(values.items(), key=lambda member: member[1])) for name, values in members.items()}
 
 
-def thresholds() -> dict[str, str]:
+def read_constants() -> dict[str, str]:
     """Return the floating-point constants of engine/boundary.h."""
     return dict(re.findall(r"^#define (\w+) ([-+.\de]+)$", BOUNDARY.read_text(encoding="utf-8"), re.MULTILINE))
 
 
-def columns(members: dict[str, int]) -> list[str]:
-    """Return the names of an enumeration that counts columns, without its prefix; none if it counts nothing."""
+def list_column_names(members: dict[str, int]) -> list[str]:
+    """Return the names of an enumeration of columns without their prefix; [] for any other enumeration.
+
+    The last enumerator of an enumeration of columns is their number, N_….
+    """
     *names, last = members
     return [name.split("_", 1)[1] for name in names] if last.startswith("N_") else []
 
 
-def boundary_py() -> str:
+def make_python_boundary() -> str:
     """Return the text of runtime/contract/boundary.py."""
     lines = ['"""Numbers that the engine shares with Python: written by tools/declared.py (boundary.h)."""', ""]
-    lines += ["from typing import Final", "", *(f"{name}: Final = {value}" for name, value in thresholds().items())]
-    for name, members in enumerations().items():
+    lines += ["from typing import Final", "", *(f"{name}: Final = {value}" for name, value in read_constants().items())]
+    for name, members in read_enumerations().items():
         lines += ["", f"# enum {name}", *(f"{member}: Final = {value}" for member, value in members.items())]
-        if names := columns(members):
+        if names := list_column_names(members):
             whole = f"{_list_name(name)} = ({', '.join(f'{one!r}' for one in names)})".replace("'", '"')
             rows = [f"{_list_name(name)} = (", *(f'    "{one}",' for one in names), ")"]
             lines += [whole] if len(names) > 1 and len(whole) <= LINE else rows
     return "\n".join([*lines, ""])
 
 
-def boundary_js() -> str:
-    """Return the text of runtime/web/boundary.js with the names that scripts of the folder use, and counts of
-    columns."""
+def make_javascript_boundary() -> str:
+    """Return the text of runtime/web/boundary.js.
+
+    It has the names that scripts of the folder use, and counts of columns.
+    """
     lines = ["/* Numbers that the engine shares with JavaScript: written by tools/declared.py (boundary.h). */"]
     lines += ["const Boundary = {"]
-    known, web = enumerations(), ROOT / "runtime" / "web"
+    known, web = read_enumerations(), ROOT / "runtime" / "web"
     scripts = "".join(file.read_text(encoding="utf-8") for file in sorted(web.glob("*.js")))
     used = set(re.findall(r"\bBoundary\.(\w+)", scripts))
     used.update(*(re.findall(r"\w+", several) for several in re.findall(r"{([^{}]*)} = Boundary\b", scripts)))
     for name in IN_JAVASCRIPT:
-        names, message = columns(known[name]), dict[str, object](known[name])
+        names, message = list_column_names(known[name]), dict[str, object](known[name])
         if names:
             message = {list(known[name])[-1]: len(names), _list_name(name): names}
         lines += [f"    {member}: {json.dumps(value)}," for member, value in message.items() if member in used]
@@ -105,7 +110,7 @@ def _list_name(name: str) -> str:
     return re.sub(r"(?<=[a-z])(?=[A-Z])", "_", name).upper() + "_NAMES"
 
 
-def _ffi_arguments(declarations: str) -> dict[str, object]:
+def _find_ffi_arguments(declarations: str) -> dict[str, object]:
     """Return the keyword arguments that cffi's generated module for these declarations passes to FFI."""
     ffi = FFI()
     ffi.cdef(declarations)
@@ -121,22 +126,22 @@ def _ffi_arguments(declarations: str) -> dict[str, object]:
 def _format_entry(entry: object) -> str:
     """Return bytes, a number, or a tuple of bytes as Python code in lines of at most WIDTH columns."""
     if not isinstance(entry, tuple):
-        return _literal(entry)
-    whole = f"({', '.join(map(_literal, entry))},)"
+        return _format_literal(entry)
+    whole = f"({', '.join(map(_format_literal, entry))},)"
     if len(whole) <= WIDTH:
         return whole
-    return "(\n" + "".join(f"            {_literal(part)},\n" for part in entry) + "        )"
+    return "(\n" + "".join(f"            {_format_literal(part)},\n" for part in entry) + "        )"
 
 
-def _literal(value: object) -> str:
+def _format_literal(value: object) -> str:
     """Return a value as a Python literal; bytes in double quotes."""
     return repr(value) if not isinstance(value, bytes) else 'b"' + repr(value)[2:-1].replace('"', "\\x22") + '"'
 
 
 FILES = {
-    ROOT / "runtime" / "loading" / "declared.py": declared,
-    ROOT / "runtime" / "contract" / "boundary.py": boundary_py,
-    ROOT / "runtime" / "web" / "boundary.js": boundary_js,
+    ROOT / "runtime" / "loading" / "declared.py": make_ffi_module,
+    ROOT / "runtime" / "contract" / "boundary.py": make_python_boundary,
+    ROOT / "runtime" / "web" / "boundary.js": make_javascript_boundary,
 }
 
 if __name__ == "__main__":

@@ -29,8 +29,8 @@ def compare_laws() -> Iterator[list[Deviation]]:
     return ([one.of(law) for one in first] for law in laws)
 
 
-def table_row(one: Deviation) -> str:
-    """Return a row of the table: the largest deviation over all motions at each ε, in percent."""
+def format_table_row(one: Deviation) -> str:
+    """Return a row of the Markdown table: the largest deviation over all motions at each ε, in percent."""
     places = [int(np.argmin(abs(one.eps - x))) for x in COLUMNS]
     worst = (100.0 * float(one.share[k].max()) for k in places)
     cells = [f"`{one.law}`, {one.l_over_d:g}", *(f"{x:.1f} %" if x < 9.95 else f"{x:.0f} %" for x in worst)]
@@ -47,7 +47,7 @@ def main() -> None:
             one.plot(ax)
     figure.savefig(DOCS / "film_deviation.png", metadata={"Software": None})
     page = DOCS / "reynolds.md"
-    rows = "\n".join([HEAD, "|---" * (1 + len(COLUMNS)) + "|", *(table_row(one) for own in laws for one in own)])
+    rows = "\n".join([HEAD, "|---" * (1 + len(COLUMNS)) + "|", *(format_table_row(one) for own in laws for one in own)])
     text, count = re.subn(rf"^{re.escape(HEAD)}\n(?:\|.*\n)+", f"{rows}\n", page.read_text("utf-8"), flags=re.MULTILINE)
     assert count == 1, "the page has no such table"
     page.write_text(text, encoding="utf-8")

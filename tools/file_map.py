@@ -26,23 +26,23 @@ END_OF_SENTENCE = re.compile(r"(?<=[a-z0-9)`][.!?])\s+(?=[A-Z`])|:\s*$")
 COMMENT = re.compile(r"/\*(.*?)\*/|\{#-?(.*?)-?#\}", re.DOTALL)
 
 
-def file_map() -> str:
+def make_file_map() -> str:
     """Return the text of docs/map.md: a heading for each folder, below it the files."""
     parts = [HEAD]
     for top in FOLDERS:
         parts.append(f"\n## {top}\n")
-        for folder, files in source_folders(ROOT / top):
+        for folder, files in iterate_source_folders(ROOT / top):
             if folder != ROOT / top:
                 parts.append(f"\n### {folder.relative_to(ROOT).as_posix()}\n")
-            purpose = first_sentence(folder / "__init__.py") if (folder / "__init__.py").is_file() else ""
+            purpose = find_first_sentence(folder / "__init__.py") if (folder / "__init__.py").is_file() else ""
             if purpose:
-                parts.append(f"\n{escaped(purpose)}\n")
-            lines = (f"- `{file.name}`: {escaped(first_sentence(file))}\n" for file in files)
+                parts.append(f"\n{escape_markdown(purpose)}\n")
+            lines = (f"- `{file.name}`: {escape_markdown(find_first_sentence(file))}\n" for file in files)
             parts.append("\n" + "".join(lines).replace(": \n", "\n"))
     return "".join(parts)
 
 
-def source_folders(top: Path) -> Iterator[tuple[Path, list[Path]]]:
+def iterate_source_folders(top: Path) -> Iterator[tuple[Path, list[Path]]]:
     """Yield each folder below `top` that has source files, with these files in the order of their names."""
     for name, folders, files in os.walk(top):
         folders[:] = sorted(one for one in folders if not one.startswith((".", "__")))
@@ -51,7 +51,7 @@ def source_folders(top: Path) -> Iterator[tuple[Path, list[Path]]]:
             yield Path(name), found
 
 
-def first_sentence(file: Path) -> str:
+def find_first_sentence(file: Path) -> str:
     """Return the first sentence of a file's docstring or head comment, without its full stop; "" if it has none."""
     text = file.read_text(encoding="utf-8")
     if file.suffix == ".py":
@@ -64,10 +64,10 @@ def first_sentence(file: Path) -> str:
     return END_OF_SENTENCE.split(paragraph, maxsplit=1)[0].strip().rstrip(".:")
 
 
-def escaped(text: str) -> str:
+def escape_markdown(text: str) -> str:
     """Return the text with Markdown's characters escaped, except between backticks."""
     return "`".join(part if k % 2 else MARKUP.sub(r"\\\1", part) for k, part in enumerate(text.split("`")))
 
 
 if __name__ == "__main__":
-    (ROOT / "docs" / "map.md").write_text(file_map(), encoding="utf-8")
+    (ROOT / "docs" / "map.md").write_text(make_file_map(), encoding="utf-8")

@@ -123,7 +123,7 @@ STEPS = (  # symbol of the equations, quantity, Python, C variable, unit
     (steps.w_t, "effective squeeze velocity of a film along $\\mathbf t$, divided by c", "", "w_t", "1/s"),
     (sp.Symbol("F_r", real=True), "force of a film along $\\mathbf n$", "", "F_r", "N"),
     (steps.steep, "length of the gradient of δ in a bearing with a contour", "", "steep", "1"),
-    (steps.worn, "depth of a contour beyond the circle, at the angle of the journal", "", "worn", "m"),
+    (steps.contour_depth, "depth of a contour beyond the circle, at the angle of the journal", "", "worn", "m"),
     (steps.beta_i, "angle of $\\mathbf e$ in the body of the bearing, with a contour", "", "beta_i", "rad"),
 )
 LAMBDA_N = NAMES[sp.Symbol(CONSTRAINT_VARIABLES[0], real=True)].latex
@@ -241,7 +241,7 @@ DERIVED = (  # name in the functions of the laws, quantity, laws, unit
 )
 
 
-def notation() -> str:
+def make_notation_page() -> str:
     """Return the page: equations of motion, a joint with play, parameters of the file, parameters of the laws.
 
     Raises ValueError if a symbol has two meanings in one table or in one law.
@@ -252,7 +252,7 @@ def notation() -> str:
         "In Python, `run` is a result, `equations` is `simulation.model.numpy()`, and `p` is `equations.prepare()`.",
         "",
     ]
-    lines += _table(head, ((f"${row[0]}$", row[1], f"${row[2]}$" * bool(row[2]), *row[3:]) for row in SYSTEM))
+    lines += _format_table(head, ((f"${row[0]}$", row[1], f"${row[2]}$" * bool(row[2]), *row[3:]) for row in SYSTEM))
     lines += [
         "",
         "## A joint with play",
@@ -266,9 +266,9 @@ def notation() -> str:
         "quantities of the first table. Those of the second table are local variables.",
         "",
     ]
-    lines += _table(head, _of_play())
+    lines += _format_table(head, _iterate_play_rows())
     head_of_quantities = ("symbol", "quantity", "Python", "C", "unit")
-    lines += ["", *_table(head_of_quantities, _of_steps())]
+    lines += ["", *_format_table(head_of_quantities, _iterate_step_rows())]
     for title, text, rows in QUANTITIES:
         lines += [
             "",
@@ -276,7 +276,7 @@ def notation() -> str:
             "",
             text,
             "",
-            *_table(head_of_quantities, ((f"${row[0]}$", *row[1:]) for row in rows)),
+            *_format_table(head_of_quantities, ((f"${row[0]}$", *row[1:]) for row in rows)),
         ]
     lines += [
         "",
@@ -287,10 +287,10 @@ def notation() -> str:
     ]
     parameter_head = ("symbol", "quantity", "in the paper", "YAML and Python", "C", "unit")
     for title, path, record in SECTIONS:
-        lines += ["", f"### {title}", "", *_table(parameter_head, _of_record(path, record))]
+        lines += ["", f"### {title}", "", *_format_table(parameter_head, _iterate_record_rows(path, record))]
     lines += ["", "## Parameters of the laws", ""]
     lines += ["[Laws](laws.md) gives the equations.", ""]
-    lines += _table(("symbol", "quantity", "laws", "YAML and Python", "C", "unit"), _of_laws())
+    lines += _format_table(("symbol", "quantity", "laws", "YAML and Python", "C", "unit"), _iterate_law_rows())
     lines += [
         "",
         "## Derived quantities of the laws",
@@ -303,7 +303,7 @@ def notation() -> str:
         "the contact `dry` and the bearing `pin`.",
         "",
     ]
-    lines += _table(("symbol", "quantity", "laws", "C", "unit"), _of_derived())
+    lines += _format_table(("symbol", "quantity", "laws", "C", "unit"), _iterate_derived_rows())
     page = "\n".join([*lines, ""])
     if ambiguous := find_ambiguous_symbols(page):
         raise ValueError("docs/notation.md: symbols with two meanings: " + "; ".join(ambiguous))
@@ -343,14 +343,14 @@ def _iterate_meanings(text: str) -> Iterator[tuple[str, str]]:
             yield from ((symbol, meaning) for symbol in symbols.split(", "))
 
 
-def _table(head: Iterable[str], rows: Iterable[Iterable[str]]) -> list[str]:
+def _format_table(head: Iterable[str], rows: Iterable[Iterable[str]]) -> list[str]:
     """Return the lines of a Markdown table; an empty cell gets the sign of a quantity without a name."""
     head = tuple(head)
     lines = [f"| {' | '.join(cell or NONE for cell in row)} |" for row in (head, ["---"] * len(head), *rows)]
     return [re.sub(r"_\{(\w)\}|_\{\\text\{(\w)\}\}", lambda found: f"_{found[1] or found[2]}", line) for line in lines]
 
 
-def _of_play() -> Iterator[tuple[str, ...]]:
+def _iterate_play_rows() -> Iterator[tuple[str, ...]]:
     for name, (_, unit, meaning) in CLEARANCE.items():
         symbol, paper = PLAY[name]
         shown = NAMES[symbol].latex if symbol in NAMES else "F_t"
@@ -365,14 +365,14 @@ def _of_play() -> Iterator[tuple[str, ...]]:
         )
 
 
-def _of_steps() -> Iterator[tuple[str, ...]]:
+def _iterate_step_rows() -> Iterator[tuple[str, ...]]:
     for symbol, meaning, python, variables, unit in VECTORS:
         yield f"${symbol}$", meaning, python, ", ".join(f"`{name}`" for name in variables.split(", ") if name), unit
     for symbol, meaning, python, variable, unit in STEPS:
         yield f"${NAMES[symbol].latex}$", meaning, python, f"`{variable}`", unit
 
 
-def _of_record(path: str, record: Field) -> Iterator[tuple[str, ...]]:
+def _iterate_record_rows(path: str, record: Field) -> Iterator[tuple[str, ...]]:
     symbols = {
         id(BEARING): IN_LAWS,
         id(GUIDE): IN_GUIDE,
@@ -385,34 +385,46 @@ def _of_record(path: str, record: Field) -> Iterator[tuple[str, ...]]:
             shown = symbols.get(field.name) or make_symbol_name(get_field_letter(field.name)).latex
             paper = IN_PAPER.get(key, "")
             meaning = IN_SECTION.get(key, field.meaning)
-            yield f"${shown}$", meaning, f"${paper}$" * bool(paper), f"`{key}`", _c_member(key), _unit(field)
+            yield (
+                f"${shown}$",
+                meaning,
+                f"${paper}$" * bool(paper),
+                f"`{key}`",
+                _format_c_member(key),
+                _format_unit(field),
+            )
 
 
-def _of_laws() -> Iterator[tuple[str, ...]]:
+def _iterate_law_rows() -> Iterator[tuple[str, ...]]:
     """Yield one row for each parameter, by symbol, key and meaning, with the laws that have it."""
     merged: dict[tuple[str, ...], list[str]] = {}
     for role in RESULTS:
         for law in find_bundled_laws().values():
             for field in law.parameters if law.role == role else ():
-                row = (get_latex_symbol(field), field.meaning, f"contacts.NAME.{role}.{field.name}", _unit(field))
+                row = (
+                    get_latex_symbol(field),
+                    field.meaning,
+                    f"contacts.NAME.{role}.{field.name}",
+                    _format_unit(field),
+                )
                 merged.setdefault(row, []).append(f"`{law.name}`")
     for (symbol, meaning, key, unit), laws in merged.items():
-        yield f"${symbol}$", meaning, ", ".join(laws), f"`{key}`", _c_member(key), unit
+        yield f"${symbol}$", meaning, ", ".join(laws), f"`{key}`", _format_c_member(key), unit
 
 
-def _of_derived() -> Iterator[tuple[str, ...]]:
+def _iterate_derived_rows() -> Iterator[tuple[str, ...]]:
     specific = {name: letter for (_, name), letter in LAW_SPECIFIC_NAMES.items()}
     for name, meaning, laws, unit in DERIVED:
         letter = {**LAW_SYMBOL_NAMES, **specific}.get(name) or make_symbol_name(name)
         yield f"${letter.latex}$", meaning, laws, f"`{name}`", unit
 
 
-def _c_member(key: str) -> str:
+def _format_c_member(key: str) -> str:
     """Return the member of struct Parameters for a key: the key without its section, with underscores."""
     return f"`p->{'_'.join(key.split('.')[1:])}_`".replace("NAME_velocity_floor", "velocity_floor")
 
 
-def _unit(field: Field) -> str:
+def _format_unit(field: Field) -> str:
     """Return the SI unit of a field as text; 1 for a pure number, N/m^n for a stiffness by its exponent."""
     if field.dimension is None:
         return "N/m^n" if field.per else NONE
@@ -420,4 +432,4 @@ def _unit(field: Field) -> str:
 
 
 if __name__ == "__main__":
-    PAGE.write_text(notation(), encoding="utf-8")
+    PAGE.write_text(make_notation_page(), encoding="utf-8")

@@ -35,7 +35,7 @@ ABBREVIATION = re.compile(r"\b(e\.g|i\.e|cf|vs|no|eq|fig|et al|approx)\.", re.IG
 FIRST_SENTENCE_END = re.compile(r"[.!?][)`'\"]*(\s|$)")
 
 
-def checked_pages() -> list[Path]:
+def list_checked_pages() -> list[Path]:
     """Return the pages that people write: README, CONTRIBUTING and docs/*.md without the generated ones."""
     pages = sorted(page for page in (ROOT / "docs").glob("*.md") if page.stem not in GENERATED_PAGES)
     return [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *pages]
@@ -43,20 +43,20 @@ def checked_pages() -> list[Path]:
 
 def check_page(text: str) -> Iterator[tuple[int, str]]:
     """Yield the line number and a message for each long sentence, long paragraph and private term of a page."""
-    for line, paragraph in paragraphs(text):
+    for line, paragraph in iterate_paragraphs(text):
         total = count_words(paragraph)
         if total > MAX_PARAGRAPH_WORDS:
-            yield line, f"paragraph of {total} words: {first_words(paragraph)}"
+            yield line, f"paragraph of {total} words: {format_first_words(paragraph)}"
         for sentence in split_sentences(paragraph):
             n = count_words(sentence)
             if n > MAX_SENTENCE_WORDS:
-                yield line, f"sentence of {n} words: {first_words(sentence)}"
-    for line, words in prose_lines(text):
+                yield line, f"sentence of {n} words: {format_first_words(sentence)}"
+    for line, words in iterate_prose_lines(text):
         for found in PRIVATE_TERMS.finditer(words):
             yield line, f"private term `{found[0]}`"
 
 
-def prose_lines(text: str) -> Iterator[tuple[int, str]]:
+def iterate_prose_lines(text: str) -> Iterator[tuple[int, str]]:
     """Yield the number and the plain words of each line outside code blocks, displayed formulas and comments.
 
     Code spans and formulas become one word, links become their text.
@@ -77,10 +77,10 @@ def prose_lines(text: str) -> Iterator[tuple[int, str]]:
             yield number, re.sub(r"!?\[([^\]]*)\]\([^)]*\)", r"\1", line)
 
 
-def paragraphs(text: str) -> Iterator[tuple[int, str]]:
+def iterate_paragraphs(text: str) -> Iterator[tuple[int, str]]:
     """Yield the first line and the words of each paragraph and list item; headings and tables are left out."""
     start, parts, last = 0, list[str](), 0
-    for number, line in prose_lines(text):
+    for number, line in iterate_prose_lines(text):
         is_break = not line.strip() or line.lstrip().startswith(("#", "|", "<", "("))
         if parts and (is_break or ITEM.match(line) or number != last + 1):
             yield start, " ".join(parts)
@@ -103,7 +103,7 @@ def count_words(text: str) -> int:
     return sum(bool(WORD.search(part)) for part in text.split())
 
 
-def first_words(text: str) -> str:
+def format_first_words(text: str) -> str:
     """Return the first eight words of a text, for a message."""
     return " ".join(text.split()[:8]) + " …"
 
@@ -116,7 +116,7 @@ def check_docstrings(source: str) -> Iterator[tuple[int, str]]:
             text = ast.get_docstring(node)
             if text is not None and not is_sentence(text):
                 line = node.body[0].lineno
-                yield line, f"first sentence of the docstring: {first_words(text)}"
+                yield line, f"first sentence of the docstring: {format_first_words(text)}"
 
 
 def is_sentence(docstring: str) -> bool:
@@ -152,7 +152,7 @@ def main() -> int:
     """Print what does not comply, with file and line. Return 1 if there is anything, otherwise 0."""
     pages = [
         f"{page.relative_to(ROOT)}:{line}: {message}"
-        for page in checked_pages()
+        for page in list_checked_pages()
         for line, message in check_page(page.read_text(encoding="utf-8"))
     ]
     docstrings = {

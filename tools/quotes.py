@@ -19,10 +19,10 @@ def renew_quotes(page: str) -> str:
 
     Raises SystemExit if a file has no such lines.
     """
-    return QUOTE.sub(lambda found: f"{found[1]}{quoted(*found.group(2, 3, 4))}{found[6]}", page)
+    return QUOTE.sub(lambda found: f"{found[1]}{find_quoted_lines(*found.group(2, 3, 4))}{found[6]}", page)
 
 
-def quoted(file: str, start: str, end: str) -> str:
+def find_quoted_lines(file: str, start: str, end: str) -> str:
     """Return the lines of a file from the one that contains `start` to the one that contains `end`."""
     lines = (ROOT / file).read_text(encoding="utf-8").splitlines(keepends=True)
     first = next((k for k, line in enumerate(lines) if start in line), None)

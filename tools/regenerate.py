@@ -46,7 +46,10 @@ def regenerate(mechanisms: Path, generated: Path) -> None:
 
 
 def _list_changes(before: KernelSource | None, now: KernelSource) -> str:
-    """Return the names of texts that differ, because `git diff` does not show differences within the archive."""
+    """Return the names of changed texts of a scene, for a message; "" if none differs.
+
+    `git diff` does not show differences within the archive.
+    """
     if before is None or before == now:
         return "" if before else ": new"
     names = sorted({*before.files, *now.files})

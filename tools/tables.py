@@ -16,11 +16,11 @@ PAGES: dict[str, Callable[[], str]] = {"format.md": print_format_tables, "laws.m
 MARK = "<!-- Below: `make tables`. -->\n"
 
 
-def page(text: str, below: str, name: str = "") -> str:
-    """Return a page with the text below its mark replaced. Raises SystemExit if it has no mark."""
+def replace_generated_part(text: str, below: str, name: str = "") -> str:
+    """Return a page with the text below the line MARK replaced. Raises SystemExit if it has no such line."""
     above, mark, _ = text.partition(MARK)
     if not mark:
-        raise SystemExit(f"{name} has no line {MARK.strip()}: what is written stands below it")
+        raise SystemExit(f"{name} has no line {MARK.strip()}, below which the tables are written")
     return f"{above}{mark}\n{below}"
 
 
@@ -28,6 +28,6 @@ if __name__ == "__main__":
     HEADER.write_text(print_function_table(), encoding="utf-8")
     for own, made in PAGES.items():
         file = DOCS / own
-        file.write_text(page(file.read_text(encoding="utf-8"), made(), own), encoding="utf-8")
+        file.write_text(replace_generated_part(file.read_text(encoding="utf-8"), made(), own), encoding="utf-8")
     for tool in ("notation", "file_map", "quotes"):
         runpy.run_path(str(ROOT / "tools" / f"{tool}.py"), run_name="__main__")

@@ -27,15 +27,15 @@ from gudgeon.loading.library import CARRIED, compute_library_file_name, format_p
 ROOT = Path(__file__).resolve().parent.parent
 GLIBC = (2, 17)
 MACHINES = ("x86_64", "aarch64")
-MADE = ("pyproject.toml", "LICENSE", "README.md")  # files next to the packages
+PACKAGE_FILES = ("pyproject.toml", "LICENSE", "README.md")  # files next to the packages
 
 
-def sources(generated: Path, mechanism: str = "*") -> list[KernelSource]:
+def read_all_scenes(generated: Path, mechanism: str = "*") -> list[KernelSource]:
     """Return every scene in `generated`, of one mechanism or of all."""
     return [source for folder in sorted(generated.glob(f"{mechanism}/")) for source in read_scenes(folder)]
 
 
-def compile_for(machine: str, scenes: list[KernelSource], folder: Path) -> None:
+def compile_libraries(machine: str, scenes: list[KernelSource], folder: Path) -> None:
     """Compile the libraries of scenes into a folder, for Linux on a machine."""
     target = f"{machine}-linux-gnu.{GLIBC[0]}.{GLIBC[1]}"
     os.environ["CC"] = " ".join([str(compiler.find_zig()), "cc", *compiler.ZIG, "-s", "-target", target])
@@ -43,21 +43,23 @@ def compile_for(machine: str, scenes: list[KernelSource], folder: Path) -> None:
     with tempfile.TemporaryDirectory() as scratch:
         cache = Cache(Path(scratch) / "cache")
         for scene in scenes:
-            place = Path(scratch) / scene.mechanism / scene.scene
-            place.mkdir(parents=True)
-            shutil.copyfile(build_portable_library(place, scene, cache), folder / compute_library_file_name(scene))
+            directory = Path(scratch) / scene.mechanism / scene.scene
+            directory.mkdir(parents=True)
+            shutil.copyfile(build_portable_library(directory, scene, cache), folder / compute_library_file_name(scene))
 
 
 def make_wheel(out: Path, machine: str = "", scenes: list[KernelSource] | None = None) -> None:
     """Build one wheel: for a machine's Linux with the kernels of these scenes, or for all machines without kernels."""
     with tempfile.TemporaryDirectory() as scratch:
-        copy = Path(scratch) / "house"
+        copy = Path(scratch) / "package"
         shutil.copytree(ROOT / "src", copy / "src")  # follows links
-        for name in MADE:
+        for name in PACKAGE_FILES:
             shutil.copy(ROOT / name, copy / name)
         settings = {}
         if machine:
-            compile_for(machine, scenes or [], copy / "src/gudgeon" / CARRIED.name / format_platform("linux", machine))
+            compile_libraries(
+                machine, scenes or [], copy / "src/gudgeon" / CARRIED.name / format_platform("linux", machine)
+            )
             settings["--build-option"] = f"--plat-name=manylinux_{GLIBC[0]}_{GLIBC[1]}_{machine}"
         code = f"import setuptools.build_meta as b; b.build_wheel({str(out.resolve())!r}, {settings!r})"
         made = subprocess.run([sys.executable, "-W", "ignore", "-c", code], cwd=copy, capture_output=True, text=True)
@@ -69,11 +71,11 @@ def main() -> None:
     """Build the wheels and print their sizes."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("out", type=Path, help="the folder for the wheels")
-    parser.add_argument("--machine", choices=MACHINES, help="this machine's wheel alone")
-    parser.add_argument("--mechanism", default="*", help="carry the scenes of this one alone")
+    parser.add_argument("--machine", choices=MACHINES, help="only the wheel of this machine")
+    parser.add_argument("--mechanism", default="*", help="bundle the scenes of this mechanism only")
     arguments = parser.parse_args()
     arguments.out.mkdir(parents=True, exist_ok=True)
-    scenes = sources(ROOT / "generated", arguments.mechanism)
+    scenes = read_all_scenes(ROOT / "generated", arguments.mechanism)
     for machine in [arguments.machine] if arguments.machine else ["", *MACHINES]:
         make_wheel(arguments.out, machine, scenes)
     for path in sorted(arguments.out.glob("*.whl")):

@@ -37,7 +37,10 @@ class Row:
 
 
 class Constraints(Freezable):
-    """Derives the constraint equations; `t` is the symbol of time, `drive_angles` the prescribed values by drive."""
+    """Derivation of constraint equations; `t` is the symbol of time, `drive_angles` the prescribed values by drive.
+
+    `drive_angles` maps each drive to the symbols of its value and two derivatives by t.
+    """
 
     def __init__(self, geometry: Geometry) -> None:
         """Begin without drives.
@@ -55,7 +58,7 @@ class Constraints(Freezable):
         coordinates.
         """
         kind = joint_types()[joint.kind]
-        first, second = self._point(joint.first), self._point(joint.second)
+        first, second = self._find_point_frame(joint.first), self._find_point_frame(joint.second)
         expressions = kind.rows(first, second, JointFields(joint, self.geometry))
         named_expressions = zip(kind.row_names, kind.row_units, expressions, strict=True)
         other_bodies = [joint.options[name] for name in kind.further_bodies]  # a gear's carrier
@@ -73,7 +76,7 @@ class Constraints(Freezable):
         phi = quantity - self.define_drive_value(drive)
         return [self._derive_row(drive.name, drive.name, "drive", unit, phi, bodies)]
 
-    def _point(self, ref: PointRef) -> PointFrame:
+    def _find_point_frame(self, ref: PointRef) -> PointFrame:
         """Return the frame of a named point."""
         return self.geometry.find_point(ref)
 
@@ -92,7 +95,7 @@ class Constraints(Freezable):
         if any.
         """
         if drive.kind == "distance":
-            first, second = (self._point(ref) for ref in drive.points)
+            first, second = (self._find_point_frame(ref) for ref in drive.points)
             return self._define_distance(drive.name, first, second), self._list_bodies(first, second), "m"
         bodies = [self.geometry.bodies[name] for name in (drive.body, drive.reference) if name]
         if drive.kind == "coordinate" and drive.coordinate != "theta":
@@ -101,13 +104,13 @@ class Constraints(Freezable):
         return quantity, bodies, "rad"
 
     def _define_distance(self, drive_name: str, first_point: PointFrame, second_point: PointFrame) -> sp.Symbol:
-        """Return ‖r_Q − r_P‖ as a symbol, with the rules of its derivatives.
+        """Return the distance ‖r_Q − r_P‖ of two points as a new symbol, with the rules of its derivatives.
 
-        `drive_name` is the base of the symbols' names. With its direction u: d length = u · dr and du = (ẑ × u)(ẑ × u ·
-        dr)/length. Written out, the second derivatives of the root would be thousands of terms. P and Q are
-        `first_point` and `second_point`; each call defines new symbols.
+        `drive_name` is the base of the symbols' names; P and Q are `first_point` and `second_point`. With the
+        direction u: d length = u · dr and du = (ẑ × u)(ẑ × u · dr)/length. Expanded, the second derivatives of the
+        root would be thousands of terms.
         """
-        define, rules = self.symbols.add_definition, self.symbols.rules
+        define, rules = self.symbols.add_definition, self.symbols.derivative_rules
         difference = (second_point.x - first_point.x, second_point.y - first_point.y)
         x, y = (
             define(f"{drive_name}_span_{axis}", value, None, "span")
@@ -149,7 +152,10 @@ class Constraints(Freezable):
         second_derivative = define(
             f"{drive.name}_acceleration", _differentiate_by_time(first_derivative, self.t), None, "its second rate"
         )
-        self.symbols.rules[f], self.symbols.rules[rate] = {self.t: rate}, {self.t: second_derivative}
+        self.symbols.derivative_rules[f], self.symbols.derivative_rules[rate] = (
+            {self.t: rate},
+            {self.t: second_derivative},
+        )
         self.drive_angles[drive.name] = f, rate, second_derivative
         return f
 
@@ -180,7 +186,7 @@ class Constraints(Freezable):
 
 @lru_cache(maxsize=256)
 def has_jumping_rate(drive: Drive) -> bool:
-    """Return whether the rate of a drive may jump: its expression has switching points or a root of a square.
+    """Return whether the rate of a drive may jump: its expression has switching points or the root of a square.
 
     At such a jump the velocities of the linkage jump too, by an impulse. Results are cached.
     """

@@ -34,12 +34,12 @@ def _make_symbol(name: str) -> sp.Symbol:
 e_x, e_y, de_x, de_y, omega_i, omega_j = map(_make_symbol, ("e_x", "e_y", "de_x", "de_y", "omega_i", "omega_j"))
 e, n_x, n_y, delta, deltadot, de_t = map(_make_symbol, ("e", "n_x", "n_y", "delta", "deltadot", "de_t"))
 stored, ratio, a_i, a_j, v_t = map(_make_symbol, ("stored", "ratio", "a_i", "a_j", "v_t"))
-depth = _make_symbol("depth")  # what a law of the dry contact is given for δ
+depth = _make_symbol("depth")  # max(δ, 0), the penetration in a law of the dry contact
 epsilon, w_n, w_t, share = map(_make_symbol, ("epsilon", "w_n", "w_t", "share"))
 F_along_n, F_along_t, F_x, F_y, M_i, M_j = map(_make_symbol, ("F_along_n", "F_along_t", "F_x", "F_y", "M_i", "M_j"))
 
-# Of a bearing with a contour, which has a depth more than its circle at each angle:
-theta_i, beta_i, u_x, u_y, worn, worn_slope = map(
+# Of a bearing with a contour, whose surface lies a depth beyond its circle at each angle:
+theta_i, beta_i, u_x, u_y, contour_depth, contour_slope = map(
     _make_symbol, ("theta_i", "beta_i", "u_x", "u_y", "worn", "worn_slope")
 )
 beta_rate, slant, steep, F_N = map(_make_symbol, ("beta_rate", "slant", "steep", "F_N"))
@@ -84,15 +84,15 @@ def _make_contour_gap(clearance: Clearance, contour: Contour) -> list[Assignment
         Assignment(u_x, e_x / e),
         Assignment(u_y, e_y / e),
         Assignment(beta_i, sp.atan2(e_y, e_x) - theta_i),
-        Assignment(worn, contour.compute_depth(beta_i, 0)),
-        Assignment(worn_slope, contour.compute_depth(beta_i, 1)),
-        Assignment(delta, e - clearance.pair.c - worn),
+        Assignment(contour_depth, contour.compute_depth(beta_i, 0)),
+        Assignment(contour_slope, contour.compute_depth(beta_i, 1)),
+        Assignment(delta, e - clearance.pair.c - contour_depth),
         Assignment(beta_rate, (de_y * u_x - de_x * u_y) / e - omega_i),
-        Assignment(deltadot, de_x * u_x + de_y * u_y - worn_slope * beta_rate),
-        Assignment(slant, sp.sqrt(e**2 + worn_slope**2)),
+        Assignment(deltadot, de_x * u_x + de_y * u_y - contour_slope * beta_rate),
+        Assignment(slant, sp.sqrt(e**2 + contour_slope**2)),
         Assignment(steep, slant / e),
-        Assignment(n_x, (e_x + worn_slope * u_y) / slant),
-        Assignment(n_y, (e_y - worn_slope * u_x) / slant),
+        Assignment(n_x, (e_x + contour_slope * u_y) / slant),
+        Assignment(n_y, (e_y - contour_slope * u_x) / slant),
         Assignment(de_t, de_y * n_x - de_x * n_y),
     ]
 
@@ -120,14 +120,14 @@ def make_penetration_equation(clearance: Clearance) -> Assignment:
 def make_contour_gap_equations(clearance: Clearance) -> list[Assignment]:
     """Return the equations of δ, δ̇ and ė_t of a bearing with a contour, by components along e and across it.
 
-    `de_n` and `across` are the rates of e in these directions, `worn` and `worn_slope` the contour's depth d and d′.
-    `lean` = d′/e and `steep` = √(1 + lean²), the length of the gradient of δ, are defined on the way.
+    `de_n` and `across` are the rates of e in these directions, `contour_depth` and `contour_slope` are d and d′. Also
+    defined are `lean` = d′/e and `steep` = √(1 + lean²), the length of the gradient of δ.
     """
     return [
-        Assignment(delta, e - clearance.pair.c - worn),
-        Assignment(lean, worn_slope / e),
+        Assignment(delta, e - clearance.pair.c - contour_depth),
+        Assignment(lean, contour_slope / e),
         Assignment(steep, sp.sqrt(1 + lean**2)),
-        Assignment(deltadot, de_n - lean * across + worn_slope * omega_i),
+        Assignment(deltadot, de_n - lean * across + contour_slope * omega_i),
         Assignment(de_t, (across + lean * de_n) / steep),
     ]
 
@@ -175,7 +175,7 @@ def make_dry_moment_equations(clearance: Clearance) -> list[Assignment]:
     M_i acts on the bearing and M_j on the journal, each about its own centre. With a contour −d′ F_δ is added to M_i.
     """
     tangential = make_part_symbol(F_along_t, "dry")
-    moment = -worn_slope * _make_symbol("F_n") if clearance.contour else 0
+    moment = -contour_slope * _make_symbol("F_n") if clearance.contour else 0
     return [
         Assignment(make_part_symbol(M_i, "dry"), -a_i * tangential + moment),
         Assignment(make_part_symbol(M_j, "dry"), a_j * tangential),
@@ -227,9 +227,9 @@ def make_film_moment_equations(film: LawEquations) -> list[Assignment]:
 def make_blend_equations(clearance: Clearance, is_closed: bool = False) -> list[Assignment]:
     """Return the equations of the fraction of the dry contact: 0 at e = c, 1 at e = c + e_0 (equation 17 of the paper).
 
-    Between them it is δ/e_0. A law of mixed lubrication gives its own equations instead, the last one of the fraction.
-    For a closed contact (`is_closed`) there is no switching point at e = c, and that law reads `depth` = max(δ, 0),
-    computed before, in place of δ. It may be undefined at δ < 0, where samples before a separation lie.
+    Between them it is δ/e_0. A law of mixed lubrication has its own equations instead, the last one of the fraction.
+    For a closed contact (`is_closed`) there is no switching point at e = c. That law then reads `depth` = max(δ, 0),
+    since it may be undefined at δ < 0, where samples before a separation lie.
     """
     if clearance.mixed is not None:
         replacement = {delta: depth if is_closed else sp.Max(0, delta)}

@@ -72,7 +72,7 @@ class JointFields:
         """Return the profile of a cam as a symbol with rules for its derivatives.
 
         It is a function of phi = `cam` − `carrier`, both angles in rad. `name`: the field that holds the expression.
-        The value and three derivatives by phi become symbols.
+        The value and its first three derivatives by phi become symbols.
         """
         symbols, phi, parameter_table = (
             self._geometry.symbols,
@@ -92,10 +92,10 @@ class JointFields:
                 )
             )
             value = differentiate(value, phi)
-        bases = sorted({base for s in angle.free_symbols for base in symbols.rules.get(s, (s,))}, key=str)
+        bases = sorted({base for s in angle.free_symbols for base in symbols.derivative_rules.get(s, (s,))}, key=str)
         rates = {base: rate for base in bases if (rate := symbols.differentiate(angle, base)) != 0}
         for function, next_derivative in pairwise(derivatives):
-            symbols.rules[function] = {base: rate * next_derivative for base, rate in rates.items()}
+            symbols.derivative_rules[function] = {base: rate * next_derivative for base, rate in rates.items()}
         return derivatives[0]
 
     def derive_parameter(self, name: str, expression: sp.Expr) -> sp.Expr:
@@ -110,7 +110,8 @@ class JointFields:
     def evaluate_at_guess(self, name: str, expression: sp.Expr) -> sp.Expr:
         """Return `expression` as a derived parameter `name`, with each body's angle at its value in the file's `start`.
 
-        A value in `set` has precedence over one in `guess`; an angle with neither is 0.
+        An example is the meshing of gears. A value in `set` has precedence over one in `guess`; an angle with neither
+        is 0.
         """
         start = self._geometry.mechanism.start
         values = {}
@@ -124,10 +125,10 @@ class JointFields:
 def derive_unit_vector(
     vector: Vector, owner: str, name: str, parameter_table: ParameterTable
 ) -> tuple[sp.Expr, sp.Expr]:
-    """Return the direction of a vector of the file as a unit vector; along an axis it is exactly (±1, 0) or (0, ±1).
+    """Return a vector of the file as a unit vector; along an axis it is exactly (±1, 0) or (0, ±1).
 
-    `owner` and `name`: the joint or element and its field, for the names of derived parameters. The sign of a component
-    along an axis is recorded in `parameter_table.signs`, since the equations rely on it.
+    `owner` and `name`: the joint or element and its field, for the names of derived parameters. The sign of a
+    component along an axis is recorded in `parameter_table.signs`: a run must not change it.
     """
     x, y = parameter_table.get_or_add_parameter(vector[0]), parameter_table.get_or_add_parameter(vector[1])
     length = sp.sqrt(x**2 + y**2)
@@ -142,9 +143,7 @@ def derive_unit_vector(
             return ZERO
         if other_value == 0:
             entry = next((e for e in parameter_table.entries.values() if e.symbol == value), None)
-            if (
-                entry is not None and not entry.depends_on_parameters
-            ):  # only its sign matters, and the sign is structural
+            if entry is not None and not entry.depends_on_parameters:  # the equations depend only on its sign
                 if entry.address not in parameter_table.signs:
                     parameter_table.signs[entry.address] = ">" if entry.default > 0 else "<"
                 return sp.Integer(1 if entry.default > 0 else -1)

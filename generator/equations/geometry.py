@@ -145,10 +145,11 @@ class Geometry(Freezable):
         return BodySymbols(name, first_index, x, y, theta, vx, vy, omega, mass, inertia)
 
     def _derive_unit_inertia(self) -> sp.Expr:
-        """Return the moment of inertia of every body of a massless mechanism as a parameter.
+        """Return the moment of inertia of every body of a mechanism without masses, as a derived parameter.
 
         Its value is 1 kg times the mean square of all nonzero components of the points' local vectors, plus
-        _MIN_SQUARED_RADIUS. It defines only the metric in which the closed linkage (all joints without play) is solved.
+        _MIN_SQUARED_RADIUS. It defines only the metric in which the closed linkage (all joints without play) is
+        solved.
         """
         components = [component for vector in self.local_vectors.values() for component in vector if component != 0]
         mean_square = sp.Add(*(component**2 for component in components)) / max(len(components), 1)
@@ -219,18 +220,22 @@ class Geometry(Freezable):
             define, name = self.symbols.add_definition, body.name
             cos = define(f"cos_theta_{name}", sp.cos(body.theta), None, f"cos of {name}.theta")
             sin = define(f"sin_theta_{name}", sp.sin(body.theta), None, f"sin of {name}.theta")
-            self.symbols.rules[cos], self.symbols.rules[sin] = {body.theta: -sin}, {body.theta: cos}
+            self.symbols.derivative_rules[cos], self.symbols.derivative_rules[sin] = (
+                {body.theta: -sin},
+                {body.theta: cos},
+            )
             self._angles[name] = cos, sin
         return self._angles[body.name]
 
     def rotate_vector(
         self, body: BodySymbols, s: tuple[sp.Expr, sp.Expr], base_name: str, point: str = ""
     ) -> tuple[sp.Expr, sp.Expr]:
-        """Return A(θ) s in ground axes, for the components s of a vector in the frame of a body.
+        """Return A(θ) s in ground axes (A: rotation matrix), for the components s of a vector in a body's frame.
 
         A zero vector gives zeros. Components that are all −1, 0 or 1 give expressions in cos θ and sin θ. Any other
-        vector gets a pair of symbols with rules, defined once; the opposite of a known vector is its negative.
-        `base_name`: base of the symbols' names. `point`: the point to which the vector leads, or "" for a direction.
+        vector gets a pair of symbols with derivative rules, defined once; if −s has symbols, their negatives are
+        returned. `base_name`: base of the symbols' names. `point`: the point to which the vector leads, or "" for a
+        direction.
         """
         if s == (ZERO, ZERO):
             return ZERO, ZERO
@@ -243,7 +248,7 @@ class Geometry(Freezable):
                 return cos * s[0] - sin * s[1], sin * s[0] + cos * s[1]
             x = self.symbols.add_definition(f"{base_name}_x", cos * s[0] - sin * s[1], None, "A(theta) s, x")
             y = self.symbols.add_definition(f"{base_name}_y", sin * s[0] + cos * s[1], None, "A(theta) s, y")
-            self.symbols.rules[x], self.symbols.rules[y] = {body.theta: -y}, {body.theta: x}
+            self.symbols.derivative_rules[x], self.symbols.derivative_rules[y] = {body.theta: -y}, {body.theta: x}
             self._rotated_vectors[body.name, *s] = x, y
             first_components = (
                 component
@@ -293,8 +298,8 @@ class Geometry(Freezable):
     def find_point(self, ref: PointRef) -> PointFrame:
         """Return the frame of a named point of a body or of the ground.
 
-        A point opposite to another one of the body uses that arm with a negative sign. An empty name at the ground is
-        its origin. Raise KeyError for an unknown point.
+        If another point of the body has the opposite vector, its symbols are used with a negative sign. An empty name
+        at the ground is its origin. Raise KeyError for an unknown point.
         """
         if ref.body == GROUND:
             position = self.ground_vector(self.mechanism.ground[ref.point]) if ref.point else (ZERO, ZERO)

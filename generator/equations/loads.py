@@ -42,7 +42,7 @@ class AppliedElement:
         return [PointLoad(self.targets[load.target], load.x, load.y, load.moment) for load in loads]
 
     def add_generalized_forces(self, forces: list[sp.Expr]) -> None:
-        """Add the generalized forces of the element to `forces` (n) in place.
+        """Add the generalized forces Jᵀ f of the element in absolute coordinates to `forces` (n) in place.
 
         They are F at the centre of mass and the moment arm × F + M; loads on the ground are skipped.
         """
@@ -75,7 +75,7 @@ class Friction:
 def make_friction(
     name: str, slip: Slip, coordinate_pairs: Sequence[tuple[sp.Symbol, sp.Symbol]], t: sp.Symbol, symbols: Symbols
 ) -> Friction:
-    """Return a friction element with J = ∂v/∂q̇ and γ = −J̇ q̇ + ∂speed/∂t, so that J q̈ = γ at constant slip.
+    """Return a dry friction element with J = ∂v/∂q̇ and γ = −J̇ q̇ + ∂speed/∂t, so that J q̈ = γ at constant slip.
 
     `slip`: its slip velocity v and friction forces; `coordinate_pairs`: the coordinates, each with its velocity.
     """

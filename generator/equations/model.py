@@ -24,7 +24,7 @@ from gudgeon.generator.equations.geometry import BodySymbols, Geometry
 from gudgeon.generator.equations.loads import AppliedElement, Friction, apply_element, make_friction
 from gudgeon.generator.equations.play import Clearance, make_clearances
 from gudgeon.generator.equations.user_defined_laws import check_user_defined_laws
-from gudgeon.generator.ir.finite_slopes import convert_for_intervals
+from gudgeon.generator.ir.finite_slopes import convert_to_heaviside_form
 from gudgeon.generator.mechanism import EventSpec, Joint, Quantity, Scene
 from gudgeon.generator.symbols.from_expressions import convert_quantity_to_sympy
 from gudgeon.generator.symbols.parameter_table import ParameterTable
@@ -54,7 +54,7 @@ def make_event(event: EventSpec, geometry: Geometry, t: sp.Symbol) -> Event:
 
 
 def check_event_varies(event: EventSpec, derived_event: Event, geometry: Geometry, t: sp.Symbol) -> None:
-    """Raise BadValueError if an event's expression depends on neither time nor motion.
+    """Raise BadValueError if the expression of a user's event depends on neither time nor motion after expansion.
 
     `derived_event`: the event as derived; `geometry`: that of the absolute coordinates.
     """
@@ -67,7 +67,7 @@ def check_event_varies(event: EventSpec, derived_event: Event, geometry: Geometr
 class NotatedMatrix(sp.Matrix):
     """A matrix whose printed form (str, repr, sympy.latex, notebooks) uses the notation that `letters` gives."""
 
-    letters: Callable[[], Any] | None = None  # gives an object with latex(matrix) and text(matrix)
+    letters: Callable[[], Any] | None = None  # returns an object with latex(matrix) and text(matrix)
 
     def _latex(self, printer: Any) -> str:
         """Return the LaTeX text of the matrix, which sympy.latex asks for."""
@@ -136,9 +136,11 @@ class Redundancy:
     indeterminate: tuple[str, ...] = ()
 
 
-LIGHT_BODY = 1e-6  # of J + m s² summed over a body's joints: what it may have about one of them and be light there
-BAUMGARTE = 50.0  # 1/s, both gains (physics.md, section 1)
-STICK = "baumgarte.stick"
+NEGLIGIBLE_INERTIA_FRACTION = (
+    1e-6  # of J + Σ m s² over the joints of a body: smaller inertia about one joint is negligible
+)
+DEFAULT_BAUMGARTE_GAIN = 50.0  # 1/s, both gains (physics.md, section 1)
+STICK_GAIN_ADDRESS = "baumgarte.stick"
 
 
 @dataclass(frozen=True)
@@ -154,14 +156,14 @@ class Model:
     geometry: Geometry
     constraints: Constraints
     all_rows: tuple[Row, ...]  # the closed linkage: joints with play closed, as the start needs it
-    rows: tuple[Row, ...]  # what constrains the motion
+    rows: tuple[Row, ...]  # constraint equations of joints without play and of drives
     clearances: tuple[Clearance, ...]
     elements: Mapping[str, AppliedElement]  # the section `forces`
-    frictions: tuple[Friction, ...]  # slips that friction may hold
+    frictions: tuple[Friction, ...]  # elements of dry friction, which may stick
     redundancy: Redundancy  # constraint equations that were left out
     gravity: tuple[sp.Expr, sp.Expr]
     baumgarte: tuple[sp.Symbol, sp.Symbol]
-    events: tuple[Event, ...] = ()  # what the user watches
+    events: tuple[Event, ...] = ()  # zero crossings that the user requests
     targets: Mapping[str, Callable[[Model], Any]] = field(default_factory=dict)  # of generator/targets
 
     def remove_redundant_rows(self, redundancy: Redundancy) -> Model:
@@ -230,7 +232,7 @@ class Model:
         return bool(self.frictions or self.rigid)
 
     def compute_squared_arms(self, body: str) -> tuple[sp.Expr, ...]:
-        """Return s_x², s_y² of all joint points of a body in a row, s from its centre of mass to the point.
+        """Return s_x² and s_y² of all joint points of a body as one tuple, s from its centre of mass to the point.
 
         A point of several joints is counted once.
         """
@@ -250,14 +252,15 @@ class Model:
     def has_negligible_inertia(self, body: str, joint: Joint | None) -> bool:
         """Return whether a body has nearly no moment of inertia about a joint, because its mass is lumped there.
 
-        The moment is then less than 1e-6 of J + Σ m s² over the points of all its joints, with the default values of
-        the file. With `joint` None, or a joint of other bodies, the centre of mass replaces the joint.
+        The moment is then less than NEGLIGIBLE_INERTIA_FRACTION of J + Σ m s² over the points of all its joints, with
+        the default values of the file. With `joint` None, or a joint of other bodies, the centre of mass replaces the
+        joint.
         """
         body_symbols, default = self.geometry.bodies[body], self.parameter_table.compute_default
         ends = [end for end in (joint.first, joint.second) if end.body == body] if joint else []
         arm = self.geometry.local_vectors.get((body, ends[0].point), ()) if ends else ()
         inertia = body_symbols.inertia + sp.Add(*(body_symbols.mass * s**2 for s in arm))
-        return default(inertia) < LIGHT_BODY * default(self.compute_inertia_about_joints(body))
+        return default(inertia) < NEGLIGIBLE_INERTIA_FRACTION * default(self.compute_inertia_about_joints(body))
 
     @cached_property
     def masses(self) -> tuple[sp.Expr, ...]:
@@ -291,12 +294,13 @@ class Model:
         return {}
 
     def _make_column(self, expressions: Iterable[sp.Expr]) -> sp.Matrix:
-        """Return expressions as a column matrix in q, q̇, t and parameters only.
+        """Return expressions as a printable column matrix in q, q̇, t and parameters only.
 
-        Derived symbols are replaced by their definitions; the matrix prints in the scene's notation.
+        Derived symbols are replaced by their definitions, and conditional values by Heaviside functions, which SymPy
+        can print. The matrix prints in the scene's notation.
         """
         return self._make_printable_matrix(
-            [convert_for_intervals(self.symbols.expand_definitions(expression)) for expression in expressions]
+            [convert_to_heaviside_form(self.symbols.expand_definitions(expression)) for expression in expressions]
         )
 
     def _make_printable_matrix(self, entries: list[Any]) -> sp.Matrix:
@@ -374,8 +378,8 @@ def make_model(scene: Scene) -> Model:
     constraints = Constraints(geometry)
     rate = make_dimension(time=-1)
     baumgarte = (
-        parameter_table.get_or_add_constant("baumgarte.alpha", "alpha", BAUMGARTE, rate),
-        parameter_table.get_or_add_constant("baumgarte.beta", "beta", BAUMGARTE, rate),
+        parameter_table.get_or_add_constant("baumgarte.alpha", "alpha", DEFAULT_BAUMGARTE_GAIN, rate),
+        parameter_table.get_or_add_constant("baumgarte.beta", "beta", DEFAULT_BAUMGARTE_GAIN, rate),
     )
     rows = [row for joint in mechanism.joints.values() for row in constraints.derive_joint_rows(joint)]
     rows += [row for drive in mechanism.drives.values() for row in constraints.derive_drive_rows(drive)]
@@ -436,9 +440,9 @@ def add_material_parameters(scene: Scene, parameter_table: ParameterTable) -> No
 
 
 def add_further_parameters(model: Model) -> None:
-    """Add parameters for the values that no equation contains: ground points, the start, and the gain of stick.
+    """Add parameters for values that no equation contains: ground points, the start, and Baumgarte's gain of stick.
 
-    The gain is added only if there is friction that may stick.
+    The gain is added only if there is dry friction, which may stick.
     """
     for vector in model.scene.mechanism.ground.values():
         model.geometry.ground_vector(vector)
@@ -446,14 +450,16 @@ def add_further_parameters(model: Model) -> None:
         for quantity, _ in group:
             model.parameter_table.get_or_add_parameter(quantity)
     if model.frictions:
-        model.parameter_table.get_or_add_constant(STICK, "alpha_stick", BAUMGARTE, make_dimension(time=-1))
+        model.parameter_table.get_or_add_constant(
+            STICK_GAIN_ADDRESS, "alpha_stick", DEFAULT_BAUMGARTE_GAIN, make_dimension(time=-1)
+        )
 
 
-def derive_stick_gain(model: Model) -> sp.Expr:
-    """Return 2α, in 1/s, of Baumgarte's term for sticking friction as a derived parameter; α is "baumgarte.stick".
+def derive_stick_baumgarte_gain(model: Model) -> sp.Expr:
+    """Return 2α, in 1/s, of Baumgarte's term for the velocity constraint of sticking friction, as a derived parameter.
 
-    Methods that project the state stabilize no other equation.
+    α is the parameter "baumgarte.stick". Methods that project the state stabilize no other equation.
     """
     return model.parameter_table.derive_parameter(
-        "two_alpha_stick", 2 * model.parameter_table.entries[STICK].symbol, "2 alpha of a stick"
+        "two_alpha_stick", 2 * model.parameter_table.entries[STICK_GAIN_ADDRESS].symbol, "2 alpha of a stick"
     )

@@ -62,7 +62,7 @@ def write_scene_notes(model: Model) -> tuple[str, ...]:
     return tuple(notes)
 
 
-def has_jumps(model: Model) -> bool:
+def has_drive_with_jumps(model: Model) -> bool:
     """Return whether the rate of any drive may jump, also in a scene without degrees of freedom."""
     return any(map(has_jumping_rate, model.scene.mechanism.drives.values()))
 

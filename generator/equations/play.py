@@ -36,7 +36,7 @@ from gudgeon.generator.symbols.unevaluated import Unevaluated
 from gudgeon.language.units import VELOCITY
 
 Derive: TypeAlias = Callable[[str, sp.Expr, str], sp.Expr]  # name, value, meaning: the symbol of a derived parameter
-VELOCITY_FLOOR = 1e-6  # m/s, least impact velocity that an onset stores
+VELOCITY_FLOOR = 1e-6  # m/s, lower bound of the approach speed that an onset stores
 
 
 @dataclass(frozen=True)
@@ -101,7 +101,7 @@ class Clearance:
     mixed: LawEquations | None  # of mixed lubrication, in place of a transition
     velocity_floor: sp.Expr
     clip_ratio: bool
-    constants: Mapping[str, sp.Expr]  # what a report prints: K, S, …
+    constants: Mapping[str, sp.Expr]  # constants in a report: K, S, …
     contour: Contour | None = None
     wall: Wall | None = None
 
@@ -127,9 +127,9 @@ class Clearance:
 
     @property
     def further_arguments(self) -> tuple[sp.Expr, ...]:
-        """Return the arguments of its functions in addition to e, ė and angular velocities.
+        """Return the arguments of the joint's functions in addition to e, ė and angular velocities.
 
-        They are the normal of a wall, or the angle of a bearing with a contour.
+        They are the normal of a wall, or the angle of a bearing with a contour; () for a circular bearing.
         """
         if self.wall is not None:
             return self.wall.normal
@@ -168,9 +168,9 @@ def make_clearances(joint: Joint, play: Play, geometry: Geometry, parameter_tabl
 def _derive_clearance(
     joint: Joint, play: Play, parameter_table: ParameterTable, contact_point: ContactPoint
 ) -> Clearance:
-    """Return the equations at one contact point: its laws with parameters, transition, and least impact velocity.
+    """Return the equations at one contact point: laws with parameters, transition, and bound of the approach speed.
 
-    The constants that a report prints are collected on the way.
+    The constants that a report prints are collected in `constants`.
     """
     constants: dict[str, sp.Expr] = {}
     bearing_symbols = contact_point.pair
@@ -180,7 +180,6 @@ def _derive_clearance(
 
         Joints with the same contact and bearing share it.
         """
-        # named after what it is made of: joints with the same bearing and contact share it
         parameter_name = f"{play.contact.name}_{play.bearing.name}_{name}"
         constants[name] = parameter_table.derive_parameter(parameter_name, expression, meaning)
         return constants[name]
@@ -202,7 +201,7 @@ def _derive_clearance(
     )
     film_symbols = replace(bearing_symbols, c=constants.get(MEAN_CLEARANCE, bearing_symbols.c))
     film = derive_contact_law(contact.film, film_symbols)
-    floor: sp.Expr = sp.Integer(0)  # of surfaces that give alone
+    floor: sp.Expr = sp.Integer(0)  # only of compliant surfaces
     if contact.velocity_floor:
         floor = parameter_table.get_or_add_parameter(contact.velocity_floor)
     elif not (normal and normal.law.rigid):
@@ -243,8 +242,8 @@ def _derive_law(
     """Return a law with the symbols of its parameters and variables inserted.
 
     `law_use`: the law as the file uses it; `derive_constant` makes a derived parameter from name, value and meaning.
-    Optional variables that the law does not read are left out. A user-defined law is evaluated at sampled states
-    (LawError), and its own names get the ending `__`.
+    Optional variables that the law does not read are left out. A user-defined law is evaluated at sampled states,
+    which raises LawError for invalid values, and its own names get the ending `__`.
     """
     law = find_all_laws()[law_use.law]
     variables = {name: sp.Symbol(name, real=True) for name in law.variables}
@@ -270,8 +269,8 @@ def _derive_law(
         law, LawInputs(parameters, law_use.options, bearing_symbols, variables, derive_and_record, Unevaluated)
     )
     read_names = {symbol.name for step in steps.values() for symbol in step.free_symbols}
-    unread_names = {name for name in law.further if name not in read_names}
-    law_variables = tuple(symbol for name, symbol in variables.items() if name not in unread_names)
+    unused_names = {name for name in law.further if name not in read_names}
+    law_variables = tuple(symbol for name, symbol in variables.items() if name not in unused_names)
     if law.name in USER_LAWS:
         check_sampled_values(law, law_variables, steps, parameter_table)
     equations = LawEquations(law, law_use.options, law_variables, steps, parameters, derived)

@@ -62,11 +62,11 @@ class System:
     v: tuple[sp.Symbol, ...]
     motions: Mapping[str, Motion]  # by body
     mass: Mapping[tuple[int, int], sp.Expr]
-    applied: tuple[sp.Expr, ...]  # weights, and what the velocities and prescribed accelerations leave of J^T m a
+    applied: tuple[sp.Expr, ...]  # weights minus velocity terms and terms of prescribed accelerations
     prescribed: tuple[PrescribedCoordinate, ...]
     rows: tuple[Row, ...]
     frictions: tuple[Friction, ...]
-    dependent: tuple[DependentCoordinate, ...] = field(default=(), kw_only=True)  # of driven chains (driven_chains.py)
+    dependent: tuple[DependentCoordinate, ...] = field(default=(), kw_only=True)  # of driven loops (driven_loops.py)
     in_tree: ClassVar[bool] = False  # whether the coordinates are those of a tree
 
     def compute_inertia_about_joints(self, k: int) -> sp.Expr:

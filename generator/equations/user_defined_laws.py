@@ -106,7 +106,7 @@ def _check_slope(force: Quantity, value: sp.Expr, delta: sp.Symbol, parameter_ta
         raise BadValueError(f"{force.address} has no slope at delta = 0", force.where, hint)
 
 
-_VARIABLES: Mapping[str, Dimension] = {
+_VARIABLE_DIMENSIONS: Mapping[str, Dimension] = {
     "delta": LENGTH,
     "ratio": DIMENSIONLESS,
     "deltadot": VELOCITY,
@@ -116,14 +116,19 @@ _VARIABLES: Mapping[str, Dimension] = {
     "w_n": RATE,
     "w_t": RATE,
 }
-_RESULTS: Mapping[str, Dimension] = {
+_RESULT_DIMENSIONS: Mapping[str, Dimension] = {
     "F_n": FORCE,
     "F_t": FORCE,
     "F_r": FORCE,
     "T0": TORQUE * TIME,
     "share": DIMENSIONLESS,
 }
-_PAIR: Mapping[str, Dimension] = {"E_i": PRESSURE, "E_j": PRESSURE, "nu_i": DIMENSIONLESS, "nu_j": DIMENSIONLESS}
+_PAIR_DIMENSIONS: Mapping[str, Dimension] = {
+    "E_i": PRESSURE,
+    "E_j": PRESSURE,
+    "nu_i": DIMENSIONLESS,
+    "nu_j": DIMENSIONLESS,
+}
 _SAME_UNIT_FUNCTIONS = find_classes(lambda f: f.units is Units.SAME)
 _RATIO_FUNCTIONS = find_classes(lambda f: f.units is Units.RATIO)
 
@@ -142,11 +147,13 @@ def check_units(law: Law, law_use: LawUse) -> None:
     The role is normal, friction, film or mixed. `law_use`: the law as the file uses it, with options and quantities.
     """
     probed_law = probe_law(law, law_use.options, law_use.quantities)
-    dimension_of_symbol: dict[str, _DimensionOrFlexible] = {f"probe_{name}": _PAIR.get(name, LENGTH) for name in PAIR}
+    dimension_of_symbol: dict[str, _DimensionOrFlexible] = {
+        f"probe_{name}": _PAIR_DIMENSIONS.get(name, LENGTH) for name in PAIR
+    }
     dimension_of_symbol |= {
         f"probe_{name}": quantity.dimension or _ANY_UNIT for name, quantity in law_use.quantities.items()
     }
-    dimension_of_symbol |= {name: _VARIABLES[name] for name in law.variables if name in _VARIABLES}
+    dimension_of_symbol |= {name: _VARIABLE_DIMENSIONS[name] for name in law.variables if name in _VARIABLE_DIMENSIONS}
     dimension_of_symbol |= {state.name: LENGTH for state in law.states}
     dimension_finder = _DimensionFinder(law, dimension_of_symbol)
     for name, value in probed_law.derived.items():
@@ -154,7 +161,7 @@ def check_units(law: Law, law_use: LawUse) -> None:
     for name, step in probed_law.steps.items():
         dimension_found = dimension_finder.find_dimension(name, step)
         dimension_of_symbol[name] = dimension_found
-        expected_dimension = VELOCITY if name.endswith("_rate") else _RESULTS.get(name)
+        expected_dimension = VELOCITY if name.endswith("_rate") else _RESULT_DIMENSIONS.get(name)
         if (
             name in law.results
             and expected_dimension
@@ -302,8 +309,8 @@ _SAMPLE_VALUES: Mapping[str, tuple[float, ...]] = {
     "w_n": (-10.0, 0.0, 10.0),
     "w_t": (-10.0, 0.0, 10.0),
 }
-_STATE = (0.0, 1e-6, -1e-6)
-_UNITS = {"delta": "m", "deltadot": "m/s", "F_n": "N", "v_t": "m/s", "w_n": "1/s", "w_t": "1/s"}
+_STATE_SAMPLES = (0.0, 1e-6, -1e-6)
+_UNIT_OF_VARIABLE = {"delta": "m", "deltadot": "m/s", "F_n": "N", "v_t": "m/s", "w_n": "1/s", "w_t": "1/s"}
 
 
 def check_user_defined_laws(scene: Scene) -> None:
@@ -313,13 +320,13 @@ def check_user_defined_laws(scene: Scene) -> None:
         if any(law.name in USER_LAWS for law, _ in laws_in_use):
             names = {law.name: _LawNames(law, law_use) for law, law_use in laws_in_use}
             for law, law_use in (pair for pair in laws_in_use if pair[0].name in USER_LAWS):
-                names[law.name].check_names()
+                names[law.name].check_uniqueness()
                 check_units(law, law_use)
             _check_common_names([names[law.name] for law, _ in laws_in_use if law.role != "film"])
 
 
 class _LawNames:
-    """Names of the locals and parameters in the function of a law."""
+    """Names of the locals and parameters in the function of a law, for checks of duplicates."""
 
     def __init__(self, law: Law, law_use: LawUse) -> None:
         """Collect the names of locals and parameters by building the law with probe symbols."""
@@ -331,7 +338,7 @@ class _LawNames:
         ]
         self.parameter_names = [*law_use.quantities, *probed_law.derived]
 
-    def check_names(self) -> None:
+    def check_uniqueness(self) -> None:
         """Raise LawError for a name that is not an identifier, occurs twice, or has a fixed meaning for the law."""
         fixed_names = {
             *PAIR,
@@ -376,10 +383,10 @@ def _format_law_prefix(law: Law) -> str:
 def check_sampled_values(
     law: Law, variables: tuple[sp.Symbol, ...], steps: Mapping[str, sp.Expr], parameter_table: ParameterTable
 ) -> None:
-    """Raise LawError if an equation of a law is not a finite real number at a sampled state, by the file's values.
+    """Raise LawError if an equation of a law is not a finite real number at a sampled state, with the file's values.
 
-    `variables`: the symbols that are sampled; `steps`: the equations by name, in order. A fraction `share` of the dry
-    contact must be between 0 and 1, and 0 at δ = 0.
+    `variables`: the symbols that are sampled (`_SAMPLE_VALUES`); `steps`: the equations by name, in order. A fraction
+    `share` of the dry contact must be between 0 and 1, and 0 at δ = 0.
     """
     parameter_values = {
         symbol: np.float64(find_default_value(parameter_table, symbol))
@@ -391,7 +398,7 @@ def check_sampled_values(
             arguments, step, "numpy"
         )  # contains symbols of known names only, as `build` has checked
         arguments.append(sp.Symbol(name, real=True))
-    for state in itertools.product(*(_SAMPLE_VALUES.get(symbol.name, _STATE) for symbol in variables)):
+    for state in itertools.product(*(_SAMPLE_VALUES.get(symbol.name, _STATE_SAMPLES) for symbol in variables)):
         values = [*parameter_values.values(), *map(np.float64, state)]
         for name, function in function_by_name.items():
             with np.errstate(all="ignore"):
@@ -402,7 +409,7 @@ def check_sampled_values(
                     raise LawError(message, hint="expected a finite real number for every δ > 0") from error
             if not math.isfinite(values[-1]):
                 state_text = ", ".join(
-                    f"{symbol.name} = {x:g} {_UNITS.get(symbol.name, '')}".strip()
+                    f"{symbol.name} = {x:g} {_UNIT_OF_VARIABLE.get(symbol.name, '')}".strip()
                     for symbol, x in zip(variables, state, strict=True)
                 )
                 message = f"{_format_law_prefix(law)}{name} is {values[-1]:g} at {state_text}"
@@ -423,7 +430,7 @@ def _find_parameters(steps: Mapping[str, sp.Expr], parameter_table: ParameterTab
 
 
 def find_default_value(parameter_table: ParameterTable, symbol: sp.Symbol) -> float:
-    """Return the default value of a parameter or of a derived parameter; NaN if it is not real."""
+    """Return the default value of a parameter, or of a derived parameter with all defaults; NaN if it is not real."""
     for entry in parameter_table.entries.values():
         if entry.symbol == symbol:
             return entry.default

@@ -20,9 +20,9 @@ _AXES = {"x": 0, "y": 1}
 def apply_overrides(root: Map, overrides: Mapping[str, str | float | bool]) -> Map:
     """Return the file's tree with other texts at the given addresses; `root` itself is not changed.
 
-    `overrides` maps an address, or the name of a parameter alone, to a number, a text or a bool. Raises
-    UnknownNameError, with the nearest address, for one that the file does not have. Keys that a law or shape does not
-    know are reported when they are read.
+    `overrides` maps an address, or the name of a parameter alone, to a number, a text or a bool:
+    {"contacts.dry.normal.exponent": 1.5, "omega": "20 rad/s"}. Raises UnknownNameError, with the nearest address, for
+    one that the file does not have. Keys that a law or shape does not know are reported when they are read.
     """
     for address, value in overrides.items():
         keys = _split_address(root, address)
@@ -32,9 +32,9 @@ def apply_overrides(root: Map, overrides: Mapping[str, str | float | bool]) -> M
 
 
 def _split_address(root: Map, address: str) -> list[str]:
-    """Return the keys on the path of an address; names of coordinates and points stay whole.
+    """Return the keys on the path of an address: "start.guess.L7.theta" gives ["start", "guess", "L7.theta"].
 
-    The name of a parameter alone is a path in `parameters`.
+    Names of coordinates and points stay whole. The name of a parameter alone is a path in `parameters`.
     """
     if address in root.get("parameters", ()):
         return ["parameters", address]
@@ -134,9 +134,9 @@ def _replace_text(node: Any, keys: list[str], text: Text, address: _Address, fie
 def _may_add_key(field: Field | None, field_of_child: Field | None, keys: list[str], depth: int) -> bool:
     """Return whether an override may add a key to the file: one with a default, an inherited number, a component.
 
-    `field_of_child` declares the key `keys[0]` in the mapping that `field` declares. Entries of a section must exist in
-    the file. Unknown keys deeper in the tree are reported when they are read. `field` and `field_of_child` are None for
-    keys that no field declares. `depth`: number of keys before `keys[0]` on the path.
+    `field_of_child` declares the key `keys[0]` in the mapping that `field` declares; both are None for undeclared
+    keys. `depth`: number of keys before `keys[0]` on the path. Entries of a section must exist in the file. Unknown
+    keys deeper in the tree are reported when they are read.
     """
     if depth == 0:
         return field_of_child is not None and (

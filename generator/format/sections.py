@@ -130,7 +130,7 @@ RATES: Mapping[str, Dimension] = {"vx": VELOCITY, "vy": VELOCITY, "omega": RATE}
 def _list_joint_kinds() -> Mapping[str, Kind]:
     """Return the joint types as kinds of the section `joints`, by name."""
     return {
-        kind: Kind(joint_type.title, joint_type.fields, joint_type.joins, (2,), joint_type.also)
+        kind: Kind(joint_type.title, joint_type.fields, joint_type.joins, (2,), joint_type.foreign_names)
         for kind, joint_type in joint_types().items()
     }
 
@@ -139,14 +139,18 @@ def _list_force_kinds() -> Mapping[str, Kind]:
     """Return the force elements as kinds of the section `forces`, by name."""
     return {
         kind: Kind(
-            element_type.title, element_type.fields, element_type.targets, element_type.counts, element_type.also
+            element_type.title,
+            element_type.fields,
+            element_type.targets,
+            element_type.counts,
+            element_type.foreign_names,
         )
         for kind, element_type in element_types().items()
     }
 
 
 def _format_law_title(law: Law, name: str) -> str:
-    """Return a law's title, or for another name of the law the options that this name implies."""
+    """Return a law's title; for an alias of the law the options that it fixes: "`hertz` with `dissipation: flores`"."""
     implied_options = law.also.get(name, {})
     options = ", ".join(f"{key}: {value}" for key, value in implied_options.items())
     return f"`{law.name}` with `{options}`" if implied_options else law.title
@@ -167,7 +171,7 @@ def _make_law_field(role: str, meaning: str) -> Field:
     return Field(role, LAW, meaning, kinds=find_law_kinds)
 
 
-_ELASTIC = "unused in bearings"
+_ELASTIC_IF_MISSING = "unused in bearings"
 MATERIAL = record(
     "material",
     "material of bearings, guides and shapes of bodies",
@@ -175,14 +179,14 @@ MATERIAL = record(
         "E",
         "Young's modulus",
         PRESSURE,
-        otherwise=_ELASTIC,
+        otherwise=_ELASTIC_IF_MISSING,
         bounds=(Bound(">", 0.0, "Young's modulus is positive"),),
     ),
     number(
         "nu",
         "Poisson's ratio",
         DIMENSIONLESS,
-        otherwise=_ELASTIC,
+        otherwise=_ELASTIC_IF_MISSING,
         bounds=(Bound(">", -1.0, "Poisson's ratio is above -1"), Bound("<", 0.5, "Poisson's ratio is below 0.5")),
     ),
     number(
@@ -235,26 +239,26 @@ SHAPE = record(
     ),
 )
 
-_SIDE = (Bound(">", 0.0, "a side is positive"),)
+_SIDE_BOUNDS = (Bound(">", 0.0, "a side is positive"),)
 SIDES = record(
     "sides",
     "three points P, Q and R of a body by their distances: P is the origin, Q on the x axis",
-    number("PQ", "distance of P and Q", LENGTH, required=True, bounds=_SIDE),
-    number("QR", "distance of Q and R", LENGTH, required=True, bounds=_SIDE),
-    number("PR", "distance of P and R", LENGTH, required=True, bounds=_SIDE),
+    number("PQ", "distance of P and Q", LENGTH, required=True, bounds=_SIDE_BOUNDS),
+    number("QR", "distance of Q and R", LENGTH, required=True, bounds=_SIDE_BOUNDS),
+    number("PR", "distance of P and R", LENGTH, required=True, bounds=_SIDE_BOUNDS),
     word("side", "side of R, seen from P towards Q", ("left", "right"), "left"),
 )
 
-_WITHOUT = "from `shape`; otherwise allowed only if drives determine the motion and no joint has play"
+_MASS_IF_MISSING = "from `shape`; otherwise allowed only if drives determine the motion and no joint has play"
 BODY = record(
     "body",
     "a rigid body with its own frame; a body with a length is a bar: origin at the tail, x axis to the head",
-    number("mass", "mass", MASS, otherwise=_WITHOUT, bounds=(Bound(">", 0.0, "a mass is positive"),)),
+    number("mass", "mass", MASS, otherwise=_MASS_IF_MISSING, bounds=(Bound(">", 0.0, "a mass is positive"),)),
     number(
         "inertia",
         "moment of inertia about the centre of mass; `auto`: slender bar, mass length²/12; 0: point mass",
         INERTIA,
-        otherwise=_WITHOUT,
+        otherwise=_MASS_IF_MISSING,
         words=("auto",),
         bounds=(Bound(">=", 0.0, "a moment of inertia is not negative"),),
     ),
@@ -389,7 +393,7 @@ PLAY = record(
     ),
 )
 
-_OF_MATERIAL = (
+_MATERIAL_ADDRESSES = (
     "bearings.NAME.bearing_material",
     "bearings.NAME.journal_material",
     "guides.NAME.guide_material",
@@ -410,7 +414,7 @@ SCENE = record(
         "materials",
         "materials that replace those of the file in this scene",
         declare_entry_name("materials", "value", "the material here"),
-        addresses=_OF_MATERIAL,
+        addresses=_MATERIAL_ADDRESSES,
     ),
     SIMULATE,
 )

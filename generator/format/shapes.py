@@ -35,7 +35,7 @@ OVERRIDE = "override of "  # the "file" of a text that comes from an override
 ANY_NAME = "*"  # in `removed_names`: a section was left out whose names are not known
 
 Path = tuple[str | int, ...]
-_SECTIONS = {  # names of other programs for a section
+_FOREIGN_SECTIONS = {  # names of other programs for a section
     "links": "bodies",
     "parts": "bodies",
     "constraints": "joints",
@@ -47,7 +47,7 @@ _SECTIONS = {  # names of other programs for a section
     "initial": "start",
     "variables": "parameters",
 }
-_OPTIONS = ("method", "rtol", "formulation")  # options of a run, which a file does not contain
+_RUN_OPTIONS = ("method", "rtol", "formulation")  # options of a run, which a file does not contain
 
 
 @dataclass(frozen=True)
@@ -59,7 +59,7 @@ class CheckedTree:
     removed_names: frozenset[str] = frozenset()
 
 
-def check_shape(root: Map) -> CheckedTree:
+def check_tree_structure(root: Map) -> CheckedTree:
     """Return the valid part of a file's tree and the errors of the rest.
 
     Empty optional sections count as absent. Entries with errors are removed until no error remains. Raises
@@ -71,7 +71,7 @@ def check_shape(root: Map) -> CheckedTree:
     sections = {
         name: value
         for name, value in root.items()
-        if not (isinstance(value, Text) and value.is_null and name in _MAY_BE_EMPTY)
+        if not (isinstance(value, Text) and value.is_null and name in _OPTIONAL_SECTIONS)
     }
     document = Map.make_map(sections, root.where)
     errors: list[InputError] = []
@@ -81,7 +81,7 @@ def check_shape(root: Map) -> CheckedTree:
         if not findings:
             return CheckedTree(document, tuple(errors), frozenset(removed_names))
         errors += _make_errors(findings, document)
-        if any(finding.path[0] in _NEEDED and len(finding.path) == 1 for finding in findings):
+        if any(finding.path[0] in _REQUIRED_SECTIONS and len(finding.path) == 1 for finding in findings):
             break
         for finding in findings:
             document = _remove_wrong_entry(document, finding, removed_names)
@@ -89,8 +89,8 @@ def check_shape(root: Map) -> CheckedTree:
 
 
 STUDIES = "gudgeon-study/"  # prefix of the format of study files
-_NEEDED = frozenset(field.name for field in FILE.fields if field.required)
-_MAY_BE_EMPTY = frozenset(field.name for field in FILE.fields if not field.required and field.kind not in SCALARS)
+_REQUIRED_SECTIONS = frozenset(field.name for field in FILE.fields if field.required)
+_OPTIONAL_SECTIONS = frozenset(field.name for field in FILE.fields if not field.required and field.kind not in SCALARS)
 
 
 def check_format(root: Map) -> None:
@@ -114,7 +114,7 @@ class _Finding:
     is_missing: bool = False
 
 
-_TWO = "two: [x, y]"
+_TWO_COMPONENTS = "two: [x, y]"
 
 
 def _find_errors(field: Field, node: Any, path: Path) -> Iterator[_Finding]:
@@ -167,7 +167,7 @@ def _find_errors_in_vector(node: Any, path: Path) -> Iterator[_Finding]:
     if not isinstance(node, Items):
         yield _Finding(path, "a list of two: [x, y]")
     elif len(node) != 2:
-        yield _Finding(path, _TWO)
+        yield _Finding(path, _TWO_COMPONENTS)
     else:
         yield from (_Finding((*path, i), "a number or a text") for i in (0, 1) if not isinstance(node[i], Text))
 
@@ -246,20 +246,20 @@ def _make_error(finding: _Finding, document: Map) -> InputError:
         )  # an empty node has no location: the key's is used
     fault = (
         f"has {len(node)} component{'s' * (len(node) != 1)}"
-        if finding.expected == _TWO
+        if finding.expected == _TWO_COMPONENTS
         else f"is {describe_node(node)}"
     )
     return BadValueError(f"{_format_address(path)} {fault}", location, f"expected {finding.expected}")
 
 
 def _make_hint_for_foreign_key(parent_path: Path, key: str) -> str:
-    """Return a hint about a key that other programs use there; "" for a mistyped one.
+    """Return a hint about a key of another program ("links" is called bodies here); "" for any other key.
 
     `parent_path` is the path of the mapping: sections by other names, and options of a run in `simulate`, have hints.
     """
-    if not parent_path and key in _SECTIONS:
-        return f"{key!r} is called {_SECTIONS[key]} here"
-    if parent_path and parent_path[-1] == "simulate" and key in _OPTIONS:
+    if not parent_path and key in _FOREIGN_SECTIONS:
+        return f"{key!r} is called {_FOREIGN_SECTIONS[key]} here"
+    if parent_path and parent_path[-1] == "simulate" and key in _RUN_OPTIONS:
         return f"{key!r} is an option of gudgeon run, --{key}, and an argument of simulate, not a key of a file"
     return ""
 

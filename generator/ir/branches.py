@@ -68,7 +68,10 @@ class Branch(Line):
 
 
 class Branches:
-    """Inserts a Branch before the first line that reads it; `names` are the names of branches by expression."""
+    """Names of conditional values; `insert_branches` adds a `Branch` line before the first line that reads one.
+
+    `names`: the name of each conditional value (`Select`), by expression.
+    """
 
     def __init__(self, used_names: Iterable[str]) -> None:
         """Begin without branches.
@@ -116,17 +119,17 @@ class Branches:
                 result.append(Branch(self.names[part], part))
         return result
 
-    def _needs_branch_line(self, pick: Select) -> bool:
+    def _needs_branch_line(self, selection: Select) -> bool:
         """Return whether a `Select` (conditional value) has no name yet and its two values are not both numbers."""
-        return pick not in self.names and not all(argument.is_Number for argument in pick.args[1:])
+        return selection not in self.names and not all(argument.is_Number for argument in selection.args[1:])
 
-    def _make_branch_name(self, pick: Select) -> str:
+    def _make_branch_name(self, selection: Select) -> str:
         """Return an unused name for the result of a `Select` and mark it as used.
 
         It is "larger_k" for a maximum and "smaller_k" for a minimum, whose switching function is the difference of both
         values, else "branch_k"; k = 1, 2, ….
         """
-        branch, a, b = pick.args
+        branch, a, b = selection.args
         difference = self._switching_functions.get(branch)
         prefix = {a - b: "larger", b - a: "smaller"}.get(difference, "branch")
         name = next(

@@ -16,7 +16,7 @@ from gudgeon.generator.ir.kernels import LINEARIZATION, Kernel, Section, remove_
 from gudgeon.generator.ir.signatures import Access, Argument
 from gudgeon.generator.ir.statements import Call, Declare, Guard, Line, Statement
 from gudgeon.generator.ir.values import Conditional, Test, Value
-from gudgeon.generator.symbols.storage import Key, Place, PlaceSymbol, find_key
+from gudgeon.generator.symbols.storage import Key, Place, PlaceSymbol, find_value_key
 from gudgeon.generator.symbols.switches import ComparedMagnitude
 
 SUFFIX, IMAGINARY = "_complex", "_i"
@@ -27,7 +27,7 @@ Parts = tuple[sp.Expr, sp.Expr]
 def convert_to_complex(kernel: Kernel, complex_arrays: Iterable[Key], zero_arguments: Iterable[str] = ()) -> Kernel:
     """Return the kernel (generated function) for complex arguments, with "_complex" appended to its name.
 
-    `complex_arrays`: names of the arguments and arrays, or their storage places, that are complex. `zero_arguments`:
+    `complex_arrays`: names of the arguments and arrays, or their storage locations, that are complex. `zero_arguments`:
     names of arguments that are 0 there and are left out. Unused locals are removed. Raise ValueError for a line that
     has no complex counterpart.
     """
@@ -140,7 +140,7 @@ class _ComplexConverter:
     def _split_value(self, value: Value) -> tuple[Value, Value]:
         """Return the real and the imaginary part of the value of a statement; the imaginary part of a real value is 0.
 
-        The value is a storage place, a `Conditional` or an expression. Raise ValueError for other kinds of values.
+        The value is a storage location, a `Conditional` or an expression. Raise ValueError for other kinds of values.
         """
         match value:
             case Place():
@@ -156,7 +156,7 @@ class _ComplexConverter:
     def _find_part_places(self, place: Key) -> tuple[Place, Place] | None:
         """Return the places 2k and 2k + 1 of the real and imaginary part of element k of a complex array.
 
-        Return None if `place` (a storage place or the name of a local) is not an element of a complex array.
+        Return None if `place` (a storage location or the name of a local) is not an element of a complex array.
         """
         match place:
             case Place(base, (*path, int() as k)) if {base, Place(base, (*path,))} & self.complex_keys:
@@ -166,7 +166,7 @@ class _ComplexConverter:
     def _find_part_symbols(self, symbol: sp.Symbol) -> Parts | None:
         """Return the symbols of the real and of the imaginary part of a symbol, or None if the symbol is real."""
         name = symbol.name
-        if places := self._find_part_places(find_key(symbol)):
+        if places := self._find_part_places(find_value_key(symbol)):
             return PlaceSymbol(places[0]), PlaceSymbol(places[1])
         return (
             (symbol, sp.Symbol(name + IMAGINARY)) if name in self.complex_locals or name in self.complex_keys else None

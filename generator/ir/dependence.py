@@ -1,4 +1,4 @@
-"""Data dependence within a generated function: from marked lines to all lines on which they depend."""
+"""Backward data-flow analysis of a generated function: from marked lines to all lines on which they depend."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ import sympy as sp
 from gudgeon.generator.ir.branches import Branch
 from gudgeon.generator.ir.readable import Readable
 from gudgeon.generator.ir.statements import Statement
-from gudgeon.generator.symbols.storage import Key, Place, find_key
+from gudgeon.generator.symbols.storage import Key, Place, find_value_key
 from gudgeon.generator.symbols.switches import Select
 
 Marks = frozenset[str]
@@ -30,9 +30,9 @@ class LineMarks:
 def propagate_marks(function: Readable, find_marks: Callable[[Statement | Branch], Marks]) -> LineMarks:
     """Return the marks of all statements and parameters of a function, propagated backwards along the data dependence.
 
-    A mark is a text, such as the name of a result. A line has its own marks, `find_marks(line)`, and those of all later
-    lines that depend on it. The result maps what each line stores to, and each parameter that is read, to a set of
-    marks; entries without marks are left out.
+    A mark is a text, such as the name of a result. A line has its own marks, `find_marks(line)`, and those of all
+    later lines that depend on it. The result maps the target of each line, and each parameter that is read, to a set
+    of marks; entries without marks are left out.
     """
     marks_by_name: defaultdict[Key, set[str]] = defaultdict(set)
     marks_of_stored: defaultdict[Key, set[str]] = defaultdict(set)
@@ -59,12 +59,16 @@ def _find_used_variables(line: Statement | Branch, function: Readable) -> set[Ke
 
     A conditional value is one that a `Branch` line computes. The target of the line itself is not included.
     """
-    keys = {find_key(symbol) for expression in line.expressions for symbol in expression.free_symbols} | set(line.reads)
+    keys = {find_value_key(symbol) for expression in line.expressions for symbol in expression.free_symbols} | set(
+        line.reads
+    )
     if isinstance(line, Statement) and isinstance(line.value, Place):
         keys.add(line.value)
     for expression in line.expressions:
         if function.branches and expression.has(Select):
-            keys |= {function.branches[pick] for pick in expression.atoms(Select) if pick in function.branches}
+            keys |= {
+                function.branches[selection] for selection in expression.atoms(Select) if selection in function.branches
+            }
     return keys - {line.target}
 
 

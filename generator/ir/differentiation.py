@@ -1,4 +1,4 @@
-"""Forward-mode differentiation of expressions by the chain rule, through intermediate variables.
+"""Forward-mode automatic differentiation: expressions by the chain rule, through intermediate variables.
 
 A derived symbol has a tangent, the non-zero derivatives by the base symbols (coordinates, velocities, time, or other
 variables by which a kernel is differentiated). It follows from the symbol's rules, else from its definition. Tangents
@@ -83,8 +83,8 @@ class Tangents:
         """
         if symbol not in self._known:
             self._known[symbol] = {}  # a parameter, or a multiplier that is held constant
-            if symbol in self._symbols.rules:
-                self.store_tangent(symbol, self.apply_chain_rule(self._symbols.rules[symbol]))
+            if symbol in self._symbols.derivative_rules:
+                self.store_tangent(symbol, self.apply_chain_rule(self._symbols.derivative_rules[symbol]))
             elif symbol in self._symbols.definitions and not self._symbols.info[symbol].place:
                 self.store_tangent(symbol, self.compute_gradient(self._symbols.definitions[symbol], symbol))
         return self._known[symbol]
@@ -96,8 +96,8 @@ class Tangents:
     def freeze_branches(self, expression: sp.Expr) -> sp.Expr:
         """Return the expression with min, max, abs, sign and similar functions on their active branches.
 
-        Each branch is a symbol; one that is read for the first time is assigned by a new line of the kernel. The
-        variables of `make_tangents_for_variables` are replaced by those of the kernel.
+        Each branch is a symbol; at its first use a statement that assigns it is appended to the kernel. The variables
+        of `make_tangents_for_variables` are replaced by those of the kernel.
         """
         n_known = len(self._branches)
         fixed = self._symbols.switches.freeze_branches(expression, self._owner, self._branches)
@@ -108,8 +108,9 @@ class Tangents:
     def compute_gradient(self, expression: sp.Expr, value_symbol: sp.Symbol | None = None) -> Tangent:
         """Return the non-zero derivatives of an expression by base symbol, with branches fixed.
 
-        `value_symbol`: a symbol that holds the value of the expression; a square root is then differentiated by
-        dividing by that symbol. Branches and tangents that are read for the first time are appended to the kernel.
+        `value_symbol`: a symbol that holds the value of the expression. A square root √x then has the derivative x′/(2
+        (value + TINY)), which is finite at 0. Branches and tangents that are read for the first time are appended to
+        the kernel.
         """
         fixed = self.freeze_branches(expression)
         order = sorted(fixed.free_symbols, key=lambda s: s.name)

@@ -18,12 +18,12 @@ from gudgeon.generator.symbols.unevaluated import UnevaluatedQuotient
 
 _SATURATING_CLASSES = find_classes(lambda f: f.saturates)
 _OVERFLOWING_CLASSES = find_classes(lambda f: f.is_exponential or f.has_pole)
-_ZERO_QUOTIENT = (sp.Integer(0), sp.Integer(0), sp.Integer(1))  # a rise, and a way
+_ZERO_QUOTIENT = (sp.Integer(0), sp.Integer(0), sp.Integer(1))  # f above, f below, distance
 _MAX_SAFE_POWER = 8  # a power of which neither the value nor its square overflows for a number of a mechanism
 
 
 class Slope(sp.Function):
-    """Slope(d, ahead, behind, distance): the derivative d if it is finite, else (ahead − behind)/distance."""
+    """Slope(d, f_above, f_below, distance): the derivative d if it is finite, else (f_above − f_below)/distance."""
 
     nargs = 4
     is_real = True
@@ -34,7 +34,7 @@ class Slope(sp.Function):
 
 
 class Upon(sp.Function):
-    """The sign of x as a factor that has no derivative."""
+    """Sign of x as a factor whose derivative is 0 everywhere, also at a change of sign."""
 
     nargs = 1
 
@@ -95,7 +95,7 @@ def _may_overflow(part: sp.Basic, symbol: sp.Symbol) -> bool:
     """Return whether a part of an expression depends on `symbol` and may overflow.
 
     Such parts are exponentials, functions with poles, and powers with an exponent that is negative, variable or above
-    8.
+    `_MAX_SAFE_POWER`.
     """
     if symbol not in part.free_symbols:
         return False
@@ -107,8 +107,8 @@ def _may_overflow(part: sp.Basic, symbol: sp.Symbol) -> bool:
 def make_finite_slope(term: sp.Expr, symbol: sp.Symbol, derivative: sp.Expr) -> Slope:
     """Return ∂term/∂symbol as a `Slope`: `derivative` where that is finite, else a difference quotient of the term.
 
-    The quotient is (f(x⁺) − f(x⁻))/(x⁺ − x⁻) with x⁺, x⁻ a little above and below x. It is 0 for terms with switching
-    points, and for a `Slope` whose own quotient contains a `Slope`.
+    The quotient is (f(x⁺) − f(x⁻))/(x⁺ − x⁻) with x⁺, x⁻ slightly above and below x. It is 0 for terms with switching
+    points, and for a `Slope` whose quotient contains a `Slope`.
     """
     if term.has(*_SWITCHING_CLASSES) or isinstance(term, Slope) and any(x.has(Slope) for x in term.args[1:3]):
         return Slope(derivative, *_ZERO_QUOTIENT)
@@ -143,11 +143,11 @@ def make_slope_or_zero(derivative: sp.Expr) -> Slope:
     return Slope(derivative, *_ZERO_QUOTIENT)
 
 
-def convert_for_intervals(expression: sp.Expr) -> sp.Expr:
-    """Return the expression in the form for interval arithmetic, in which 0 · ∞ is 0.
+def convert_to_heaviside_form(expression: sp.Expr) -> sp.Expr:
+    """Return the expression without `Slope`, and with conditional values by a sign as Heaviside functions.
 
-    Each `Slope` becomes its derivative, and conditional values by a sign become Heaviside functions. Branches that are
-    frozen over a step stay.
+    In this form interval arithmetic sets 0 · ∞ to 0, and SymPy can print it. Each `Slope` becomes its derivative.
+    Branches that are frozen over a step stay.
     """
     expression = remove_slopes(expression)
     return (
@@ -252,14 +252,15 @@ def _differentiate_by_sympy(expression: sp.Expr, symbol: sp.Symbol) -> sp.Expr:
 def _may_overflow_when_squared(term: sp.Expr) -> bool:
     """Return whether differentiation of a term would square a value whose square may overflow or underflow.
 
-    Such terms are v^-n with a number n, and atan(v) and similar functions, if v contains extreme parts (`_is_extreme`).
+    Such terms are v^-n with a number n, and atan(v) and similar functions, if v contains extreme parts
+    (`_is_extreme_part`).
     """
     if isinstance(term, _SQUARING_CLASSES):
         squares = term.args[0].is_Mul or bool(_find_unsquared_derivative(term))
-        return squares and any(map(_is_extreme, sp.preorder_traversal(term.args[0])))
+        return squares and any(map(_is_extreme_part, sp.preorder_traversal(term.args[0])))
     if not (term.is_Pow and term.exp.is_number and term.exp.is_extended_negative):
         return False
-    return any(map(_is_extreme, sp.preorder_traversal(term.base)))
+    return any(map(_is_extreme_part, sp.preorder_traversal(term.base)))
 
 
 def _find_unsquared_derivative(term: sp.Expr) -> str:
@@ -270,11 +271,11 @@ def _find_unsquared_derivative(term: sp.Expr) -> str:
     return CLASSES[type(term)].far_derivative if type(term) in CLASSES else ""
 
 
-def _is_extreme(part: sp.Basic) -> bool:
+def _is_extreme_part(part: sp.Basic) -> bool:
     """Return whether a part of an expression may be so large or small that its square overflows or underflows.
 
-    Such parts are numbers of magnitude 1e100 or more, products with a factor up to 1e-100, exponentials, and powers
-    with a variable exponent or one of magnitude above 8.
+    Such parts are numbers of magnitude 10^_MAX_SAFE_DECADES or more, products with a factor up to its reciprocal, and
+    exponentials. Powers count if the exponent is variable or its magnitude is above `_MAX_SAFE_POWER`.
     """
     if part.is_Number:
         return bool(part.is_finite and abs(part) >= sp.Float(f"1e{_MAX_SAFE_DECADES}"))

@@ -40,7 +40,7 @@ class Kernel:
     status: bool = False
     inline: bool = False
     attribute: str = ""  # of the compiler: "noinline"
-    names: Mapping[Key, Key] = field(default_factory=dict)  # what symbols are called in its text
+    names: Mapping[Key, Key] = field(default_factory=dict)  # names of symbols in the printed text
     first_switch: int | None = None  # switches are counted from the argument `first_switch`; None: by their own numbers
 
     @property
@@ -137,8 +137,8 @@ def freeze_branches(
     return result
 
 
-def remove_unread_lines(lines: Sequence[Line], read_names: set[str]) -> list[Line]:
-    """Return the lines, in order, without those that define a local which no later line reads.
+def remove_unused_lines(lines: Sequence[Line], read_names: set[str]) -> list[Line]:
+    """Return the lines, in order, without those that define a local which no later line reads (dead-code elimination).
 
     `read_names` is changed in place: on entry the names that lines after these read, on return also those that these
     lines read.
@@ -169,11 +169,11 @@ FROZEN_BRANCHES_TITLE = (
 )
 
 
-def declare_branches(kernel: Kernel, output_target: str = "unread") -> Kernel:
+def declare_branches(kernel: Kernel, output_target: str = "local") -> Kernel:
     """Return the kernel with a first section that declares the branches of switching functions (frozen signs).
 
     A kernel that reads no branch is returned unchanged. `output_target`: where the kernel writes the values of its
-    switching functions: "" nowhere, "unread" to the argument g, "rhs" to g and `rhs`.
+    switching functions: "" nowhere, "local" to a local array g that is not read later, "rhs" to the array g of `rhs`.
     """
     if not _has_branch_reads(kernel):
         return kernel
@@ -189,7 +189,7 @@ def _has_branch_reads(kernel: Kernel) -> bool:
 
 
 class KernelBuilder:
-    """Collects the statements of one function in sections, then resolves what they read."""
+    """Builder of one kernel: collects statements in sections, then adds the definitions and inputs that they read."""
 
     def __init__(self, symbols: Symbols, name: str, doc: Sequence[str]) -> None:
         """Begin a function with a name and the lines of its comment."""
@@ -212,8 +212,7 @@ class KernelBuilder:
     def append_local(self, name: str, value: Value, comment: str = "") -> sp.Symbol:
         """Append the assignment of a value to a new local and return the local's symbol.
 
-        Its name is made from `name`: with an underscore, and a number if that name is used already. `comment` is
-        printed.
+        The local is called `name` with an underscore, and a number if that is used already. `comment` is printed.
         """
         unique = self._symbols.make_unique_name(name)
         self._sections[-1][1].append(Statement(unique, value, comment))
@@ -301,15 +300,16 @@ class KernelBuilder:
 
 
 def _prune_sections(sections: Iterable[tuple[str, Sequence[Line]]]) -> list[tuple[str, list[Line]]]:
-    """Return the sections, as pairs of title and lines, without locals that no later line reads."""
+    """Return the sections, as pairs of title and lines, without locals that no later line reads; titles stay."""
     read_names: set[str] = set()
-    return [(title, remove_unread_lines(lines, read_names)) for title, lines in reversed(list(sections))][::-1]
+    return [(title, remove_unused_lines(lines, read_names)) for title, lines in reversed(list(sections))][::-1]
 
 
 def remove_unused_locals(kernel: Kernel) -> Kernel:
-    """Return the kernel without locals that nothing reads, such as pivots of coordinates that no equation contains.
+    """Return the kernel without locals that nothing reads, directly or not (dead-code elimination).
 
-    Empty sections are removed, and the declaration of branches if no line reads a branch any more.
+    An example is the pivot of a coordinate that no equation contains. Empty sections are removed, and the declaration
+    of branches if no line reads a branch any more.
     """
     pruned = _prune_sections((section.title, section.statements) for section in kernel.sections)
     result = replace(kernel, sections=tuple(Section(title, tuple(lines)) for title, lines in pruned if lines))
@@ -349,9 +349,9 @@ class ValuePool:
         return symbol
 
     def store_local(self, builder: KernelBuilder, value: sp.Expr) -> sp.Expr:
-        """Store the local of which `value` is ± in the pool, under its own name for other functions; return the value.
+        """Store the local in `value`, which is ± that local, under its own name for other functions; return the value.
 
-        Nothing is stored if the value has no symbol or its symbol is registered already.
+        Nothing is stored if the value has no symbol or its symbol is known already, for example as a parameter.
         """
         symbol = next(iter(value.free_symbols), None)
         if symbol is not None and symbol not in self._symbols.info:

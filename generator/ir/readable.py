@@ -1,4 +1,4 @@
-"""Readable form of a generated function: branches as separate lines, no copies of values under other names.
+"""Readable form of a generated function: branches as separate lines, copies of values removed (copy propagation).
 
 Only the text changes: values stay as they are, with the order of their terms, so that every target computes the
 same bits. The names of symbols in the text are in `Kernel.names`, those of branches in `Readable.branches`.
@@ -45,7 +45,7 @@ class FractionOfPi:
         return self.numerator * math.pi / self.denominator
 
     @property
-    def is_one(self) -> bool:
+    def is_pi(self) -> bool:
         """Return whether the number is π itself."""
         return self.numerator == self.denominator == 1
 
@@ -59,9 +59,10 @@ class FractionOfPi:
 
 
 def convert_to_fraction_of_pi(number: sp.Expr) -> FractionOfPi | None:
-    """Return a number as a fraction of π that has the same bits as a float; None if there is none.
+    """Return a number as a fraction of π that has the same bits as a float, such as 3 π/2; None if there is none.
 
-    `number`: a SymPy float, or a rational number times π. A float must be k π/d with d a divisor of 360 and |k| ≤ 1000.
+    `number`: a SymPy float, or a rational number times π. A float must be k π/d with d a divisor of 360 and |k| ≤
+    1000. An exact integer multiple of π gives None.
     """
     if number.is_Float:
         return _find_fraction_of_pi(float(sp.Float(number, 17)))
@@ -95,7 +96,8 @@ def make_readable(kernel: Kernel, name_branches: bool = True) -> Readable:
     """Return the readable form of a kernel: without copies of arguments and parameters, with a line for each branch.
 
     A branch is a conditional value, of min or `where` for example; `name_branches` False leaves it inside the
-    expressions. Empty sections are removed; values and the order of their terms stay.
+    expressions. The lines `y = value` and `p.x = y` are merged. Empty sections are removed; values and the order of
+    their terms stay.
     """
     arguments = {argument.name for argument in kernel.arguments}
     names = dict(kernel.names)
@@ -123,8 +125,8 @@ def make_readable_statements(statements: Sequence[Statement]) -> Readable:
 def _remove_copies(lines: Sequence[Line], arguments: Collection[str], names: dict[Key, Key]) -> list[Line]:
     """Return the lines without locals that are copies of arguments or parameters.
 
-    `names` is changed in place: it maps each removed local to the storage place that is read instead. The assignment of
-    a local that the next line stores to a parameter is merged with that line.
+    `names` is changed in place: it maps each removed local to the storage location that is read instead. The
+    assignment of a local that the next line stores to a parameter is merged with that line.
     """
     result: list[Line] = []
     for line in lines:

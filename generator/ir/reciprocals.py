@@ -1,4 +1,4 @@
-"""Divisions as products with reciprocals; reciprocals of parameters alone are computed once per run.
+"""Divisions as products with reciprocals (strength reduction); those of parameters are computed once per run.
 
 A division occupies the processor's divider for as long as several products take. Force laws divide by the same
 few lengths repeatedly.
@@ -55,7 +55,8 @@ def share_reciprocals(kernel: Kernel) -> Kernel:
 def _share_denominators(sections: tuple[Section, ...]) -> list[Section]:
     """Return the sections with 1/x as a local for each denominator x that occurs more than once.
 
-    The local is assigned before the first statement that reads it, and divisions become products with it.
+    The local is assigned before the first statement that reads it, and divisions become products with it: common
+    subexpression elimination.
     """
     statements = [s for section in sections for s in section.statements if isinstance(s, Statement)]
     values = [s.value for s in statements if isinstance(s.value, sp.Expr)]

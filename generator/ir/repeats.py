@@ -1,4 +1,4 @@
-"""Division of a sequence of statements into groups that repeat, such as those of equal bars and joints of a chain.
+"""Division of statements into groups that repeat (loop rerolling), such as those of equal bars of a chain.
 
 Statements are compared by their shapes: what they compute, without the names of their operands. Adjacent symbols that
 occur together most often are replaced by a new symbol, again and again (grammar-based compression: N. J. Larsson, A.
@@ -18,7 +18,7 @@ from gudgeon.generator.ir.statements import Line, Statement
 from gudgeon.generator.symbols.derivatives import find_symbols
 from gudgeon.generator.symbols.storage import Place, PlaceSymbol
 
-MIN_REPETITIONS = 3  # of a group that is worth a function with index tables
+MIN_REPETITIONS = 3  # of a group for which a function with index tables is shorter
 
 Pair = tuple[int, int]
 
@@ -58,7 +58,7 @@ def _replace_pairs(shapes: Sequence[Hashable], max_length: int) -> tuple[list[in
         new_symbols = _choose_pairs(counts, lengths, max_length)
         if not new_symbols:
             return symbols, lengths
-        symbols = _replace(symbols, new_symbols)
+        symbols = _replace_symbol_pairs(symbols, new_symbols)
 
 
 def _choose_pairs(counts: Mapping[Pair, int], lengths: list[int], max_length: int) -> dict[Pair, int]:
@@ -79,7 +79,7 @@ def _choose_pairs(counts: Mapping[Pair, int], lengths: list[int], max_length: in
     return new_symbols
 
 
-def _replace(symbols: Sequence[int], new_symbols: Mapping[Pair, int]) -> list[int]:
+def _replace_symbol_pairs(symbols: Sequence[int], new_symbols: Mapping[Pair, int]) -> list[int]:
     """Return a sequence with the pairs in `new_symbols` replaced from left to right."""
     result: list[int] = []
     last = len(symbols) - 1
@@ -92,10 +92,10 @@ def _replace(symbols: Sequence[int], new_symbols: Mapping[Pair, int]) -> list[in
 
 
 def find_line_shape(line: Line, copies: Mapping[str, Line]) -> Hashable:
-    """Return what a statement or a test of a pivot computes, without the names of its operands.
+    """Return the structure of a statement or of a test of a pivot, without the names of its operands.
 
-    `copies`: the statements that copy arguments, by the name of their local. Lines of one shape mostly have the same
-    text but for names, numbers of elements and statuses; a target that joins their code compares the texts.
+    `copies`: the statements that copy arguments, by the name of their local. Lines of one shape usually differ in
+    names, numbers of elements and statuses only; a target that merges their code compares the texts.
     """
     shapes = [_find_shape(expression, copies) for expression in line.expressions]
     if isinstance(line, Statement):
@@ -104,16 +104,20 @@ def find_line_shape(line: Line, copies: Mapping[str, Line]) -> Hashable:
 
 
 def _find_place_kind(value: object) -> Hashable:
-    """Return a place without the numbers of elements and the names of parameters; "" for other values."""
+    """Return a storage location without numbers of elements and names of parameters: ("rhs", "clearance", "Fx").
+
+    A parameter gives the name of its struct, a value that is no location "".
+    """
     if isinstance(value, Place) and value.is_parameter:
         return value.base
     return (value.base, *(step for step in value.path if isinstance(step, str))) if isinstance(value, Place) else ""
 
 
 def _find_shape(expression: sp.Basic, copies: Mapping[str, Line]) -> Hashable:
-    """Return an expression as nested tuples, with the kind of place in place of each symbol.
+    """Return an expression as nested tuples, with the kind of storage location in place of each symbol.
 
-    The terms of a sum and the factors of a product are in the order of the names of their symbols, as in the text.
+    A local that copies no argument gives "". Terms of a sum and factors of a product are in the order of the names of
+    their symbols, as in the text.
     """
     if expression.is_Symbol:
         if isinstance(expression, PlaceSymbol):

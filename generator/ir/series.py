@@ -1,4 +1,4 @@
-"""Taylor coefficients of a generated straight-line function: order 0 first, then each higher order.
+"""Taylor-mode automatic differentiation of a straight-line function: coefficients of order 0, then of each order.
 
 Where arguments are series in time every local is one too, and its coefficient of order k follows from those of its
 operands (A. Jorba, M. Zou, A software package for the numerical integration of ODEs by means of high-order Taylor
@@ -20,7 +20,7 @@ from dataclasses import dataclass, replace
 import sympy as sp
 
 from gudgeon.generator.ir.branches import ReturnIfOnlyJoints
-from gudgeon.generator.ir.kernels import Kernel, Section, change_expression, remove_unread_lines
+from gudgeon.generator.ir.kernels import Kernel, Section, change_expression, remove_unused_lines
 from gudgeon.generator.ir.series_rules import (
     INVERSE_NEXT_ORDER,
     INVERSE_ORDER,
@@ -46,16 +46,16 @@ from gudgeon.generator.ir.signatures import (
     make_output_argument,
 )
 from gudgeon.generator.ir.statements import Call, Guard, Jump, Line, Return, SolveDependentRows, Statement, Status
-from gudgeon.generator.symbols.storage import Place, PlaceSymbol, find_key
+from gudgeon.generator.symbols.storage import Place, PlaceSymbol, find_value_key
 
-TitledLine = tuple[str, Line]  # a line and its section's title
+SectionLine = tuple[str, Line]  # a line and its section's title
 
 
-def split_late_sums(lines: Iterable[TitledLine], make_unique_name: Callable[[str], str]) -> list[TitledLine]:
-    """Return the lines, as (section title, line), in which sums are split so that terms known late are added last.
+def split_sums_by_depth(lines: Iterable[SectionLine], make_unique_name: Callable[[str], str]) -> list[SectionLine]:
+    """Return the lines, as (section title, line), in which sums are split so that late terms are added last.
 
-    A term is known the later, the more dependent statements precede it. Partial sums become locals `<local>_known`;
-    `make_unique_name` returns an unused name. Only sums of locals are split.
+    This shortens the critical path. A term is computed the later, the more dependent statements precede it. Partial
+    sums become locals `<local>_known`; `make_unique_name` returns an unused name. Only sums of locals are split.
     """
     depth_by_local: dict[str, int] = {}
 
@@ -63,7 +63,7 @@ def split_late_sums(lines: Iterable[TitledLine], make_unique_name: Callable[[str
         """Return the largest depth of the symbols of an expression: how many dependent statements precede its value."""
         return max((depth_by_local.get(s.name, 0) for s in expression.free_symbols), default=0)
 
-    ordered: list[TitledLine] = []
+    ordered: list[SectionLine] = []
     for title, line in lines:
         if isinstance(line, Statement) and isinstance(line.value, sp.Expr):
             value: sp.Expr = line.value
@@ -158,7 +158,7 @@ def derive_taylor_series(
 ) -> Series:
     """Return the functions for the Taylor coefficients of a kernel's results: one of order 0, one of each higher order.
 
-    `find_place(place)`: where the new functions store the result of a storage place, or None if it is not requested.
+    `find_place(place)`: where the new functions store the result of a storage location, or None if it is not requested.
     `name`: the base of their names. `linear`: a linear system that the kernel solves, or None. Raise NoTaylorSeries for
     operations without a series.
     """
@@ -169,13 +169,13 @@ def derive_taylor_series(
     return builder.make_series(name)
 
 
-def _find_needed_lines(kernel: Kernel, find_place: FindPlace) -> list[TitledLine]:
+def _find_needed_lines(kernel: Kernel, find_place: FindPlace) -> list[SectionLine]:
     """Return the lines on which requested results depend, as (section title, line); other stores become locals.
 
-    `find_place(place)` is the new storage place of a requested result, or None. Lines that handle singular equations
+    `find_place(place)` is the new storage location of a requested result, or None. Lines that handle singular equations
     are dropped.
     """
-    lines: list[TitledLine] = []
+    lines: list[SectionLine] = []
     symbol_of_place: dict[sp.Basic, sp.Basic] = {}
     for section in kernel.sections:
         for line in section.statements:
@@ -202,7 +202,7 @@ def _replace_places(line: Line, local: Mapping[sp.Basic, sp.Basic]) -> Line:
 class _SeriesBuilder(Rules):
     """Builder of both functions, line by line: lines of order 0 and of order k."""
 
-    def __init__(self, lines: Sequence[TitledLine], linear: LinearSystem | None) -> None:
+    def __init__(self, lines: Sequence[SectionLine], linear: LinearSystem | None) -> None:
         """Begin with no converted lines.
 
         `lines`: all titled lines of the kernel, whose names are used and whose functions keep their names. `linear`:
@@ -210,8 +210,8 @@ class _SeriesBuilder(Rules):
         """
         statements = [line for _, line in lines if isinstance(line, Statement)]
         super().__init__({line.declared_local for line in statements})
-        self._values: list[TitledLine] = []
-        self._terms: list[TitledLine] = []
+        self._values: list[SectionLine] = []
+        self._terms: list[SectionLine] = []
         self._angle_differences = find_angle_differences(statements)
         self._name_of_function = {
             line.value: line.declared_local for line in statements if isinstance(line.value, sp.Function)
@@ -238,7 +238,7 @@ class _SeriesBuilder(Rules):
                 raise NoTaylorSeries(f"a {type(line).__name__.lower()} of the right-hand side is not an expression")
 
     def _add_input_line(self, line: Statement, place: Place) -> None:
-        """Append a line that reads time, state or a parameter at the storage place `place` to both functions.
+        """Append a line that reads time, state or a parameter at the storage location `place` to both functions.
 
         The local is recorded as a parameter or as varying. Raise NoTaylorSeries for other places.
         """
@@ -256,7 +256,7 @@ class _SeriesBuilder(Rules):
         """
         if not line.declared_local:
             self._values.append((self._title, line))
-            order_k = ZERO if self.is_constant(value) else value * INVERSE_NEXT_ORDER
+            order_k = ZERO if self.is_constant_in_time(value) else value * INVERSE_NEXT_ORDER
             self._terms.append((self._title, replace(line, value=order_k, comment="")))
         elif self._linear and self._title == self._linear.title:
             self._values.append((self._title, line))
@@ -267,17 +267,18 @@ class _SeriesBuilder(Rules):
         """Append the local `target` = `value` to both functions and return its symbol.
 
         A constant is appended to order 0 alone, unless `as_series`. If the local is a right-hand side of the linear
-        system A x = b, its order k is b_k minus Σ A_j x_{k-j}, j = 1 … k.
+        system A x = b, its order k is b_k minus Σ A_j x_{k-j}, j = 1 … k. The definitions in `pending` are appended
+        after it.
         """
         symbol = sp.Symbol(target, real=True)
         loads = self._linear.loads if self._linear else {}
-        if self.is_constant(value) and not (as_series or target in loads):
+        if self.is_constant_in_time(value) and not (as_series or target in loads):
             self._values.append((self._title, Statement(target, value)))
             return symbol
         if target not in loads:  # which are equal at order 0 alone
             value, definition = self.symbol_by_value.get(value, value), value
             self.symbol_by_value.setdefault(definition, symbol)
-        order_zero, order_k = self._expand_difference(value, symbol) or self.expand_orders(value, symbol)
+        order_zero, order_k = self._expand_angle_difference(value, symbol) or self.expand_orders(value, symbol)
         if self._linear and target in loads:
             order_k -= self._sum_lower_orders(self._linear, loads[target])
         self.varying.add(target)
@@ -296,14 +297,14 @@ class _SeriesBuilder(Rules):
         terms = []
         for column, x in linear.unknowns.items():
             entry = linear.entries.get((row, column), linear.entries.get((column, row), ZERO))
-            if not self.is_constant(entry):
-                moving = sp.Mul(*(a for a in sp.Mul.make_args(entry) if not self.is_constant(a)))
+            if not self.is_constant_in_time(entry):
+                moving = sp.Mul(*(a for a in sp.Mul.make_args(entry) if not self.is_constant_in_time(a)))
                 factor = self.define_value(moving)
                 product = make_order_zero_symbol(x) * factor + self.add_convolution(Factor(factor.name), Factor(x.name))
                 terms.append(self.express_at_order_zero(entry / moving) * product)
         return sp.Add(*terms)
 
-    def _expand_difference(self, value: sp.Expr, symbol: sp.Symbol) -> OrderPair | None:
+    def _expand_angle_difference(self, value: sp.Expr, symbol: sp.Symbol) -> OrderPair | None:
         """Return orders 0 and k of a local that is the cosine or sine of a difference of angles; None for other locals.
 
         `value`, `symbol`: its definition and symbol. Order k follows from the rate of the difference, without four
@@ -317,7 +318,7 @@ class _SeriesBuilder(Rules):
     def define_partner(self, value: sp.Expr) -> sp.Symbol:
         """Return the symbol of `value`, a function in the derivative of another one, such as cos u for sin u.
 
-        If it is not known yet it is defined, under its name in the kernel if it has one.
+        It is defined at the first use, under its name in the kernel if it has one.
         """
         if value in self.symbol_by_value:
             return self.symbol_by_value[value]
@@ -332,14 +333,17 @@ class _SeriesBuilder(Rules):
         been converted.
         """
         products, n_products = list[Product](), -1
-        while n_products < len(products):  # a sum that is read asks for its factors, and they for other sums
+        while n_products < len(products):  # a sum that is read needs its factors, and they need other sums
             n_products = len(products)
             terms = _prune_lines([*self._terms, *_make_factor_stores(products)])
             read_keys = {
-                find_key(s) for _, line in terms for expression in line.expressions for s in expression.free_symbols
+                find_value_key(s)
+                for _, line in terms
+                for expression in line.expressions
+                for s in expression.free_symbols
             }
             products = [product for product in self.products.values() if Place(SUMS)[product.name] in read_keys]
-        kept_values = tuple(
+        stored_names = tuple(
             sorted(name_.member for name_ in read_keys if isinstance(name_, Place) and name_.base == VALUES)
         )
         inverses = {name: 1 / b for name, b in self.inverses.items()}
@@ -348,23 +352,23 @@ class _SeriesBuilder(Rules):
                 "values that higher orders read",
                 Statement(Place(VALUES)[name_], inverses.get(name_, sp.Symbol(name_, real=True))),
             )
-            for name_ in kept_values
+            for name_ in stored_names
         ]
         values = _prune_lines([*self._values, *storing_lines])
-        arguments_of_values, arguments_of_terms = _make_kernel_arguments()
+        arguments_of_values, arguments_of_terms = _make_series_arguments()
         values_kernel = Kernel(
             f"{name}_values", _DOC_VALUES, arguments_of_values, _group_sections([*values, ("", Return())]), status=True
         )
-        term_sections = _group_sections(split_late_sums(terms, self.make_unique_name))
+        term_sections = _group_sections(split_sums_by_depth(terms, self.make_unique_name))
         return Series(
             values_kernel,
             Kernel(f"{name}_terms", _DOC_TERMS, arguments_of_terms, term_sections),
-            kept_values,
+            stored_names,
             tuple(products),
         )
 
 
-def _make_kernel_arguments() -> tuple[tuple[Argument, ...], tuple[Argument, ...]]:
+def _make_series_arguments() -> tuple[tuple[Argument, ...], tuple[Argument, ...]]:
     """Return (arguments of the function for order 0, arguments of that for order k > 0)."""
     rates = (make_output_argument("a"), make_output_argument("power"))
     factors = (make_output_argument(LEFT, "Wide"), make_output_argument(RIGHT, "Wide"))
@@ -376,7 +380,7 @@ def _make_kernel_arguments() -> tuple[tuple[Argument, ...], tuple[Argument, ...]
     return values, (*order, *STATE, PARAMETERS, *lower_orders, *rates, *factors)
 
 
-def _make_factor_stores(products: Sequence[Product]) -> list[TitledLine]:
+def _make_factor_stores(products: Sequence[Product]) -> list[SectionLine]:
     """Return the lines, with their title, that store the factors of all sums S_k for higher orders.
 
     S_k is a convolution of two series. The left and right factors fill rows of ROW_LENGTH elements; the last one may be
@@ -388,7 +392,7 @@ def _make_factor_stores(products: Sequence[Product]) -> list[TitledLine]:
         symbol = sp.Symbol(factor.name, real=True)
         return ORDER * symbol if factor.rate else symbol
 
-    title, lines = "factors of the sums of higher orders", list[TitledLine]()
+    title, lines = "factors of the sums of higher orders", list[SectionLine]()
     for row, start in enumerate(range(0, len(products), ROW_LENGTH)):
         group = products[start : start + ROW_LENGTH]
         lines.append((title, StoreRow(LEFT, row, tuple(make_coefficient(product.left) for product in group))))
@@ -396,13 +400,13 @@ def _make_factor_stores(products: Sequence[Product]) -> list[TitledLine]:
     return lines
 
 
-def _prune_lines(lines: list[TitledLine]) -> list[TitledLine]:
+def _prune_lines(lines: list[SectionLine]) -> list[SectionLine]:
     """Return the pairs (section title, line) without lines that define a local which no later line reads."""
-    kept_ids = {id(line) for line in remove_unread_lines([line for _, line in lines], set())}
-    return [item for item in lines if id(item[1]) in kept_ids]
+    used_ids = {id(line) for line in remove_unused_lines([line for _, line in lines], set())}
+    return [item for item in lines if id(item[1]) in used_ids]
 
 
-def _group_sections(lines: Iterable[TitledLine]) -> tuple[Section, ...]:
+def _group_sections(lines: Iterable[SectionLine]) -> tuple[Section, ...]:
     """Return pairs (section title, line) as sections; successive lines with the same title form one section."""
     sections: list[tuple[str, list[Line]]] = []
     for title, line in lines:

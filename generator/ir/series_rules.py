@@ -1,8 +1,8 @@
-"""Taylor coefficients of order k of each operation, from the coefficients of its operands.
+"""Rules for the Taylor coefficients of order k of each operation, from the coefficients of its operands.
 
-A function c = f(u) satisfies a differential equation whose other coefficients are known series: sines have
-c' = u' cos u, a power a c' = n a' c, an inverse tangent (1 + u^2) c' = u'. Rates stand in sums as j u_j, so that the
-results are k c_k.
+A function c = f(u) satisfies a differential equation whose other coefficients are known series: sines have c' = u' cos
+u, a power a c' = n a' c, an inverse tangent (1 + u^2) c' = u'. Rates stand in sums as j u_j, so that the results are k
+c_k.
 """
 
 from __future__ import annotations
@@ -62,7 +62,10 @@ OrderPair = tuple[sp.Expr, sp.Expr]  # a value at order 0 and at order k, both b
 
 
 class Rules(ABC):
-    """Series of expressions of locals; locals in `varying` have orders above 0, `parameters` are those of the run."""
+    """Recurrences of Taylor coefficients of expressions of locals and parameters.
+
+    `varying`: locals with orders above 0; `parameters`: locals that read parameters of the run.
+    """
 
     def __init__(self, used_names: set[str]) -> None:
         """Begin with time as the only local that varies.
@@ -73,7 +76,7 @@ class Rules(ABC):
         self.products: dict[tuple[Factor, Factor], Product] = {}
         self.symbol_by_value: dict[sp.Expr, sp.Symbol] = {}  # expressions that have a name
         self.pending: list[tuple[str, sp.Expr]] = []  # to be defined after the current definition
-        self.reciprocals: dict[sp.Symbol, sp.Symbol] = {}  # c by what it is 1 over: products with c are quotients
+        self.reciprocals: dict[sp.Symbol, sp.Symbol] = {}  # a by the symbol of c = 1/a
         self.inverses: dict[str, sp.Symbol] = {}  # 1/b_0 by name
         self._used_names = used_names
 
@@ -85,7 +88,7 @@ class Rules(ABC):
     def define_partner(self, value: sp.Expr) -> sp.Symbol:
         """Return the symbol of another function of the same argument."""
 
-    def is_constant(self, value: sp.Basic) -> bool:
+    def is_constant_in_time(self, value: sp.Basic) -> bool:
         """Return whether a value has only order 0: it contains no local that varies with time."""
         return not any(s.name in self.varying for s in value.free_symbols)
 
@@ -110,11 +113,11 @@ class Rules(ABC):
     def define_series(self, value: sp.Expr) -> sp.Symbol:
         """Return the symbol of a local that holds a value as a series in time.
 
-        A constant gets a new local "still_…" with zeros at higher orders.
+        A constant gets a new local, whose coefficients are 0 above order 0.
         """
         return (
             self.define_local(self.make_unique_name("still"), value, True)
-            if self.is_constant(value)
+            if self.is_constant_in_time(value)
             else self.define_value(value)
         )
 
@@ -125,7 +128,7 @@ class Rules(ABC):
         the symbol of the local that is being defined as this value, which a rule may read. If it is None, a function or
         a power other than x^n with an integer n > 1 becomes a new local.
         """
-        if self.is_constant(value):
+        if self.is_constant_in_time(value):
             return value, sp.Integer(0)
         if value.is_Symbol:
             return value, value
@@ -151,8 +154,8 @@ class Rules(ABC):
         It is a constant times a product of two locals, or a quotient of two; more factors are combined in new locals
         first. `symbol_of_value`: the symbol of the value, or None.
         """
-        constant = sp.Mul(*(factor for factor in sp.Mul.make_args(value) if self.is_constant(factor)))
-        varying = [factor for factor in sp.Mul.make_args(value) if not self.is_constant(factor)]
+        constant = sp.Mul(*(factor for factor in sp.Mul.make_args(value) if self.is_constant_in_time(factor)))
+        varying = [factor for factor in sp.Mul.make_args(value) if not self.is_constant_in_time(factor)]
         denominators = [
             factor for factor in varying if factor.is_Pow and factor.exp.is_number and factor.exp.is_negative
         ]
@@ -185,9 +188,10 @@ class Rules(ABC):
         )
 
     def _combine_factors(self, values: list[sp.Expr]) -> list[sp.Symbol]:
-        """Return a list of at most two symbols whose product is that of the values; a single sum is returned as it is.
+        """Return at most two symbols whose product is that of the values; a single sum is returned as it is.
 
-        Integer powers are repeated factors, high powers squares of lower ones; new locals hold partial products.
+        Integer powers up to 4 are repeated factors, higher ones squares of lower ones; new locals hold partial
+        products.
         """
         if len(values) == 1 and values[0].is_Add:
             return values
@@ -214,7 +218,7 @@ class Rules(ABC):
         c = a^n follows from a c' = n a' c, a square root from a = c c, and 1/a as a quotient. `symbol_of_value`: the
         symbol of c. Raise NoTaylorSeries if the exponent varies with time.
         """
-        if not self.is_constant(value.exp):
+        if not self.is_constant_in_time(value.exp):
             raise NoTaylorSeries("a power has an exponent that varies")
         a, n = self.define_value(value.base), value.exp
         if n.is_Integer and n < -1:
@@ -224,19 +228,19 @@ class Rules(ABC):
             return 1 / a, self.divide_series(sp.Integer(0), a, symbol_of_value)
         if n == _HALF:
             lower_orders = self.add_convolution(Factor(symbol_of_value.name), Factor(symbol_of_value.name))
-            return a**n, (a - lower_orders) * _HALF * self.get_inverse(symbol_of_value)
+            return a**n, (a - lower_orders) * _HALF * self.store_inverse(symbol_of_value)
         varying_base = self.add_convolution(Factor(a.name, True), Factor(symbol_of_value.name))
         varying_power = self.add_convolution(Factor(a.name), Factor(symbol_of_value.name, True))
         n = self.express_at_order_zero(n)
         return a**value.exp, (
             n * a * make_order_zero_symbol(symbol_of_value) + (n * varying_base - varying_power) * INVERSE_ORDER
-        ) * self.get_inverse(a)
+        ) * self.store_inverse(a)
 
     def _expand_function(self, value: sp.Expr, symbol_of_value: sp.Symbol) -> OrderPair:
-        """Return the coefficients of order 0 and of order k of a function of series; atan2 has a rule of its own.
+        """Return the coefficients of order 0 and of order k of a function of series, such as sin(u) or atan2(y, x).
 
-        Order k follows from the derivative in the table of functions. `symbol_of_value`: the symbol of the value. Raise
-        NoTaylorSeries if there is none.
+        Order k follows from the derivative in the table of functions. `symbol_of_value`: the symbol of the value.
+        Raise NoTaylorSeries if the table has none.
         """
         derivative = CLASSES[type(value)].derivative if type(value) in CLASSES else ""
         if not derivative and not isinstance(value, sp.atan2):
@@ -270,16 +274,16 @@ class Rules(ABC):
             a
             - make_order_zero_symbol(symbol_of_quotient) * b
             - self.add_convolution(Factor(symbol_of_quotient.name), Factor(b.name))
-        ) * self.get_inverse(b)
+        ) * self.store_inverse(b)
 
-    def get_inverse(self, b: sp.Symbol) -> sp.Expr:
-        """Return the symbol of 1/b_0, b_0 the coefficient of order 0 of b; it is stored for all higher orders."""
+    def store_inverse(self, b: sp.Symbol) -> sp.Expr:
+        """Return the symbol of 1/b_0, b_0 the coefficient of order 0 of b, and have it stored for all higher orders."""
         name = f"{b.name}_inverse"
         self.inverses[name] = b
         return PlaceSymbol(Place(VALUES)[name])
 
     def integrate_product(self, u: sp.Symbol, w: sp.Symbol) -> sp.Expr:
-        """Return order k > 0 of the series c with c' = u' w."""
+        """Return order k > 0 of the series c with c' = u' w: u_k w_0 + (1/k) Σ j u_j w_{k-j}, j from 1 to k − 1."""
         return (
             u * make_order_zero_symbol(w) + self.add_convolution(Factor(u.name, True), Factor(w.name)) * INVERSE_ORDER
         )
@@ -288,10 +292,10 @@ class Rules(ABC):
         """Return order k > 0 of the series c with w c' = u'; `symbol_of_value` is the symbol of c, `u` order k of u."""
         return (
             u - self.add_convolution(Factor(w.name), Factor(symbol_of_value.name, True)) * INVERSE_ORDER
-        ) * self.get_inverse(w)
+        ) * self.store_inverse(w)
 
     def add_convolution(self, left: Factor, right: Factor) -> sp.Symbol:
-        """Return the symbol of the sum S_k = Σ left_j right_{k-j}, j from 1 to k − 1, of the series of two factors.
+        """Return the symbol of the sum S_k = Σ left_j right_{k-j}, j from 1 to k − 1, of two series (Cauchy product).
 
         The sum is recorded once: exchanged factors give the same sum.
         """
@@ -300,7 +304,7 @@ class Rules(ABC):
         product = self.products.setdefault(factors, Product(name, *factors))
         return PlaceSymbol(Place(SUMS)[product.name])
 
-    def define_square_later(self, symbol_of_value: sp.Symbol) -> sp.Symbol:
+    def postpone_square_definition(self, symbol_of_value: sp.Symbol) -> sp.Symbol:
         """Return a new symbol for the square of the local that is being defined.
 
         Its definition is appended to `pending`, so that it follows that of the local.
@@ -344,7 +348,7 @@ def _expand_by_derivative(rules: Rules, derivative: str, u: sp.Symbol, symbol_of
     terms = []
     for coefficient, w in (term.as_coeff_Mul() for term in sp.Add.make_args(numerator)):
         if w == symbol_of_value**2:
-            w = rules.define_square_later(symbol_of_value)
+            w = rules.postpone_square_definition(symbol_of_value)
         elif w.is_Function:
             w = rules.define_partner(w)
         elif not w.is_Symbol and w != 1:

@@ -68,7 +68,7 @@ ZERO = sp.Integer(0)
 
 
 def make_contact_arguments(index: int) -> tuple[Place, ...]:
-    """Return the last arguments of a call of the force function of joint `index` with play, as storage places.
+    """Return the last arguments of a call of the force function of joint `index` with play, as storage locations.
 
     They are its contact state, the parameters, the frozen branches and the switching functions.
     """

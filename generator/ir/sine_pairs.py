@@ -23,10 +23,10 @@ _MakeLines = Callable[[Sequence[sp.Symbol], Sequence[Statement], int], tuple[lis
 
 
 def vectorize_sines(kernel: Kernel) -> Kernel:
-    """Return the kernel with its cosines and sines computed four angles at a time, in vectors.
+    """Return the kernel with its cosines and sines computed four angles at a time, in SIMD vectors.
 
-    Each vector is computed as soon as its angles are known. The function is for single runs; lanes use
-    `call_sines_by_lane`.
+    Each vector is computed as soon as its angles are known. Sections with lines other than assignments of expressions
+    stay unchanged. The function is for single runs; lanes use `call_sines_by_lane`.
     """
     return _group_sines(kernel, _make_vectors)
 
@@ -73,11 +73,11 @@ def _find_angle(statement: Line) -> sp.Symbol | None:
 
 
 def _group_sines_in_section(section: Section, make_lines: _MakeLines, n_groups: int) -> tuple[Section, int]:
-    """Return the section with its cosines and sines in groups, as early as possible, and the number of groups so far.
+    """Return the section with its cosines and sines in groups, as early as possible, and the new number of groups.
 
     `make_lines` makes the lines of groups; `n_groups`: the number before. Statements that the angles depend on come
-    first, then the groups, then the rest. A section with lines that are not assignments, or without angles, is returned
-    unchanged.
+    first, then the groups, then the rest. A section with lines that are not assignments of expressions, or without
+    angles, is returned unchanged.
     """
     statements = [
         statement

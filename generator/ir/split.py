@@ -1,17 +1,17 @@
-"""Division of a long generated function into parts that a C compiler can handle.
+"""Division of a long generated function into parts that a C compiler can handle (code outlining), and scheduling.
 
 Compilers allocate registers for a function as a whole, in more than linear time: the dynamics of 64 four-bars as one
-function of ten thousand statements would take gcc a minute. So a kernel of more than 850 lines becomes several of 250
-statements, called one after the other. A value that one part computes and another reads is passed through an array,
-under the same name in both. Shorter kernels, that is all except long chains, stay as they are. Runs of plain statements
-and of tests of pivots are divided. Lines that declare, call or jump stay in the function itself, and so do lines that
-read names which only such lines know. Before that, statements are moved near those that read them
-(`order_statements_near_readers`). As derived, a kernel first computes all directions and arms, then all pivots, then
-all substitutions: in a long one each value has left the registers and the nearest cache before it is read. Here a
-result or a test of a pivot is preceded by what it needs, and what can be computed from the values at hand is computed
-then. Each statement stays as it is and follows what it reads: the numbers are the same, bit for bit.
-Where statements repeat, as those of equal bars of a chain do, parts are cut so that they repeat as well (repeats.py).
-A target may then print equal parts once.
+function of ten thousand statements would take gcc a minute. So a kernel of more than _MAX_LINES lines becomes several
+of at most _MAX_PART_LINES statements, called one after the other. A value that one part computes and another reads is
+passed through an array, under the same name in both. Shorter kernels, that is all except long chains, stay as they
+are. Runs of plain statements and of tests of pivots are divided. Lines that declare, call or jump stay in the function
+itself, and so do lines that read names which only such lines know. Before that, statements are moved near those that
+read them (`order_statements_near_readers`). As derived, a kernel first computes all directions and arms, then all
+pivots, then all substitutions: in a long one each value has left the registers and the nearest cache before it is
+read. Here a result or a test of a pivot is preceded by its operands, and a statement whose operands are all known
+follows at once. Each statement is unchanged and follows its operands: the numbers are the same, bit for bit. Where
+statements repeat, as those of equal bars of a chain do, parts are cut so that they repeat as well (repeats.py). A
+target may then print equal parts once.
 """
 
 from __future__ import annotations
@@ -48,10 +48,10 @@ from gudgeon.generator.symbols.storage import Place
 
 
 def order_statements_near_readers(read_names: Sequence[frozenset[str]], defined_names: Sequence[str]) -> list[int]:
-    """Return an order of statements, as a list of indices, in which each is near those that read its result.
+    """Return a schedule of statements, as a list of indices, in which each is near those that read its result.
 
-    Statement k reads the names `read_names[k]` and defines `defined_names[k]` ("": a result or a test). Each follows
-    the statements whose results it reads.
+    This shortens the live ranges of values. Statement k reads the names `read_names[k]` and defines `defined_names[k]`
+    ("": a result or a test). Each follows the statements whose results it reads.
     """
     index_by_name = {name: k for k, name in enumerate(defined_names) if name}
     dependencies = [
@@ -213,9 +213,10 @@ def _find_copied_argument(line: Line) -> str:
 
 
 def _list_constant_locals(kernel: Kernel) -> list[Argument]:
-    """Return what a function declares once and its parts get as arguments from which they copy.
+    """Return the locals that a function declares once and its parts get as arguments.
 
-    These are the arrays of sines and cosines that a loop fills, and the parameters if the function reads their address.
+    These are the arrays of sines and cosines that a loop fills, and the parameters if the function reads their
+    address.
     """
     lines = [line for section in kernel.sections for line in section.statements]
     loops = [line for line in lines if isinstance(line, Sines) and line.count]
@@ -230,10 +231,11 @@ def _list_local_arrays(kernel: Kernel) -> list[Argument]:
 
 
 def _divide_lines(items: Sequence[TitledLine], copies: Mapping[str, Line]) -> list[list[TitledLine]]:
-    """Return the lines in pieces: each run of movable lines in parts, other lines between them.
+    """Return the lines in pieces: each run of movable lines divided into parts, other lines between them.
 
     A part has at most _MAX_PART_LINES lines. A run shorter than _MIN_PART_LINES becomes unmovable and stays in the
-    calling function. `copies`: the lines that copy arguments, by the name of their local.
+    calling function. Within a run, lines are reordered (`_order_lines`). `copies`: the lines that copy arguments, by
+    the name of their local.
     """
     pieces = []
     for movable, group in groupby(items, key=lambda item: item.movable):
@@ -246,7 +248,10 @@ def _divide_lines(items: Sequence[TitledLine], copies: Mapping[str, Line]) -> li
 
 
 def _divide_movable_lines(lines: Sequence[TitledLine], copies: Mapping[str, Line]) -> list[list[TitledLine]]:
-    """Return movable lines in parts: groups of lines that repeat, and what is between them in parts of equal length."""
+    """Return movable lines in parts: groups of lines that repeat, and the lines between them in parts of equal length.
+
+    The latter have at most _MAX_PART_LINES lines.
+    """
     pieces = []
     first = 0
     shapes = [find_line_shape(item.line, copies) for item in lines]

@@ -46,7 +46,7 @@ class Statement(Line):
 
     @property
     def expressions(self) -> tuple[sp.Basic, ...]:
-        """Return the SymPy expressions in the assigned value, in a tuple; empty for a storage place."""
+        """Return the SymPy expressions in the assigned value, in a tuple; empty for a storage location."""
         return (self.value,) if isinstance(self.value, sp.Basic) else self.value.expressions
 
     @property
@@ -86,21 +86,21 @@ class Declare(Line):
 
 @dataclass(frozen=True)
 class Call(Line):
-    """A call `function(given, …, results, …)`; structs are passed by their address."""
+    """A call `function(inputs, …, results, …)`; structs are passed by their address."""
 
     function: str
-    given: tuple[sp.Basic | Place, ...]
+    inputs: tuple[sp.Basic | Place, ...]
     results: tuple[Place, ...]
 
     @property
     def expressions(self) -> tuple[sp.Basic, ...]:
         """Return the expressions that are passed."""
-        return tuple(x for x in self.given if isinstance(x, sp.Basic))
+        return tuple(x for x in self.inputs if isinstance(x, sp.Basic))
 
     @property
     def names(self) -> Names:
         """Return the arguments and arrays that are passed."""
-        return frozenset(x.base for x in self.given if isinstance(x, Place))
+        return frozenset(x.base for x in self.inputs if isinstance(x, Place))
 
     @property
     def writes(self) -> Names:  # type: ignore[override]
@@ -110,11 +110,10 @@ class Call(Line):
 
 @dataclass(frozen=True)
 class Guard(Line):
-    """A test, or a call that must return 0; if it fails, the function fails with a number.
+    """A test, or a call that must return 0; if it fails, the function ends with a status number.
 
-    To fail is to return the number, or to store it as `pivot` and to jump to the code for dependent equations. With
-    `condition`
-    the test is made only where that holds.
+    Without `jumps` it returns the number. With `jumps` it stores the number as `pivot` and jumps to the code for
+    dependent equations. With `condition` the test is made only where that holds.
     """
 
     test: Test | Call
@@ -252,8 +251,8 @@ class LargestRow(Line):
 
 
 @dataclass(frozen=True)
-class MarkUnread(Line):
-    """A mark that a local is deliberately not read."""
+class MarkUnused(Line):
+    """A mark that a local is deliberately not read: C casts it to void."""
 
     name: str
 
@@ -265,18 +264,21 @@ class MarkUnread(Line):
 
 @dataclass(frozen=True)
 class DeclareBranches(Line):
-    """The declaration of frozen branches, and of where switching functions are written: "" nowhere, "unread", "rhs"."""
+    """The declaration of frozen branches, and of where switching functions are written: `output_target`.
+
+    It is "" (nowhere), "local" (a local array g that is not read later) or "rhs" (the array g of `rhs`).
+    """
 
     output_target: str
     held: bool = True
 
     @property
     def names(self) -> Names:
-        """Return the names of the arguments that the declaration reads.
+        """Return the names that the declaration declares or reads.
 
         These are `branch`, the outputs for switching functions by `output_target`, and `discrete` if branches are held.
         """
-        outputs = {"": [], "unread": ["g"], "rhs": ["g", "rhs"]}[self.output_target]
+        outputs = {"": [], "local": ["g"], "rhs": ["g", "rhs"]}[self.output_target]
         return frozenset(["branch", *outputs, *(["discrete"] if self.held else [])])
 
 

@@ -128,7 +128,7 @@ class ContinuedSum:
 
 @dataclass(frozen=True)
 class ParameterOrDefault:
-    """Parameter k as it is given, or else its default."""
+    """Parameter k: the value of the run if it has one, else the default."""
 
     k: int
     default: sp.Expr

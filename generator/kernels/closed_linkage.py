@@ -1,4 +1,7 @@
-"""Functions of the closed linkage (every joint without play): Φ, Φ_q, ν, γ, M, the start and the parameter table."""
+"""Kernels of the closed linkage (every joint without play): Φ, Φ_q, ν, γ, M, the initial values, the parameter table.
+
+A kernel is a function as statements (ir/kernels.py), which the targets print as C, NumPy and JavaScript.
+"""
 
 from __future__ import annotations
 
@@ -15,11 +18,11 @@ from gudgeon.generator.ir.values import ParameterOrDefault
 from gudgeon.generator.symbols.storage import Place
 
 
-def make_prepare_kernel(model: Model) -> Kernel:
-    """Return the C function that fills the parameter table of a run.
+def make_parameter_table_kernel(model: Model) -> Kernel:
+    """Return the kernel `prepare`, which fills the parameter table `p` of a run before the run starts.
 
-    A value given for the run replaces the default of the file; the derived parameters are then computed. Call it after
-    all parameters have been derived.
+    A parameter has the value `given[i]` if `is_given[i]`, else the default of the file. The derived parameters are
+    computed after that. Call it after all parameters have been derived.
     """
     parameters: list[Statement] = []
     info = model.symbols.info
@@ -44,7 +47,7 @@ def make_prepare_kernel(model: Model) -> Kernel:
 
 
 def make_mass_kernel(model: Model) -> Kernel:
-    """Return the C function that writes the diagonal of the mass matrix M in absolute coordinates to `m` (n)."""
+    """Return the kernel that writes the diagonal of the mass matrix M in absolute coordinates to `m` (n)."""
     builder = KernelBuilder(
         model.symbols, "mass_matrix", ["The diagonal of the mass matrix M (n) in absolute coordinates."]
     )
@@ -54,8 +57,8 @@ def make_mass_kernel(model: Model) -> Kernel:
     return builder.build_kernel((PARAMETERS, make_output_argument("m")))
 
 
-def make_row_kernels(model: Model) -> list[Kernel]:
-    """Return the C functions of the constraint equations without play: Φ, Φ_q (dense, row by row), ν and γ."""
+def make_constraint_kernels(model: Model) -> list[Kernel]:
+    """Return the kernels of the constraint equations without play: Φ, Φ_q (dense, row by row), ν and γ."""
 
     def make_kernel(
         name: str,
@@ -65,7 +68,7 @@ def make_row_kernels(model: Model) -> list[Kernel]:
         get_value: Callable[[Row], sp.Expr],
         unit_suffix: str = "",
     ) -> Kernel:
-        """Return the C function `name` that writes one value of each constraint equation to the array `array`.
+        """Return the kernel `name` that writes one value of each constraint equation to the array `array`.
 
         `doc`: its comment; `reads_velocity`: the value depends on velocities; `get_value` returns it; `unit_suffix`:
         suffix of the unit, such as "/s".
@@ -76,13 +79,13 @@ def make_row_kernels(model: Model) -> list[Kernel]:
             builder.append_store(
                 Place(array)[row_index],
                 get_value(row),
-                f"{row.name}, {row.unit}{unit_suffix}{_describe_absence(model, row)}",
+                f"{row.name}, {row.unit}{unit_suffix}{_describe_exclusion(model, row)}",
             )
         arguments = (*STATE, PARAMETERS, make_output_argument(array))
         return builder.build_kernel(arguments if reads_velocity else (*STATE[:2], *arguments[3:]))
 
     note = " Rows marked 'open' or 'redundant' do not constrain the motion."
-    note *= any(_describe_absence(model, row) for row in model.all_rows)
+    note *= any(_describe_exclusion(model, row) for row in model.all_rows)
     return [
         make_kernel(
             "constraints", f"Phi(q, t) of the closed linkage; m and rad.{note}", "phi", False, lambda row: row.phi
@@ -107,10 +110,10 @@ def make_row_kernels(model: Model) -> list[Kernel]:
     ]
 
 
-def _describe_absence(model: Model, row: Row) -> str:
-    """Return the end of an equation's comment that says why it does not constrain the motion: play or redundancy.
+def _describe_exclusion(model: Model, row: Row) -> str:
+    """Return the end of an equation's comment if the equation does not constrain the motion, else "".
 
-    Return "" if the equation constrains the motion.
+    Examples: "; open, B has play" and "; redundant, left out".
     """
     if row.owner in model.scene.play:
         return f"; open, {row.owner} has play"
@@ -118,7 +121,7 @@ def _describe_absence(model: Model, row: Row) -> str:
 
 
 def _make_jacobian_kernel(model: Model) -> Kernel:
-    """Return the C function of the dense Jacobian Φ_q, row by row, of all equations, also of joints with play.
+    """Return the kernel of the dense Jacobian Φ_q, row by row, of all equations, also of joints with play.
 
     It writes only the non-zero entries and leaves the others as they are.
     """
@@ -138,10 +141,11 @@ def _make_jacobian_kernel(model: Model) -> Kernel:
 
 
 def make_start_kernel(model: Model) -> Kernel:
-    """Return the C function that writes the values of the file's `start` to the arrays `guess`, `set` and `rates`.
+    """Return the kernel that writes the values of the file's `start` to the arrays `guess`, `set` and `rates`.
 
-    Eccentricities of journals follow the coordinates in `set`, their rates follow in `rates`; those of sliders have the
-    opposite sign.
+    `guess`: first values for the search of a position; `set`: prescribed coordinates; `rates`: prescribed velocities.
+    Eccentricities of journals follow the coordinates in `set`, their rates follow in `rates`; those of sliders have
+    the opposite sign.
     """
     builder = KernelBuilder(
         model.symbols,

@@ -29,7 +29,7 @@ from gudgeon.generator.ir.kernels import (
 )
 from gudgeon.generator.ir.signatures import DISCRETE, PARAMETERS, STATE, Number, make_output_argument
 from gudgeon.generator.ir.sine_pairs import vectorize_sines
-from gudgeon.generator.ir.statements import DeclareBranches, LargestRow, MarkUnread, Return, Statement
+from gudgeon.generator.ir.statements import DeclareBranches, LargestRow, MarkUnused, Return, Statement
 from gudgeon.generator.reduction.driven_loops import DrivenLoops
 from gudgeon.generator.solvers.square_rows import SquareSystem
 from gudgeon.generator.symbols.storage import Place
@@ -46,27 +46,27 @@ FROZEN_BRANCHES_SECTION = Section(FROZEN_BRANCHES_TITLE, (DeclareBranches(""),))
 
 
 class DrivenLoopKernels:
-    """C functions of a system's kinematically determined loops: steps, rates, third rates, directions.
+    """Kernels of a system's kinematically determined loops: steps, rates, third rates, directions.
 
     `switch_kernel` evaluates the switching functions of their drives; None if they have none.
     """
 
     def __init__(self, system: System, loops: DrivenLoops) -> None:
-        """Derive the functions of the loops in `loops`, whose coordinates follow those of `system` in q.
+        """Derive the kernels of the loops in `loops`, whose coordinates follow those of `system` in q.
 
-        The function of switching functions is made only if the drives have any; `size` scales steps of slides, 0
-        without slides.
+        `size` is a length in m by which displacements are divided in the test of convergence; 0 without sliding
+        joints.
         """
         self.system, self.loops, self.symbols = system, loops, system.model.symbols
         loop_system = replace(
             system,
-            q=tuple(k.q for k in loops.known),
-            v=tuple(k.rate for k in loops.known),
+            q=tuple(k.q for k in loops.coordinates),
+            v=tuple(k.rate for k in loops.coordinates),
             rows=loops.rows,
             dependent=(),
         )
         self.square = SquareSystem(loop_system, ["." in name for name in loops.names])
-        self.first = len(system.q)  # of the chains' coordinates in q and v
+        self.first = len(system.q)  # index of the loops' coordinates in q and v
         kernels = [vectorize_sines(remove_unused_locals(kernel)) for kernel in self._make_kernels()]
         branches = [
             statement.value
@@ -80,10 +80,7 @@ class DrivenLoopKernels:
         self.size = self._derive_length_scale() if any("." in name for name in loops.names) else ZERO
 
     def _make_kernels(self) -> list[Kernel]:
-        """Return the functions of the loops in the order in which they are printed.
-
-        They compute directions, steps, rates and third rates.
-        """
+        """Return the kernels of the loops in the order of printing: directions, steps, rates, third rates."""
         return [
             self._make_direction_kernel(),
             self._make_step_kernel(),
@@ -92,7 +89,7 @@ class DrivenLoopKernels:
         ]
 
     def _make_direction_kernel(self) -> Kernel:
-        """Return the C function that stores the cosines and sines of the loops' angles in q, after the coordinates.
+        """Return the kernel that stores the cosines and sines of the loops' angles in q, after the coordinates.
 
         All other functions of the motion read them there.
         """
@@ -111,9 +108,10 @@ class DrivenLoopKernels:
         return builder.build_kernel((*STATE[:2], DISCRETE, PARAMETERS, make_output_argument("out")), owner="")
 
     def _derive_length_scale(self) -> sp.Expr:
-        """Return the length scale (characteristic length) of the mechanism in m, which scales steps of slides.
+        """Return the length scale (characteristic length) of the mechanism in m, which scales steps of sliding joints.
 
-        It is the root of the sum of squares of all points' coordinates, also on the ground, as a derived parameter.
+        It is the root of the sum of squares of all points' coordinates in their bodies' frames, also on the ground. It
+        is added as the derived parameter "extent".
         """
         geometry, parameter_table = self.system.model.geometry, self.system.model.parameter_table
         ground = map(geometry.ground_vector, self.system.model.scene.mechanism.ground.values())
@@ -121,7 +119,7 @@ class DrivenLoopKernels:
         return parameter_table.derive_parameter("extent", sp.sqrt(sp.Add(*squares)), "extent of all points")
 
     def _make_step_kernel(self) -> Kernel:
-        """Return the C function of one step of Chebyshev's method onto the closures, to be subtracted from coordinates.
+        """Return the kernel of one step of Chebyshev's method onto the closures, to be subtracted from coordinates.
 
         It writes the whole step, its part of order 3 alone, and the number of the equation with the largest |Φ|, from
         1. It returns 0, or the number of an equation that depends on others there.
@@ -160,14 +158,14 @@ class DrivenLoopKernels:
 
         c are the dependent coordinates; `step` has one component for each, in their order.
         """
-        step_of = dict(zip([k.q for k in self.loops.known], step, strict=True))
+        step_of = dict(zip([k.q for k in self.loops.coordinates], step, strict=True))
         slope = sp.Add(*(entry * step_of[q] for q, entry in row.phi_q.items()))
         return sp.expand(
             sp.Add(*(self.symbols.differentiate(slope, q) * component for q, component in step_of.items()))
         )
 
     def _make_rate_kernel(self) -> Kernel:
-        """Return the C function of the first and second rates ċ, c̈ at coordinates that close the loops.
+        """Return the kernel of the first and second rates ċ, c̈ at coordinates that close the loops.
 
         They are stored in v after the other rates. It returns 0, or the number of an equation that depends on others
         there.
@@ -182,7 +180,7 @@ class DrivenLoopKernels:
                 "Returns 0, or the number of a row that depends on others here.",
             ],
         )
-        dependent, rows = self.loops.known, self.loops.rows
+        dependent, rows = self.loops.coordinates, self.loops.rows
         solvers = self.square.factorize(builder)
         builder.begin_section("rates")
         rates = self.square.solve(builder, solvers, [row.nu for row in rows], "rate")
@@ -202,7 +200,7 @@ class DrivenLoopKernels:
         )
 
     def _make_third_rate_kernel(self) -> Kernel:
-        """Return the C function of the third rates of the loops' coordinates c: Φ_c c⃛ = d/dt (γ − Φ_c c̈).
+        """Return the kernel of the third rates of the loops' coordinates c: Φ_c c⃛ = d/dt (γ − Φ_c c̈).
 
         The derivative is by forward differentiation at constant c̈. The function returns 0, or the number of an
         equation that depends on others there.
@@ -215,7 +213,7 @@ class DrivenLoopKernels:
                 "Returns 0, or the number of a row that depends on others here.",
             ],
         )
-        dependent, t = self.loops.known, self.system.model.t
+        dependent, t = self.loops.coordinates, self.system.model.t
         solvers = self.square.factorize(builder)
         builder.begin_section("third rates")
         tangents = Tangents(self.symbols, builder, (t,))
@@ -234,13 +232,13 @@ class DrivenLoopKernels:
         )
 
     def _find_rate_symbols(self) -> list[sp.Symbol]:
-        """Return the defined symbols that read rates of the loops, but no coordinate or rate of the free motion.
+        """Return the defined symbols that depend on rates of the loops, but not on the free coordinates and rates.
 
-        "Read" includes other definitions. Their definitions follow the computed rates instead of standing at the
-        beginning of the function.
+        Dependence through other definitions counts. The caller writes these definitions after the computed rates, not
+        at the beginning of the function.
         """
         info, definitions = self.symbols.info, self.symbols.definitions
-        varying = {k.rate for k in self.loops.known}
+        varying = {k.rate for k in self.loops.coordinates}
         system_symbols = {*self.system.v, *self.system.q}
         result = []
         for symbol in [s for s in info if s in definitions and not info[s].place]:
@@ -253,7 +251,7 @@ class DrivenLoopKernels:
         return [symbol for symbol in result if symbol not in system_symbols]
 
     def _make_switch_kernel(self, branches: Sequence[BranchOf]) -> Kernel:
-        """Return the C function of the switching functions of the loops' drives, which no other function writes.
+        """Return the kernel of the switching functions of the loops' drives, which no other function writes.
 
         `branches`: the branches (signs of switching functions) that the other functions read, also repeated ones.
         """
@@ -264,6 +262,6 @@ class DrivenLoopKernels:
         for branch in dict.fromkeys(branches):
             name = f"side_{branch.args[0]}"
             builder.append_line(Statement(name, branch))
-            builder.append_line(MarkUnread(name))
+            builder.append_line(MarkUnused(name))
         kernel = builder.build_kernel((*STATE[:2], DISCRETE, PARAMETERS, make_output_argument("g")), owner="")
         return replace(kernel, sections=(FROZEN_BRANCHES_SECTION, *kernel.sections))

@@ -9,7 +9,7 @@ import sympy as sp
 
 from gudgeon.generator.equations.contact_points import Wall
 from gudgeon.generator.equations.loads import PointLoad
-from gudgeon.generator.equations.model import Model, derive_stick_gain
+from gudgeon.generator.equations.model import Model, derive_stick_baumgarte_gain
 from gudgeon.generator.equations.play import Clearance
 from gudgeon.generator.equations.system import System
 from gudgeon.generator.ir.branches import ReturnIfOnlyJoints
@@ -47,11 +47,12 @@ def make_dynamics_kernel(
     is_stabilized: bool = True,
     append_fallback: AppendFallback | None = None,
 ) -> Kernel:
-    """Return the C function of q̈ and λ at a state, with the forces of joints with play: the right-hand side.
+    """Return the kernel of the right-hand side: q̈ and λ at a state, with the forces of joints with play.
 
     `kkt`: the elimination to print; `doc`: the function's comment. `append_fallback` appends the code for a vanishing
     pivot; None: the default, which finds the dependent equations. With `is_stabilized` Baumgarte's terms are added to
-    γ; without, Φ and Φ̇ are not computed: for methods that project.
+    γ; without, Φ and Φ̇ are not computed: for methods that project. With dry friction or rigid contacts a vanishing
+    pivot is reported and `append_fallback` is not called.
     """
     model = system.model
     builder = KernelBuilder(model.symbols, name, (*doc, *describe_elimination(kkt)))
@@ -97,8 +98,8 @@ def make_dynamics_kernel(
 def describe_elimination(kkt: KKT) -> list[str]:
     """Return comment lines that name the unknowns in the order in which the pivots eliminate them.
 
-    An unknown is an acceleration, by its coordinate, or a multiplier, by its constraint equation. Two unknowns with one
-    2 × 2 pivot are joined. At most 60 pivots are listed; without pivots the list is empty.
+    An unknown is an acceleration, by its coordinate, or a multiplier, by its constraint equation. Two unknowns with
+    one 2 × 2 pivot are joined by "with". At most `_MAX_PIVOTS` pivots are listed; without pivots the list is empty.
     """
     names = [format_coordinate_name(kkt.system.model.symbols.info[q].meaning) for q in kkt.system.q]
     names += [f"lambda of {row.name}" for row in kkt.rows] + [
@@ -112,9 +113,9 @@ def describe_elimination(kkt: KKT) -> list[str]:
 
 
 def format_coordinate_name(meaning: str) -> str:
-    """Return the name of a coordinate for comments; an angle in tree coordinates, called as its body, gets ".theta".
+    """Return the name of a coordinate for comments: "rod.x" unchanged, "rod" (a tree coordinate) as "rod.theta".
 
-    `meaning`: the name of the coordinate in the symbol table, such as "rod.x", or "rod" in tree coordinates.
+    `meaning`: the name of the coordinate in the symbol table.
     """
     return meaning if "." in meaning else f"{meaning}.theta"
 
@@ -183,16 +184,16 @@ def _append_constraint_rhs(model: Model, builder: KernelBuilder, kkt: KKT, is_st
 def _append_slip_velocities(
     model: Model, builder: KernelBuilder, kkt: KKT, forces: list[sp.Expr]
 ) -> dict[int, sp.Expr]:
-    """Append the slip velocity and kinetic force of each friction element; return the right-hand sides for stick.
+    """Append slip velocity, kinetic force and static limit of each friction element; return right-hand sides for stick.
 
     These are γ − 2α v by the element's number in the KKT matrix. The kinetic force is added to `forces`, the
-    generalized forces by coordinate, in place; it is 0 at stick.
+    generalized forces by coordinate, in place; it is 0 at stick. Also sets `kkt.stick_symbols`.
     """
     stick_rhs: dict[int, sp.Expr] = {}
     if kkt.frictions:
         builder.begin_section("friction: slip, or stick as a constraint equation")
     coordinate_index = {q: k for k, q in enumerate(kkt.system.q)}
-    two_alpha = derive_stick_gain(model) if kkt.frictions else ZERO
+    two_alpha = derive_stick_baumgarte_gain(model) if kkt.frictions else ZERO
     for index, friction in enumerate(kkt.frictions):
         name, node = friction.name, kkt.first_friction + index
         v = builder.append_local(f"slip_{name}", friction.slip.v)
@@ -270,9 +271,10 @@ def _compute_outward_acceleration(
 
 
 def _append_dependent_rows(builder: KernelBuilder, kkt: KKT, right_sides: Mapping[int, sp.Expr]) -> None:
-    """Append the code for a vanishing pivot, which calls engine/scene/singular.c; nothing if no pivot may jump to it.
+    """Append the label and the code for a vanishing pivot, which calls engine/scene/singular.c.
 
-    `right_sides`: generalized forces and right-hand sides of equations, by number in the KKT matrix.
+    Nothing is appended if no pivot may jump there. `right_sides`: generalized forces and right-hand sides of
+    equations, by number in the KKT matrix.
     """
     if not builder.has_jumps:
         return

@@ -1,14 +1,13 @@
-"""Event functions and short pulses of a scene, evaluated separately in the search for events in a step.
+"""Event functions and transients of a scene, evaluated separately in the search for events in a step.
 
 Event functions are the switching functions of the scene and the events of the user. Each is evaluated along a step
-apart from the rest of the right-hand side, by bounds over parts of the step (engine/watch/watched.c): an expression
-may change its sign many times in one step. The function printed here is the part of the right-hand side that they
-need: mostly no more than the positions in them.
-Transients (pulses) are terms that depend on time alone and may rise and fall between two stages of a step.
-Polynomials, sines and exponentials of a linear argument show at the stages what they do between them. e^(−t²),
-1/(1 + t²), tanh t or a sine of a sine may be at rest at all stages and act in between. While friction sticks or a
-rigid contact is closed, steps may be long, so that sines count as transients too. Bounds of these terms over a part
-of a step need no state (engine/watch/time_terms.c, ranges.h).
+separately from the right-hand side, by bounds over parts of the step (engine/watch/watched.c): an expression may
+change its sign many times in one step. The kernel made here is the part of the right-hand side that they need (program
+slicing), usually only positions. Transients (pulses) are terms that depend on time alone and may rise and fall between
+two stages of a step. The stages resolve polynomials, sines and exponentials of a linear argument. They may miss
+e^(−t²), 1/(1 + t²), tanh t or a sine of a sine, which may be constant at all stages and act in between. While friction
+sticks or a rigid contact is closed, steps may be long, so that sines count as transients too. Bounds of these terms
+over a part of a step need no state (engine/watch/time_terms.c, ranges.h).
 """
 
 from __future__ import annotations
@@ -19,7 +18,7 @@ from dataclasses import dataclass, replace
 import sympy as sp
 
 from gudgeon.generator.equations.model import Model
-from gudgeon.generator.ir.finite_slopes import convert_for_intervals
+from gudgeon.generator.ir.finite_slopes import convert_to_heaviside_form
 from gudgeon.generator.ir.kernels import Kernel, Section, declare_branches
 from gudgeon.generator.ir.signatures import PARAMETERS, RHS, TIME
 from gudgeon.generator.ir.statements import DeclareBranches, Line, Statement
@@ -27,17 +26,20 @@ from gudgeon.generator.symbols.storage import Place
 from gudgeon.generator.symbols.switches import BranchOf, ModOn, PeriodsOf, Select
 from gudgeon.generator.symbols.unevaluated import Unevaluated
 
-WATCHED, _RANGES = "watched_functions", "bound_watched_functions"
-_WATCHED_DOC = ("Event functions: the scene's own switching functions in rhs->g, the user's events in rhs->event.",)
+EVENT_FUNCTIONS, _RANGES = "watched_functions", "bound_watched_functions"
+_EVENT_FUNCTIONS_DOC = (
+    "Event functions: the scene's own switching functions in rhs->g, the user's events in rhs->event.",
+)
 _RANGES_DOC = ("Ranges of the scene's own switching functions and of the user's events over ranges of t, q and v.",)
-_FORCE_OUTPUTS = RHS.name  # what reads this is known only once forces or accelerations are
+_FORCE_OUTPUTS = RHS.name  # a statement that reads it depends on forces or accelerations
 
 
 def make_event_function_kernel(dynamics: Kernel, model: Model, loop_switches: Kernel | None = None) -> Kernel | None:
-    """Return the C function that evaluates the event functions alone; None if there are none or they depend on forces.
+    """Return the kernel that evaluates the event functions alone; None if there are none or one depends on forces.
 
-    It is the part of the right-hand side `dynamics` that the scene's own switching functions and user events read.
-    `loop_switches`: the function of the switching functions of driven loops, which `dynamics` lacks, or None.
+    It is the part (slice) of the right-hand side `dynamics` that the scene's own switching functions and user events
+    read. Switches of joints with play are excluded. `loop_switches`: the kernel of the switching functions of driven
+    loops, which `dynamics` lacks, or None.
     """
     switch_indices = {switch.index for switch in model.symbols.switches.list_switches("")}
     if not switch_indices and not model.events:
@@ -81,7 +83,7 @@ def make_event_function_kernel(dynamics: Kernel, model: Model, loop_switches: Ke
         if lines:
             sections.append(Section(section.title, tuple(lines)))
     arguments = tuple(argument for argument in dynamics.arguments if argument.name != "a")
-    renamed = replace(dynamics, name=WATCHED, doc=_WATCHED_DOC)
+    renamed = replace(dynamics, name=EVENT_FUNCTIONS, doc=_EVENT_FUNCTIONS_DOC)
     watched = replace(renamed, arguments=arguments, sections=tuple(sections), status=False)
     return declare_branches(watched, "rhs")
 
@@ -104,7 +106,7 @@ def _merge_sections(*kernels: Kernel | None) -> list[Section]:
 
 
 def make_ranges_kernel(event_kernel: Kernel, switch_indices: Sequence[int], n_events: int) -> Kernel:
-    """Return the C function of the ranges of all event functions over ranges of t, q and v (interval arithmetic).
+    """Return the kernel of the ranges of all event functions over ranges of t, q and v (interval arithmetic).
 
     `event_kernel`: the function of their values; `switch_indices`: the numbers of the switching functions. These are
     written to `out` first, in this order, then `n_events` user events.
@@ -135,7 +137,7 @@ def depends_on_state(kernel: Kernel) -> bool:
 
 
 def reads_coordinate_beyond(kernel: Kernel, count: int) -> bool:
-    """Return whether a function reads an element of q or v with an index of `count` or more."""
+    """Return whether a kernel copies an element of q or v with an index of `count` or more to a local."""
     values = [
         statement.value
         for section in kernel.sections
@@ -186,8 +188,8 @@ class TimeTerms:
 def find_time_terms(dynamics: Kernel, motion_may_stop: bool) -> TimeTerms:
     """Return the terms of time alone, read by a right-hand side, that the stages of a step may miss.
 
-    `motion_may_stop`: stick or a rigid contact may hold the motion while forces vary. Sines and cosines then count too;
-    they come after the others. The result holds the number of the others as `pulses`, and the C function of the first
+    `motion_may_stop`: stick or a rigid contact may hold the motion while forces vary. Sines and cosines then count
+    too; they come after the others. The result holds the number of the others as `pulses`, and the kernel of the first
     MAX_TIME_TERMS terms, None if there are no terms.
     """
     collector = _collect_terms(dynamics, False)
@@ -213,7 +215,7 @@ def _collect_terms(dynamics: Kernel, motion_may_stop: bool) -> _TermCollector:
 
 
 def _make_terms_kernel(dynamics: Kernel, collector: _TermCollector, terms: list[sp.Expr]) -> Kernel:
-    """Return the C function that evaluates the collected terms at a time and writes them to `out`."""
+    """Return the kernel that evaluates the collected terms at a time and writes them to `out`."""
     stores = [Statement(Place("out")[k], term) for k, term in enumerate(terms)]
     sections = (
         Section("parameters and time", tuple(collector.list_needed_definitions(terms))),
@@ -230,16 +232,16 @@ class _TermCollector:
     def __init__(self, motion_may_stop: bool) -> None:
         """Begin without terms and known locals.
 
-        With `motion_may_stop`, sines and cosines count as terms too, exponentials do not.
+        With `motion_may_stop`, sines and cosines count as terms too, also of a linear argument.
         """
-        self.shown_functions = (PeriodsOf, sp.exp) if motion_may_stop else (PeriodsOf, *_LINEAR)
+        self.resolved_functions = (PeriodsOf, sp.exp) if motion_may_stop else (PeriodsOf, *_LINEAR)
         self.known: dict[str, Statement] = {}  # locals that time and parameters determine
         self.definition_by_local: dict[
             str, sp.Expr
         ] = {}  # those of them that depend on time, with definitions inserted
         self.terms: dict[sp.Expr, None] = {}
         self.time = TIME.name
-        self._is_shown: dict[sp.Expr, bool] = {}  # parts recur in the derivatives of what is nested
+        self._is_resolved: dict[sp.Expr, bool] = {}  # parts recur in the derivatives of what is nested
         self._names: dict[sp.Expr, frozenset[str]] = {}
 
     def read_statement(self, statement: Statement) -> None:
@@ -250,7 +252,7 @@ class _TermCollector:
         the array is the time or the parameters. Statements must come in the order of the function.
         """
         if isinstance(statement.value, sp.Expr):
-            statement = replace(statement, value=convert_for_intervals(statement.value))
+            statement = replace(statement, value=convert_to_heaviside_form(statement.value))
         value, local = statement.value, statement.declared_local
         if not isinstance(value, sp.Basic):
             if local and isinstance(value, Place) and value.base in (TIME.name, PARAMETERS.name):
@@ -300,15 +302,16 @@ class _TermCollector:
     def collect_terms(self, expression: sp.Expr) -> None:
         """Add the transient terms of an expression to `terms`: those that may act between the stages of a step.
 
-        Nothing is added for an expression that does not depend on time alone, or whose stages show its behaviour. Of a
-        sum or product only the parts that may be missed are added, together and one by one.
+        Nothing is added for an expression that does not depend on time alone, or that is resolved by the stages. Of a
+        sum or product only the unresolved parts are added, together and one by one. The parts of any other term are
+        added too.
         """
-        if not self.depends_on_time_only(expression) or self.is_shown_by_stages(expression):
+        if not self.depends_on_time_only(expression) or self.is_resolved_by_stages(expression):
             return
         if isinstance(expression, BranchOf):
             return self.collect_terms(expression.args[1])
         parts = [
-            part for part in expression.args if self.depends_on_time_only(part) and not self.is_shown_by_stages(part)
+            part for part in expression.args if self.depends_on_time_only(part) and not self.is_resolved_by_stages(part)
         ]
         if isinstance(expression, (sp.Add, sp.Mul, Select, Unevaluated)):
             if len(parts) > 1 and not isinstance(expression, (Select, Unevaluated)):
@@ -319,21 +322,24 @@ class _TermCollector:
             self.collect_terms(part)
         return None
 
-    def is_shown_by_stages(self, expression: sp.Expr) -> bool:
-        """Return whether the values of an expression of time at the stages of a step show its behaviour between them.
+    def is_resolved_by_stages(self, expression: sp.Expr) -> bool:
+        """Return whether the stages of a step cannot miss a change of an expression of time (the sampling resolves it).
 
-        Steps end at switching points, so that each branch counts by itself. The result is cached.
+        Resolved are constants, t, sums, products and powers up to 4 of resolved expressions, and sin, cos, exp of a
+        linear argument. Each branch of a switch counts by itself, since steps end at switching points. The result is
+        cached.
         """
-        if expression not in self._is_shown:
-            self._is_shown[expression] = self._is_shown_by_stages_uncached(self.insert_time_definitions(expression))
-        return self._is_shown[expression]
+        if expression not in self._is_resolved:
+            self._is_resolved[expression] = self._is_resolved_by_stages_uncached(
+                self.insert_time_definitions(expression)
+            )
+        return self._is_resolved[expression]
 
-    def _is_shown_by_stages_uncached(self, expression: sp.Expr) -> bool:
-        """Return `is_shown_by_stages` of an expression without reading the cache.
+    def _is_resolved_by_stages_uncached(self, expression: sp.Expr) -> bool:
+        """Return `is_resolved_by_stages` of an expression without reading the cache.
 
-        Shown are constants, time, sums, products, powers up to 4 of shown expressions, and the functions in
-        `shown_functions` of an argument that is linear in time. Of a branch, the sign of a switching function, the
-        switching function counts.
+        The functions in `resolved_functions` count for an argument that is linear in time. Of a branch, the sign of a
+        switching function, the switching function counts.
         """
         if self.time not in self.find_symbol_names(expression):
             return True
@@ -341,12 +347,12 @@ class _TermCollector:
             case sp.Symbol():
                 return True
             case BranchOf():
-                return self.is_shown_by_stages(expression.args[1])
+                return self.is_resolved_by_stages(expression.args[1])
             case sp.Add() | sp.Mul() | Select() | Unevaluated() | ModOn():
-                return all(map(self.is_shown_by_stages, expression.args))
+                return all(map(self.is_resolved_by_stages, expression.args))
             case sp.Pow() if expression.exp.is_Integer and int(expression.exp) in _POWERS:
-                return self.is_shown_by_stages(expression.base)
-        return isinstance(expression, self.shown_functions) and self.is_linear(expression.args[0])
+                return self.is_resolved_by_stages(expression.base)
+        return isinstance(expression, self.resolved_functions) and self.is_linear(expression.args[0])
 
     def is_linear(self, expression: sp.Expr) -> bool:
         """Return whether the form of an expression shows that it is constant or linear in time.
@@ -382,6 +388,3 @@ def _replace_frozen_branch(statement: Statement) -> Statement:
     if isinstance(statement.value, BranchOf):
         return replace(statement, value=sp.sign(statement.value.args[1]))
     return statement
-
-
-_JUMPS_DOC = ("Switching functions that depend on time alone.",)

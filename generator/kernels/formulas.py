@@ -45,10 +45,10 @@ class _Plain(StrPrinter):
 
 
 def format_formulas(law: LawEquations, names: Mapping[sp.Symbol, str]) -> list[str]:
-    """Return the equations of a law as lines of text, then one line with the meanings of its variables.
+    """Return the equations of a law as lines such as "F_n = K*delta^exponent", then the meanings of its variables.
 
     `names`: names of parameters in the law's function, by symbol; others keep the names of the file. Lines are wrapped
-    at 110 characters.
+    at `_WIDTH` characters.
     """
     name_of_symbol = {
         **{s: strip_identifier(s) for e in law.steps.values() for s in sp.sympify(e).free_symbols},

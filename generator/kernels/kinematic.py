@@ -1,4 +1,4 @@
-"""Functions of a scene without degrees of freedom in tree coordinates: Newton's step, rates, motion of bodies."""
+"""Kinematic analysis, for scenes without degrees of freedom in tree coordinates: Newton's step, rates, body motion."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from gudgeon.generator.symbols.storage import Place
 
 
 def make_kinematic_kernels(system: System, closures: SquareSystem) -> list[Kernel]:
-    """Return the C functions of Newton's step with rates, and of accelerations with the motion of all bodies.
+    """Return the kernels of Newton's step with rates, and of accelerations with the motion of all bodies.
 
     `closures`: the loop closures of the tree as a square system, one equation for each tree coordinate. Sines and
     cosines are not yet paired in vectors.
@@ -23,7 +23,7 @@ def make_kinematic_kernels(system: System, closures: SquareSystem) -> list[Kerne
 
 
 def _make_newton_step_kernel(system: System, closures: SquareSystem) -> Kernel:
-    """Return the C function of Newton's step, Φ_q step = Φ (to subtract), and of the rates, Φ_q rates = ν.
+    """Return the kernel of Newton's step, Φ_q step = Φ (to subtract), and of the rates, Φ_q rates = ν.
 
     It also writes the largest |Φ|, and returns 0 or the number of an equation that depends on others there. `closures`:
     the closures of the tree as a square system.
@@ -54,7 +54,7 @@ def _make_newton_step_kernel(system: System, closures: SquareSystem) -> Kernel:
 
 
 def _make_body_motion_kernel(system: System, closures: SquareSystem) -> Kernel:
-    """Return the C function of the accelerations, Φ_q a = γ, and of position, velocity and acceleration of all bodies.
+    """Return the kernel of the accelerations, Φ_q a = γ, and of position, velocity and acceleration of all bodies.
 
     It also writes the largest |Φ̇|, and returns 0 or the number of an equation that depends on others there.
     `closures`: the closures of the tree as a square system.

@@ -15,7 +15,7 @@ from gudgeon.generator.symbols.storage import Place
 
 
 def make_outputs_kernel(model: Model) -> Kernel:
-    """Return the C function of reactions, drive torques, element results and energies from q, q̇ and λ.
+    """Return the kernel of reactions, drive torques, element results and energies from q, q̇ and λ.
 
     Reactions (F_x, F_y, M on the second body) are written for each joint without play. The torque of a drive is −λ, and
     0 if its equation was left out as redundant.

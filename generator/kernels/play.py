@@ -66,7 +66,8 @@ def _find_parameter_meanings(model: Model, equations: LawEquations) -> dict[str,
 def make_law_name(equations: LawEquations) -> str:
     """Return the C name of a law: its name, then its options with other values than the defaults, joined by "_".
 
-    A user-defined law gets "own_" before its name and "__" after it, so that no other function has the name.
+    An option that is True adds its own name, others their value. A user-defined law gets "own_" before its name and
+    "__" after it, so that no other function has the name.
     """
     default_options = {option_name.name: option_name.default for option_name in equations.law.options}
     chosen_options = {name: value for name, value in equations.options.items() if value != default_options[name]}
@@ -78,10 +79,10 @@ def make_law_name(equations: LawEquations) -> str:
 
 
 def _make_law_kernel(model: Model, clearance: Clearance, equations: LawEquations) -> Kernel:
-    """Return the C function of a law for one joint with play.
+    """Return the kernel of a force law for one joint with play.
 
-    Abbreviations of the law become locals, and its results are written to the arguments "<result>_out". Reciprocals are
-    shared, and min, max and similar functions use the frozen branches of the joint's switches.
+    Abbreviations of the law become locals, and its results are written to the arguments "<result>_out". Reciprocals
+    are shared, and min, max and similar functions use the frozen branches of the joint's switches.
     """
     results = equations.results
     fields = name_joint_parameters(model, clearance)
@@ -168,7 +169,7 @@ class JointFunctions:
 
     @property
     def further_places(self) -> tuple[Place, ...]:
-        """Return the storage places from which the normal law's further variables are read at a joint.
+        """Return the storage locations from which the normal law's further variables are read at a joint.
 
         They are locals of the same names; for rigid surfaces the contact force in the contact state is the only one.
         """
@@ -213,9 +214,10 @@ def make_joint_functions(model: Model, clearance: Clearance, shared_functions: S
 
 
 def _guard_values(clearance: Clearance, equations: Sequence[Assignment]) -> Mapping[sp.Symbol, Conditional]:
-    """Return conditional values, by symbol, for the `equations` that divide by zero at e = 0.
+    """Return conditional values, by symbol, that replace those `equations` that divide by the eccentricity e.
 
-    At e = 0 the normal is (1, 0). A wall needs none; a contour needs further ones.
+    At e = 0 the normal is (1, 0). A flat wall needs none: the result is empty. A contour needs further ones, for its
+    normal and the rate of its angle.
     """
     if not clearance.contour:
         return {} if clearance.wall else _GUARDED_NORMAL

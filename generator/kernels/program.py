@@ -15,7 +15,7 @@ from functools import cached_property
 import sympy as sp
 
 from gudgeon.contract.methods import STAGES
-from gudgeon.generator.equations.model import Model, derive_stick_gain
+from gudgeon.generator.equations.model import Model, derive_stick_baumgarte_gain
 from gudgeon.generator.equations.system import System, make_absolute_system
 from gudgeon.generator.ir.kernels import Kernel, remove_unused_locals
 from gudgeon.generator.ir.series import Series
@@ -25,7 +25,12 @@ from gudgeon.generator.ir.statements import Declare
 from gudgeon.generator.kernels import closed_linkage, outputs
 from gudgeon.generator.kernels.driven_loops import DrivenLoopKernels
 from gudgeon.generator.kernels.dynamics import make_dynamics_kernel
-from gudgeon.generator.kernels.event_functions import WATCHED, TimeTerms, find_time_terms, make_event_function_kernel
+from gudgeon.generator.kernels.event_functions import (
+    EVENT_FUNCTIONS,
+    TimeTerms,
+    find_time_terms,
+    make_event_function_kernel,
+)
 from gudgeon.generator.kernels.kinematic import make_kinematic_kernels
 from gudgeon.generator.kernels.play import JointFunctions, make_derivative_calls, make_joint_functions
 from gudgeon.generator.kernels.projection import make_constraint_correction_kernel, make_projection_kernel
@@ -53,7 +58,7 @@ class Integrated:
     reduced: bool
     event_functions: Kernel | None  # event functions, if they do not depend on forces (event_functions.py)
     pivots: tuple[str, ...]  # equations to which a status number of motion() refers
-    chain: DrivenLoops | None = None
+    driven_loops: DrivenLoops | None = None
 
     @property
     def switch_indices(self) -> list[int]:
@@ -74,12 +79,16 @@ class TreeFunctions:
     unpaired_kernels: tuple[Kernel, ...]
     kernels: tuple[Kernel, ...]
     has_fallback: bool
-    chains: DrivenLoopKernels | None
+    driven_loop_kernels: DrivenLoopKernels | None
 
     @property
     def all_kernels(self) -> tuple[Kernel, ...]:
         """Return all functions of the reduced formulation in the order of printing."""
-        return (*self.conversions, *self.kernels, *(self.chains.kernels if self.chains else ()))
+        return (
+            *self.conversions,
+            *self.kernels,
+            *(self.driven_loop_kernels.kernels if self.driven_loop_kernels else ()),
+        )
 
 
 @dataclass(frozen=True)
@@ -155,8 +164,8 @@ class Program:
 
     @cached_property
     def prepare(self) -> Kernel:
-        """Return the C function that fills the parameter table; call it when all parameters have been derived."""
-        return closed_linkage.make_prepare_kernel(self.model)
+        """Return the kernel that fills the parameter table; call it when all parameters have been derived."""
+        return closed_linkage.make_parameter_table_kernel(self.model)
 
     @property
     def integrates(self) -> bool:
@@ -170,21 +179,21 @@ class Program:
 
     @property
     def right_hand_side(self) -> list[Kernel]:
-        """Return the right-hand side in absolute coordinates, followed by its event functions if they are used.
+        """Return the kernel of the right-hand side in absolute coordinates, then that of its event functions if used.
 
-        The result is a list. Event functions are used in the full formulation of a scene that is integrated, unless
-        they depend on forces.
+        The latter is used in the full formulation of a scene that is integrated, unless the event functions depend on
+        forces.
         """
         watches = self.event_functions is not None and self.formulation == "full" and self.integrates
         return [self.dynamics, self.event_functions] if watches and self.event_functions else [self.dynamics]
 
     @property
     def has_lanes(self) -> bool:
-        """Return whether several runs of the scene can be integrated together, each in one lane of a vector.
+        """Return whether several runs of the scene can be integrated together, each in one SIMD lane of a vector.
 
         That needs the reduced formulation. Dry friction, rigid contacts, contours of bearings, driven loops and more
-        than MAX_COORDINATES_FOR_LANES coordinates exclude it. A kinematically driven scene has lanes unless it has user
-        events or a block of equations whose rows are exchanged for pivots.
+        than MAX_COORDINATES_FOR_LANES absolute coordinates exclude it. A kinematically driven scene has lanes unless
+        it has user events or a block of equations whose rows are exchanged for pivots.
         """
         if self.kinematics:
             kernels = self.kinematics.unpaired_kernels
@@ -193,11 +202,14 @@ class Program:
         has_contours = any(clearance.contour for clearance in self.model.clearances)
         is_large = len(self.model.q) > MAX_COORDINATES_FOR_LANES
         is_excluded = self.model.has_changing_constraints or has_contours or is_large
-        return self.methods is not None and self.tree is not None and not (self.tree.chains or is_excluded)
+        return self.methods is not None and self.tree is not None and not (self.tree.driven_loop_kernels or is_excluded)
 
 
 def _has_pivoted_block(kernels: Iterable[Kernel]) -> bool:
-    """Return whether a kernel solves a dense block with an order of rows that differs between lanes."""
+    """Return whether a kernel solves a dense block with row pivoting, whose order of rows may differ between lanes.
+
+    The sign of it is a declared integer local, the index of the pivot row.
+    """
     lines = (line for kernel in kernels for section in kernel.sections for line in section.statements)
     return any(isinstance(line, Declare) and line.type is Number.INTEGER for line in lines)
 
@@ -217,16 +229,16 @@ def make_program(model: Model, formulation: str = "reduced") -> Program:
     dynamics = make_dynamics_kernel(system, kkt)
     closed = (
         closed_linkage.make_mass_kernel(model),
-        *closed_linkage.make_row_kernels(model),
+        *closed_linkage.make_constraint_kernels(model),
         closed_linkage.make_start_kernel(model),
         outputs.make_outputs_kernel(model),
     )
     laws = SharedFunctions()
-    pins = tuple(make_joint_functions(model, clearance, laws) for clearance in model.clearances)
+    joint_functions = tuple(make_joint_functions(model, clearance, laws) for clearance in model.clearances)
     tree, in_tree = _derive_tree_functions(model, kkt.pivots) if not full else (None, None)
-    watched = make_event_function_kernel(dynamics, model)
+    event_kernel = make_event_function_kernel(dynamics, model)
     angles = tuple(int(model.symbols.info[q].meaning.endswith(".theta")) for q in model.q)
-    absolute_system = Integrated(system, kkt, angles, False, watched, kkt.pivots)
+    absolute_system = Integrated(system, kkt, angles, False, event_kernel, kkt.pivots)
     integrated = in_tree or absolute_system
     program = Program(
         model,
@@ -234,9 +246,9 @@ def make_program(model: Model, formulation: str = "reduced") -> Program:
         kkt,
         closed,
         dynamics,
-        watched,
+        event_kernel,
         tuple(laws.kernels),
-        pins,
+        joint_functions,
         tree,
         integrated,
         find_time_terms(dynamics, motion_may_stop=bool(model.frictions or model.rigid)),
@@ -261,15 +273,15 @@ def _derive_tree_functions(model: Model, pivots: tuple[str, ...]) -> tuple[TreeF
     conversions = tuple(
         vectorize_sines(remove_unused_locals(kernel)) for kernel in make_conversion_kernels(model, system)
     )
-    unpaired, kkt, chains = make_reduced_kernels(system)
-    kernels, rescued = tuple(vectorize_sines(kernel) for kernel in unpaired), has_singular_fallback(system)
-    tree = TreeFunctions(system, conversions, tuple(unpaired), kernels, rescued, chains)
-    pivots = pivots if rescued else kkt.pivots
+    unpaired, kkt, driven_loop_kernels = make_reduced_kernels(system)
+    kernels, has_fallback = tuple(vectorize_sines(kernel) for kernel in unpaired), has_singular_fallback(system)
+    tree = TreeFunctions(system, conversions, tuple(unpaired), kernels, has_fallback, driven_loop_kernels)
+    pivots = pivots if has_fallback else kkt.pivots
     if system.driven_loops:
         pivots = (*pivots, *(row.name for row in system.driven_loops.rows))
     angles = tuple(int("." not in name) for name in system.unknowns)
-    watched = next((kernel for kernel in unpaired if kernel.name == WATCHED), None)
-    return tree, Integrated(system, kkt, angles, True, watched, pivots, system.driven_loops)
+    event_kernel = next((kernel for kernel in unpaired if kernel.name == EVENT_FUNCTIONS), None)
+    return tree, Integrated(system, kkt, angles, True, event_kernel, pivots, system.driven_loops)
 
 
 def _derive_methods(model: Model, integrated: Integrated, with_complex_kernels: bool) -> Methods:
@@ -285,7 +297,7 @@ def _derive_methods(model: Model, integrated: Integrated, with_complex_kernels: 
         clearance.name: make_derivative_calls(model, clearance, derivatives) for clearance in model.clearances
     }
     newton = Newton(integrated.system)
-    gains = {"stick": derive_stick_gain(model)} if model.frictions else {}
+    gains = {"stick": derive_stick_baumgarte_gain(model)} if model.frictions else {}
     if not integrated.reduced:
         alpha, beta = model.baumgarte
         gains["two_alpha"] = model.parameter_table.derive_parameter("two_alpha", 2 * alpha)

@@ -21,7 +21,7 @@ FILM_MASS_FACTOR = 1e6  # times the mass of all bodies: what projections give to
 
 
 def make_projection_kernel(system: System, rows: tuple[Row, ...], name: str) -> tuple[Kernel, KKT]:
-    """Return the C function of x = M⁻¹Φ_qᵀ(Φ_q M⁻¹Φ_qᵀ)⁻¹ r, and the KKT elimination that it prints.
+    """Return the kernel of x = M⁻¹Φ_qᵀ(Φ_q M⁻¹Φ_qᵀ)⁻¹ r, and the KKT elimination that it prints.
 
     x is the smallest in the metric of M with Φ_q x = r. `rows`: the equations; `name`: the function's name. In M, light
     bodies count with a least mass (`raise_small_masses`).
@@ -55,7 +55,7 @@ def make_projection_kernel(system: System, rows: tuple[Row, ...], name: str) -> 
 def add_film_masses(system: System) -> System:
     """Return the system with the mass matrix M + κ Σ BᵀB for projections, B = ∂e/∂q of each joint with a film.
 
-    κ is 1e6 times the mass of all bodies. Without films or equations the system itself is returned.
+    κ is FILM_MASS_FACTOR times the mass of all bodies. Without films or equations the system itself is returned.
     """
     model = system.model
     films = [clearance for clearance in model.clearances if clearance.film is not None]
@@ -76,37 +76,39 @@ def add_film_masses(system: System) -> System:
 
 
 def raise_small_masses(system: System) -> System:
-    """Return the system with masses raised so that no body is lighter than 1e-4 of the mass of all, for projections.
+    """Return the system with masses raised to at least MIN_MASS_FRACTION of the mass of all bodies, for projections.
 
-    In the metric of M the equations of both joints of a light body nearly depend on each other. Errors of the
-    constraints may be measured by any masses. Ordinary machines keep their masses, to the bit. A system with a drive
-    whose rate jumps is returned unchanged: its projection is an impulse, which needs M.
+    In the metric of M the equations of both joints of a light body nearly depend on each other. Constraint errors may
+    be measured in any positive definite metric. Larger masses stay exactly the same, and masses that are not constant
+    are not raised. A system with a drive whose rate jumps is returned unchanged: its projection is an impulse, which
+    needs M.
     """
     model, derive = system.model, system.model.parameter_table.derive_parameter
     if any(has_jumping_rate(drive) for drive in model.scene.mechanism.drives.values()):
         return system
     # one symbol for the sum: SymPy compares the arguments of each Max by factoring them
-    least_body_mass = MIN_MASS_FRACTION * derive(
+    min_body_mass = MIN_MASS_FRACTION * derive(
         "mass_of_all", sp.Add(*(body.mass for body in model.bodies)), "of projections"
     )
     mass = dict(system.mass)
     for k, q in enumerate(system.q):
-        own_mass, least_mass = mass[k, k], least_body_mass * system.compute_inertia_of_unit_mass(k)
-        if least_mass != 0 and model.parameter_table.is_constant(own_mass):
+        mass_entry, min_mass = mass[k, k], min_body_mass * system.compute_inertia_of_unit_mass(k)
+        if min_mass != 0 and model.parameter_table.is_constant(mass_entry):
             name = f"{'tree_' if system.in_tree else ''}metric_{q.name}"
             # SymPy cannot compare a mass with the sum of all masses, a symbol, and spends long on trying it
-            is_undecided = not find_symbols(least_body_mass) <= find_symbols(own_mass)
-            is_undecided = is_undecided and not own_mass.has(sp.Max, sp.Min)
-            mass[k, k] = derive(name, sp.Max(own_mass, least_mass, evaluate=not is_undecided), "of projections")
+            is_undecided = not find_symbols(min_body_mass) <= find_symbols(mass_entry)
+            is_undecided = is_undecided and not mass_entry.has(sp.Max, sp.Min)
+            mass[k, k] = derive(name, sp.Max(mass_entry, min_mass, evaluate=not is_undecided), "of projections")
             model.parameter_table.internal_parameters.add(mass[k, k])
     return replace(system, mass=mass)
 
 
 def make_constraint_correction_kernel(system: System, name: str = "closing_step") -> Kernel:
-    """Return the C function of one Newton step dq onto Φ = 0 and one step dv onto Φ̇ = 0, both to be subtracted.
+    """Return the kernel of one Newton step dq onto Φ = 0 and one step dv onto Φ̇ = 0, both to be subtracted.
 
-    Both use one factorization, and light bodies count with a least mass. Motions that squeeze a film have 1e6 times the
-    mass of all bodies, so that e and ė nearly keep their values. `name`: the function's name.
+    Both use one factorization. Small masses are raised (`raise_small_masses`), and motions that squeeze a film are
+    weighted with a large mass (`add_film_masses`), so that e and ė nearly keep their values. `name`: the function's
+    name.
     """
     metric_system = raise_small_masses(system)
     kkt = KKT(add_film_masses(metric_system), system.rows)

@@ -38,7 +38,7 @@ def has_singular_fallback(system: TreeSystem) -> bool:
 
 
 def make_conversion_kernels(model: Model, system: TreeSystem) -> list[Kernel]:
-    """Return the C functions that convert tree coordinates to absolute ones and back."""
+    """Return the kernels that convert tree coordinates to absolute ones and back."""
     return [_make_expand_kernel(system), *_make_reduce_kernels(model, system)]
 
 
@@ -53,16 +53,16 @@ def make_reduced_kernels(system: TreeSystem) -> tuple[list[Kernel], KKT, DrivenL
         system, kkt, DYNAMICS, _DOC, is_stabilized=False, append_fallback=_append_absolute_solution
     )
     projection, _ = make_projection_kernel(system, system.rows, "reduced_project")
-    chains = DrivenLoopKernels(system, system.driven_loops) if system.driven_loops else None
+    driven_loop_kernels = DrivenLoopKernels(system, system.driven_loops) if system.driven_loops else None
     is_driven = len(system.q) == len(system.rows) and not (system.model.clearances or system.frictions)
-    loop_switches = chains.switch_kernel if chains else None
-    watched = (
+    loop_switches = driven_loop_kernels.switch_kernel if driven_loop_kernels else None
+    event_kernel = (
         None if is_driven else make_event_function_kernel(dynamics, system.model, loop_switches)
     )  # a driven motion has no events here
-    if watched and system.driven_loops and reads_coordinate_beyond(watched, len(system.q)):
-        watched = None  # chains are closed by rates()
-    kernels = (*_make_closure_kernels(system), dynamics, *([watched] if watched else []), projection)
-    return [remove_unused_locals(kernel) for kernel in kernels], kkt, chains
+    if event_kernel and system.driven_loops and reads_coordinate_beyond(event_kernel, len(system.q)):
+        event_kernel = None  # rates() closes driven loops
+    kernels = (*_make_closure_kernels(system), dynamics, *([event_kernel] if event_kernel else []), projection)
+    return [remove_unused_locals(kernel) for kernel in kernels], kkt, driven_loop_kernels
 
 
 def _append_absolute_solution(builder: KernelBuilder, kkt: KKT, right_sides: Mapping[int, sp.Expr]) -> None:
@@ -78,7 +78,7 @@ def _append_absolute_solution(builder: KernelBuilder, kkt: KKT, right_sides: Map
 
 
 def _make_expand_kernel(system: TreeSystem) -> Kernel:
-    """Return the C function of the absolute coordinates and velocities of all bodies at a state of the tree.
+    """Return the kernel of the absolute coordinates and velocities of all bodies at a state of the tree.
 
     They are written to `all_q` and `all_v`.
     """
@@ -98,18 +98,21 @@ def _make_expand_kernel(system: TreeSystem) -> Kernel:
 
 
 def _make_reduce_kernels(model: Model, system: TreeSystem) -> list[Kernel]:
-    """Return the C functions that compute tree coordinates and rates, and accelerations, from absolute ones.
+    """Return the kernels that compute tree coordinates and rates, and their second rates, from absolute ones.
 
-    The second function is left out if the absolute formulation never solves (`has_singular_fallback`).
+    The second kernel is left out if the absolute formulation is not a fallback (`has_singular_fallback`).
     """
     coordinate_pairs = list(zip(model.q, model.v, strict=True))
-    differentiate, find_variables = model.symbols.differentiate, model.symbols.find_variables
+    differentiate, find_differentiation_variables = (
+        model.symbols.differentiate,
+        model.symbols.find_differentiation_variables,
+    )
     names = (*system.unknowns, *(system.driven_loops.names if system.driven_loops else ()))
     positions = _express_tree_coordinates(model, system, names)
 
     def compute_rate(value: sp.Expr) -> sp.Expr:
         """Return the sum of the derivatives of a value by the coordinates, times their rates."""
-        variables = find_variables(value)
+        variables = find_differentiation_variables(value)
         return sp.Add(*(differentiate(value, q) * v for q, v in coordinate_pairs if q in variables))
 
     rates = [compute_rate(position) for position in positions]
@@ -133,7 +136,7 @@ def _make_reduce_kernels(model: Model, system: TreeSystem) -> list[Kernel]:
     for k, (position, rate) in enumerate(zip(positions, rates, strict=True)):
         if k == len(system.unknowns):
             break
-        variables = find_variables(position)
+        variables = find_differentiation_variables(position)
         terms = [
             differentiate(position, q) * PlaceSymbol(Place("all_a")[index])
             for index, q in enumerate(model.q)
@@ -175,13 +178,13 @@ def _compute_slide(model: Model, tree_edge: TreeEdge) -> sp.Expr:
 
 
 def _make_closure_kernels(system: TreeSystem) -> list[Kernel]:
-    """Return the C functions of Φ of the loop closures (m and rad) and of its rate Φ̇ = Φ_q v − ν, in a list.
+    """Return the kernels of Φ of the loop closures (m and rad) and of its rate Φ̇ = Φ_q v − ν, in a list.
 
     Each writes one value for each closure to `out`.
     """
 
     def make_kernel(name: str, doc: str, reads_velocity: bool, get_value: Callable[[Row], sp.Expr]) -> Kernel:
-        """Return the C function `name` that writes one value of each closure to `out`.
+        """Return the kernel `name` that writes one value of each closure to `out`.
 
         `reads_velocity`: the value depends on rates.
         """

@@ -54,9 +54,10 @@ def _list_unknown_names(model: Model, system: System) -> tuple[str, ...]:
 
 
 def _measure_factorization(kkt: KKT) -> Solve:
-    """Return the size and cost of a factorization: unknowns n, equations, non-zeros of the matrix and of L, products.
+    """Return the size and cost of a sparse factorization, as counted by its symbolic elimination.
 
-    Non-zeros of the matrix [M Φ_qᵀ; Φ_q 0] include both triangles and the diagonal of M.
+    These are: unknowns n, equations, non-zeros of the matrix and of L, products. Non-zeros of [M Φ_qᵀ; Φ_q 0] include
+    both triangles and the diagonal of M.
     """
     elimination = kkt.elimination
     return Solve(
@@ -96,7 +97,7 @@ def _make_reduction_steps(model: Model, system: TreeSystem) -> Iterator[Step]:
             _list_joint_names(matching_edges),
             tuple(f"{tree_edge.body}.{axis}" for tree_edge in matching_edges for axis in "xy"),
             tuple(name for tree_edge in matching_edges for name in tree_edge.coordinates),
-            tuple(row for tree_edge in matching_edges for row in tree_edge.rows),
+            tuple(row for tree_edge in matching_edges for row in tree_edge.satisfied_rows),
         )
     if system.slides:
         names = dict.fromkeys(k for expression in system.slides.values() for k in expression if k != CONSTANT)
@@ -142,21 +143,30 @@ def _make_angle_steps(model: Model, tree: Tree) -> Iterator[Step]:
 
 
 def _make_shared_point_steps(tree: Tree) -> Iterator[Step]:
-    """Yield for each shared point the exchange of pairs of points that coincide: those of the file for those in use.
+    """Yield for each shared point (multiple joint) the exchange of the file's pairs of bodies for those in use.
 
     A shared point is one at which three or more bodies meet. Pairs in use are those of tree and closures. Points whose
-    pairs stay are left out.
+    pairs all stay are left out.
     """
-    for hub in tree.shared_points:
-        joints_in_use = [tree_edge.joint for tree_edge in tree.edges if tree_edge.joint in hub.pairs]
-        joints_in_use += [joint for joint in tree.closing_pairs if joint in hub.pairs]
+    for shared_point in tree.shared_points:
+        joints_in_use = [tree_edge.joint for tree_edge in tree.edges if tree_edge.joint in shared_point.pairs]
+        joints_in_use += [joint for joint in tree.closing_pairs if joint in shared_point.pairs]
         added_rows = tuple(
-            row for joint in joints_in_use if joint and joint not in hub.joints for row in hub.list_pair_rows(joint)
+            row
+            for joint in joints_in_use
+            if joint and joint not in shared_point.joints
+            for row in shared_point.list_pair_rows(joint)
         )
         removed_rows = tuple(
-            row for joint in hub.joints if joint not in joints_in_use for row in hub.list_pair_rows(joint)
+            row
+            for joint in shared_point.joints
+            if joint not in joints_in_use
+            for row in shared_point.list_pair_rows(joint)
         )
         if removed_rows:
             yield Step(
-                message.HUB, tuple(joint.name for joint in hub.joints), rows_gone=removed_rows, rows_come=added_rows
+                message.HUB,
+                tuple(joint.name for joint in shared_point.joints),
+                rows_gone=removed_rows,
+                rows_come=added_rows,
             )

@@ -1,7 +1,7 @@
-"""Functions that joints share: equal equations become one C function, called with the parameters of each joint.
+"""Functions that joints share: equal kernels become one C function (procedural abstraction), called for each joint.
 
-Parameters are named as in the law's file (`K`, `mu`), switches are counted from the joint's first. A shared function
-keeps the order of terms of the first joint.
+The parameters of the joint are arguments, named as in the law's file (`K`, `mu`). Switches are counted from the
+joint's first. A shared function keeps the order of terms of the first joint.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from gudgeon.generator.ir.kernels import Kernel, Section
 from gudgeon.generator.ir.signatures import BRANCHES, PARAMETERS, Argument, Number
 from gudgeon.generator.ir.statements import Line, Statement
 from gudgeon.generator.ir.values import Conditional
-from gudgeon.generator.symbols.storage import Key, Place, PlaceSymbol, find_key
+from gudgeon.generator.symbols.storage import Key, Place, PlaceSymbol, find_value_key
 from gudgeon.generator.symbols.switches import BranchOf
 
 FIRST_SWITCH = Argument("corner", Number.INTEGER)
@@ -50,11 +50,11 @@ class SharedFunctions:
         joint: str,
         meanings: Mapping[str, str] = NO_MEANINGS,
     ) -> SharedFunctionCall:
-        """Return the call that replaces a joint's own function, and store the shared function if it is new.
+        """Return the call that replaces a joint's own function, and store the shared function if no equal one exists.
 
-        `parameter_names`: names of the joint's parameters in the function, by storage place (`p.pin_radius` -> `R_i`).
-        `joint`: its label, appended to the name if an unequal function has that name. `meanings`, by name of the
-        parameter, are added to the function's comment.
+        `parameter_names`: names of the joint's parameters in the function, by storage location (`p.pin_radius` ->
+        `R_i`). `joint`: its label, appended to the name if an unequal function has that name. `meanings`, by name of
+        the parameter, are added to the function's comment.
         """
         text_names, parameters = _name_parameters(kernel, parameter_names)
         names = [text_names[place] for place in parameters]
@@ -84,10 +84,11 @@ class SharedFunctions:
 
 
 def name_joint_parameters(model: Model, clearance: Clearance) -> dict[Place, str]:
-    """Return the names, in the equations of a joint with play, of its parameters by storage place.
+    """Return the names of a joint's parameters in its equations, by storage location, such as `p.pin_radius`: "R_i".
 
     First come the parameters of its laws, then dimensions, derived parameters, the transition, parameters of user
-    expressions and reciprocals. A parameter or name that occurs twice counts once.
+    expressions and reciprocals. A parameter or name that occurs twice counts once. A parameter of the file with the
+    name of another one gets the ending "_file_parameters".
     """
     laws = clearance.laws
     named_symbols = [
@@ -129,10 +130,11 @@ def _list_file_parameters(model: Model, laws: Iterable[LawEquations]) -> Iterato
 
 
 def _name_parameters(kernel: Kernel, parameter_names: Mapping[Place, str]) -> tuple[dict[Key, str], list[Place]]:
-    """Return the names of parameters in the shared function, and the parameters themselves in argument order.
+    """Return the names of the parameters that a kernel reads, and their storage locations in argument order.
 
-    The first result has names by storage place, and by the symbols that are copies of parameters. `parameter_names`:
-    names by place; other parameters keep the name of their field and follow.
+    Example: ({Place("p")["A_K"]: "K", "A_K_copy": "K"}, [Place("p")["A_K"]]). Names are by storage location and by
+    each local that is a copy of it. `parameter_names` has names by location, in argument order; other parameters
+    follow and keep the name of their field.
     """
     place_of_key: dict[Key, Place] = {
         line.declared_local: place for line in _iterate_lines(kernel) if (place := _find_copied_parameter(line))
@@ -155,7 +157,7 @@ def _iterate_lines(kernel: Kernel) -> Iterator[Line]:
 
 
 def _find_copied_parameter(line: Line) -> Place | None:
-    """Return the parameter that a statement copies to a local; None if the line is not such a copy."""
+    """Return the storage location of the parameter that a statement copies to a local; None for any other line."""
     place = line.value if isinstance(line, Statement) and isinstance(line.value, Place) else None
     return place if place and place.is_parameter else None
 
@@ -199,15 +201,18 @@ def _find_switch_indices(kernel: Kernel) -> set[int]:
 
 
 def _list_distinguishing_parts(kernel: Kernel) -> Iterator[object]:
-    """Yield the parts by which two shared functions are compared, in the names of the printed text.
+    """Yield the parts by which two shared functions are compared; names and switches are those of the printed text.
 
-    For each line these are its target, its kind (the relation of a condition, or a storage place) and its expressions.
+    For each line these are its target, its kind (the relation of a condition, or a storage location) and its
+    expressions.
     """
     first_switch = kernel.first_switch or 0
 
     def rename_symbols(expression: sp.Basic) -> sp.Basic:
         """Return an expression with its symbols named, and its switches counted, as in the printed text."""
-        known_names = {s: kernel.names[key] for s in expression.free_symbols if (key := find_key(s)) in kernel.names}
+        known_names = {
+            s: kernel.names[key] for s in expression.free_symbols if (key := find_value_key(s)) in kernel.names
+        }
         symbols = {s: sp.Symbol(str(name), real=True) for s, name in known_names.items()}
         branches = {part: BranchOf(part.args[0] - first_switch, part.args[1]) for part in expression.atoms(BranchOf)}
         return expression.xreplace(branches).xreplace(symbols)

@@ -29,12 +29,13 @@ if TYPE_CHECKING:
 NAME = "taylor"
 # Costs in operations of the series. They are fitted by eye to times in eight SIMD lanes: those of the race for 2 and 6
 # links, and those of the pendulum. dop853 gains more there than in single runs; both have the same method and bits.
-DOP853_STEP, DOP853_RHS = 7700.0, 4.3  # of a step, rejected ones included; per operation of the right-hand side
-SERIES_STEP, SERIES_ROW = 2900.0, 1500.0  # of a step without its series; per closure equation
-# Length of a step of the series by that of dop853, at the tolerance 10^-LOOSE; exponent of its growth. The length
-# of a step of the series does not depend on the tolerance.
-LENGTH_RATIO, LENGTH_GROWTH = 0.4, 0.1
-LOOSE, TIGHT = 3, 12  # -log10 of the loosest and of the tightest tolerance that are compared
+DOP853_STEP_COST = 7700.0  # rejected steps included
+DOP853_RHS_COST = 4.3  # per operation of the right-hand side
+SERIES_STEP_COST, SERIES_CLOSURE_COST = 2900.0, 1500.0  # per step without its series; per closure equation
+# Step length of the series divided by that of dop853 at the tolerance 10^-MIN_TOL_EXPONENT, and the exponent of its
+# growth. The step length of the series does not depend on the tolerance.
+STEP_LENGTH_RATIO, STEP_LENGTH_GROWTH = 0.4, 0.1
+MIN_TOL_EXPONENT, MAX_TOL_EXPONENT = 3, 12  # -log10 of the loosest and of the tightest tolerance that are compared
 MAX_RHS_OPERATIONS = 200  # of larger right-hand sides the series costs more, and it is not derived
 
 
@@ -52,8 +53,8 @@ def make_taylor_series(program: Program) -> Series:
 def choose_taylor_series(program: Program) -> tuple[Series | None, float]:
     """Return the Taylor series with which `auto` integrates a program, and the tolerance below which it does.
 
-    Return (None, 0.0) if `auto` uses dop853: the motion is not smooth, terms of time may act within a step only, or
-    the series costs more, in SIMD lanes as well.
+    Return (None, 0.0) if `auto` uses dop853: the motion is not smooth, it has transient terms of time (`pulses`), the
+    right-hand side has more than MAX_RHS_OPERATIONS, or the series costs more.
     """
     try:
         system = _get_smooth_system(program)
@@ -73,21 +74,24 @@ def _count_rhs_operations(program: Program) -> int:
 
 
 def _predict_tolerance(program: Program, series: Series) -> float:
-    """Return the tolerance below which the series takes less time than dop853, 0 for none.
+    """Return the tolerance below which a cost model predicts less time for the series than for dop853; 0.0 for none.
 
-    The comparison is made at powers of ten. The result lies between two of them.
+    The comparison is made at powers of ten from 10^-MIN_TOL_EXPONENT to 10^-MAX_TOL_EXPONENT. The result lies between
+    two of them: 10^(0.5 − exponent).
     """
-    n_rhs, n_rows, cheaper = _count_rhs_operations(program), len(program.integrated.system.rows), 0.0
-    for exponent in range(LOOSE, TIGHT + 1):
+    n_rhs, n_rows, tolerance = _count_rhs_operations(program), len(program.integrated.system.rows), 0.0
+    for exponent in range(MIN_TOL_EXPONENT, MAX_TOL_EXPONENT + 1):
         rtol = 10.0**-exponent
         order = math.ceil(1.0 - TAYLOR_EFFORT * math.log(rtol / TAYLOR_STRICTNESS))
         series_cost = (
-            SERIES_STEP + SERIES_ROW * n_rows + order * (series.terms.n_operations + order * len(series.products))
+            SERIES_STEP_COST
+            + SERIES_CLOSURE_COST * n_rows
+            + order * (series.terms.n_operations + order * len(series.products))
         )
-        length_ratio = LENGTH_RATIO * (rtol / 10.0**-LOOSE) ** -LENGTH_GROWTH
-        is_cheaper = series_cost < length_ratio * (DOP853_STEP + DOP853_RHS * n_rhs)
-        cheaper = (cheaper or 10.0 ** (0.5 - exponent)) if is_cheaper else 0.0
-    return cheaper
+        length_ratio = STEP_LENGTH_RATIO * (rtol / 10.0**-MIN_TOL_EXPONENT) ** -STEP_LENGTH_GROWTH
+        is_cheaper = series_cost < length_ratio * (DOP853_STEP_COST + DOP853_RHS_COST * n_rhs)
+        tolerance = (tolerance or 10.0 ** (0.5 - exponent)) if is_cheaper else 0.0
+    return tolerance
 
 
 def _get_smooth_system(program: Program) -> TreeSystem:
@@ -103,7 +107,7 @@ def _get_smooth_system(program: Program) -> TreeSystem:
         raise NoTaylorSeries(f"joint {model.clearances[0].name} has play, whose contacts begin and end")
     if model.frictions:
         raise NoTaylorSeries(f"the friction of {model.frictions[0].name} may stick")
-    if tree.chains:
+    if tree.driven_loop_kernels:
         raise NoTaylorSeries("drives determine the coordinates of a loop")
     if model.symbols.switches.count or program.integrated.system.model.symbols.switches.count:
         raise NoTaylorSeries("an expression has switching points (where, abs, min, max, sign, mod, ramp)")
@@ -115,8 +119,8 @@ def _get_smooth_system(program: Program) -> TreeSystem:
 def _derive_series(system: TreeSystem) -> Series:
     """Return the Taylor series of accelerations and powers, from a right-hand side derived again for it.
 
-    Its linear system (the KKT matrix, right-hand sides and unknowns) is passed on, so that higher orders reuse its
-    factors.
+    The linear system of the right-hand side (KKT matrix, right-hand sides, unknowns) is passed on, so that all orders
+    share its factors.
     """
     kkt = _RecordedKKT(system, allow_early_pairs=has_singular_fallback(system))
     dynamics = remove_unused_locals(
@@ -167,16 +171,16 @@ class _RecordedKKT(KKT):
 
 
 def _ignore_vanishing_pivot(builder: KernelBuilder, kkt: KKT, right_sides: Mapping[int, sp.Expr]) -> None:
-    """Append nothing for a vanishing pivot; the caller's value of `append_fallback` for `make_dynamics_kernel`.
+    """Append nothing for a vanishing pivot: the `append_fallback` of `make_dynamics_kernel` for the series.
 
     At such a state another method takes the step.
     """
 
 
 def _find_result_place(target: Place) -> Place | None:
-    """Return where the functions of the series store a result: "a" as it is, powers of `rhs` in "power".
+    """Return where the functions of the series store a result: "a" unchanged, powers of `rhs` in "power".
 
-    `target`: the storage place in the right-hand side. None stands for results that a series does not need.
+    Return None for results that a series does not need. `target`: the storage location in the right-hand side.
     """
     match target:
         case Place("a"):

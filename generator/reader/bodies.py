@@ -21,7 +21,7 @@ from gudgeon.language.tree import Number
 from gudgeon.language.units import DIMENSIONLESS, LENGTH
 
 _JOURNAL_KEYS = ("e", "rate")  # keys of the start of a journal in play
-_OF_SLIDER = ("offset", "tilt", "offset_rate", "tilt_rate")
+_SLIDER_KEYS = ("offset", "tilt", "offset_rate", "tilt_rate")
 
 
 def read_gravity(reader: Reader, root: Map) -> Vector | None:
@@ -142,7 +142,7 @@ def _read_play_starts(reader: Reader, root: Map) -> dict[str, JournalStart]:
             values = read_fields(reader, node, PLAY_START.fields, FieldContext(address))
             if is_slider:
                 offset, tilt, offset_rate, tilt_rate = (
-                    _make_slider_start(reader, values.quantities, name, address, joint) for name in _OF_SLIDER
+                    _make_slider_start(reader, values.quantities, name, address, joint) for name in _SLIDER_KEYS
                 )
                 starts[str(joint)] = JournalStart((offset, tilt), (offset_rate, tilt_rate))
                 continue
@@ -155,7 +155,7 @@ def _read_play_starts(reader: Reader, root: Map) -> dict[str, JournalStart]:
 
 
 def _is_slider(node: Map) -> bool:
-    """Return whether the play of a joint, given by its node, is that of a slider in its guide."""
+    """Return whether a joint, given by its node, is of a type whose play is that of a slider in its guide."""
     return any(joint_type.play == "guide" and key in node for key, joint_type in joint_types().items())
 
 

@@ -49,9 +49,9 @@ def _check_with_parameters(
 ) -> Container[str]:
     """Check all numbers with the file's parameters or a scene's, and return the addresses of the wrong ones.
 
-    `scene` None: with the file's parameters. Numbers in `reported_addresses`, numbers that follow from an unreadable
-    one, and errors that follow from another error are not reported. () is returned for parameters in a cycle, which was
-    reported already.
+    Errors are collected. `scene` None: with the file's parameters. Numbers in `reported_addresses`, numbers that
+    follow from an unreadable one, and errors that follow from another error are not reported. () is returned for
+    parameters in a cycle, which was reported already.
     """
     scene_parameters = scene.parameters if scene else {}
     context = f" in scene {scene.name}" if scene else ""
@@ -191,9 +191,9 @@ def _find_ramp_calls(quantity: Quantity) -> list[Call]:
 
 
 def _find_underflow(expr: Expr, parameter_numbers: Mapping[str, float]) -> float | None:
-    """Return the first factor of an expression that underflows in binary64, None if there is none.
+    """Return the first product, quotient or factor in an expression that underflows in binary64; None if there is none.
 
-    Products of numbers, and powers in products, are tested. `parameter_numbers`: values of parameters by name.
+    Sums are searched for them, but are not tested themselves. `parameter_numbers`: values of parameters by name.
     """
     match expr:
         case Unary(operand=operand):

@@ -18,7 +18,7 @@ from gudgeon.errors import (
     combine_errors,
 )
 from gudgeon.generator.field import CONSTANT_IN_TIME, OF_CAM_ANGLE, OF_PENETRATION
-from gudgeon.generator.format.shapes import ANY_NAME, check_shape
+from gudgeon.generator.format.shapes import ANY_NAME, check_tree_structure
 from gudgeon.generator.mechanism import Condition, Quantity, Vector
 from gudgeon.generator.reader.result_names import CamAngleNames, PenetrationNames, ResultDimension
 from gudgeon.generator.reader.unit_or_name import choose_interpretation
@@ -84,6 +84,7 @@ class Reader:
     """
 
     def __init__(self, file: str) -> None:
+        """Begin without errors and values; `file` is the name of the file for messages."""
         self.file = file
         self.errors: list[InputError] = []
         self.quantities: dict[str, Quantity] = {}  # by address
@@ -111,7 +112,7 @@ class Reader:
             OF_CAM_ANGLE: CamAngleNames(self.parameters),
         }
 
-    def check_shape(self, root: Map) -> Map:
+    def remove_invalid_entries(self, root: Map) -> Map:
         """Return the file's tree without the entries whose keys or node types are wrong.
 
         Their errors are collected, and the names of the removed entries are stored in `removed_names`. A key that is
@@ -119,7 +120,7 @@ class Reader:
         nothing is left to read.
         """
         with self.collect_errors():
-            checked = check_shape(root)
+            checked = check_tree_structure(root)
             has_duplicates = any(error.message != NO_MERGE for error in self.errors)
             unknown_names = (
                 (ANY_NAME,) if has_duplicates else ()
@@ -147,8 +148,8 @@ class Reader:
     def raise_errors(self) -> None:
         """Raise the collected errors: one error as itself, several as InputErrors; return if there are none.
 
-        Left out are duplicates, unknown names of entries that `check_shape` removed, and errors in expressions that use
-        a refused name: they follow from another error.
+        Left out are duplicates, unknown names of entries that `remove_invalid_entries` removed, and errors in
+        expressions that use a refused name: they follow from another error.
         """
         unique_errors = {_make_error_key(error): error for error in reversed(self.errors)}.values()
         texts_with_refused_names = self._find_texts_with_refused_names()
@@ -164,7 +165,7 @@ class Reader:
             raise combine_errors(errors)
 
     def _is_unknown_name_of_removed_entry(self, error: InputError) -> bool:
-        """Return whether an error reports an unknown name of an entry that `check_shape` removed.
+        """Return whether an error reports an unknown name of an entry that `remove_invalid_entries` removed.
 
         If a whole section was removed (ANY_NAME), this holds for every unknown name.
         """
@@ -186,9 +187,9 @@ class Reader:
     def read_quantity(self, text: Text, address: str, expected: Dimension | None, name_scope: str = "") -> Quantity:
         """Read the number or expression at an address, check its dimension, and register and return it as a quantity.
 
-        `expected` is its dimension, None if any. `name_scope` says which names it may use in addition to parameters
-        (generator/field.py). Named expressions are replaced by their trees. An error is collected, and the value is NaN
-        then.
+        `expected` is its dimension, None if any. `name_scope` is the set of names that it may use in addition to
+        parameters, such as OF_TIME (generator/field.py). Named expressions are replaced by their trees. An error is
+        collected, and the value is NaN then.
         """
         tree: Expr = make_unreadable_number(text)
         dimension = expected
@@ -226,7 +227,7 @@ class Reader:
     def find_number_dimension(self, name: str) -> Dimension | None:
         """Return the dimension of a parameter or named expression.
 
-        None if the name is unknown, or if it was defined without a unit and thus fits any dimension.
+        None if the name is unknown, or if it was defined without a unit (`c: 0.1`) and thus fits any dimension.
         """
         return self.expressions[name].dimension if name in self.expressions else self.parameters.get(name)
 
@@ -271,11 +272,12 @@ class Reader:
         return dimensions
 
     def _find_dimension(self, name: Name, location: Location, name_scope: str) -> Dimension | None:
-        """Return the dimension of one name; None if it fits any dimension.
+        """Return the dimension of one name in an expression; None if it fits any dimension.
 
-        Tried in this order: t, parameters, named expressions, and results in the scope `name_scope`. A named expression
-        is checked for names that this value must not contain. Raises an InputError at `location` if the name is unknown
-        or `name_scope` does not allow it.
+        A parameter that is defined without a unit (`c: 0.1`) fits any dimension. The order of search is t, parameters,
+        named expressions, then results such as L1.x if `name_scope` allows them. A named expression is checked for
+        names that this value must not contain. Raises an InputError at `location` if the name is unknown or
+        `name_scope` does not allow it.
         """
         allows_time, result_dimension = name_scope not in CONSTANT_IN_TIME, self.result_scopes.get(name_scope)
         if name.path == "t":

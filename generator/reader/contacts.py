@@ -16,7 +16,7 @@ from gudgeon.generator.kinds.laws.law import USER_LAWS, find_all_laws, find_laws
 from gudgeon.generator.kinds.laws.registered import find_law_key
 from gudgeon.generator.mechanism import Bearing, Contact, Guide, LawUse, Material, Quantity, make_onset_value
 from gudgeon.generator.reader.collector import Reader
-from gudgeon.generator.reader.fields import FieldContext, check_keys, list_field_names, read_fields
+from gudgeon.generator.reader.fields import FieldContext, list_field_names, read_fields, report_unknown_keys
 from gudgeon.generator.reader.materials import ELASTIC_KEYS, Materials
 from gudgeon.generator.yaml import Map, Text
 from gudgeon.language.names import format_name_hint, make_unknown_name_error
@@ -27,10 +27,10 @@ from gudgeon.language.tree import Number, iterate_names
 def order_by_inheritance(
     reader: Reader, kind: str, section: Map, outside_parents: Iterable[str] = ()
 ) -> Iterator[tuple[Text, Map]]:
-    """Yield the entries (name, node) of a section so that each comes after the entry that it extends.
+    """Yield the entries (name, node) of a section in topological order: each after the entry that it extends.
 
     `kind` names the kind of entry in messages; `outside_parents` are parents outside the section. Errors are collected
-    for entries that extend an unknown name, or themselves through others; these and their heirs are left out.
+    for entries that extend an unknown name, or themselves through others; these and their descendants are left out.
     """
     by_name = {str(name): (name, entry) for name, entry in section.list_entries()}
     ordered = dict.fromkeys(
@@ -296,7 +296,8 @@ def _read_law(reader: Reader, address: str, role: str, node: Map) -> LawUse:
     """Return a force law of the given role with its numbers and options; defaults of the law are filled in.
 
     Errors of its numbers are collected. Raises an InputError if the law is missing, unknown or of another role, or for
-    a choice that has a meaning only without a number that is given.
+    an option that has an effect only without a number that is given. The key of a user-defined law is recorded in
+    `reader.laws`.
     """
     if not isinstance(node.get("law"), Text):
         raise make_missing_key_error("law", node.where, address)
@@ -312,7 +313,7 @@ def _read_law(reader: Reader, address: str, role: str, node: Map) -> LawUse:
     law, fields = laws_of_role[text], laws_of_role[text].list_fields_of_name(text)
     if law.name in USER_LAWS:
         reader.laws[law.name] = find_law_key(law.name)
-    mistyped = check_keys(reader, node, ["law", *list_field_names(fields)], address)
+    mistyped = report_unknown_keys(reader, node, ["law", *list_field_names(fields)], address)
     context = FieldContext(address, str(text), text.where, mistyped)
     values = read_fields(reader, node, resolve_dimensions(fields, node), context)
     for declaration in fields:

@@ -241,7 +241,7 @@ def _parse_table_rows(reader: Reader, name: Text, data: bytes) -> list[Row]:
 def _parse_long_table(
     data: bytes, x_unit: Unit | None, y_unit: Unit | None, end_condition: str
 ) -> tuple[tuple[float, ...], tuple[float, ...]] | None:
-    """Return both columns (SI) of a table of more than a megabyte, parsed at once; None if it must be read row by row.
+    """Return both columns (SI) of a table of more than MAX_BYTES, parsed at once; None if it must be read row by row.
 
     That is so for shorter tables and for those with an error, whose location only the rows show. Numbers are converted
     to SI in binary64: their last digit may differ from that of a shorter table.
@@ -268,17 +268,25 @@ def _parse_long_table(
         return None
     x, y = (table * scales).T
     sizes = np.abs(table[table != 0.0])
-    fits = np.isfinite(table).all() and (sizes < _HIGH).all() and (sizes > _LOW).all() and (np.diff(x) > 0.0).all()
+    fits = (
+        np.isfinite(table).all()
+        and (sizes < _MAX_MAGNITUDE).all()
+        and (sizes > _MIN_MAGNITUDE).all()
+        and (np.diff(x) > 0.0).all()
+    )
     if not fits or (end_condition == PERIODIC and y[0] != y[-1]):
         return None
     return tuple(x.tolist()), tuple(y.tolist())
 
 
-_LOW, _HIGH = 1e-140, 1e140  # magnitudes that stay within binary64 after conversion of units
+_MIN_MAGNITUDE, _MAX_MAGNITUDE = 1e-140, 1e140  # magnitudes that stay within binary64 after conversion of units
 
 
 def _parse_decimal(text: str) -> Fraction | None:
-    """Return a decimal number as an exact fraction, None if the text is not one or has more than 40 characters."""
+    """Return a decimal number as an exact fraction.
+
+    Return None if the text is not a decimal number or has more than `_MAX_DECIMAL_LENGTH` characters.
+    """
     return Fraction(text) if len(text) <= _MAX_DECIMAL_LENGTH and _DECIMAL.fullmatch(text) else None
 
 

@@ -31,11 +31,12 @@ _LABEL_SECTIONS = {
 _COORDINATES = ("x", "y", "theta", "vx", "vy", "omega", "ax", "ay", "alpha")
 
 
-def read_names(reader: Reader, root: Map) -> tuple[PointNames, ResultNames]:
-    """Return the names of points and of results; the others go to reader.parameters and reader.expressions.
+def read_declared_names(reader: Reader, root: Map) -> tuple[PointNames, ResultNames]:
+    """Return the names of points and of results, and register all other names of the file in the reader.
 
-    reader.result_scopes gets the names of motion and of results. A BadNameError is collected for each name that is not
-    allowed or used twice. Nothing else of the sections is read.
+    Parameters go to reader.parameters, named expressions to reader.expressions. reader.result_scopes gets the names of
+    motion and of results. A BadNameError is collected for each name that is not allowed or used twice. Nothing else of
+    the sections is read.
     """
     reader.parameters.update(dict.fromkeys(map(str, root.get_mapping("parameters"))))
     expressions = (name for name in root.get_mapping("expressions").list_keys() if name != "t")

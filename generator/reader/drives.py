@@ -55,7 +55,7 @@ def read_drives(reader: Reader, root: Map, point_names: PointNames) -> dict[str,
 def _read_drive(
     reader: Reader, name: Text, node: Map, point_names: PointNames
 ) -> tuple[Drive, tuple[str, frozenset[str]]] | None:
-    """Return one drive with the key of what it prescribes; None if its target or value cannot be read.
+    """Return one drive with the key of its target, which identifies the prescribed quantity; None if it cannot be read.
 
     Errors are collected. Raises BadValueError for a value with `sign`, which jumps.
     """

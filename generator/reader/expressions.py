@@ -80,9 +80,10 @@ def _read_named_expression(
 def _check_expression_size(
     name: str, tree: Expr, location: Location, sizes: Mapping[str, tuple[int, int]]
 ) -> tuple[int, int]:
-    """Return the number of parts and levels of a tree with all names replaced. Raises LimitError if it is too large.
+    """Return the number of nodes and levels of an expression tree with all names replaced.
 
-    `sizes` contains these numbers for each named expression that was read before.
+    `sizes` contains these numbers for each named expression that was read before. Raises LimitError above MAX_PARTS or
+    MAX_LEVELS.
     """
     parts, levels = _measure_tree(tree, sizes)
     if parts > MAX_PARTS or levels > MAX_LEVELS:
@@ -92,9 +93,9 @@ def _check_expression_size(
 
 
 def _measure_tree(tree: Expr, sizes: Mapping[str, tuple[int, int]]) -> tuple[int, int]:
-    """Return (parts, levels) of a tree; `sizes` contains them for each named expression.
+    """Return (nodes, levels) of an expression tree; `sizes` contains them for each named expression.
 
-    Arguments of functions that are derived with several copies count as often.
+    The arguments of a function in COPIES count as often as its SymPy form repeats them.
     """
     match tree:
         case Name(path=path):

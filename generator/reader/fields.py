@@ -51,21 +51,23 @@ class _Kind(Protocol):
     def fields(self) -> tuple[Field, ...]: ...
 
     @property
-    def also(self) -> tuple[str, ...]: ...
+    def foreign_names(self) -> tuple[str, ...]: ...
 
 
 def read_kind(
     reader: Reader, node: Map, kinds: Mapping[str, _Kind], address: str, hints: Mapping[str, str] = _NO_HINTS
 ) -> tuple[Text, frozenset[str | None]]:
-    """Return the key that states an entry's kind, and the keys that its unknown keys probably mean (`check_keys`).
+    """Return the key that states an entry's kind, and the keys that its unknown keys probably mean.
 
-    Errors of unknown keys are collected. `address` is the entry's address; `hints` maps keys of other sections to a
-    hint. Raises an InputError if there is no kind or more than one.
+    Errors of unknown keys are collected (`report_unknown_keys`). `address` is the entry's address; `hints` maps keys
+    of other sections to a hint. Raises an InputError if there is no kind or more than one.
     """
     kind_key = find_kind_key(
         node, kinds, [key for kind_type in kinds.values() for key in list_field_names(kind_type.fields)], address
     )
-    return kind_key, check_keys(reader, node, [kind_key, *list_field_names(kinds[kind_key].fields)], address, hints)
+    return kind_key, report_unknown_keys(
+        reader, node, [kind_key, *list_field_names(kinds[kind_key].fields)], address, hints
+    )
 
 
 def find_kind_key(node: Map, kinds: Mapping[str, _Kind], other_keys: Iterable[str], address: str) -> Text:
@@ -82,7 +84,9 @@ def find_kind_key(node: Map, kinds: Mapping[str, _Kind], other_keys: Iterable[st
             f"{address} is both {kind_keys[0]} and {kind_keys[1]}", kind_keys[1].where, "expected one kind"
         )
     unknown = next((key for key in node.list_keys() if key not in other_keys), None)
-    foreign_names = {foreign_name: kind for kind, kind_type in kinds.items() for foreign_name in kind_type.also}
+    foreign_names = {
+        foreign_name: kind for kind, kind_type in kinds.items() for foreign_name in kind_type.foreign_names
+    }
     for key in node.list_keys():
         if key.lower() in foreign_names:
             raise make_unknown_key_error(
@@ -93,7 +97,7 @@ def find_kind_key(node: Map, kinds: Mapping[str, _Kind], other_keys: Iterable[st
     raise make_unknown_key_error(unknown, kinds, address)
 
 
-def check_keys(
+def report_unknown_keys(
     reader: Reader, node: Map, known_keys: Sequence[str], address: str, hints: Mapping[str, str] = _NO_HINTS
 ) -> frozenset[str | None]:
     """Collect an error for each unknown key of an entry, and return the known keys that these probably stand for.
@@ -228,10 +232,11 @@ def _fill_in_default(reader: Reader, declaration: Field, address: str, location:
 
 
 def _read_field(reader: Reader, node: Map, declaration: Field, context: FieldContext, values: Values) -> None:
-    """Read the value of one field of the mapping, check it by the field's kind, and store it in `values`.
+    """Read the value of one field whose key is present, check it by the field's kind, and store it in `values`.
 
-    Fields of other kinds (names, records) are skipped: other readers read them. Raises BadValueError for a node of the
-    wrong type.
+    Numbers are stored in `quantities`, vectors in `vectors`, words, flags and bodies in `options`. Fields of other
+    kinds (names, records) are skipped: other readers read them. The caller handles missing keys. Raises BadValueError
+    for a node of the wrong type.
     """
     address, node_of_field = f"{context.address}.{declaration.name}", node[declaration.name]
     if declaration.kind in (NUMBER, BODY) and not isinstance(node_of_field, Text):
@@ -286,9 +291,10 @@ def _read_word(node: object, key: Text, declaration: Field, address: str) -> str
 
 
 def _record_bounds(reader: Reader, fields: Sequence[Field], context: FieldContext, values: Values) -> None:
-    """Record the bounds of numbers and vectors as conditions.
+    """Record the bounds of numbers and vectors as conditions, which `check_values` evaluates later.
 
-    A bound by another field is recorded after that field's own bounds, so that an error of the limit is reported first.
+    A bound by another field is recorded after that field's own bounds, so that an error of the limit is reported
+    first.
     """
     visited: set[str] = set()
     postponed: list[tuple[Field, Bound]] = []

@@ -35,13 +35,13 @@ def _make_play_hints(joint: Text, node: Map, root: Map) -> Mapping[str, str]:
     is_slider = any(joint_type.play == "guide" and key in node for key, joint_type in joint_types().items())
     dimensions_key = "guide" if is_slider else "bearing"
     dimensions_name, contact = (
-        next(iter(root.get_mapping(f"{section}s")), _PLAY[section]) for section in (dimensions_key, "contact")
+        next(iter(root.get_mapping(f"{section}s")), _EXAMPLE_NAMES[section]) for section in (dimensions_key, "contact")
     )
     example = f"scenes: {{worn: {{play: {{{joint}: {{{dimensions_key}: {dimensions_name}, contact: {contact}}}}}}}}}"
     return dict.fromkeys(("play", "clearance", "bearing", "guide", "contact"), f"play belongs in scenes: {example}")
 
 
-_PLAY = {"bearing": "pin", "guide": "way", "contact": "metal"}
+_EXAMPLE_NAMES = {"bearing": "pin", "guide": "way", "contact": "metal"}
 
 
 def _read_joint(reader: Reader, name: Text, node: Map, point_names: PointNames, hints: Mapping[str, str]) -> Joint:

@@ -27,7 +27,8 @@ class Materials:
     """
 
     def __init__(self, reader: Reader, section: Map) -> None:
-        self._reader, self._needs = reader, dict[str, tuple[str, ...]]()
+        """Read the section `materials:`; values of interchangeable materials become run-time parameters."""
+        self._reader, self._required_properties = reader, dict[str, tuple[str, ...]]()
         self.by_name: dict[str, Material] = {}
         self.choices: dict[str, Choice] = {}
         for name, node in section.list_entries():
@@ -60,7 +61,7 @@ class Materials:
         If another material has them too, the properties become run-time parameters at this address, with the bounds of
         materials, and `choices` gets the address. Raises UnknownNameError, MissingKeyError.
         """
-        self._needs[address] = properties
+        self._required_properties[address] = properties
         quantities = self._find_material(material_name, properties).numbers
         if len(self._find_materials_with(properties)) < 2:
             return {key: quantities[key] for key in properties}
@@ -82,9 +83,9 @@ class Materials:
         The address must be that of a bearing, guide or shape with a material, whose needed properties the material must
         have.
         """
-        if address not in self._needs:
-            raise make_unknown_name_error("address of a material", address, self._needs, address.where)
-        return self._find_material(material_name, self._needs[address]).name
+        if address not in self._required_properties:
+            raise make_unknown_name_error("address of a material", address, self._required_properties, address.where)
+        return self._find_material(material_name, self._required_properties[address]).name
 
     def _find_material(self, material_name: Text, properties: tuple[str, ...]) -> Material:
         """Return the material named `material_name` if it has all properties in `properties`.

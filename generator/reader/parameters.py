@@ -96,7 +96,7 @@ def infer_dimensions(reader: Reader, parameters: Mapping[str, Quantity]) -> dict
 def sort_by_dependencies(
     trees: Mapping[str, Expr], locations: Mapping[str, Location], section: str = "parameters"
 ) -> tuple[str, ...]:
-    """Return names so that each comes after those that it uses.
+    """Return names in topological order: each comes after those that it uses.
 
     `trees` and `locations` are the expression and location of each name; `section` names the section in messages.
     Raises CycleError, or InputErrors for several cycles.

@@ -75,7 +75,7 @@ class PointNames:
         name = self.check_body(text, location)
         return PointRef(str(name), "" if name == GROUND else "com", location)
 
-    def iterate_names(self) -> Iterator[str]:
+    def iterate_point_names(self) -> Iterator[str]:
         """Yield the name of every point of the file, such as "L1.head", body by body, the ground last."""
         for body in (*self.bodies, GROUND):
             yield from (f"{body}.{point}" for point in self.list_points(body))

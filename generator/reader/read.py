@@ -19,7 +19,7 @@ from gudgeon.generator.reader.checks import check_values
 from gudgeon.generator.reader.collector import Reader, TooManyErrors
 from gudgeon.generator.reader.contacts import read_bearings_and_guides, read_contacts
 from gudgeon.generator.reader.curves import read_curves
-from gudgeon.generator.reader.declared_names import read_names
+from gudgeon.generator.reader.declared_names import read_declared_names
 from gudgeon.generator.reader.drives import read_drives
 from gudgeon.generator.reader.expressions import read_expressions
 from gudgeon.generator.reader.joints_and_forces import read_forces, read_joints
@@ -32,7 +32,7 @@ from gudgeon.language.tree import Number
 
 _MAX_TITLE = 200
 # no control characters, line ends or marks that change the direction of the text after them
-_SHOWN = r"\x20-\x7e\u00a0-\u2027\u202f-\u2065\u206a-\ud7ff\ue000-\uffef\U00010000-\U0010ffff"
+_VISIBLE_CHARACTERS = r"\x20-\x7e\u00a0-\u2027\u202f-\u2065\u206a-\ud7ff\ue000-\uffef\U00010000-\U0010ffff"
 
 
 def read_mechanism(data: bytes, file: str, overrides: Mapping[str, str | float | bool] | None = None) -> Mechanism:
@@ -45,7 +45,7 @@ def read_mechanism(data: bytes, file: str, overrides: Mapping[str, str | float |
     reader = Reader(file)
     root = apply_overrides(parse_yaml(data, file, reader.errors), overrides or {})
     try:
-        mechanism = _read_sections(reader, reader.check_shape(root), hashlib.sha256(data).hexdigest())
+        mechanism = _read_sections(reader, reader.remove_invalid_entries(root), hashlib.sha256(data).hexdigest())
     except TooManyErrors:
         mechanism = None
     reader.raise_errors()
@@ -59,7 +59,7 @@ def _read_sections(reader: Reader, root: Map, sha256: str) -> Mechanism:
     Names are read first, so that sections can refer to each other. Values and conditions are checked last, with the
     file's parameters and with those of each scene. `sha256` is that of the file's bytes. Raises TooManyErrors.
     """
-    point_names, results = read_names(reader, root)
+    point_names, results = read_declared_names(reader, root)
     title, curves = _read_title(reader, root), read_curves(reader, root)
     parameters, expressions = read_parameters(reader, root.get_mapping("parameters")), read_expressions(reader, root)
     gravity, materials = read_gravity(reader, root), Materials(reader, root.get_mapping("materials"))
@@ -106,14 +106,14 @@ def _read_sections(reader: Reader, root: Map, sha256: str) -> Mechanism:
 def _read_title(reader: Reader, root: Map) -> str:
     """Return the title, which is safe in comments of emitted code; the mechanism's name if there is no title.
 
-    Errors are collected for a name that is not allowed, and for a title of several lines, of more than 200 characters,
-    or with backslashes or comment signs.
+    Errors are collected for a name that is not allowed, and for a title of several lines, of more than _MAX_TITLE
+    characters, or with backslashes or comment signs.
     """
     with reader.collect_errors():
         check_name(root["name"], "mechanism", root["name"].where)
     title = root.get("title", root["name"])
     with reader.collect_errors():
-        invalid = re.search(rf"[^{_SHOWN}]|\\|\*/|/\*|\?\?/", title)
+        invalid = re.search(rf"[^{_VISIBLE_CHARACTERS}]|\\|\*/|/\*|\?\?/", title)
         if invalid or len(title) > _MAX_TITLE:
             fault = f"has {invalid[0]!r}" if invalid else f"has {len(title)} characters"
             hint = f"expected one line of at most {_MAX_TITLE} characters without backslashes or comment signs"

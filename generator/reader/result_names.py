@@ -28,7 +28,7 @@ from gudgeon.language.units import (
 
 ResultDimension = Callable[[Name, Location], Dimension | None]  # None: fits any dimension
 
-_POINT: Mapping[str, Dimension] = {
+_POINT_RESULTS: Mapping[str, Dimension] = {
     "x": LENGTH,
     "y": LENGTH,
     "vx": VELOCITY,
@@ -36,9 +36,14 @@ _POINT: Mapping[str, Dimension] = {
     "ax": ACCELERATION,
     "ay": ACCELERATION,
 }
-_BODY: Mapping[str, Dimension] = {**_POINT, "theta": DIMENSIONLESS, "omega": RATE, "alpha": ANGULAR_ACCELERATION}
-_JOINT: Mapping[str, Dimension] = {"Fx": FORCE, "Fy": FORCE, "F": FORCE, "M": TORQUE}
-_PLAY: Mapping[str, Dimension] = {
+_BODY_RESULTS: Mapping[str, Dimension] = {
+    **_POINT_RESULTS,
+    "theta": DIMENSIONLESS,
+    "omega": RATE,
+    "alpha": ANGULAR_ACCELERATION,
+}
+_JOINT_RESULTS: Mapping[str, Dimension] = {"Fx": FORCE, "Fy": FORCE, "F": FORCE, "M": TORQUE}
+_PLAY_RESULTS: Mapping[str, Dimension] = {
     "Fn": FORCE,
     "Ft": FORCE,
     "e": LENGTH,
@@ -51,10 +56,10 @@ _PLAY: Mapping[str, Dimension] = {
     "state": DIMENSIONLESS,
     "deltadot_minus": VELOCITY,
 }
-_ALWAYS = ("Fx", "Fy", "F")  # results of a joint with play or without
-_OF_CORNER: Mapping[str, Dimension] = {**{name: FORCE for name in _ALWAYS}, **_PLAY}
-_RESULTS_OF_PLAY = f"expected one of: {', '.join((*_ALWAYS, *_PLAY))}"
-_TOTALS: Mapping[str, Mapping[str, Dimension]] = {
+_COMMON_RESULTS = ("Fx", "Fy", "F")  # results of a joint with play or without
+_CORNER_RESULTS: Mapping[str, Dimension] = {**{name: FORCE for name in _COMMON_RESULTS}, **_PLAY_RESULTS}
+_PLAY_HINT = f"expected one of: {', '.join((*_COMMON_RESULTS, *_PLAY_RESULTS))}"
+_TOTAL_RESULTS: Mapping[str, Mapping[str, Dimension]] = {
     "energy": {"kinetic": TORQUE, "potential": TORQUE, "residual": TORQUE},
     "work": {"drives": TORQUE, "forces": TORQUE, "clearances": TORQUE},
 }
@@ -65,13 +70,16 @@ _ACCELERATIONS = ("ax", "ay", "alpha")
 class ResultNames:
     """Return the dimension of each result of a mechanism, with and without play.
 
-    `numbers` maps names without a dot to what they are ("a parameter"). `unreadable_owners` are joints, drives and
+    `number_kinds` maps names without a dot to phrases ("a parameter"). `unreadable_owners` are joints, drives and
     forces whose
     own errors were reported: their results are accepted without a check. `owners` maps the owner of results ("A",
     "L1.head", "energy") to the dimensions of its results by name.
     """
 
-    def __init__(self, point_names: PointNames, root: Map, numbers: Mapping[str, str], unread: Iterable[str]) -> None:
+    def __init__(
+        self, point_names: PointNames, root: Map, number_kinds: Mapping[str, str], unreadable_owners: Iterable[str]
+    ) -> None:
+        """Collect the results of all bodies, points, joints, drives and forces that the file `root` declares."""
         joints, drives, forces = (
             {
                 str(name): kind
@@ -81,18 +89,20 @@ class ResultNames:
             }
             for section, kinds in (("joints", joint_types()), ("drives", DRIVES), ("forces", element_types()))
         )
-        self.unreadable_owners, self._joints = set(unread), frozenset(joints)
-        self.owners: dict[str, Mapping[str, Dimension]] = dict(_TOTALS)
-        self.owners |= dict.fromkeys(map(str, point_names.bodies), _BODY)
+        self.unreadable_owners, self._joints = set(unreadable_owners), frozenset(joints)
+        self.owners: dict[str, Mapping[str, Dimension]] = dict(_TOTAL_RESULTS)
+        self.owners |= dict.fromkeys(map(str, point_names.bodies), _BODY_RESULTS)
         self.owners |= {name: _find_drive_results(kind, root["drives"][name]) for name, kind in drives.items()}
-        self.owners |= dict.fromkeys(point_names.iterate_names(), _POINT)
+        self.owners |= dict.fromkeys(point_names.iterate_point_names(), _POINT_RESULTS)
         self.owners |= {name: dict(element_types()[kind].results) for name, kind in forces.items()}
         for name in point_names.ground:
             self.owners[f"{GROUND}.{name}"] = {"x": LENGTH, "y": LENGTH}
         guides = [name for name, kind in joints.items() if joint_types()[kind].play == "guide"]
-        self.owners |= dict.fromkeys(joints, {**_JOINT, **_PLAY}) | dict.fromkeys(guides, _JOINT)
-        self.owners |= {f"{guide}.{corner}": _OF_CORNER for guide in guides for corner in CORNERS}
-        self.number_kinds = numbers
+        self.owners |= dict.fromkeys(joints, {**_JOINT_RESULTS, **_PLAY_RESULTS}) | dict.fromkeys(
+            guides, _JOINT_RESULTS
+        )
+        self.owners |= {f"{guide}.{corner}": _CORNER_RESULTS for guide in guides for corner in CORNERS}
+        self.number_kinds = number_kinds
 
     def __call__(self, name: Name, where: Location) -> Dimension | None:
         """Return the dimension of a result's name; None if its owner could not be read, so that any dimension fits.
@@ -103,32 +113,34 @@ class ResultNames:
         if owner in self.unreadable_owners:
             return None
         if not dot:
-            candidates = [path for path in self.iterate_names() if path.partition(".")[0] == name.path]
+            candidates = [path for path in self.iterate_result_names() if path.partition(".")[0] == name.path]
             raise make_unknown_name_error("name", name.path, candidates or self.number_kinds, where)
         if owner not in self.owners:
-            raise make_unknown_name_error("name", name.path, self.iterate_names(), where)
+            raise make_unknown_name_error("name", name.path, self.iterate_result_names(), where)
         if result not in self.owners[owner]:
             location = Location(where.file, where.line, where.column + len(owner) + 1)
             raise make_unknown_name_error(f"result of {owner}", result, self.owners[owner], location)
         return self.owners[owner][result]
 
     def check_series_name(self, name: Text, outputs: Iterable[str]) -> None:
-        """Raise UnknownNameError, with the nearest series, for a name without a dot that is not an output.
+        """Raise UnknownNameError, with the nearest series, for a name without a dot; others are not checked here.
 
-        Names with a dot are not checked here; callers pass no names of `outputs`.
+        Callers pass no names of `outputs`, which are series too.
         """
         if "." in name:
             return
         if name in self.number_kinds:
-            same_results = [path for path in self.iterate_names() if path.rpartition(".")[2] == name]
+            same_results = [path for path in self.iterate_result_names() if path.rpartition(".")[2] == name]
             hint = (
                 f"expected {', '.join(same_results[:6])}"
                 if same_results
                 else "expected a result: L1.omega, A.F, drive.torque"
             )
             raise UnknownNameError(f"{str(name)!r} is {self.number_kinds[name]}, not a series", name.where, hint)
-        results_of_owner = [path for path in self.iterate_names() if path.partition(".")[0] == name]
-        raise make_unknown_name_error("series", name, results_of_owner or [*outputs, *self.iterate_names()], name.where)
+        results_of_owner = [path for path in self.iterate_result_names() if path.partition(".")[0] == name]
+        raise make_unknown_name_error(
+            "series", name, results_of_owner or [*outputs, *self.iterate_result_names()], name.where
+        )
 
     def check_result_availability(self, name: Text, scene: str, play: Container[str]) -> None:
         """Raise BadValueError for a result that a joint has only with play, or only without, in other scenes.
@@ -141,19 +153,19 @@ class ResultNames:
             return
         if joint in self._joints and corner in CORNERS and joint not in play:
             hint = (
-                f"expected one of: {', '.join(f'{joint}.{result}' for result in _JOINT)}; or play of {joint} "
+                f"expected one of: {', '.join(f'{joint}.{result}' for result in _JOINT_RESULTS)}; or play of {joint} "
                 f"in scene {scene}"
             )
             raise BadValueError(f"{name}: joint {joint} has no play in scene {scene}", name.where, hint)
-        if owner not in self._joints or result in _ALWAYS:
+        if owner not in self._joints or result in _COMMON_RESULTS:
             return
-        if owner in play and result in _JOINT and f"{owner}.{next(iter(CORNERS))}" not in self.owners:
-            raise BadValueError(f"{name}: joint {owner} has play in scene {scene}", name.where, _RESULTS_OF_PLAY)
-        if owner not in play and result in _PLAY:
-            hint = f"expected one of: {', '.join(_JOINT)}; or play of {joint} in scene {scene}"
+        if owner in play and result in _JOINT_RESULTS and f"{owner}.{next(iter(CORNERS))}" not in self.owners:
+            raise BadValueError(f"{name}: joint {owner} has play in scene {scene}", name.where, _PLAY_HINT)
+        if owner not in play and result in _PLAY_RESULTS:
+            hint = f"expected one of: {', '.join(_JOINT_RESULTS)}; or play of {joint} in scene {scene}"
             raise BadValueError(f"{name}: joint {owner} has no play in scene {scene}", name.where, hint)
 
-    def iterate_names(self) -> Iterator[str]:
+    def iterate_result_names(self) -> Iterator[str]:
         """Return an iterator over the full name of every result, without those of unreadable owners."""
         readable = ((owner, results) for owner, results in self.owners.items() if owner not in self.unreadable_owners)
         return (f"{owner}.{result}" for owner, results in readable for result in results)
@@ -162,17 +174,18 @@ class ResultNames:
 class MotionNames(ResultNames):
     """Return the dimension of each name on which a force may depend: coordinates and velocities."""
 
-    def __init__(self, point_names: PointNames, root: Map, numbers: Mapping[str, str]) -> None:
+    def __init__(self, point_names: PointNames, root: Map, number_kinds: Mapping[str, str]) -> None:
+        """Collect coordinates and velocities of bodies and points; accelerations and results of forces are left out."""
         moving = {"bodies": root["bodies"], "ground": root.get_mapping("ground")}
-        super().__init__(point_names, Map.make_map(moving, root.where), numbers, ())
-        for total in _TOTALS:
+        super().__init__(point_names, Map.make_map(moving, root.where), number_kinds, ())
+        for total in _TOTAL_RESULTS:
             del self.owners[total]
         self.owners = {
             owner: {part: of for part, of in parts.items() if part not in _ACCELERATIONS}
             for owner, parts in self.owners.items()
         }
-        self._later = frozenset(
-            (*_TOTALS, *root.get_mapping("drives"), *root.get_mapping("joints"), *root.get_mapping("forces"))
+        self._force_results = frozenset(
+            (*_TOTAL_RESULTS, *root.get_mapping("drives"), *root.get_mapping("joints"), *root.get_mapping("forces"))
         )
 
     def __call__(self, name: Name, where: Location) -> Dimension | None:
@@ -182,7 +195,7 @@ class MotionNames(ResultNames):
         """
         owner, _, component = name.path.rpartition(".")
         if (
-            owner in self._later
+            owner in self._force_results
             or owner in self.owners
             and component in _ACCELERATIONS
             and component not in self.owners[owner]
@@ -209,7 +222,7 @@ class PenetrationNames:
         """
         if name.path == "delta":
             return LENGTH
-        if "." in name.path or name.path in _PLAY:
+        if "." in name.path or name.path in _PLAY_RESULTS:
             hint = "expected delta, the penetration, and parameters; `dissipation` sets the effect of its rate"
             raise ExpressionError(f"{name.path!r} is not allowed in a force of the penetration", where, hint)
         raise make_unknown_name_error("name", name.path, ("delta", *self._parameters), where)
@@ -235,6 +248,6 @@ class CamAngleNames:
 
 
 def _find_drive_results(kind: str, node: Map) -> Mapping[str, Dimension]:
-    """Return the results of a drive by name: a torque if it prescribes an angle, a force if it prescribes a length."""
+    """Return the results of a drive by name: "torque" if it prescribes an angle, "force" if a length."""
     is_angle = kind == "angle" or kind == "coordinate" and str(node[kind]).endswith(".theta")
     return {"torque": TORQUE} if is_angle else {"force": FORCE}

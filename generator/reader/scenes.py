@@ -246,7 +246,7 @@ def _find_dimensions_key(joint: Text, play_node: Map, parts: SceneParts) -> str:
 def _read_contour(reader: Reader, play_node: Map, address: str) -> tuple[Quantity, ...]:
     """Return a contour as run-time parameters: depths (m) at equal angles, or zeros if the file gives their count.
 
-    Raises BadValueError for another number of depths than 8 to 512.
+    Raises BadValueError for another number of depths than MIN_DEPTHS to MAX_DEPTHS.
     """
     node, location = play_node["contour"], play_node.find_key("contour").where
     if isinstance(node, Text):

@@ -24,11 +24,11 @@ from gudgeon.language.units import INERTIA, LENGTH, MASS, Dimension
 
 _KINDS = {
     "bar": Kind("a bar with a width", ()),
-    "rectangle": Kind("a rectangle", (), also=("plate", "square")),
-    "disc": Kind("a disc", (), also=("circle", "disk")),
+    "rectangle": Kind("a rectangle", (), foreign_names=("plate", "square")),
+    "disc": Kind("a disc", (), foreign_names=("circle", "disk")),
     "triangle": Kind("a triangle", ()),
 }
-_AUTO = "m * l**2 / 12"
+_SLENDER_BAR_INERTIA = "m * l**2 / 12"
 _AREA = "abs((qx - px) * (ry - py) - (rx - px) * (qy - py)) / 2"
 _SQUARED_RADIUS_OF_GYRATION = (
     "((qx - px)**2 + (qy - py)**2 + (rx - qx)**2 + (ry - qy)**2 + (px - rx)**2 + (py - ry)**2) / 36"
@@ -43,10 +43,9 @@ def derive_quantity(
     dimension: Dimension,
     location: Location,
 ) -> Quantity:
-    """Return a registered quantity at an address whose value is a formula of other quantities.
+    """Return a registered quantity at an address whose value is a formula of other quantities, such as "d * h * a".
 
-    `formula` is an expression of variables; `quantities` maps their names to quantities. `location` is the location
-    in the file.
+    `quantities` maps the variables of `formula` to quantities. `location` is the location in the file.
     """
     value = _substitute_quantities(parse(formula, location), quantities)
     return reader.register_quantity(Quantity(address, value, dimension, location, tuple(quantities.values())))
@@ -92,9 +91,10 @@ def read_triangle_points(reader: Reader, node: Map, address: str) -> dict[str, V
 
 
 class MassProperties:
-    """Contain mass, moment of inertia and centre of mass of one body; shapes set those that the file does not give."""
+    """Contain mass, moment of inertia and centre of mass of one body; a shape sets those that the file omits."""
 
     def __init__(self, reader: Reader, address: str, body_values: Values, materials: Materials) -> None:
+        """Begin with the values of the body with an address, as far as the file has them."""
         self._reader, self._address, self._materials = reader, address, materials
         self.mass, self.inertia = body_values.quantities.get("mass"), body_values.quantities.get("inertia")
         self.length, self.com = body_values.quantities.get("length"), body_values.vectors.get("com")
@@ -117,7 +117,7 @@ class MassProperties:
         if self.com is not None:
             fault = f"{address} is auto, that of a slender bar about its middle, and the body has com"
             raise BadValueError(fault, location, "expected no com, or a number for inertia")
-        self._set_inertia(_AUTO, {"l": self.length}, location)
+        self._set_inertia(_SLENDER_BAR_INERTIA, {"l": self.length}, location)
 
     def set_properties_from_shape(self, node: Map, key: Text, points: Mapping[str, Vector], has_inertia: bool) -> None:
         """Set mass, inertia and centre of mass that follow from the body's shape.

@@ -35,7 +35,7 @@ def choose_interpretation(
 
     `expected` is the dimension of the value, None if any. `find_name_dimension` returns that of a name. The tree with
     names is returned if no name is also a unit, if the text cannot be parsed with units, or if only names give the
-    expected dimension. Raises ExpressionError if both readings are possible.
+    expected dimension. Raises ExpressionError if both readings are possible and dimensions do not decide.
     """
     ambiguous_names = sorted(set(find_unit_shadowing_names(tree_with_names)))
     if not ambiguous_names:

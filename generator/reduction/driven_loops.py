@@ -28,7 +28,7 @@ from gudgeon.generator.symbols.storage import Place
 from gudgeon.generator.symbols.symbols import Symbols
 
 ZERO = sp.Integer(0)
-MAX_BLOCK_ROWS = 8  # a larger block is cheaper to solve with its multipliers, which keeps zeros
+MAX_BLOCK_ROWS = 8  # a larger block costs less with its multipliers, which keeps the system sparse
 
 
 @dataclass(frozen=True)
@@ -42,10 +42,14 @@ class Direction:
 
 @dataclass(frozen=True)
 class DrivenLoops:
-    """The dependent coordinates by name, with their rates, and the closures that determine them, by blocks."""
+    """The coordinates that drives determine through loops, by name, and the closures that determine them.
+
+    `coordinates`: the dependent coordinates with symbols of their rates; `rows`: their closures, block by block in
+    solving order. `directions`: cosines and sines of angles in these closures, stored once for all kernels.
+    """
 
     names: tuple[str, ...]
-    known: tuple[DependentCoordinate, ...]
+    coordinates: tuple[DependentCoordinate, ...]
     rows: tuple[Row, ...]
     directions: tuple[Direction, ...] = ()  # once for all kernels
 
@@ -56,7 +60,7 @@ def add_directions(
     """Return the driven loops with the directions in their closures, whose cosines and sines C stores after q.
 
     A direction counts if its angle depends on dependent and prescribed coordinates only and a closure reads it. The
-    storage places of its symbols are set. `frames`: all frames; `prescribed_names`: names of the coordinates that
+    storage locations of its symbols are set. `frames`: all frames; `prescribed_names`: names of the coordinates that
     drives prescribe.
     """
     symbols = system.model.symbols
@@ -92,11 +96,12 @@ def _find_read_symbols(symbols: Symbols, expressions: Iterable[sp.Expr]) -> set[
 
 
 def find_blocks(pattern: Sequence[set[int]], n: int, excluded_coordinates: set[int]) -> list[Block]:
-    """Return the square blocks without excluded coordinates in solving order, of at most MAX_BLOCK_ROWS equations each.
+    """Return the square blocks of a Dulmage–Mendelsohn decomposition in solving order, as far as they can be used.
 
-    `pattern`: coordinates in each usable equation; `n`: number of coordinates. Equations and coordinates are matched in
-    pairs. A coordinate is free if it is unmatched, or if its equation contains a free one. Blocks contain no free
-    coordinate, none of an unmatched equation, and read only coordinates of earlier blocks and their own.
+    `pattern`: coordinates in each usable equation; `n`: number of coordinates. A coordinate is free if it is
+    unmatched, or if its equation contains a free one. Blocks contain no free or excluded coordinate, none of an
+    unmatched equation, and read only coordinates of earlier blocks and their own. Blocks of more than MAX_BLOCK_ROWS
+    equations are left out.
     """
     row_of_column = match_rows(pattern)
     free = {column for column in range(n) if column not in row_of_column}
@@ -164,11 +169,11 @@ S = TypeVar("S", bound=System)
 def prescribe_coordinates(
     system: S, names: Sequence[str], columns: Sequence[int], rows: Sequence[int]
 ) -> tuple[S, DrivenLoops]:
-    """Return the system with these coordinates as functions of t and without these equations, and the driven loops.
+    """Return the system with some coordinates as functions of t, without their equations, and the driven loops.
 
     `names` are those of all coordinates; `columns` and `rows`: numbers of the dependent coordinates and of their
-    equations. In C the free coordinates come first in q, then the dependent ones; in v their rates, then second and
-    third rates of the dependent ones.
+    equations. Sets storage locations: in C the free coordinates come first in q, then the dependent ones; in v their
+    rates, then second and third rates of the dependent ones.
     """
     free = [k for k in range(len(system.q)) if k not in columns]
     dependent = _set_storage_locations(system, names, free, columns)
@@ -259,7 +264,7 @@ def _reduce_prescribed_coordinate(
     dependent_indices: Sequence[int],
     dependent_coordinates: Sequence[DependentCoordinate],
 ) -> PrescribedCoordinate:
-    """Return a coordinate that a drive prescribes, with −M c̈ of the dependent coordinates c in its applied force.
+    """Return a coordinate that a drive prescribes with M c̈ of the dependent coordinates c moved to its applied force.
 
     `new_index`: new number of each free coordinate; `dependent_indices`: old numbers of the dependent ones.
     """
@@ -307,7 +312,7 @@ def _reduce_motion(
     dependent_indices: Sequence[int],
     dependent_coordinates: Sequence[DependentCoordinate],
 ) -> Motion:
-    """Return the motion of a body with the Jacobian of the free coordinates; dependent accelerations are in the bias.
+    """Return the motion of a body by free coordinates only: the dependent coordinates' accelerations join the bias.
 
     `new_index`: new number of each free coordinate; `dependent_indices`: old numbers of the dependent ones.
     """

@@ -90,10 +90,10 @@ class Motions:
         return sp.Add(*(c * self.coordinates[k].v for k, c in affine.items() if k != CONSTANT))
 
     def find_derivative_rules(self, columns: Mapping[str, sp.Expr]) -> dict[sp.Symbol, sp.Expr]:
-        """Return the derivatives of a quantity by unknown coordinates and by t, as a mapping by symbol.
+        """Return the derivatives of a quantity by unknown coordinates and by t, as a mapping {variable: derivative}.
 
-        `columns`: its derivatives ∂/∂z by all coordinates z. Those that drives prescribe give the derivative by t, Σ
-        ∂/∂z ż; it is absent if it is 0.
+        `columns`: its derivatives ∂/∂z by all coordinates z. The prescribed ones give the derivative by t, Σ ∂/∂z ż;
+        it is absent if it is 0.
         """
         rules: dict[sp.Symbol, sp.Expr] = {}
         time_derivative = ZERO
@@ -121,26 +121,26 @@ class Motions:
     def define_value(self, base_name: str, value: sp.Expr, columns: Mapping[str, sp.Expr]) -> sp.Symbol:
         """Return a new symbol for `value`, a quantity whose derivatives by coordinate are `columns`.
 
-        `base_name`: base of its name.
+        `base_name`: base of its name. The symbol is entered in `symbols` with definition and derivative rules.
         """
         symbol = self.symbols.add_definition(base_name, value)
-        self.symbols.rules[symbol] = self.find_derivative_rules(columns)
+        self.symbols.derivative_rules[symbol] = self.find_derivative_rules(columns)
         return symbol
 
     def define_rate(self, base_name: str, value: sp.Expr, columns: Mapping[str, sp.Expr]) -> sp.Symbol:
-        """Return a new symbol for `value`, the rate of a quantity whose derivatives by coordinate are `columns`.
+        """Return a new symbol for `value`, the velocity of a quantity whose derivatives by coordinate are `columns`.
 
-        `base_name`: base of its name.
+        `base_name`: base of its name. The symbol is entered in `symbols` with definition and derivative rules.
         """
         symbol = self.symbols.add_definition(base_name, value)
-        self.symbols.rules[symbol] = self.find_rate_derivative_rules(columns)
+        self.symbols.derivative_rules[symbol] = self.find_rate_derivative_rules(columns)
         return symbol
 
     def make_frame(self, name: str, affine: Affine) -> Frame:
-        """Return the frame that turns with the angle θ = `affine`; its cosine and sine are new symbols.
+        """Return the frame that turns with the angle θ = `affine`; cosine and sine are symbols with derivative rules.
 
-        The angle and its rate become symbols of their own, unless they are symbols already. `name`: base of their
-        names.
+        The angle and its rate become symbols of their own, unless they are symbols already or the rate is 0. `name`:
+        base of their names.
         """
         angle_coefficients = {k: c for k, c in affine.items() if k != CONSTANT}
         theta, omega = self.compute_value(affine), self.compute_rate(affine)
@@ -151,16 +151,20 @@ class Motions:
         cos = self.symbols.add_definition(f"cos_theta_{name}", sp.cos(theta), None, f"cos of {name}.theta")
         sin = self.symbols.add_definition(f"sin_theta_{name}", sp.sin(theta), None, f"sin of {name}.theta")
         frame = Frame(name, theta, omega, cos, sin, angle_coefficients)
-        self.symbols.rules[cos] = self.find_derivative_rules({k: -c * sin for k, c in angle_coefficients.items()})
-        self.symbols.rules[sin] = self.find_derivative_rules({k: c * cos for k, c in angle_coefficients.items()})
+        self.symbols.derivative_rules[cos] = self.find_derivative_rules(
+            {k: -c * sin for k, c in angle_coefficients.items()}
+        )
+        self.symbols.derivative_rules[sin] = self.find_derivative_rules(
+            {k: c * cos for k, c in angle_coefficients.items()}
+        )
         return frame
 
     def rotate_vector(self, frame: Frame, w: Pair, base_name: str) -> Pair:
-        """Return A(θ) w, the vector with components w in a frame, in ground axes.
+        """Return A(θ) w (rotation matrix times vector), the vector with components w in a frame, in ground axes.
 
         It is w itself for the ground or for w = (0, 0). Components that are both −1, 0 or 1 give expressions in the
-        frame's cos θ and sin θ. Any other w gets a pair of symbols, made once; the opposite of a known vector is its
-        negative. `base_name`: base of the symbols' names.
+        frame's cos θ and sin θ. Any other w gets a pair of symbols, made once. If −w has symbols, their negatives are
+        returned. `base_name`: base of the symbols' names.
         """
         x, y = w
         if not frame.angle_coefficients or w == (ZERO, ZERO):
@@ -173,19 +177,20 @@ class Motions:
         if (frame.name, x, y) not in self._arms:
             a_x = self.symbols.add_definition(f"{base_name}_x", frame.cos * x - frame.sin * y, None, "A(theta) s, x")
             a_y = self.symbols.add_definition(f"{base_name}_y", frame.sin * x + frame.cos * y, None, "A(theta) s, y")
-            self.symbols.rules[a_x] = self.find_derivative_rules(
+            self.symbols.derivative_rules[a_x] = self.find_derivative_rules(
                 {k: -c * a_y for k, c in frame.angle_coefficients.items()}
             )
-            self.symbols.rules[a_y] = self.find_derivative_rules(
+            self.symbols.derivative_rules[a_y] = self.find_derivative_rules(
                 {k: c * a_x for k, c in frame.angle_coefficients.items()}
             )
             self._arms[frame.name, x, y] = a_x, a_y
         return self._arms[frame.name, x, y]
 
-    def derive_vector(self, base_name: str, vector: Pair, field_base_name: str = "") -> Pair:
-        """Return both components of a constant vector as derived parameters, or minus that of the opposite.
+    def derive_vector_parameters(self, base_name: str, vector: Pair, field_base_name: str = "") -> Pair:
+        """Return each component of a constant vector as a derived parameter, which C computes once a run.
 
-        `base_name`: base of their names; `field_base_name`: base of their fields' names, "" if it is the same.
+        A component whose value or opposite value is a parameter already gives ± that parameter. `base_name`: base of
+        the names; `field_base_name`: base of the names of the fields in C, "" if it is the same.
         """
         x, y = (
             self.parameter_table.derive_signed_parameter(

@@ -1,8 +1,8 @@
-"""Positions of bodies and points in tree coordinates: sums of rotated arms and displacements.
+"""Positions of bodies and points in tree coordinates (forward kinematics): sums of rotated vectors and displacements.
 
 A slide is a translational coordinate: the displacement s along a direction fixed in a frame, of a translational joint
-or of a free body. Each term T is a frame with, or without, a slide; w_T is constant. So every
-derivative of a position is again such a sum: ∂r/∂s_k = Σ_T (∂θ_T/∂s_k value_T ẑ + ∂value_T/∂s_k) A(θ_T) w_T.
+or of a free body. Each term T is a frame with, or without, a slide; w_T is constant. So every derivative of a position
+is again such a sum: ∂r/∂s_k = Σ_T (∂θ_T/∂s_k value_T ẑ + ∂value_T/∂s_k) A(θ_T) w_T.
 """
 
 from __future__ import annotations
@@ -31,7 +31,10 @@ GROUND_FRAME = Frame(GROUND, ZERO, ZERO, ONE, ZERO, {})
 
 @dataclass(frozen=True)
 class TreePoint(PointFrame):
-    """A point with its terms, relative to the body that carries it; `position_xy` is (x, y), `speed` is (ẋ, ẏ)."""
+    """A point with its terms, relative to the body that carries it; `position_xy` is (x, y), `speed` is (ẋ, ẏ).
+
+    `terms`: vectors w by (frame, slide), whose sum Σ value A(θ) w is the position.
+    """
 
     terms: Terms
     position_xy: Pair
@@ -65,9 +68,9 @@ class TreePoint(PointFrame):
         return geometry.frame_of[self.body.name].angle_coefficients if self.body else {}
 
     def expand_arms(self) -> TreePoint:
-        """Return the same point with position and velocity written as sums of rotated arms instead of one symbol each.
+        """Return the point with position and velocity as sums of rotated vectors, not as one symbol for each component.
 
-        In the difference of two points, common arms then cancel.
+        In the difference of two points, common terms then cancel.
         """
         geometry: TreeGeometry = self.geometry  # type: ignore[assignment]
         rate = geometry.motions.coordinates
@@ -79,7 +82,7 @@ class TreeGeometry(Geometry):
     """Makes the symbols of bodies and points from a tree, for functions that also take a `Geometry`."""
 
     def __init__(self, model: Model, tree: Tree, symbols: Symbols, parameter_table: ParameterTable) -> None:
-        """Begin with the frame of the ground; `place_bodies` adds the coordinates and bodies.
+        """Begin with the frame of the ground; `build_bodies` adds the coordinates and bodies.
 
         `tree`: the spanning tree; `symbols`, `parameter_table`: tables for new symbols and derived parameters.
         """
@@ -90,11 +93,13 @@ class TreeGeometry(Geometry):
         self.frame_of: dict[str, Frame] = {GROUND: GROUND_FRAME}
         self.slides: dict[str, Affine] = {}
         self._offset: dict[str, sp.Expr] = {GROUND: ZERO}  # θ of a body less that of its frame
-        self._base: dict[str, tuple[TreePoint, Pair]] = {}  # who carries a body, and at which of its own points
+        self._base: dict[
+            str, tuple[TreePoint, Pair]
+        ] = {}  # point of the parent that carries a body, and the body's own vector to it
         self._points: dict[tuple[str, str], TreePoint] = {}
         self._coms: dict[str, TreePoint] = {}
 
-    def place_bodies(self, motions: Motions, slides: Mapping[str, Affine]) -> None:
+    def build_bodies(self, motions: Motions, slides: Mapping[str, Affine]) -> None:
         """Make coordinates and frames, then position body by body along the tree. Called once.
 
         `motions` makes the symbols of coordinates and frames, and derived parameters of coefficients. It gets an entry
@@ -116,9 +121,9 @@ class TreeGeometry(Geometry):
             self._set_base_point(tree_edge)
 
     def _add_coordinate(self, name: str, index: int) -> int:
-        """Add an unknown coordinate with an index in q and v, and return 1, the number of added coordinates.
+        """Add an unknown coordinate to `motions`, with symbols at an index in q and v; return 1.
 
-        `name`: a body for an angle, else that of a slide.
+        The result is the number of added coordinates. `name`: a body for an angle, else that of a slide.
         """
         new, owner = self.symbols.add_symbol, name.replace(".", "_")
         names = (f"{owner}_theta", f"{owner}_omega") if name in self.tree.free else (owner, f"{owner}_rate")
@@ -127,9 +132,10 @@ class TreeGeometry(Geometry):
         return 1
 
     def _set_frame(self, body: str) -> None:
-        """Set the frame of a body: that of a body with a constant angle to it, else a new one.
+        """Set the frame of a body: an existing one at a constant angle to the body, else a new one.
 
-        The constant angle between body and frame is stored.
+        The constant angle from the frame to the body is stored in `_offset`. The frame of a body whose angle is
+        another body's free angle is named after the latter.
         """
         affine = self.motions.derive_coefficients(f"{body}_theta", self.tree.angles[body])
         constant = affine.get(CONSTANT, ZERO)
@@ -167,7 +173,7 @@ class TreeGeometry(Geometry):
         cos = derive(f"cos_{body}_offset", sp.cos(offset), f"angle of {body} in its frame")
         sin = derive(f"sin_{body}_offset", sp.sin(offset), f"angle of {body} in its frame")
         rotated = (cos * vector[0] - sin * vector[1], sin * vector[0] + cos * vector[1])
-        return self.motions.derive_vector(base_name, rotated, f"{base_name}_in_frame")
+        return self.motions.derive_vector_parameters(base_name, rotated, f"{base_name}_in_frame")
 
     def _set_base_point(self, tree_edge: TreeEdge) -> None:
         """Set the base point of a body, the point of its parent that positions it, then make the body's symbols.
@@ -179,16 +185,16 @@ class TreeGeometry(Geometry):
         if tree_edge.joint is None:
             unit_vectors = ((ONE, ZERO), (ZERO, ONE))
             terms = {(GROUND, name): unit for name, unit in zip(tree_edge.coordinates, unit_vectors, strict=True)}
-            base, own_point = self._make_free_base(terms), (ZERO, ZERO)
+            base, body_point = self._make_free_base(terms), (ZERO, ZERO)
         else:
             first, second = tree_edge.joint.first, tree_edge.joint.second
             parent, child, sign = (first, second, 1) if second.body == body else (second, first, -1)
-            base, own_point = self.find_point(parent), self.local_vectors[body, child.point]
+            base, body_point = self.find_point(parent), self.local_vectors[body, child.point]
             if tree_edge.slides:
                 axis = JointFields(tree_edge.joint, self._model.geometry).direction("axis")
                 w = self.rotate_to_frame(first.body, axis, f"{tree_edge.joint.name}_axis")
                 base = self._make_sliding_base(base, first.body, tree_edge.coordinates[0], (sign * w[0], sign * w[1]))
-        self._base[body] = base, self.rotate_to_frame(body, own_point, f"{body}_base")
+        self._base[body] = base, self.rotate_to_frame(body, body_point, f"{body}_base")
         self._derive_body_symbols(body)
 
     def _make_free_base(self, terms: Terms) -> TreePoint:
@@ -224,15 +230,17 @@ class TreeGeometry(Geometry):
         return self.motions.compute_rate(self.slides[slide]) if slide else ZERO
 
     def _add_terms(self, terms: Terms, added_terms: Terms, base_name: str) -> Terms:
-        """Return the sum of two sums of terms, without those that are zero.
+        """Return the sum of two sums of terms: vectors with the same key are added, zero vectors are left out.
 
-        `terms`, `added_terms`: vectors w by (frame, slide), of which a position is the sum. Vectors with the same frame
-        and slide are added, as derived parameters; `base_name`: base of their names.
+        `terms`, `added_terms`: vectors w by (frame, slide), of which a position is the sum. Added vectors become
+        derived parameters; `base_name`: base of their names.
         """
         result = dict(terms)
         for key, w in added_terms.items():
             if key in result:
-                w = self.motions.derive_vector(f"{base_name}_and", (result[key][0] + w[0], result[key][1] + w[1]))
+                w = self.motions.derive_vector_parameters(
+                    f"{base_name}_and", (result[key][0] + w[0], result[key][1] + w[1])
+                )
             result[key] = w
         return {key: w for key, w in result.items() if w != (ZERO, ZERO)}
 
@@ -248,7 +256,7 @@ class TreeGeometry(Geometry):
         return x, y
 
     def compute_jacobian_columns(self, terms: Terms) -> dict[str, Pair]:
-        """Return ∂r/∂z of a sum of terms, as pairs (x, y) by coordinate, prescribed ones included.
+        """Return ∂r/∂z of the position r of a sum of terms, as pairs (x, y) by coordinate z, prescribed ones included.
 
         `terms`: vectors w by (frame, slide).
         """
@@ -256,7 +264,7 @@ class TreeGeometry(Geometry):
         for (name, slide), w in terms.items():
             frame, value = self.frames[name], self.get_slide_value(slide)
             a_x, a_y = self.motions.rotate_vector(frame, w, f"arm_{name}")
-            along = self.find_slide_rates(slide)
+            along = self.find_slide_coefficients(slide)
             for k in dict.fromkeys((*frame.angle_coefficients, *along)):
                 x, y = result.get(k, (ZERO, ZERO))
                 angular, linear = frame.angle_coefficients.get(k, ZERO) * value, along.get(k, ZERO)
@@ -279,19 +287,21 @@ class TreeGeometry(Geometry):
             x, y = x + radial * a_x - tangential * a_y, y + radial * a_y + tangential * a_x
         return x, y
 
-    def find_slide_rates(self, slide: str) -> dict[str, sp.Expr]:
-        """Return ∂value/∂z of a slide by coordinate z; empty for the name "", a term without slide."""
+    def find_slide_coefficients(self, slide: str) -> dict[str, sp.Expr]:
+        """Return ∂value/∂z of a slide by coordinate z, which are constants; empty for "", a term without slide."""
         return {k: c for k, c in self.slides[slide].items() if k != CONSTANT} if slide else {}
 
     def _make_point(self, body: str, vector: Pair, base_name: str, names: tuple[str, str, str, str]) -> TreePoint:
         """Return the point of a body at s, a vector from its centre of mass in the body's frame.
 
-        `base_name`: base of the names of derived parameters and arms; `names`: those of the symbols for (x, y, ẋ, ẏ),
-        which longer values become.
+        `base_name`: base of the names of derived parameters and rotated vectors. `names`: names for (x, y, ẋ, ẏ); a
+        value that is not a number or ± a symbol becomes a symbol of that name.
         """
-        base, own_base = self._base[body]
+        base, body_base = self._base[body]
         frame, local = self.frame_of[body], self.rotate_to_frame(body, vector, base_name)
-        w = self.motions.derive_vector(f"{base_name}_span", (local[0] - own_base[0], local[1] - own_base[1]))
+        w = self.motions.derive_vector_parameters(
+            f"{base_name}_span", (local[0] - body_base[0], local[1] - body_base[1])
+        )
         a_x, a_y = self.motions.rotate_vector(frame, w, f"span_{base_name}")
         terms = self._add_terms(base.terms, {(frame.name, ""): w} if w != (ZERO, ZERO) else {}, base_name)
         columns, define_symbol = self.compute_jacobian_columns(terms), self.motions.define_value
@@ -325,7 +335,11 @@ class TreeGeometry(Geometry):
         def make_symbol(
             base_name: str, value: sp.Expr, columns: Mapping[str, sp.Expr], is_rate: bool = False
         ) -> sp.Symbol:
-            """Return a value unchanged if it is a symbol, else a new symbol for it, with derivatives by its columns."""
+            """Return a value unchanged if it is a symbol, else a new symbol for it with derivative rules.
+
+            `columns`: its derivatives by the tree coordinates. With `is_rate` the value is a velocity, and `columns`
+            are those of the quantity whose velocity it is.
+            """
             define_symbol = motions.define_rate if is_rate else motions.define_value
             return value if value.is_Symbol else define_symbol(base_name, value, columns)
 
@@ -356,7 +370,7 @@ class TreeGeometry(Geometry):
         return self._coms[body]
 
     def find_cos_and_sin(self, body: BodySymbols) -> tuple[sp.Expr, sp.Expr]:
-        """Return cos θ and sin θ of a body."""
+        """Return cos θ and sin θ of a body; they become new symbols if the body has a constant angle to its frame."""
         x, y = self.rotate_vector(body, (ONE, ZERO), f"axis_{body.name}")
         return x, y
 

@@ -1,9 +1,9 @@
 """Mass matrix and velocity-dependent inertia forces in tree coordinates (relative coordinates of the joints).
 
-With r_b = Σ_T value_T A(θ_T) w_bT (generator/reduction/geometry.py) all products of positions are
+With r_b = Σ_T value_T A(θ_T) w_bT (generator/reduction/geometry.py), the inertia coupling of two terms T and U is
     P_TU = Σ_b m_b (A_T w_bT) · (A_U w_bU) = α cos(θ_U − θ_T) − β sin(θ_U − θ_T),   α = Σ m w_T · w_U,
-    Q_TU = Σ_b m_b (ẑ × A_T w_bT) · (A_U w_bU) = α sin(θ_U − θ_T) + β cos(θ_U − θ_T),   β = Σ m w_T × w_U:
-the mass matrix, and the centrifugal and Coriolis terms, are these times coordinates and rates.
+    Q_TU = Σ_b m_b (ẑ × A_T w_bT) · (A_U w_bU) = α sin(θ_U − θ_T) + β cos(θ_U − θ_T),   β = Σ m w_T × w_U.
+The mass matrix, and the centrifugal and Coriolis terms, are these times coordinates and rates.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from gudgeon.generator.reduction.geometry import Term, TreeGeometry
 
 
 class Inertia:
-    """Derives M, the velocity terms and the weights of one tree geometry; coordinates are identified by name."""
+    """Derivation of M, the velocity terms and the weights of one tree geometry; coordinates are identified by name."""
 
     def __init__(self, geometry: TreeGeometry, gravity: Pair) -> None:
         """Collect the constants of all bodies and derive the mass matrix `mass`.
@@ -55,7 +55,7 @@ class Inertia:
                     self._alpha_and_beta[key] = alpha + body.mass * dot, beta + sign * body.mass * cross
 
     def _find_angle_difference(self, first: Frame, second: Frame) -> Pair:
-        """Return (cos, sin) of θ_2 − θ_1 for two frames.
+        """Return (cos, sin) of θ_second − θ_first, the angle between two frames.
 
         They are (1, 0) for the same frame. If only one frame turns, they follow from its own cosine and sine. If both
         turn, they are symbols with derivative rules, defined at the first call.
@@ -77,50 +77,51 @@ class Inertia:
     def _set_derivative_rules(self, cos: sp.Symbol, sin: sp.Symbol, first: Frame, second: Frame) -> None:
         """Set the derivatives of symbols for cos ψ and sin ψ, ψ the angle from the `first` to the `second` frame.
 
-        d cos = −sin dψ and d sin = cos dψ. P and Q of `find_products` have the same rules.
+        d cos = −sin dψ and d sin = cos dψ. P and Q of `find_inertia_coupling` have the same rules.
         """
         angle_coefficients = {
             k: second.angle_coefficients.get(k, ZERO) - first.angle_coefficients.get(k, ZERO)
             for k in {**first.angle_coefficients, **second.angle_coefficients}
         }
-        self.symbols.rules[cos] = self.motions.find_derivative_rules(
+        self.symbols.derivative_rules[cos] = self.motions.find_derivative_rules(
             {k: -c * sin for k, c in angle_coefficients.items()}
         )
-        self.symbols.rules[sin] = self.motions.find_derivative_rules(
+        self.symbols.derivative_rules[sin] = self.motions.find_derivative_rules(
             {k: c * cos for k, c in angle_coefficients.items()}
         )
 
-    def find_products(self, T: Term, U: Term) -> Pair:
-        """Return P = α cos ψ − β sin ψ and Q = α sin ψ + β cos ψ of two terms T and U, from a cache.
+    def find_inertia_coupling(self, first: Term, second: Term) -> Pair:
+        """Return P = α cos ψ − β sin ψ and Q = α sin ψ + β cos ψ of two terms of positions, from a cache.
 
-        α = Σ m w·u and β = Σ m w × u are sums over the bodies; ψ is the angle from the frame of T to that of U. The
-        result is (0, 0) for terms that no body has together. P is symmetric and Q antisymmetric in T and U. α and β
-        become derived parameters. If ψ varies, P and Q become symbols with rules.
+        α = Σ m w·u and β = Σ m w × u are sums over the bodies, w and u the vectors of the first and second term. ψ is
+        the angle from the first frame to the second. The result is (0, 0) for terms that share no body. P is symmetric
+        and Q antisymmetric in the terms. α and β become derived parameters. If ψ varies, P and Q become symbols with
+        derivative rules.
         """
-        if (T, U) not in self._alpha_and_beta:
-            if (U, T) not in self._alpha_and_beta:
+        if (first, second) not in self._alpha_and_beta:
+            if (second, first) not in self._alpha_and_beta:
                 return ZERO, ZERO
-            P, Q = self.find_products(U, T)
+            P, Q = self.find_inertia_coupling(second, first)
             return P, -Q
-        if (T, U) not in self._products:
-            first, second = self.geometry.frames[T[0]], self.geometry.frames[U[0]]
-            name = "_".join(part.replace(".", "_") for part in (*T, *U) if part)
+        if (first, second) not in self._products:
+            first_frame, second_frame = self.geometry.frames[first[0]], self.geometry.frames[second[0]]
+            name = "_".join(part.replace(".", "_") for part in (*first, *second) if part)
             derive = self.parameter_table.derive_parameter
-            alpha, beta = (sp.expand(constant) for constant in self._alpha_and_beta[T, U])
+            alpha, beta = (sp.expand(constant) for constant in self._alpha_and_beta[first, second])
             alpha, beta = (
                 derive(f"inertia_{name}", alpha, "sum of m w.w"),
                 derive(f"twist_{name}", beta, "sum of m wxw"),
             )
-            cos, sin = self._find_angle_difference(first, second)
+            cos, sin = self._find_angle_difference(first_frame, second_frame)
             P, Q = alpha * cos - beta * sin, alpha * sin + beta * cos
             if cos != 1:
                 P, Q = (
                     self._define_if_variable(f"{letter}_{name}", value) for letter, value in (("dot", P), ("cross", Q))
                 )
                 if P.is_Symbol and Q.is_Symbol:
-                    self._set_derivative_rules(P, Q, first, second)
-            self._products[T, U] = P, Q
-        return self._products[T, U]
+                    self._set_derivative_rules(P, Q, first_frame, second_frame)
+            self._products[first, second] = P, Q
+        return self._products[first, second]
 
     def _define_if_variable(self, base_name: str, value: sp.Expr) -> sp.Expr:
         """Return a number unchanged, else a new symbol for the value; `base_name`: base of its name."""
@@ -129,20 +130,21 @@ class Inertia:
     def _find_jacobian_columns(self, T: Term) -> dict[str, Pair]:
         """Return ∂r_T/∂z of a term T by coordinate z, as pairs (turn, slide): ∂r_T/∂z = (turn ẑ + slide) A w.
 
-        ẑ turns a vector by +90°; A w is the term's vector in ground axes.
+        `turn`: coefficient of the rotation, in m if the term has a slide; `slide`: that of the displacement. ẑ turns a
+        vector by +90°; A w is the term's vector in ground axes.
         """
         frame, along, value = (
             self.geometry.frames[T[0]],
-            self.geometry.find_slide_rates(T[1]),
+            self.geometry.find_slide_coefficients(T[1]),
             self.geometry.get_slide_value(T[1]),
         )
         names = dict.fromkeys((*frame.angle_coefficients, *along))
         return {k: (frame.angle_coefficients.get(k, ZERO) * value, along.get(k, ZERO)) for k in names}
 
     def _iterate_term_pairs(self) -> Iterable[tuple[Term, Term]]:
-        """Yield the ordered pairs of terms (parts of a position) that some body has together, in both orders.
+        """Yield the ordered pairs of terms (parts of a position) that occur together in the position of some body.
 
-        A pair of a term with itself is yielded once.
+        Both orders are yielded; a pair of a term with itself is yielded once.
         """
         for T, U in self._alpha_and_beta:
             yield T, U
@@ -152,20 +154,20 @@ class Inertia:
     def _derive_mass(self) -> dict[tuple[str, str], sp.Expr]:
         """Return both triangles of M by names of coordinates, prescribed ones included, without zeros.
 
-        An entry is a sum over pairs of terms T, U with their products P and Q (`find_products`).
+        An entry is a sum over pairs of terms T, U with their products P and Q (`find_inertia_coupling`).
         """
         sums: dict[tuple[str, str], sp.Expr] = {}
         for T, U in self._iterate_term_pairs():
-            P, Q = self.find_products(T, U)
+            P, Q = self.find_inertia_coupling(T, U)
             for k, (turn_T, slide_T) in self._find_jacobian_columns(T).items():
                 for j, (turn_U, slide_U) in self._find_jacobian_columns(U).items():
                     entry = turn_T * turn_U * P + turn_T * slide_U * Q - slide_T * turn_U * Q + slide_T * slide_U * P
                     sums[k, j] = sums.get((k, j), ZERO) + entry
         for body in self.geometry.bodies.values():
             angle_coefficients = self.geometry.frame_of[body.name].angle_coefficients
-            for k, slide_U in angle_coefficients.items():
+            for k, c in angle_coefficients.items():
                 for j, d in angle_coefficients.items():
-                    sums[k, j] = sums.get((k, j), ZERO) + body.inertia * slide_U * d
+                    sums[k, j] = sums.get((k, j), ZERO) + body.inertia * c * d
         result = {}
         for (k, j), value in sums.items():
             if (hoisted := self.hoist_constants(f"mass_{k}_{j}", value)) != 0:
@@ -187,7 +189,10 @@ class Inertia:
         )
 
     def _derive_constant(self, name: str, value: sp.Expr) -> sp.Expr:
-        """Return a constant as a derived parameter, ± one that exists; minus a symbol is returned unchanged."""
+        """Return a constant as ± a derived parameter, an existing one if its value is ± the constant.
+
+        Minus a symbol is returned unchanged.
+        """
         return (
             value if (-value).is_Symbol else self.parameter_table.derive_signed_parameter(name, value, "constant of M")
         )
@@ -199,7 +204,7 @@ class Inertia:
         """
         h: dict[str, sp.Expr] = {}
         for T, U in self._iterate_term_pairs():
-            P, Q = self.find_products(T, U)
+            P, Q = self.find_inertia_coupling(T, U)
             frame, value, rate = (
                 self.geometry.frames[U[0]],
                 self.geometry.get_slide_value(U[1]),

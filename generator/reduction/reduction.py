@@ -40,7 +40,7 @@ class TreeSystem(System):
     unknowns: tuple[str, ...]
     slides: Mapping[str, Affine]  # slides that drives or other slides determine
     sliding: tuple[str, ...]  # the equations that determine them, one per slide
-    driven_loops: DrivenLoops | None = None  # what the drives determine through loops (driven_chains.py)
+    driven_loops: DrivenLoops | None = None  # what the drives determine through loops (driven_loops.py)
     in_tree = True
 
     @cached_property
@@ -82,7 +82,8 @@ class TreeSystem(System):
     def compute_generalized_forces(self, loads: Sequence[PointLoad]) -> tuple[list[sp.Expr], dict[str, sp.Expr]]:
         """Return the generalized forces of loads by tree coordinate, and those on prescribed coordinates by name.
 
-        A generalized force is Σ (∂r/∂z · F + ∂θ/∂z M). Forces with the same, or the opposite, ∂r/∂z are added first.
+        A generalized force is Σ (∂r/∂z · F + ∂θ/∂z M) over the `loads` (point, F_x, F_y, M). Forces with the same, or
+        the opposite, ∂r/∂z are added first.
         """
         levers: dict[str, dict[tuple[sp.Expr, sp.Expr], list[sp.Expr]]] = {}
         moments: dict[str, sp.Expr] = {}
@@ -110,8 +111,8 @@ class TreeConstraints(Constraints):
 
     geometry: TreeGeometry
 
-    def _point(self, ref: PointRef) -> PointFrame:
-        """Return the frame of a named point as one sum of arms."""
+    def _find_point_frame(self, ref: PointRef) -> PointFrame:
+        """Return the frame of a named point with position and velocity as sums of rotated vectors (`expand_arms`)."""
         return self.geometry.find_point(ref).expand_arms()
 
     def _find_coordinate_pairs(self, bodies: list[BodySymbols]) -> list[tuple[sp.Symbol, sp.Symbol]]:
@@ -147,7 +148,7 @@ def reduce_model(model: Model) -> TreeSystem:
         row, name, value = elimination
         slides = {slide: substitute_coordinate(affine, name, value) for slide, affine in slides.items()} | {name: value}
         sliding += (row,)
-        tree = replace(tree, rows=tree.rows | {row})
+        tree = replace(tree, satisfied_rows=tree.satisfied_rows | {row})
 
 
 def _eliminate_driven_loops(model: Model, system: TreeSystem) -> TreeSystem:
@@ -187,17 +188,17 @@ def _make_tree_geometry(model: Model, tree: Tree, slides: Mapping[str, Affine]) 
         if drive.name in used_names:
             constraints.define_drive_value(drive)
             motions.coordinates[drive.name] = Coordinate(drive.name, *constraints.drive_angles[drive.name])
-    geometry.place_bodies(motions, slides)
+    geometry.build_bodies(motions, slides)
     return geometry, constraints
 
 
 def _derive_closures(model: Model, tree: Tree, constraints: TreeConstraints) -> tuple[Row, ...]:
-    """Return the constraint equations that the tree does not satisfy by itself, in the order of the model.
+    """Return the loop-closure equations, which the tree does not satisfy by itself, in the order of the model.
 
-    Equations of the pairs of bodies that close shared points (points of three or more bodies) follow.
+    Equations of the pairs of bodies that close shared points (multiple joints) follow.
     """
     mechanism = model.scene.mechanism
-    closure_names = [row.name for row in model.rows if row.name not in tree.rows]
+    closure_names = [row.name for row in model.rows if row.name not in tree.satisfied_rows]
     owners = {row.owner for row in model.rows if row.name in closure_names}
     row_by_name: dict[str, Row] = {}
     for joint in mechanism.joints.values():
@@ -249,7 +250,8 @@ def _make_system(
 ) -> TreeSystem:
     """Return the system of the equations of motion on the tree: joints with play, force elements, M and applied forces.
 
-    `slides`: the slides that are functions of others, and the equations that give them; `rows`: the closures.
+    `slides`: the slides that are functions of others, and the names of the equations that give them; `rows`: the
+    closures. M and forces are those of the unknown coordinates; prescribed accelerations are on the right-hand side.
     """
     reduced = _make_tree_model(model, geometry, constraints, rows)
     coordinates = geometry.motions.coordinates
@@ -302,6 +304,7 @@ def _make_tree_model(
     """Return the model for the tree's kernels: the same scene on the geometry of the tree.
 
     Joints with play, force elements, friction and events are derived again; `rows` replace the constraint equations.
+    The bodies of `geometry` are sorted in the order of the file.
     """
     mechanism, symbols, t = model.scene.mechanism, geometry.symbols, constraints.t
     clearances = tuple(

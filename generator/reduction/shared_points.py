@@ -1,7 +1,7 @@
-"""Points where three or more bodies meet, and the choice of the revolute joints between these bodies.
+"""Multiple joints: points where three or more bodies meet, and the choice of the pairs of bodies that are connected.
 
-k points that coincide need k − 1 pairs of equations, but any tree of pairs will do. The tree of the bodies may use
-any of them, and a loop is closed between the two bodies whose difference has the fewest moving arms.
+k points that coincide need k − 1 pairs of equations, but any tree of pairs will do. The spanning tree of the bodies
+may use any of them. A loop is closed between the two bodies whose difference contains the fewest coordinates.
 """
 
 from __future__ import annotations
@@ -23,14 +23,17 @@ def find_end_points(joint: Joint) -> tuple[Point, Point]:
 
 @dataclass(frozen=True)
 class SharedPoint:
-    """Points that coincide, the joints of the file that connect them, and every pair of their bodies as a joint."""
+    """A multiple joint: points that coincide, the joints of the file that connect them, and all pairs of bodies.
+
+    A pair is a joint between two of the points: one of the file, or a new revolute joint.
+    """
 
     points: frozenset[Point]
     joints: tuple[Joint, ...]
     pairs: tuple[Joint, ...]
 
     @property
-    def rows(self) -> list[str]:
+    def row_names(self) -> list[str]:
         """Return the names of the constraint equations by which the file's joints make the points coincide."""
         return [row for joint in self.joints for row in self.list_pair_rows(joint)]
 
@@ -39,10 +42,10 @@ class SharedPoint:
         """Return the names of the constraint equations by which a joint makes its two points coincide."""
         return [f"{joint.name}.{row}" for row in joint_types()[joint.kind].carries]
 
-    def find_closing_pairs(self, tree_joints: Iterable[Joint], compute_cost: Callable[[Joint], int]) -> list[Joint]:
+    def find_connecting_pairs(self, tree_joints: Iterable[Joint], compute_cost: Callable[[Joint], int]) -> list[Joint]:
         """Return the cheapest pairs that connect the points which the tree leaves unconnected (Kruskal's algorithm).
 
-        A pair is a revolute joint between two of the points. `tree_joints`: joints of the tree; `compute_cost` returns
+        A pair is a joint between two of the points. `tree_joints`: joints of the spanning tree; `compute_cost` returns
         the cost of a pair.
         """
         groups = {point: {point} for point in self.points}
@@ -61,7 +64,7 @@ class SharedPoint:
         return result
 
     def find_multiplier_signs(self, spanning_pairs: Sequence[Joint], joint: Joint) -> dict[str, int]:
-        """Return the multiplier of a pair as a sum of those of the file's joints: sign by joint.
+        """Return the multiplier of a pair as a sum of those of the file's joints: {joint: 1 or −1}.
 
         They are the joints that cross the cut which removing the pair from `spanning_pairs` makes. `joint`: the pair;
         `spanning_pairs`: the pairs that connect all points.
@@ -83,9 +86,10 @@ class SharedPoint:
 
 
 def find_shared_points(joints: Iterable[Joint]) -> list[SharedPoint]:
-    """Return the shared points: points of three or more bodies that as many joints connect as a tree of them needs.
+    """Return the multiple joints: coincident points of three or more bodies, connected by joints without a loop.
 
-    Only joints that make their points coincide count, and at least one must be revolute.
+    Only joints that make their points coincide count, and at least one must be revolute. Points whose joints form a
+    loop are left out.
     """
     groups: dict[Point, list[Joint]] = {}
     for joint in joints:

@@ -38,7 +38,7 @@ class TreeEdge:
 
     @property
     def slides(self) -> bool:
-        """Return whether the joint of this tree edge positions the body along an axis only, so that it adds a slide."""
+        """Return whether the joint positions the body along an axis only: the edge then adds a coordinate."""
         return self.joint is not None and len(joint_types()[self.joint.kind].carries) == 1
 
     @property
@@ -52,14 +52,14 @@ class TreeEdge:
         return (f"{self.joint.name}.slide",) if self.slides else ()
 
     @property
-    def rows(self) -> tuple[str, ...]:
+    def satisfied_rows(self) -> tuple[str, ...]:
         """Return the names of the constraint equations that the tree edge satisfies by itself; none without a joint."""
         if self.joint is None:
             return ()
         return tuple(f"{self.joint.name}.{row}" for row in joint_types()[self.joint.kind].carries)
 
 
-def find_path(tree_edges: Iterable[TreeEdge], body: str) -> list[TreeEdge]:
+def find_path_from_root(tree_edges: Iterable[TreeEdge], body: str) -> list[TreeEdge]:
     """Return the tree edges among `tree_edges` from the root to a body, the root's first; empty for the ground."""
     by_body = {tree_edge.body: tree_edge for tree_edge in tree_edges}
     result: list[TreeEdge] = []
@@ -91,7 +91,7 @@ def _find_coupled_coordinates(
     return coupled
 
 
-def _make_key(tree_edges: Iterable[TreeEdge]) -> frozenset[tuple[str, str]]:
+def _make_tree_key(tree_edges: Iterable[TreeEdge]) -> frozenset[tuple[str, str]]:
     """Return the set of (body, joint that positions it) of a tree's edges, which identifies the tree.
 
     The joint is "" for a body that moves freely.
@@ -109,19 +109,19 @@ class OperationEstimate:
         used_rows: frozenset[str],
         shared_points: Sequence[SharedPoint],
     ) -> None:
-        """Prepare the estimate for a model.
+        """Begin without estimates for the trees of a model.
 
         `angles`: those of the bodies in free ones; `used_rows`: equations that the angles satisfy already.
         """
         self.model, self.shared_points = model, shared_points
-        self._light: dict[tuple[str, str], bool] = {}  # by body and joint
+        self._negligible_inertia: dict[tuple[str, str], bool] = {}  # by body and joint
         self.costs: dict[frozenset[tuple[str, str]], int] = {}  # by the joint that places each body
         body_of = {q: body.name for body in model.bodies for q in body.q}
         self.angles = angles
         self.angle_coordinates = {
             body_name: frozenset(k for k in affine if k in angles) for body_name, affine in angles.items()
         }
-        satisfied = used_rows.union(*(shared_point.rows for shared_point in shared_points))
+        satisfied = used_rows.union(*(shared_point.row_names for shared_point in shared_points))
         self.rows = [(r.name, sorted({body_of[q] for q in r.phi_q})) for r in model.rows if r.name not in satisfied]
 
     def __call__(self, tree_edges: tuple[TreeEdge, ...], limit: float = math.inf) -> int:
@@ -130,9 +130,9 @@ class OperationEstimate:
         `tree_edges`: the edges of the spanning tree. If the operations exceed `limit`, a lower bound above it may be
         returned.
         """
-        key = _make_key(tree_edges)
+        key = _make_tree_key(tree_edges)
         if key not in self.costs:
-            self.costs[key] = self._count_operations(tree_edges, limit)
+            self.costs[key] = self._estimate_operations(tree_edges, limit)
         return self.costs[key]
 
     def find_cheapest(self, trees: Sequence[tuple[TreeEdge, ...]]) -> tuple[TreeEdge, ...]:
@@ -144,22 +144,22 @@ class OperationEstimate:
         limit = math.inf
         for tree_edges in reversed(trees):
             limit = min(limit, self(tree_edges, limit))
-        self.costs = {_make_key(tree_edges): self(tree_edges) for tree_edges in trees}
+        self.costs = {_make_tree_key(tree_edges): self(tree_edges) for tree_edges in trees}
         return min(trees, key=self)
 
-    def _count_operations(self, tree_edges: tuple[TreeEdge, ...], limit: float) -> int:
+    def _estimate_operations(self, tree_edges: tuple[TreeEdge, ...], limit: float) -> int:
         """Return the estimated operations of the right-hand side on a tree, or a lower bound above `limit`.
 
-        Entries of M and of the closures count, and the elimination. Each leaf body with nearly no inertia about its
-        joint adds 10⁶.
+        Entries of M and of the closures count, and the elimination. Each leaf body without inertia adds
+        `_LEAF_WITHOUT_INERTIA_COST`.
         """
-        satisfied_rows = {row for tree_edge in tree_edges for row in tree_edge.rows}
+        satisfied_rows = {row for tree_edge in tree_edges for row in tree_edge.satisfied_rows}
         paths: dict[str, list[TreeEdge]] = {}
         moving_coordinates: dict[str, frozenset[str]] = {GROUND: frozenset()}  # coordinates that move a body's points
         coordinates_of_masses: list[frozenset[str]] = []  # coordinates that move a centre of mass
         carriers = {
             tree_edge.parent for tree_edge in tree_edges if tree_edge.joint
-        }  # what moves them also moves the bodies on them
+        }  # the coordinates that move them also move the bodies on them
         for tree_edge in tree_edges:
             paths[tree_edge.body] = [*paths.get(tree_edge.parent, []), tree_edge]
             moving_coordinates[tree_edge.body] = (
@@ -201,7 +201,7 @@ class OperationEstimate:
         return cost + _PRODUCT_COST * elimination.cost if elimination else math.floor(limit) + 1
 
     def _find_leaves_without_inertia(self, tree_edges: tuple[TreeEdge, ...]) -> list[TreeEdge]:
-        """Return the edges of leaf bodies with nearly no moment of inertia about their joint or centre of mass.
+        """Return the edges of leaf bodies with negligible moment of inertia about their joint or centre of mass.
 
         The centre of mass counts for a body that moves freely. A leaf carries no other body. Bodies with a slide, and
         those whose angle is not a coordinate of their own, are left out.
@@ -215,19 +215,19 @@ class OperationEstimate:
         return [tree_edge for tree_edge in ends if not tree_edge.slides and self._has_negligible_inertia(tree_edge)]
 
     def _has_negligible_inertia(self, tree_edge: TreeEdge) -> bool:
-        """Return whether a body has nearly no moment of inertia about the joint that positions it, from a cache.
+        """Return `Model.has_negligible_inertia` of a body about the joint that positions it, from a cache.
 
         `tree_edge`: the edge of the spanning tree. For a body that moves freely the centre of mass replaces the joint.
         """
         key = tree_edge.body, tree_edge.joint.name if tree_edge.joint else ""
-        if key not in self._light:
-            self._light[key] = self.model.has_negligible_inertia(tree_edge.body, tree_edge.joint)
-        return self._light[key]
+        if key not in self._negligible_inertia:
+            self._negligible_inertia[key] = self.model.has_negligible_inertia(tree_edge.body, tree_edge.joint)
+        return self._negligible_inertia[key]
 
     def find_closing_pairs(self, tree_edges: tuple[TreeEdge, ...]) -> list[Joint]:
-        """Return the pairs of bodies, as joints, that close the shared points in addition to the pairs of the tree.
+        """Return the pairs of bodies, as joints, that connect multiple joints in addition to the pairs of the tree.
 
-        A shared point is one where three or more bodies meet. Pairs with few coordinates are preferred.
+        Pairs whose equations contain few coordinates are preferred (`SharedPoint.find_connecting_pairs`).
         """
         paths: dict[str, list[TreeEdge]] = {}
         for tree_edge in tree_edges:
@@ -241,7 +241,7 @@ class OperationEstimate:
         return [
             joint
             for shared_point in self.shared_points
-            for joint in shared_point.find_closing_pairs(tree_joints, count_coordinates)
+            for joint in shared_point.find_connecting_pairs(tree_joints, count_coordinates)
         ]
 
     def _find_moving_coordinates(self, paths: Mapping[str, list[TreeEdge]], bodies: Sequence[str]) -> set[str]:
@@ -263,8 +263,8 @@ class OperationEstimate:
         }
 
 
-_MAX_DEPTHS = (None, 5, 3, 2, 1)  # how many bodies a chain may have before it is cut
-_MAX_COORDINATES_FOR_EXCHANGE = 24  # more coordinates than that: the tree is not improved by exchanges
+_MAX_DEPTHS = (None, 5, 3, 2, 1)  # bodies of the longest path from the root; None: no limit
+_MAX_COORDINATES_FOR_EXCHANGE = 24  # free angles of a tree that exchanges of joints may improve
 
 
 @dataclass(frozen=True)
@@ -274,7 +274,9 @@ class Tree:
     angles: Mapping[str, Affine]
     free: tuple[str, ...]  # bodies whose angles are coordinates
     edges: tuple[TreeEdge, ...]
-    rows: frozenset[str]  # equations that angles and edges satisfy by themselves, or that shared points replace
+    satisfied_rows: frozenset[
+        str
+    ]  # equations that angles and edges satisfy by themselves, or that shared points replace
     closing_pairs: tuple[Joint, ...]  # pairs of bodies at a shared point that the tree does not connect
     shared_points: tuple[SharedPoint, ...]
     solved: Mapping[str, str]  # equations used for angles, each with the body whose angle it gives
@@ -299,7 +301,7 @@ class Tree:
 def is_impulsive_drive(model: Model, row: Row) -> bool:
     """Return whether an equation is that of a drive whose rate may jump, in a scene with degrees of freedom.
 
-    Such an equation remains a constraint equation, since the jump causes an impulse.
+    Such an equation is not used to eliminate a coordinate: the jump causes an impulse, computed with the equation.
     """
     return (
         row.kind == "drive"
@@ -311,11 +313,14 @@ def is_impulsive_drive(model: Model, row: Row) -> bool:
 def solve_angles(model: Model) -> tuple[dict[str, Affine], dict[str, str]]:
     """Return the angles of all bodies as affine expressions in free angles and drives, and the equations used.
 
-    The second result maps each equation to the body whose angle it gives. Equations of drives are used first.
+    The equations are solved by elimination, those of drives first. The second result maps each equation to the body
+    whose angle it gives.
     """
     angles: dict[str, Affine] = {body.name: {body.name: sp.Integer(1)} for body in model.bodies}
     used_rows: dict[str, str] = {}
-    for row in sorted(model.rows, key=lambda row: row.kind != "drive"):  # what a drive prescribes is never free
+    for row in sorted(
+        model.rows, key=lambda row: row.kind != "drive"
+    ):  # an angle that a drive prescribes is never free
         equation = _express_linear_angles(model, row, angles)
         pivots = {
             body_name: coefficient
@@ -333,7 +338,7 @@ def solve_angles(model: Model) -> tuple[dict[str, Affine], dict[str, str]]:
 
 
 def _express_linear_angles(model: Model, row: Row, angles: Mapping[str, Affine]) -> Affine | None:
-    """Return a constraint equation as an affine expression in free angles and drives, which is 0.
+    """Return the left side Φ of a constraint equation Φ = 0 as an affine expression in free angles and drives.
 
     `angles`: the angles of the bodies so far. Return None if the equation is not linear in angles with constant
     coefficients, or if it is that of a drive whose rate may jump.
@@ -360,8 +365,9 @@ def _express_linear_angles(model: Model, row: Row, angles: Mapping[str, Affine])
 def choose_tree(model: Model) -> Tree:
     """Return the spanning tree with the least estimated operations among a few candidates.
 
-    Candidates are grown breadth first with different limits for the length of chains. The first one, without a limit,
-    is improved by exchanges of joints in loops if it is the best and there are at most 24 free angles.
+    Candidates are grown breadth first with the different maximum depths `_MAX_DEPTHS`. The first one, without a limit,
+    is improved by exchanges of joints in loops (local search) if it is the best. This is left out above
+    _MAX_COORDINATES_FOR_EXCHANGE free angles.
     """
     angles, solved = solve_angles(model)
     used_rows = frozenset(solved)
@@ -379,17 +385,17 @@ def choose_tree(model: Model) -> Tree:
     elif (best := min(trees, key=estimate)) == trees[0]:
         best = _improve_by_exchange(model, edges, best, estimate)
     rows = used_rows.union(
-        *(tree_edge.rows for tree_edge in best), *(shared_point.rows for shared_point in shared_points)
+        *(tree_edge.satisfied_rows for tree_edge in best), *(shared_point.row_names for shared_point in shared_points)
     )
     closing = tuple(estimate.find_closing_pairs(best))
     return Tree(angles, free, best, rows, closing, tuple(shared_points), solved, tuple(estimate.costs.values()))
 
 
 def _find_edges(model: Model, angles: Mapping[str, Affine]) -> list[Joint]:
-    """Return the joints that can position a body: those of which all equations for that exist.
+    """Return the joints that can position a body: those with equations for it, none of which is redundant.
 
-    A joint with a slide also needs bodies that turn together: their angles differ by a constant. `angles`: those of the
-    bodies as affine expressions in free angles and drives.
+    A joint with a slide also needs bodies that turn together: their angles differ by a constant. `angles`: those of
+    the bodies as affine expressions in free angles and drives.
     """
     row_names = {row.name for row in model.rows}
 
@@ -398,7 +404,7 @@ def _find_edges(model: Model, angles: Mapping[str, Affine]) -> list[Joint]:
         return {k: c for k, c in angles.get(body, {}).items() if k != CONSTANT}
 
     def can_position(joint: Joint) -> bool:
-        """Return whether a joint can position a body: it has equations for that, and none of them was left out.
+        """Return whether a joint can position a body: it has equations for that, and none is missing in the model.
 
         A joint with a slide also needs bodies that turn together.
         """
@@ -416,7 +422,7 @@ def _grow_tree(
     """Return a spanning tree as edges with parents first, grown breadth first from the ground along some joints.
 
     `edges`: all joints that can position a body; `selected_joints`: those that may be used. Bodies that no joint
-    reaches move freely. With a `max_depth`, a chain of more bodies is cut; None: no limit.
+    reaches, or only beyond `max_depth` bodies, move freely. `max_depth` None: no limit.
     """
     joints_of_body: dict[str, list[Joint]] = {name: [] for name in (GROUND, *model.geometry.bodies)}
     names = {joint.name for joint in selected_joints}
@@ -447,10 +453,10 @@ def _grow_tree(
 def _improve_by_exchange(
     model: Model, edges: Sequence[Joint], tree_edges: tuple[TreeEdge, ...], estimate: OperationEstimate
 ) -> tuple[TreeEdge, ...]:
-    """Return the tree after exchanges of a joint outside it with one in the loop that it closes, while that is cheaper.
+    """Return the tree after edge exchanges that reduce the estimate: local search, first improvement.
 
-    The first exchange that reduces the estimate is made, then the search begins again. Trees with another number of
-    edges do not count.
+    An exchange replaces a joint of the tree by one outside, in the loop that the latter closes. The search begins
+    again after each exchange. Trees with another number of edges do not count.
     """
     lowest_cost = estimate(tree_edges)
     improved = True
@@ -478,7 +484,10 @@ def _find_loop_joints(tree_edges: Sequence[TreeEdge], joint: Joint) -> list[Join
 
     They are those on the path from the root to one of its bodies but not to the other.
     """
-    first_path, second_path = find_path(tree_edges, joint.first.body), find_path(tree_edges, joint.second.body)
+    first_path, second_path = (
+        find_path_from_root(tree_edges, joint.first.body),
+        find_path_from_root(tree_edges, joint.second.body),
+    )
     return [
         tree_edge.joint
         for tree_edge in (*first_path, *second_path)

@@ -31,8 +31,8 @@ CONTOUR_INPUTS = (
     contact.across,
     contact.omega_i,
     contact.omega_j,
-    contact.worn,
-    contact.worn_slope,
+    contact.contour_depth,
+    contact.contour_slope,
 )
 UNCLIPPED = sp.Symbol("unclipped", real=True)
 _IS_PENETRATING = Test(contact.delta, ">", (0.0,))
@@ -50,8 +50,8 @@ def find_input_variables(clearance: Clearance) -> tuple[sp.Symbol, ...]:
     return CONTOUR_INPUTS if clearance.contour else INPUTS
 
 
-def _make_kernel_arguments(clearance: Clearance) -> tuple[Argument, ...]:
-    """Return the arguments of the C function that computes one part of a joint's force and its derivatives.
+def _make_derivative_arguments(clearance: Clearance) -> tuple[Argument, ...]:
+    """Return the arguments of the kernel that computes one part of a joint's force and its derivatives.
 
     They are the input variables, the contact state, the parameters, those of the branches, and the result `out`.
     """
@@ -61,10 +61,10 @@ def _make_kernel_arguments(clearance: Clearance) -> tuple[Argument, ...]:
 
 
 class _DerivativeBuilder:
-    """Builder of one C function: steps and laws with their tangents by the inputs."""
+    """Builder of one kernel: steps and laws with their tangents by the inputs."""
 
     def __init__(self, model: Model, clearance: Clearance, part: str) -> None:
-        """Begin the C function of one `part` of a joint's force, "film" or "dry", and of its derivatives by the inputs.
+        """Begin the kernel of one `part` of a joint's force, "film" or "dry", and of its derivatives by the inputs.
 
         Internal states of laws (bristle states) are inputs too.
         """
@@ -98,7 +98,8 @@ class _DerivativeBuilder:
     def append_law(self, equations: LawEquations, arguments: Sequence[sp.Symbol]) -> dict[str, sp.Symbol]:
         """Append the equations of a law with derivatives by the inputs; return the symbols of its results by name.
 
-        `arguments`: the symbols for the law's variables, in order, whose derivatives must be known.
+        `arguments`: the symbols for the law's variables, in order. Their derivatives must be known; the chain rule
+        uses them.
         """
         law_tangents = self.tangents.make_tangents_for_variables(dict(zip(equations.variables, arguments, strict=True)))
         results = {}
@@ -126,13 +127,14 @@ class _DerivativeBuilder:
             slopes: Tangent = self.tangents.compute_gradient(value)
             for column, base in enumerate(self.inputs):
                 self.builder.append_store(Place("out")["slope"][row][column], slopes.get(base, ZERO))
-        return self.builder.build_kernel(_make_kernel_arguments(self.clearance), inline=True, prune=True)
+        return self.builder.build_kernel(_make_derivative_arguments(self.clearance), inline=True, prune=True)
 
 
 def make_film_derivative_kernel(model: Model, clearance: Clearance, film: LawEquations) -> Kernel:
-    """Return the C function of the film's force and moments and of their derivatives.
+    """Return the kernel of the film's force and moments and of their derivatives by the inputs.
 
-    The values are (F along n, F along t, M_i, M_j). The derivatives are by (e, δ̇, ė_t, ω_i, ω_j).
+    The values are (F along n, F along t, M_i, M_j), and 0 for internal states. The inputs are those of
+    `find_input_variables`.
     """
     derivative_builder = _DerivativeBuilder(model, clearance, "film")
     derivative_builder.begin_section("eccentricity ratio and effective squeeze velocity")
@@ -152,10 +154,10 @@ def make_film_derivative_kernel(model: Model, clearance: Clearance, film: LawEqu
 
 
 def make_dry_derivative_kernel(model: Model, clearance: Clearance, normal: LawEquations) -> Kernel:
-    """Return the C function of the dry contact's force and moments and of their derivatives by the inputs.
+    """Return the kernel of the dry contact's force and moments and of their derivatives by the inputs.
 
-    It is defined at δ < 0 too, with zero force, since samples before a separation lie there. While the contact is open,
-    the ratio of velocities is 1 with derivative 0. `normal`: the normal law.
+    The law gets max(δ, 0), so that the kernel is also defined at δ < 0. While the contact is open, the ratio δ̇/δ̇⁻ is
+    1 with derivative 0. `normal`: the normal law. The rates of the friction law's internal states follow.
     """
     derivative_builder = _DerivativeBuilder(model, clearance, "dry")
     builder, tangents = derivative_builder.builder, derivative_builder.tangents
@@ -206,9 +208,9 @@ def make_dry_derivative_kernel(model: Model, clearance: Clearance, normal: LawEq
 
 
 def replace_stored_speed(step: Assignment) -> Assignment:
-    """Return the equation of `ratio`, the clipped δ̇/δ̇⁻, with the local `unclipped` in place of the quotient.
+    """Return the equation of `ratio`, the clipped δ̇/δ̇⁻, with the local `unclipped` for the quotient.
 
-    C chooses between the stored approach speed δ̇⁻ and the present one before. Other equations are returned unchanged.
+    The local is 1 while the contact is open. Other equations are returned unchanged.
     """
     speed_ratio = contact.deltadot / contact.stored
     return Assignment(step.symbol, step.value.subs(speed_ratio, UNCLIPPED)) if step.symbol == contact.ratio else step
@@ -220,9 +222,10 @@ def read_parameters_from_struct(model: Model, value: sp.Expr) -> sp.Expr:
 
 
 def make_fraction_derivative_kernel(model: Model, clearance: Clearance) -> Kernel:
-    """Return the C function of the fraction of the dry contact in a transition, and of its derivative by δ.
+    """Return the kernel of the fraction of the dry contact in a transition to contact, and of its derivative by δ.
 
-    The rate of δ with e is 1 without a contour. A law of mixed lubrication may define the fraction; it reads max(δ, 0).
+    Without a contour this is also the derivative by e. A law of mixed lubrication may define the fraction; it reads
+    max(δ, 0).
     """
     builder = KernelBuilder(
         model.symbols,

@@ -22,7 +22,7 @@ Pairs = Sequence[tuple[int, int]]  # coordinate, row
 
 
 class DependentCoordinates:
-    """Places the bodies from the ground on, each by equations whose other coordinates are placed already.
+    """Assignment of equations to bodies' coordinates from the ground outwards, for the elimination order.
 
     To place a coordinate is to assign it the equation that gives it from placed ones; both form one pivot block.
     `groups`, in the order of placing: a coordinate and its equation, or x, y and the equation of a line. No equation
@@ -49,10 +49,10 @@ class DependentCoordinates:
             pass
 
     def _find_constant_coordinates(self, entries: dict[int, sp.Expr]) -> set[int]:
-        """Return the coordinates x and y whose entry in an equation is 1 or −1.
+        """Return the coordinates that an equation can give without division: x and y whose entry is 1 or −1.
 
-        Of an equation in angles alone, all its coordinates are returned if the entries are constant. `entries`: entries
-        of Φ_q of the equation by coordinate.
+        If all entries belong to angles and are constant, all coordinates of the equation are returned. `entries`:
+        entries of Φ_q of the equation by coordinate.
         """
         if all(k % 3 == 2 and self.model.parameter_table.is_constant(entry) for k, entry in entries.items()):
             return set(entries)
@@ -63,10 +63,11 @@ class DependentCoordinates:
         return self._constant_coordinates[r] - self._placed
 
     def _place_single_coordinates(self) -> bool:
-        """Place a coordinate by each equation with exactly one unplaced coordinate of entry ±1; return whether any.
+        """Place coordinates by equations with exactly one unplaced coordinate of constant entry.
 
-        To place it is to assign it that equation, which gives it. In an equation of angles alone all constant entries
-        count. Only the best candidates are used (`_select_candidates`).
+        Return whether such an equation exists. To place a coordinate is to assign it the equation that gives it.
+        Entries ±1 of x and y count, and constant entries of equations in angles alone. Only the best candidates are
+        placed (`_select_candidates`).
         """
         candidates = [
             (min(self._find_unplaced_coordinates(r)), r)
@@ -79,9 +80,9 @@ class DependentCoordinates:
         return bool(candidates)
 
     def _place_body_on_line(self) -> bool:
-        """Place x and y of a body together by the first unused equation that contains both; return whether it exists.
+        """Place x and y of a body together by the first unused equation that contains both; return whether one exists.
 
-        No x or y of another body in the equation may be unplaced.
+        The equation must not contain an unplaced x or y of another body.
         """
         for r, entries in enumerate(self._entries):
             places = sorted(k for k in entries if k % 3 < 2 and k not in self._placed)
@@ -135,9 +136,10 @@ class DependentCoordinates:
         return [(k, r) for k, r in best if not only_avoided or k // 3 == best[0][0] // 3]
 
     def find_leaves_without_inertia(self) -> set[tuple[str, str]]:
-        """Return pairs (body, joint) of leaf bodies with nearly no moment of inertia about the joint that places them.
+        """Return pairs (body, joint) of leaf bodies with negligible moment of inertia about the joint that places them.
 
-        A leaf carries no other body; bodies whose angle an equation gives are left out. Both are names.
+        A leaf carries no other body; bodies whose angle an equation gives are left out. Both are names. The criterion
+        is `Model.has_negligible_inertia`.
         """
         joints, bodies = self.model.scene.mechanism.joints, self.model.bodies
         placing_joints = {
@@ -158,9 +160,9 @@ class DependentCoordinates:
 
 
 def order_dependent_coordinates(system: System, rows: Sequence[Row]) -> DependentCoordinates:
-    """Return the order in which equations give the bodies' coordinates, by joints about which bodies have inertia.
+    """Return the assignment of equations to coordinates that avoids joints about which a leaf body has no inertia.
 
-    Joints that `find_leaves_without_inertia` returns are avoided where possible; the order is determined again until it
+    Pairs that `find_leaves_without_inertia` returns are avoided where possible; the assignment is repeated until it
     returns no new ones.
     """
     avoided_pairs: set[tuple[str, str]] = set()
@@ -173,11 +175,10 @@ def order_dependent_coordinates(system: System, rows: Sequence[Row]) -> Dependen
 
 
 class FirstPivots:
-    """The nodes that are eliminated first, bodies at the ends of chains before those that carry them.
+    """The nodes that are eliminated first, from the leaves of the tree of bodies to the ground.
 
     `order`: coordinates; a line's equation after its x and y. `partner`: the equation that is eliminated together with
-    a
-    coordinate. `rows`: all equations among them. Nodes are coordinates, then equations.
+    a coordinate. `rows`: all equations among them. Nodes are coordinates, then equations.
     """
 
     def __init__(self, system: System, rows: Sequence[Row]) -> None:

@@ -1,7 +1,7 @@
-"""The KKT system [M Φ_qᵀ; Φ_q 0][x; λ] = [b; r], factorized and solved by straight-line statements.
+"""The KKT system [M Φ_qᵀ; Φ_q 0][x; λ] = [b; r], factorized (L D Lᵀ) and solved by straight-line statements.
 
-Each entry of its symbolic L D Lᵀ (generator/solvers/sparsity.py) becomes a named temporary; numbers and single
-symbols are written in place. The pivots of coordinates are masses, or what elimination leaves of them. The pivot of a
+Each entry of its symbolic L D Lᵀ (generator/solvers/sparsity.py) becomes a named temporary; numbers and single symbols
+are written in place. The pivots of coordinates are masses, or what elimination leaves of them. The pivot of a
 constraint equation is compared with its value if the equation were independent of the others. In absolute coordinates
 most equations give one coordinate by others and are eliminated together with it (dependent_coordinates.py).
 """
@@ -102,9 +102,9 @@ class KKT:
         return blocks
 
     def _find_inertias_of_angles(self) -> dict[int, sp.Expr]:
-        """Return, by angle that is a pivot without an equation, the moment of inertia to which the pivot is compared.
+        """Return, by angle, the moment of inertia about the joints with which the angle's pivot is compared.
 
-        An angle is left out if that inertia is its entry of M anyway, or 0.
+        Angles in a block with an equation are left out, and those whose inertia is their entry of M anyway, or 0.
         """
         single_nodes = [k for block in self.blocks for k in block if block[-1] < self.n]
         inertia_of_angle = {k: self.system.compute_inertia_about_joints(k) for k in single_nodes}
@@ -286,11 +286,12 @@ class KKT:
         }
 
     def _compute_row_size(self, builder: KernelBuilder, k: int, scale: sp.Symbol) -> sp.Symbol:
-        """Return the size with which the pivot of equation k (number of the node) is compared.
+        """Return the size with which the pivot of equation k is compared in the test for a zero pivot.
 
-        It is `scale` in tree coordinates, for the equations of the first pivots, for friction, and for an equation
-        without x and y. Otherwise Σ Φ_q²/m of the coordinates x and y is added, in a new local. Where bodies are in
-        line, an equation that closes a loop may vanish as a whole once dependent coordinates are eliminated from it.
+        k is the number of the node. The size is `scale` in tree coordinates, for the equations of the first pivots,
+        for friction, and for an equation without x and y. Otherwise Σ Φ_q²/m of the coordinates x and y is added, in a
+        new local. Where bodies are in line, an equation that closes a loop may vanish as a whole once dependent
+        coordinates are eliminated from it.
         """
         if self.system.in_tree or k in self.first_pivots.rows or k >= self.first_friction:
             return scale
@@ -367,8 +368,8 @@ class KKT:
     ) -> None:
         """Append a jump to the code for vanishing pivots if elimination leaves nearly no inertia of the angle k.
 
-        The bound is 1e-3 of its entry in `inertias_of_angles`; nothing is appended for a coordinate without one.
-        `pivot` is its own pivot times those in `earlier_pivots`, by which the bound is multiplied too.
+        The bound is LIGHT_PIVOT times its entry in `inertias_of_angles`; nothing is appended for a coordinate without
+        one. `pivot` is its own pivot times those in `earlier_pivots`, by which the bound is multiplied too.
         """
         if k in self.inertias_of_angles:
             status = len(self.rows) + len(self.frictions) + 1 + list(self.inertias_of_angles).index(k)

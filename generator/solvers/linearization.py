@@ -18,7 +18,7 @@ import sympy as sp
 
 from gudgeon.contract.boundary import N_WORK
 from gudgeon.generator.equations.loads import Friction, PointLoad
-from gudgeon.generator.equations.model import derive_stick_gain
+from gudgeon.generator.equations.model import derive_stick_baumgarte_gain
 from gudgeon.generator.equations.play import Clearance
 from gudgeon.generator.equations.system import System
 from gudgeon.generator.ir.differentiation import Tangent, Tangents
@@ -36,7 +36,11 @@ Pair = tuple[int, int]  # node (coordinates, equations, frictions, internal stat
 
 @dataclass
 class LinearizedParts:
-    """Non-zeros of the linearization by (node, coordinate), of powers by (power, coordinate or node)."""
+    """Non-zeros of the linearization by (node, column), of the powers' derivatives by (power, column or node).
+
+    A node is the number of a coordinate, then of an equation, a friction element, an internal state. Columns are
+    coordinates, in `by_z` and `power_z` internal states. `by_t` and `power_t` have nodes or powers alone.
+    """
 
     mass: dict[Pair, sp.Expr] = field(default_factory=dict)
     phi_q: dict[Pair, sp.Expr] = field(default_factory=dict)
@@ -52,7 +56,7 @@ class LinearizedParts:
 
 
 class Linearization:
-    """Prints common statements (contacts, tangents) into a function and returns the parts in its symbols."""
+    """Builder of the derivatives of the equations of motion: appends statements, returns non-zero entries."""
 
     def __init__(self, system: System, builder: KernelBuilder) -> None:
         """Begin with new symbols for accelerations, multipliers and internal states of laws, held constant.
@@ -84,7 +88,7 @@ class Linearization:
         self.multiplier = [
             self._make_constant_symbol(f"held_lambda_{row.name}", RHS["lambda"][r]) for r, row in enumerate(system.rows)
         ]
-        self.sticks: list[sp.Symbol] = []  # 1 in stick, 0 in slip
+        self.stick_flags: list[sp.Symbol] = []  # 1 in stick, 0 in slip
         self.rates: list[sp.Expr] = []  # of the internal states
         self.powers: list[sp.Expr] = [ZERO] * N_WORK
 
@@ -114,7 +118,7 @@ class Linearization:
         return self.parts
 
     def _make_constant_symbol(self, base_name: str, place: Place) -> sp.Symbol:
-        """Return a new symbol that is read at the storage place `place` and held constant in derivatives."""
+        """Return a new symbol that is read at the storage location `place` and held constant in derivatives."""
         return self.symbols.add_symbol(base_name.replace(".", "_"), place)
 
     def _append_clearance(self, index: int, clearance: Clearance) -> list[PointLoad]:
@@ -243,12 +247,13 @@ class Linearization:
     def _add_friction_equations(self, residual: list[sp.Expr]) -> None:
         """Add the equations of stick, the forces of slip and their power to the parts; stick or slip is held constant.
 
-        `residual`, by coordinate, gets −Jᵀ f in place. f is the friction force: the present one, held constant, at
-        stick, and −sign(v) · kinetic force at slip.
+        `residual`, by coordinate, gets −Jᵀ f in place. f is the friction force: at stick the current one, held
+        constant, at slip −sign(v) · kinetic force. A symbol for each element, 1 at stick and 0 at slip, is appended to
+        `stick_flags`.
         """
         if self.system.frictions:
             self.builder.begin_section("friction: slip, or stick as a constraint equation")
-        two_alpha = derive_stick_gain(self.model) if self.system.frictions else ZERO
+        two_alpha = derive_stick_baumgarte_gain(self.model) if self.system.frictions else ZERO
         for index, friction in enumerate(self.system.frictions):
             node, name, builder = self.n + self.m + index, friction.name, self.builder
             stick, sign = append_friction_mode(builder, name, index)
@@ -256,7 +261,7 @@ class Linearization:
                 Test(stick, "!=", (0.0,)), PlaceSymbol(RHS["friction"][index]["force"]), ZERO
             )
             force = builder.append_local(f"held_force_{name}", held_force_value)
-            self.sticks.append(stick)
+            self.stick_flags.append(stick)
             self._add_jacobian(node, friction.jacobian)
             kinetic = friction.slip.evaluate_kinetic_force(friction.slip.v)
             stick_residual = sum((entry * self.a[self.q[q]] for q, entry in friction.jacobian.items()), -friction.gamma)
@@ -272,13 +277,13 @@ class Linearization:
     def _add_friction_power(self, node: int, friction: Friction, force: sp.Expr, stick: sp.Symbol) -> None:
         """Add the power of a friction force at the velocity on which it acts, and its derivative by the multiplier λ.
 
-        At stick the force is −λ. `node`: number of the equation of stick; `force`: the friction force as held; `stick`:
-        1 at stick, else 0. At prescribed coordinates the drive does the power.
+        At stick the force is −λ. `node`: number of the equation of stick; `force`: the friction force, at stick held
+        constant; `stick`: 1 at stick, else 0. At prescribed coordinates the drive supplies the power.
         """
         velocity = friction.slip.v + friction.slip.speed
         self.powers[1] += force * velocity
         self.parts.power_row[1, node] = -stick * velocity
-        for prescribed in self.system.prescribed:  # what friction asks of a drive
+        for prescribed in self.system.prescribed:  # power of friction that a drive supplies
             prescribed_velocity = prescribed.rate * self.symbols.differentiate_definitions(
                 friction.slip.v, prescribed.rate
             )
@@ -320,7 +325,7 @@ class Linearization:
         for row_index, row in enumerate(self.system.rows):
             if row.nu != 0:
                 self.parts.power_row[0, self.n + row_index] = -row.nu
-        for prescribed in self.system.prescribed:  # a drive also moves what inertia the accelerations meet it with
+        for prescribed in self.system.prescribed:  # a drive also moves the inertia coupled with the accelerations
             for k, mass in prescribed.mass.items():
                 self.parts.power_row[0, k] = self.parts.power_row.get((0, k), ZERO) + prescribed.rate * mass
 

@@ -23,7 +23,7 @@ from dataclasses import replace
 import sympy as sp
 
 from gudgeon.contract.boundary import N_WORK
-from gudgeon.generator.equations.model import derive_stick_gain
+from gudgeon.generator.equations.model import derive_stick_baumgarte_gain
 from gudgeon.generator.equations.system import System
 from gudgeon.generator.ir.complex_parts import convert_to_complex
 from gudgeon.generator.ir.differentiation import Tangents
@@ -53,10 +53,10 @@ ZERO = sp.Integer(0)
 
 
 class Newton:
-    """The C functions of Newton's method for one system: linearize, factor, substitute and solve."""
+    """The kernels of Newton's method for one system: linearize, factor, substitute and solve."""
 
     def __init__(self, system: System) -> None:
-        """Derive the C functions linearize, factor, substitute and solve, in this order.
+        """Derive the kernels linearize, factor, substitute and solve, in this order.
 
         Each reads values that the one before stores. `system`: the equations of motion that are integrated.
         """
@@ -83,9 +83,10 @@ class Newton:
         return KernelBuilder(self.model.symbols, name, doc)
 
     def _make_linearize_kernel(self) -> Kernel:
-        """Return the C function that writes all parts of the linearization at a state to `lin->value`.
+        """Return the kernel `linearize`, which writes all parts of the linearization at a state to `lin->value`.
 
-        Afterwards `self.parts` is in symbols that read them there, and `self.sticks` and `self.tables` are set.
+        It also copies the parameters to `lin`. Sets `parts` (entries as symbols that read `lin->value`), `stick_flags`
+        (such symbols, 1 at stick and 0 at slip, by friction element) and `tables` (`_make_tables`).
         """
         builder = self._begin_function(
             "linearize",
@@ -99,7 +100,9 @@ class Newton:
         parts = linearization.derive_parts()
         builder.begin_section("results")
         self.parts = self._store_parts(builder, parts, linearization.tangents)
-        self.sticks = [self.values.store_value(builder, stick, f"is_{stick.name}") for stick in linearization.sticks]
+        self.stick_flags = [
+            self.values.store_value(builder, stick, f"is_{stick.name}") for stick in linearization.stick_flags
+        ]
         self.tables = self._make_tables(builder)
         builder.append_store(self.linearization_argument[PARAMETERS.name], Place(PARAMETERS.name))
         arguments = (
@@ -108,7 +111,7 @@ class Newton:
             PARAMETERS,
             make_input_argument("a"),
             make_input_argument(RHS.name, RHS.type),
-            self._make_written_linearization(),
+            self._make_output_linearization(),
         )
         return declare_branches(builder.build_kernel(arguments, owner="", prune=True))
 
@@ -181,7 +184,7 @@ class Newton:
         stay, other entries become locals.
         """
         parts = self.parts
-        self._append_scales(builder, {self._find_scale(node) for node, _ in {**parts.by_v, **parts.by_q}})
+        self._append_scales(builder, {self._find_eta_factor(node) for node, _ in {**parts.by_v, **parts.by_q}})
         first = self.first_state
         builder.begin_section("matrix")
         entries: dict[Pair, sp.Expr] = dict(parts.mass)
@@ -189,7 +192,7 @@ class Newton:
             index = node, k
             coefficient = parts.by_v.get(index, ZERO) + ETA * parts.by_q.get(index, ZERO)
             value = parts.mass.get(index, ZERO) if node < self.n else parts.phi_q.get(index, ZERO)
-            entries[index] = self._name_entry(builder, index, value + self._find_scale(node) * coefficient)
+            entries[index] = self._name_entry(builder, index, value + self._find_eta_factor(node) * coefficient)
         entries |= {(k, k): sp.Integer(1) for k in range(first, self.nodes)}
         for (node, state), derivative in parts.by_z.items():
             index = node, first + state
@@ -197,14 +200,14 @@ class Newton:
         return entries | {(k, node): value for (node, k), value in parts.phi_q.items()}
 
     def _name_entry(self, builder: KernelBuilder, index: Pair, value: sp.Expr) -> sp.Expr:
-        """Return an entry of Newton's matrix: unchanged if it is a number or ± a symbol, else as a new local.
+        """Return an entry of Newton's matrix as a new local; a number or ± a symbol is returned unchanged.
 
         `index`: its row and column, from which the local is named.
         """
         name = f"n_{self.names[index[0]]}__{self.names[index[1]]}"
         return value if is_simple(value) else builder.append_local(name, value)
 
-    def _find_scale(self, node: int) -> sp.Symbol:
+    def _find_eta_factor(self, node: int) -> sp.Symbol:
         """Return the symbol of the factor, η or η/κ, of the derivatives of the equation `node` in Newton's matrix.
 
         It is η for equations of coordinates and internal states, η/κ for constraints and sticks, whose κ differ.
@@ -217,7 +220,7 @@ class Newton:
         """Append the factors η/κ of constraints and of sticks to the function, those that are in `scales`.
 
         η = h γ of the method. κ = 1 + 2αη + β²η² for constraints (Baumgarte's α and β), 1 + 2αη for sticks, with α of
-        `derive_stick_gain`. The section "eta/kappa" begins also without a factor.
+        `derive_stick_baumgarte_gain`. The section "eta/kappa" begins also without a factor.
         """
         alpha, beta = self.model.baumgarte
         derive = self.model.parameter_table.derive_parameter
@@ -226,13 +229,13 @@ class Newton:
         if ETA_ROW in scales:
             builder.append_line(Statement(ETA_ROW.name, ETA / (1 + ETA * (two_alpha + ETA * beta_squared))))
         if ETA_STICK in scales:
-            builder.append_line(Statement(ETA_STICK.name, ETA / (1 + ETA * derive_stick_gain(self.model))))
+            builder.append_line(Statement(ETA_STICK.name, ETA / (1 + ETA * derive_stick_baumgarte_gain(self.model))))
 
     def _make_factor_kernel(self) -> Kernel:
-        """Return the C function that factorizes Newton's matrix at η as L U, L with unit diagonal.
+        """Return the kernel `newton_factor`, which factorizes Newton's matrix at η as L U, L with unit diagonal.
 
-        Entries that are neither numbers nor known are stored in `lin->lu`. It sets `elimination`, `lower`, `upper` and
-        `inverse`. The function returns 0, or the number of the node, from 1, whose pivot vanished.
+        Factors that are neither numbers nor ± symbols are stored in `lin->lu`. Sets `elimination`, `lower`, `upper`
+        and `inverse`. The function returns 0, or the number of the node, from 1, whose pivot vanished.
         """
         states = range(self.first_state, self.nodes)
         note = ", internal states" if states else ""
@@ -261,9 +264,9 @@ class Newton:
             factors.eliminate_node(k, self.elimination.structure[k])
         self.lower, self.upper, self.inverse = factors.lower, factors.upper, factors.inverse
         builder.append_line(Return())
-        return self._finish_function(builder, (Argument("eta"), self._make_written_linearization()), status=True)
+        return self._finish_function(builder, (Argument("eta"), self._make_output_linearization()), status=True)
 
-    def _make_written_linearization(self) -> Argument:
+    def _make_output_linearization(self) -> Argument:
         """Return the argument `linearization_argument` as one that the function writes."""
         return replace(self.linearization_argument, access=Access.WRITTEN)
 
@@ -278,7 +281,7 @@ class Newton:
         return replace(kernel, sections=(parameter_section, *kernel.sections)) if reads_parameters else kernel
 
     def _make_substitute_kernel(self) -> Kernel:
-        """Return the C function that overwrites x = b by the solution of N x = b, N Newton's matrix factorized as L U.
+        """Return the kernel that overwrites x = b by the solution of N x = b, N Newton's matrix factorized as L U.
 
         x has one element for each node: coordinates, then equations, frictions and internal states.
         """
@@ -305,7 +308,7 @@ class Newton:
         return self._finish_function(builder, (self.linearization_argument, make_output_argument("x")))
 
     def _make_solve_kernel(self) -> Kernel:
-        """Return the C function that solves (1/η − J) u = r + s f_t for u.
+        """Return the kernel that solves (1/η − J) u = r + s f_t for u.
 
         r and u are vectors (q, v, works, internal states); s is a number. It calls the function of
         `_make_substitute_kernel`.
@@ -319,7 +322,7 @@ class Newton:
                 f"{', internal states' if states else ''}.",
             ],
         )
-        self._append_scales(builder, {self._find_scale(node) for node in range(self.nodes)})
+        self._append_scales(builder, {self._find_eta_factor(node) for node in range(self.nodes)})
         builder.begin_section("right-hand side")
         builder.append_line(Declare(Number.REAL, "x", (self.nodes,)))
         beta_squared = self.model.parameter_table.derive_parameter("beta_squared", self.model.baumgarte[1] ** 2)
@@ -341,7 +344,7 @@ class Newton:
         for i in range(self.first_state, self.nodes):
             b[i].append(PlaceSymbol(Place("r")[self._find_state_index(i)]))
         for i, terms in enumerate(b):
-            builder.append_store(Place("x")[i], self._find_scale(i) * sp.Add(*terms))
+            builder.append_store(Place("x")[i], self._find_eta_factor(i) * sp.Add(*terms))
         builder.append_line(Call("newton_substitute", (Place(LINEARIZATION),), (Place("x"),)))
         builder.begin_section("solution")
         for k in range(n):
@@ -431,11 +434,11 @@ class Factors:
         return subtract_products(value, factors)
 
     def _invert_pivot(self, k: int) -> sp.Expr:
-        """Return 1/pivot of node k, and append a test of the pivot that fails with the number k + 1.
+        """Return 1/pivot of node k, and append a test of the pivot, upon whose failure the function returns k + 1.
 
         The pivot of a constraint equation is compared with its value if the equation were independent of the others,
-        any other one with its entry. Constant entries, missing internal states and masses need no test; at slip 0 is
-        returned.
+        any other one with its entry. Constant entries, missing internal states and masses need no test. The value of a
+        friction element that slips is 0 at run time.
         """
         newton, builder, name = self.newton, self.builder, self.newton.names[k]
         entry = self.entries.get((newton.equation.get(k, k), k), ZERO)
@@ -463,7 +466,7 @@ class Factors:
             else scale
         )
         size = entry if k < newton.n or k >= states else scale
-        stick = newton.sticks[k - newton.n - newton.m] if newton.n + newton.m <= k < states else None
+        stick = newton.stick_flags[k - newton.n - newton.m] if newton.n + newton.m <= k < states else None
         is_sticking = Test(stick, "!=", (0.0,)) if stick is not None else None
         builder.append_line(
             Guard(
@@ -477,10 +480,10 @@ class Factors:
         return newton.factors.store_local(builder, builder.append_local(f"inverse_pivot_{name}", value))
 
     def _store_factor(self, name: str, value: sp.Expr) -> sp.Expr:
-        """Return a factor as a value that other functions may read, as they read the array `lin->lu`.
+        """Return a factor as a value that the other kernels can read, from `lin->lu` if necessary.
 
-        A number or ± a symbol other than η and η/κ is unchanged; another value becomes the local `name`. The local is
-        stored.
+        A number or ± a symbol other than η and η/κ is unchanged. Any other value becomes the local `name`, which is
+        stored in `lin->lu`.
         """
         is_stored_elsewhere = is_simple(value) and not value.free_symbols & {
             ETA,

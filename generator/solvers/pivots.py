@@ -17,22 +17,23 @@ from gudgeon.generator.symbols.symbol_sums import is_signed_symbol
 
 ZERO = sp.Integer(0)
 
-# A row counts as dependent when less than this share of its pivot is left after elimination: the
-# share is the squared sine of the angle between the row and the others, rounding leaves some 1e-15.
+# A row counts as dependent when less than this fraction of its pivot is left after elimination: the fraction is the
+# squared sine of the angle between the row and the others, rounding leaves some 1e-15.
 SINGULAR = Threshold("SINGULAR", 1e-13)
-# Below this share the row is nearly dependent: drift δ of the constraints would act as δ/share^(1/2) there.
-# The rank-revealing way (engine/scene/singular.c) leaves it out for the moment if the others agree.
+# Below this fraction the row is nearly dependent: drift δ of the constraints would act as δ/fraction^(1/2) there.
+# The rank-revealing factorization (engine/scene/singular.c) drops the row at this state if the others agree.
 NEARLY_SINGULAR = Threshold("NEARLY_SINGULAR", 1e-8)
-# Fraction of a joint's two equations below which one of them counts as vanished: their size is the squared sine
-# of the angle to the singular position, and within 1e-5 of it rounding decides where things go.
+# Fraction of the size of a joint's two equations below which one of them counts as vanished. The fraction is the
+# squared sine of the angle to the singular position, and within 1e-5 of it rounding errors decide.
 VANISHING = Threshold("VANISHING", 1e-10)
 # The same for a pair of equations eliminated before all of its coordinates: rounding grows by 1/fraction,
 # and the alternative solution is exact.
 EARLY = Threshold("EARLY", 1e-5)
-# Share of what turns with an angle that elimination must leave of its entry of M: rounding of accelerations grows by
-# the inverse of its square, 5e-16 for a share of 1.
+# Fraction of the inertia about the joints that elimination must leave of an angle's entry of M: the rounding error of
+# accelerations grows by the inverse of its square, from 5e-16 for a fraction of 1.
 LIGHT_PIVOT = Threshold("LIGHT_PIVOT", 1e-3)
-# The same two where a run may need more: the discrete state gives the value (engine/motion/continuation.c).
+# SINGULAR and VANISHING where a run may need larger ones: the discrete state has the values
+# (engine/motion/continuation.c).
 RUN_SINGULAR = Threshold(NEARLY_SINGULAR.name, NEARLY_SINGULAR, DISCRETE["least"])
 RUN_VANISHING = Threshold(VANISHING.name, VANISHING, DISCRETE["least_size"])
 
@@ -86,7 +87,7 @@ def append_local_unless_simple(builder: KernelBuilder, name: str, value: sp.Expr
 
 
 def find_row_pairs(rows: Sequence[Row], n: int, pattern: Sequence[frozenset[int]]) -> dict[int, int]:
-    """Return the pairs of successive equations of one joint that have entries in the same coordinates, more than two.
+    """Return the pairs of successive equations of one joint that contain the same coordinates, more than two.
 
     The result maps the node of each equation to that of its partner. Nodes are coordinates, then from n on equations;
     `pattern` has the neighbours of each node in the graph of the KKT matrix.

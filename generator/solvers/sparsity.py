@@ -1,10 +1,9 @@
-"""Sparse L D Lᵀ of the KKT matrix, symbolically: elimination order and structure; block triangular form.
+"""Symbolic sparse L D Lᵀ of the KKT matrix: elimination order (minimum degree, fill-in) and block triangular form.
 
 The matrix is [M Φ_qᵀ; Φ_q 0]. A constraint equation is eliminated only after all the coordinates in it: its pivot is
-then −Φ_q M⁻¹ Φ_qᵀ of what is left, never a structural zero, and negative as long as the equations are independent.
-The order is chosen once, by counting products.
-For square systems, equations are matched with unknowns, from which the block triangular form follows (A. Pothen,
-C.-J. Fan, 1990).
+then −Φ_q M⁻¹ Φ_qᵀ of what is left, never a structural zero, and negative as long as the equations are independent. The
+order is chosen once, by counting products. For square systems, equations are matched with unknowns, from which the
+block triangular form follows (A. Pothen, C.-J. Fan, 1990).
 """
 
 from __future__ import annotations
@@ -18,8 +17,8 @@ from types import MappingProxyType
 
 from sympy.utilities.iterables import strongly_connected_components
 
-_DIVISION_COST = 20  # products in the time of one division and what waits for it (measured)
-_MAX_DIVISION_CHAIN = 8  # divisions in a chain that is long
+_DIVISION_COST = 20  # products in the time of one division on the critical path (measured)
+_MAX_DIVISION_CHAIN = 8  # divisions of the critical path that count
 Pattern = tuple[frozenset[int], ...]  # neighbours of each node in the graph of the matrix
 NO_PAIRS: Mapping[int, int] = MappingProxyType({})
 _FIRST_KEY = (-1,)  # a key before all others
@@ -32,13 +31,14 @@ class Elimination:
     order: tuple[int, ...]
     structure: dict[int, tuple[int, ...]]
     products: int
-    depth: int  # divisions in the longest chain of pivots that wait for each other
+    depth: int  # divisions on the critical path, of which each needs the result of the one before
 
     @property
     def cost(self) -> int:
-        """Return the cost in products; at most eight divisions that wait for each other count, 20 products each.
+        """Return the cost in products: the products, and `_DIVISION_COST` for each division of the critical path.
 
-        In longer chains other work fills the time.
+        At most `_MAX_DIVISION_CHAIN` divisions count: along longer paths the processor executes other operations
+        meanwhile.
         """
         return self.products + _DIVISION_COST * min(self.depth, _MAX_DIVISION_CHAIN)
 
@@ -73,22 +73,22 @@ def find_elimination_below(
     first: Sequence[int] = (),
     partner: Mapping[int, int] = NO_PAIRS,
 ) -> Elimination | None:
-    """Return the elimination of `choose_elimination` if its cost is at most `limit`, else None or a costlier one.
+    """Return the elimination of `choose_elimination`, or None if every order needs more than `limit` products.
 
-    An order is abandoned as soon as its products exceed the cost of the best order so far, so that dense candidates of
-    large mechanisms cost little time.
+    The cost of the result may exceed `limit`, since it includes divisions. An order is abandoned as soon as its
+    products exceed the cost of the best order so far, so that dense candidates of large mechanisms cost little time.
     """
     if first:
         in_order = partial(_eliminate_in_order, first, pattern, n_coordinates, last, pairs, partner)
         eager = in_order(True, limit) if partner else None
         plain = in_order(False, min(limit, eager.cost) if eager else limit)
         return min((order for order in (plain, eager) if order), key=lambda order: order.cost, default=None)
-    if _find_least_products(pattern) > limit:
+    if _compute_min_products(pattern) > limit:
         return None
     end = len(pattern) if last is None else last
 
     def compute_degree_key(graph: Sequence[set[int]], node: int, depth: int) -> tuple[int, ...]:
-        """Return the key of least degree; nodes from `last` on come last."""
+        """Return the key of least degree; nodes from `end` on come last."""
         return (node >= end, len(graph[node]), node)
 
     def compute_fill_key(graph: Sequence[set[int]], node: int, depth: int) -> tuple[int, ...]:
@@ -105,26 +105,26 @@ def find_elimination_below(
         """Return the key of least fill-in with all coordinates before equations."""
         return (node >= end, node >= n_coordinates, *compute_fill_key(graph, node, depth))
 
-    def compute_untouched_key(graph: Sequence[set[int]], node: int, depth: int) -> tuple[int, ...]:
-        """Return the key of least fill-in with nodes that no elimination has changed first."""
+    def compute_unchanged_key(graph: Sequence[set[int]], node: int, depth: int) -> tuple[int, ...]:
+        """Return the key of least fill-in, with nodes first whose neighbours elimination has not changed."""
         return (node >= end, graph[node] != pattern[node], *compute_fill_key(graph, node, depth))
 
-    def compute_shallow_key(graph: Sequence[set[int]], node: int, depth: int) -> tuple[int, ...]:
-        """Return the key of least fill-in, then of the shortest chain of divisions."""
+    def compute_critical_path_key(graph: Sequence[set[int]], node: int, depth: int) -> tuple[int, ...]:
+        """Return the key of least fill-in, then of the shortest chain of divisions (critical path)."""
         _, missing, neighbours, _ = compute_fill_key(graph, node, depth)
         return (node >= end, missing, depth, neighbours, node)
 
-    def compute_early_key(graph: Sequence[set[int]], node: int, depth: int) -> tuple[int, ...]:
-        """Return the key of the shortest chain of divisions, then of least fill-in."""
+    def compute_path_first_key(graph: Sequence[set[int]], node: int, depth: int) -> tuple[int, ...]:
+        """Return the key of the shortest critical path (chain of divisions), then of least fill-in."""
         return (node >= end, depth, *compute_fill_key(graph, node, depth))
 
     keys = (
         compute_degree_key,
         compute_fill_key,
         compute_bodies_first_key,
-        compute_untouched_key,
-        compute_shallow_key,
-        compute_early_key,
+        compute_unchanged_key,
+        compute_critical_path_key,
+        compute_path_first_key,
     )
     best: Elimination | None = None
     for equation_pairs in (NO_PAIRS, pairs)[: 1 + bool(pairs)]:
@@ -135,7 +135,7 @@ def find_elimination_below(
     return best
 
 
-def _find_least_products(pattern: Pattern) -> int:
+def _compute_min_products(pattern: Pattern) -> int:
     """Return a lower bound of the products of any elimination of a pattern, from the least degree d of its nodes.
 
     The first pivot couples its d or more neighbours with each other, so that the elimination of these has at least
@@ -155,7 +155,7 @@ def _eliminate_in_order(
     eager: bool,
     limit: float,
 ) -> Elimination | None:
-    """Return the elimination of the nodes in `first` with their partners, then of the others by the best order.
+    """Return the elimination of the nodes in `first` with their partners, then of the others by the best greedy order.
 
     Return None if the products exceed `limit`. `eager`: a coordinate that occurs in no remaining equation of `first`
     follows at once. Along a chain of bodies from its end, each is then coupled only with the one that carries it. The
@@ -247,7 +247,7 @@ def _eliminate_greedily(
     for equation in pairs:
         n_missing[equation] = min(n_missing[equation], 2)
     remaining = set(range(len(pattern)))
-    depths = [0] * len(pattern)  # how many pivots each node has to wait for, one after the other
+    depths = [0] * len(pattern)  # consecutive divisions that must precede each node
     order, columns, products = list[int](), dict[int, set[int]](), 0
     keys = {node: key(graph, node, depths[node]) for node in remaining if n_missing[node] == 0}
     heap = sorted((value, node) for node, value in keys.items())
@@ -290,7 +290,7 @@ def _eliminate_greedily(
 
 
 def _compute_division_depth(order: Sequence[int], structure: Mapping[int, tuple[int, ...]], n_coordinates: int) -> int:
-    """Return the length of the longest chain of divisions of which each needs the result of the one before.
+    """Return the number of divisions on the critical path, of which each needs the result of the one before.
 
     Pivots that elimination does not change are computed beforehand; two that form a block count as one. `structure`:
     the later nodes in the column of each node.

@@ -26,8 +26,8 @@ from gudgeon.generator.symbols.storage import Place
 from gudgeon.generator.symbols.switches import ComparedMagnitude
 
 ZERO = sp.Integer(0)
-# A block is singular when its determinant is less than this share of what it could be, were the arms in it turned:
-# the sine of an angle, where KKT compares its square.
+# A block is singular when its determinant is less than this fraction of its largest value for any direction of its
+# arms: the sine of an angle, where KKT compares its square.
 SINGULAR_SQUARE = Threshold("SINGULAR_SQUARE", sqrt(SINGULAR))
 
 
@@ -41,7 +41,7 @@ class Solver:
 
 
 class SquareSystem:
-    """Prints the solution of Φ_q x = r for a system's equations in its coordinates, if it `is_solvable`."""
+    """Solution of Φ_q x = r as statements, for as many equations as coordinates; unusable unless `is_solvable`."""
 
     def __init__(self, system: System, is_slide: Sequence[bool]) -> None:
         """Find the blocks of the system's equations; `is_slide`: whether each coordinate is a length, not an angle."""
@@ -61,7 +61,7 @@ class SquareSystem:
         return self.blocks is not None
 
     @property
-    def largest(self) -> int:
+    def max_block_size(self) -> int:
         """Return the number of equations of the largest block; more than two need engine/scene/block.c."""
         return max((len(block.rows) for block in self.blocks or ()), default=0)
 
@@ -184,8 +184,8 @@ class SquareSystem:
     ) -> Sequence[sp.Expr | Place]:
         """Return the unknowns of one block for its right-hand side `rhs`, one value for each of its equations.
 
-        A block of more than two equations appends a call of the engine; the result is then read from an array. `prefix`
-        begins the names of its locals.
+        Blocks of one and two equations are solved by expressions. A larger one appends a call of the engine; the
+        result is then read from an array. `prefix` begins the names of its locals.
         """
         if len(rhs) == 1:
             return [rhs[0] * solver.inverse]

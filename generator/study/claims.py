@@ -9,13 +9,13 @@ from gudgeon.errors import BadNameError, BadValueError
 from gudgeon.generator.format.shapes import make_missing_key_error, make_unknown_key_error
 from gudgeon.generator.reader.collector import Reader
 from gudgeon.generator.study.parts import (
-    check_integer,
+    check_integer_node,
     check_keys,
     check_label_of_entry,
-    check_mapping,
-    check_text,
+    check_mapping_node,
+    check_text_node,
     check_texts,
-    find_location,
+    find_node_location,
     read_line,
 )
 from gudgeon.generator.study.spec import (
@@ -36,10 +36,10 @@ from gudgeon.language.names import make_unknown_name_error
 from gudgeon.language.text_output import format_count
 
 KEYS = ("source", "numbers", "trends")
-NUMBER = ("figure", "says", "measure", "part", "at", "value", "beside", "note", "heading")
-MESSAGES = ("says", "figure", "note", "heading")  # keys that every trend may have
-COMMON = ("measure", "part", "at")
-MORE = {
+NUMBER_CLAIM_KEYS = ("figure", "says", "measure", "part", "at", "value", "beside", "note", "heading")
+DESCRIPTIVE_KEYS = ("says", "figure", "note", "heading")  # keys that every trend may have
+SELECTION_KEYS = ("measure", "part", "at")
+FURTHER_KEYS_OF_KIND = {
     "grows_along": ("by",),
     "alike_along": ("within",),
     "spreads_along": ("more_than",),
@@ -48,9 +48,11 @@ MORE = {
     "exceeds": ("by",),
     "near": ("within",),
 }
-NEEDED = {"alike_along": "within", "spreads_along": "more_than", "larger": "than", "near": "within"}
-STATEMENT_KEYS = tuple(dict.fromkeys((*KINDS, *COMMON, *(key for keys in MORE.values() for key in keys))))
-TREND = (*MESSAGES, *STATEMENT_KEYS, "all", "not_computed")
+REQUIRED_KEY_OF_KIND = {"alike_along": "within", "spreads_along": "more_than", "larger": "than", "near": "within"}
+STATEMENT_KEYS = tuple(
+    dict.fromkeys((*KINDS, *SELECTION_KEYS, *(key for keys in FURTHER_KEYS_OF_KIND.values() for key in keys)))
+)
+TREND_KEYS = (*DESCRIPTIVE_KEYS, *STATEMENT_KEYS, "all", "not_computed")
 
 
 def read_claims(reader: Reader, root: Map) -> Claims:
@@ -61,7 +63,7 @@ def read_claims(reader: Reader, root: Map) -> Claims:
     if "claims" not in root:
         return Claims()
     with reader.collect_errors():
-        node = check_mapping(root["claims"], "claims", root.find_key("claims"))
+        node = check_mapping_node(root["claims"], "claims", root.find_key("claims"))
         check_keys(reader, node, KEYS, "claims")
         source = ""
         with reader.collect_errors():
@@ -69,11 +71,13 @@ def read_claims(reader: Reader, root: Map) -> Claims:
         numbers, trends = list[NumberClaim](), list[TrendClaim]()
         for name, value in _list_claim_entries(reader, node, "numbers"):
             with reader.collect_errors():
-                numbers.append(_read_number_claim(reader, name, check_mapping(value, f"claims.numbers.{name}", name)))
+                numbers.append(
+                    _read_number_claim(reader, name, check_mapping_node(value, f"claims.numbers.{name}", name))
+                )
         for name, value in _list_claim_entries(reader, node, "trends"):
             with reader.collect_errors():
-                trends.append(_read_trend_claim(name, check_mapping(value, f"claims.trends.{name}", name)))
-        _check_unique_names(reader, [*(claim.name for claim in numbers), *(claim.name for claim in trends)])
+                trends.append(_read_trend_claim(name, check_mapping_node(value, f"claims.trends.{name}", name)))
+        _collect_repeated_claim_names(reader, [*(claim.name for claim in numbers), *(claim.name for claim in trends)])
         _check_claim_references(reader, numbers)
         return Claims(source, tuple(numbers), tuple(trends))
     return Claims()
@@ -86,11 +90,11 @@ def _list_claim_entries(reader: Reader, node: Map, section: str) -> Sequence[tup
     """
     with reader.collect_errors():
         if section in node:
-            return check_mapping(node[section], f"claims.{section}", node.find_key(section)).list_entries()
+            return check_mapping_node(node[section], f"claims.{section}", node.find_key(section)).list_entries()
     return ()
 
 
-def _check_unique_names(reader: Reader, names: Sequence[Text]) -> None:
+def _collect_repeated_claim_names(reader: Reader, names: Sequence[Text]) -> None:
     """Collect an error for each claim whose name was used before, with the location of the first one."""
     for k, name in enumerate(names):
         if name in names[:k]:
@@ -105,20 +109,24 @@ def _check_unique_names(reader: Reader, names: Sequence[Text]) -> None:
 
 
 def _read_number_claim(reader: Reader, name: Text, node: Map) -> NumberClaim:
-    """Return a claim about one published number. Raises an InputError.
+    """Return a claim about one published number, such as {measure: peak, value: 12 N}. Raises an InputError.
 
     It may have a value to compare with, or the name of another claim (key `beside`), not both.
     """
     address = f"claims.numbers.{name}"
     check_label_of_entry(name, "claim")
-    if not check_keys(reader, node, NUMBER, address, ("measure",)):
+    if not check_keys(reader, node, NUMBER_CLAIM_KEYS, address, ("measure",)):
         raise make_missing_key_error("measure", node.where, address)
-    measure = check_text(node["measure"], f"{address}.measure", node.find_key("measure"), "the name of a measure")
+    measure = check_text_node(node["measure"], f"{address}.measure", node.find_key("measure"), "the name of a measure")
     value = (
-        check_text(node["value"], f"{address}.value", node.find_key("value"), "a number") if "value" in node else None
+        check_text_node(node["value"], f"{address}.value", node.find_key("value"), "a number")
+        if "value" in node
+        else None
     )
     reference_claim = (
-        check_text(node["beside"], f"{address}.beside", node.find_key("beside"), "a name") if "beside" in node else None
+        check_text_node(node["beside"], f"{address}.beside", node.find_key("beside"), "a name")
+        if "beside" in node
+        else None
     )
     if value is not None and reference_claim is not None:
         raise BadValueError(
@@ -135,7 +143,7 @@ def _check_claim_references(reader: Reader, numbers: Sequence[NumberClaim]) -> N
     measures = {str(claim.name): claim.measure for claim in numbers}
     for claim in numbers:
         with reader.collect_errors():
-            reference_claim = claim.beside
+            reference_claim = claim.reference_claim
             if reference_claim is None:
                 continue
             if reference_claim not in measures:
@@ -148,17 +156,17 @@ def _check_claim_references(reader: Reader, numbers: Sequence[NumberClaim]) -> N
 
 
 def _read_selection(node: Map, address: str, location_text: Text) -> Selection:
-    """Return the runs that a claim concerns, from its keys `part` and `at`. Raises an InputError.
+    """Return the runs that a claim concerns, from its keys `part` and `at: {c: 0.1 mm}`. Raises an InputError.
 
     `location_text` has the location of the selection. Without these keys, all runs are selected.
     """
     part = (
-        check_text(node["part"], f"{address}.part", node.find_key("part"), "the name of a part")
+        check_text_node(node["part"], f"{address}.part", node.find_key("part"), "the name of a part")
         if "part" in node
         else None
     )
     coordinate_values = (
-        _read_coordinate_values(check_mapping(node["at"], f"{address}.at", node.find_key("at")), f"{address}.at")
+        _read_coordinate_values(check_mapping_node(node["at"], f"{address}.at", node.find_key("at")), f"{address}.at")
         if "at" in node
         else {}
     )
@@ -167,7 +175,7 @@ def _read_selection(node: Map, address: str, location_text: Text) -> Selection:
 
 def _read_coordinate_values(node: Map, address: str) -> dict[Text, Text]:
     """Return a mapping of coordinates to single values, as texts. Raises BadValueError for another node."""
-    return {key: check_text(value, f"{address}.{key}", key, "one value") for key, value in node.list_entries()}
+    return {key: check_text_node(value, f"{address}.{key}", key, "one value") for key, value in node.list_entries()}
 
 
 def _read_other_selection(node: Map, key: str, address: str, base_selection: Selection) -> Selection:
@@ -175,7 +183,7 @@ def _read_other_selection(node: Map, key: str, address: str, base_selection: Sel
 
     Raises an InputError.
     """
-    selection_node = check_mapping(node[key], f"{address}.{key}", node.find_key(key))
+    selection_node = check_mapping_node(node[key], f"{address}.{key}", node.find_key(key))
     values = _read_coordinate_values(selection_node, f"{address}.{key}")
     part = next((value for name, value in values.items() if name == "part"), base_selection.part)
     inherited_values = {name: value for name, value in base_selection.at.items() if name not in values}
@@ -189,11 +197,11 @@ def _read_trend_claim(name: Text, node: Map) -> TrendClaim:
     address = f"claims.trends.{name}"
     check_label_of_entry(name, "claim")
     figure, says, note, heading = (read_line(node, key, address) for key in ("figure", "says", "note", "heading"))
-    if unknown_keys := [key for key in node.list_keys() if key not in TREND]:
-        raise make_unknown_key_error(unknown_keys[0], TREND, address)
+    if unknown_keys := [key for key in node.list_keys() if key not in TREND_KEYS]:
+        raise make_unknown_key_error(unknown_keys[0], TREND_KEYS, address)
     reason = read_line(node, "not_computed", address)
     statement_node = Map.make_map(
-        [(key, value) for key, value in node.list_entries() if key not in MESSAGES], node.where
+        [(key, value) for key, value in node.list_entries() if key not in DESCRIPTIVE_KEYS], node.where
     )
     if reason:
         if extra_keys := [key for key in statement_node.list_keys() if key != "not_computed"]:
@@ -207,7 +215,7 @@ def _read_trend_claim(name: Text, node: Map) -> TrendClaim:
 
 
 def _read_trend_statements(name: Text, node: Map, address: str) -> list[TrendStatement]:
-    """Return the statements of a trend: one, or each of `all`, whose keys override those next to `all`.
+    """Return the statements of a trend: one, or each element of the list `all`, which inherits the keys next to `all`.
 
     Raises an InputError for an unknown key or an empty list.
     """
@@ -222,7 +230,7 @@ def _read_trend_statements(name: Text, node: Map, address: str) -> list[TrendSta
         )
     statements = []
     for k, node_in_list in enumerate(statement_nodes):
-        statement_node = check_mapping(node_in_list, f"{address}.all[{k}]", node.find_key("all"))
+        statement_node = check_mapping_node(node_in_list, f"{address}.all[{k}]", node.find_key("all"))
         if unknown_keys := [key for key in statement_node.list_keys() if key not in STATEMENT_KEYS]:
             raise make_unknown_key_error(unknown_keys[0], STATEMENT_KEYS, f"{address}.all[{k}]")
         inherited_entries = [
@@ -239,29 +247,33 @@ def _read_trend_statements(name: Text, node: Map, address: str) -> list[TrendSta
 
 
 def _read_trend_statement(name: Text, node: Map, address: str) -> TrendStatement:
-    """Return one statement: its kind, measures, selections and limits. Raises an InputError."""
+    """Return one statement of a trend, such as {grows_along: c, measure: peak}. Raises an InputError.
+
+    Exactly one key of KINDS is its kind; the value of that key is a dimension, measure, number or selection. The value
+    of `by` or `within` is a factor or a tolerance.
+    """
     selected = [key for key in node.list_keys() if key in KINDS]
     if len(selected) != 1:
         message = (
             f"{address} has {'nothing to judge it by' if not selected else f'both {selected[0]} and {selected[1]}'}"
         )
         hint = f"expected one of: {', '.join((*KINDS, 'all', 'not_computed'))}"
-        raise BadValueError(message, find_location(node, name), hint)
-    kind, known_keys = selected[0], (selected[0], *COMMON, *MORE.get(selected[0], ()))
+        raise BadValueError(message, find_node_location(node, name), hint)
+    kind, known_keys = selected[0], (selected[0], *SELECTION_KEYS, *FURTHER_KEYS_OF_KIND.get(selected[0], ()))
     if unknown_keys := [key for key in node.list_keys() if key not in known_keys]:
         raise make_unknown_key_error(unknown_keys[0], known_keys, address)
-    if (required_key := NEEDED.get(kind)) and required_key not in node:
+    if (required_key := REQUIRED_KEY_OF_KIND.get(kind)) and required_key not in node:
         raise make_missing_key_error(required_key, node.where, address)
     base_selection = _read_selection(node, address, kind)
     if kind == COUNTS:
-        counts = _read_expected_counts(check_mapping(node[kind], f"{address}.{kind}", kind), f"{address}.{kind}")
+        counts = _read_expected_counts(check_mapping_node(node[kind], f"{address}.{kind}", kind), f"{address}.{kind}")
         return TrendStatement(kind, (), base_selection, kind, counts=counts)
     if "measure" not in node:
         raise make_missing_key_error("measure", node.where, address)
     measures = check_texts(node["measure"], f"{address}.measure", node.find_key("measure"), "names of measures")
     factor_or_tolerance = next(
         (
-            check_text(node[key], f"{address}.{key}", node.find_key(key), "a number")
+            check_text_node(node[key], f"{address}.{key}", node.find_key(key), "a number")
             for key in ("by", "within")
             if key in node
         ),
@@ -269,7 +281,7 @@ def _read_trend_statement(name: Text, node: Map, address: str) -> TrendStatement
     )
     if kind in SELECTION_COMPARISONS:
         return _read_comparison(node, address, kind, measures, base_selection, factor_or_tolerance)
-    comparison_text = check_text(
+    comparison_text = check_text_node(
         node[kind],
         f"{address}.{kind}",
         kind,
@@ -329,4 +341,4 @@ def _read_expected_counts(node: Map, address: str) -> dict[Text, int]:
     """
     if unknown_keys := [key for key in node.list_keys() if key not in COUNTED_PARTS]:
         raise make_unknown_key_error(unknown_keys[0], COUNTED_PARTS, address)
-    return {key: check_integer(value, f"{address}.{key}", key, 0) for key, value in node.list_entries()}
+    return {key: check_integer_node(value, f"{address}.{key}", key, 0) for key, value in node.list_entries()}

@@ -16,20 +16,20 @@ from gudgeon.language.parser import parse
 
 MAX_COUNT, MAX_SEED = 1_000_000, 2**63 - 1
 MAX_TEXT_LENGTH = 1000  # characters of a descriptive text
-_WHOLE = re.compile(r"0|[1-9][0-9]{0,18}")
+_DECIMAL_DIGITS = re.compile(r"0|[1-9][0-9]{0,18}")
 
 
-def check_mapping(node: Any, address: str, key: Any) -> Map:
+def check_mapping_node(node: Any, address: str, key: Any) -> Map:
     """Return the node if it is a mapping; `key` has the location for an error at an empty node.
 
     Raises BadValueError.
     """
     if not isinstance(node, Map):
-        raise BadValueError(f"{address} is {describe_node(node)}", find_location(node, key), "expected a mapping")
+        raise BadValueError(f"{address} is {describe_node(node)}", find_node_location(node, key), "expected a mapping")
     return node
 
 
-def find_location(node: Any, key: Any) -> Any:
+def find_node_location(node: Any, key: Any) -> Any:
     """Return the location of a node; for an empty node, or one without a location, that of the key before it."""
     is_null = isinstance(node, Text) and node.is_null
     return key.where if is_null else getattr(node, "where", key.where)
@@ -40,7 +40,8 @@ def check_keys(
 ) -> bool:
     """Return whether all required keys are present; an error is collected for each missing and each unknown key.
 
-    A missing key is not reported if an unknown key resembles it. `address` is the mapping's address.
+    A missing key is not reported if an unknown key resembles it, as a probable misspelling. `address` is the mapping's
+    address.
     """
     unknown_keys = [key for key in node.list_keys() if key not in known_keys]
     reader.errors.extend(make_unknown_key_error(key, known_keys, address) for key in unknown_keys)
@@ -54,14 +55,14 @@ def check_keys(
     return not missing_keys
 
 
-def check_text(node: Any, address: str, key: Any, expected_text: str = "a number or a text") -> Text:
+def check_text_node(node: Any, address: str, key: Any, expected_text: str = "a number or a text") -> Text:
     """Return the node if it is a nonempty text on one line.
 
     Raises BadValueError; `expected_text` says what was expected.
     """
     if not isinstance(node, Text) or node.is_null or not node.one_line:
         message = "is on several lines" if isinstance(node, Text) and not node.one_line else f"is {describe_node(node)}"
-        raise BadValueError(f"{address} {message}", find_location(node, key), f"expected {expected_text}")
+        raise BadValueError(f"{address} {message}", find_node_location(node, key), f"expected {expected_text}")
     return node
 
 
@@ -73,10 +74,10 @@ def read_line(node: Map, key: str, address: str) -> str:
 def check_paragraph(node: Any, address: str, key: Any) -> str:
     """Return a node as a descriptive text on one line, with single spaces.
 
-    Raises BadValueError for other nodes, and for more than 1000 or invisible characters.
+    Raises BadValueError for other nodes, and for more than MAX_TEXT_LENGTH or invisible characters.
     """
     if not isinstance(node, Text) or node.is_null:
-        raise BadValueError(f"{address} is {describe_node(node)}", find_location(node, key), "expected a text")
+        raise BadValueError(f"{address} is {describe_node(node)}", find_node_location(node, key), "expected a text")
     joined = " ".join(node.split())
     if len(joined) > MAX_TEXT_LENGTH or not joined.isprintable():
         raise BadValueError(
@@ -94,19 +95,19 @@ def check_texts(node: Any, address: str, key: Any, expected_text: str) -> tuple[
     expected, for the message.
     """
     if isinstance(node, Text):
-        return (check_text(node, address, key, expected_text),)
+        return (check_text_node(node, address, key, expected_text),)
     if not isinstance(node, Items) or not node:
         raise BadValueError(
             f"{address} is {'an empty list' if node == [] else describe_node(node)}",
-            find_location(node, key),
+            find_node_location(node, key),
             f"expected {expected_text}",
         )
-    return tuple(check_text(item, f"{address}[{k}]", node, expected_text) for k, item in enumerate(node))
+    return tuple(check_text_node(item, f"{address}[{k}]", node, expected_text) for k, item in enumerate(node))
 
 
 def check_word(node: Any, address: str, key: Any, allowed_words: Iterable[str]) -> str:
     """Return the node as text if it is one of the allowed words. Raises BadValueError, with the nearest word."""
-    known_words, word_node = list(allowed_words), check_text(node, address, key, "a word")
+    known_words, word_node = list(allowed_words), check_text_node(node, address, key, "a word")
     if word_node not in known_words:
         raise BadValueError(
             f"{address} is {describe_node(word_node)}", word_node.where, format_name_hint(word_node, known_words, 20)
@@ -114,18 +115,20 @@ def check_word(node: Any, address: str, key: Any, allowed_words: Iterable[str]) 
     return str(word_node)
 
 
-def check_integer(node: Any, address: str, key: Any, minimum: int = 1, maximum: int = MAX_COUNT) -> int:
+def check_integer_node(node: Any, address: str, key: Any, minimum: int = 1, maximum: int = MAX_COUNT) -> int:
     """Return a whole number from `minimum` to `maximum` that is written in decimal digits. Raises BadValueError."""
     expected_text = f"a whole number from {minimum} to {maximum}"
-    digits = check_text(node, address, key, expected_text)
-    if not _WHOLE.fullmatch(digits) or not minimum <= int(digits) <= maximum:
+    digits = check_text_node(node, address, key, expected_text)
+    if not _DECIMAL_DIGITS.fullmatch(digits) or not minimum <= int(digits) <= maximum:
         raise BadValueError(f"{address} is {describe_node(digits)}", digits.where, f"expected {expected_text}")
     return int(digits)
 
 
 def read_seed(node: Map, address: str) -> int:
     """Return the seed of the random numbers of a section, 0 by default. Raises BadValueError."""
-    return check_integer(node["seed"], f"{address}.seed", node.find_key("seed"), 0, MAX_SEED) if "seed" in node else 0
+    return (
+        check_integer_node(node["seed"], f"{address}.seed", node.find_key("seed"), 0, MAX_SEED) if "seed" in node else 0
+    )
 
 
 def check_label_of_entry(name: Text, kind: str) -> str:
@@ -152,12 +155,12 @@ def check_dimension_name(name: Text, kind: str) -> str:
     return check_label_of_entry(name, kind) if kind != "parameter" else str(name)
 
 
-def parse_expression(node: Any, address: str, key: Any) -> ParsedExpression:
+def parse_study_expression(node: Any, address: str, key: Any) -> ParsedExpression:
     """Parse an expression and return it with its text; its dimension is not yet known.
 
     Raises InputError at its column.
     """
-    expression_text = check_text(node, address, key, "an expression: 2*pi/omega")
+    expression_text = check_text_node(node, address, key, "an expression: 2*pi/omega")
     return ParsedExpression(parse(expression_text, expression_text.where), expression_text)
 
 
@@ -172,7 +175,7 @@ def read_titles(reader: Reader, root: Map, parts: Mapping[str, StudyFile | None]
     titles: dict[str, str] = {}
     with reader.collect_errors():
         node = (
-            check_mapping(root["titles"], "titles", root.find_key("titles"))
+            check_mapping_node(root["titles"], "titles", root.find_key("titles"))
             if "titles" in root
             else root.get_mapping("titles")
         )
@@ -183,7 +186,7 @@ def read_titles(reader: Reader, root: Map, parts: Mapping[str, StudyFile | None]
             with reader.collect_errors():
                 if name not in known_names and None not in parts.values():
                     raise make_unknown_name_error("name", name, known_names, name.where)
-                title = check_text(value, f"titles.{name}", name, "a line")
+                title = check_text_node(value, f"titles.{name}", name, "a line")
                 if len(title) > MAX_TITLE_LENGTH or not title.isprintable():
                     hint = f"expected one line of at most {MAX_TITLE_LENGTH} visible characters"
                     raise BadValueError(f"titles.{name} has {len(title)} characters", title.where, hint)
@@ -231,11 +234,11 @@ def read_wear(reader: Reader, root: Map) -> WearRounds | None:
     if "wear" not in root:
         return None
     with reader.collect_errors():
-        node = check_mapping(root["wear"], "wear", root.find_key("wear"))
+        node = check_mapping_node(root["wear"], "wear", root.find_key("wear"))
         if not check_keys(reader, node, KEYS, "wear", KEYS[:3]):
             return None
         joints = check_texts(node["joints"], "wear.joints", node.find_key("joints"), "names of joints")
-        rounds = check_integer(node["rounds"], "wear.rounds", node.find_key("rounds"), 1, MAX_ROUNDS)
+        rounds = check_integer_node(node["rounds"], "wear.rounds", node.find_key("rounds"), 1, MAX_ROUNDS)
         law = check_word(node["law"], "wear.law", node.find_key("law"), WEAR_LAWS) if "law" in node else WEAR_LAWS[0]
         k, hardness, scale = (_read_number_text(node, name) for name in ("k", "hardness", "scale"))
         if k is None:
@@ -246,4 +249,4 @@ def read_wear(reader: Reader, root: Map) -> WearRounds | None:
 
 def _read_number_text(node: Map, name: str) -> Text | None:
     """Return the text of a number of `wear`, None if it is not given. Raises BadValueError."""
-    return check_text(node[name], f"wear.{name}", node.find_key(name), "a number") if name in node else None
+    return check_text_node(node[name], f"wear.{name}", node.find_key(name), "a number") if name in node else None

@@ -10,21 +10,21 @@ from gudgeon.errors import BadNameError, BadValueError, Location, MissingKeyErro
 from gudgeon.generator.format.sections import FORMAT as MECHANISM
 from gudgeon.generator.format.shapes import make_missing_key_error, make_unknown_key_error
 from gudgeon.generator.reader.collector import Reader, TooManyErrors
-from gudgeon.generator.study.axes import read_choices, read_draw, read_parameters, read_starts
+from gudgeon.generator.study.axes import read_choices, read_draw, read_starts, read_varied_parameters
 from gudgeon.generator.study.claims import read_claims
 from gudgeon.generator.study.parts import (
     check_keys,
     check_label_of_entry,
-    check_mapping,
-    check_text,
+    check_mapping_node,
+    check_text_node,
     check_texts,
     check_word,
-    parse_expression,
+    parse_study_expression,
     read_about,
     read_titles,
     read_wear,
 )
-from gudgeon.generator.study.settings import apply_settings, build_tree, convert_to_texts, remove_section_name
+from gudgeon.generator.study.settings import apply_set_options, build_tree, convert_to_texts, remove_section_name
 from gudgeon.generator.study.spec import (
     CONTACTS,
     CROSSINGS,
@@ -49,7 +49,7 @@ _SET = "value of "  # prefix of locations of values from the command line
 
 
 def check_dataset_names(reader: Reader, study: StudyFile, root: Map) -> None:
-    """Collect an error for each name of the dataset that is reserved or used twice.
+    """Collect an error for each name of a study's dataset that is reserved or used twice.
 
     Checked are parameters, zips, choices, measures and stored series of one part. `root` is the part's tree.
     """
@@ -92,7 +92,7 @@ def _iterate_dataset_names(study: StudyFile, root: Map, zip_keys: list[Text]) ->
 
 
 def _find_conflicting_choices(reader: Reader, study: StudyFile, keys_of_parameters: dict[str, Text]) -> Iterator[str]:
-    """Yield the names of choices that change a parameter which all runs are given.
+    """Yield the names of choices that change a parameter which is set for all runs.
 
     An error is collected for each. `keys_of_parameters` maps the parameters of all runs to the keys that set them.
     """
@@ -207,14 +207,14 @@ def _split_parts(reader: Reader, root: Map) -> Iterator[tuple[str, str, Map]]:
     unknown_keys = [key for key, _ in common_entries if key not in PART_KEYS]
     reader.errors.extend(make_unknown_key_error(key, KEYS, "the study") for key in unknown_keys)
     with reader.collect_errors():
-        parts_node = check_mapping(root["parts"], "parts", root.find_key("parts"))
+        parts_node = check_mapping_node(root["parts"], "parts", root.find_key("parts"))
         if not parts_node:
             raise BadValueError(
                 "parts is empty", root.find_key("parts").where, "expected {clearance: {…}, material: {…}}"
             )
         for name, node in parts_node.list_entries():
             with reader.collect_errors():
-                part_node = check_mapping(node, f"parts.{name}", name)
+                part_node = check_mapping_node(node, f"parts.{name}", name)
                 inherited_entries = [
                     (key, value) for key, value in common_entries if key not in part_node and key not in unknown_keys
                 ]
@@ -245,22 +245,22 @@ def _read_part(reader: Reader, root: Map, file: str, settings: Mapping[str, str]
     """
     if not check_keys(reader, root, KEYS if part_name == "the study" else PART_KEYS, part_name, ("mechanism",)):
         return None
-    parameters = apply_settings(*read_parameters(reader, root), read_draw(reader, root), settings)
+    parameters = apply_set_options(*read_varied_parameters(reader, root), read_draw(reader, root), settings)
     starts, choices = read_starts(reader, root), read_choices(reader, root)
     title = mechanism = Text.make_text("", root.where)
     is_single_scene, scenes = True, (*[Text.make_text("ideal", root.where)],)
     with reader.collect_errors():
-        mechanism = check_text(
+        mechanism = check_text_node(
             root["mechanism"], "mechanism", root.find_key("mechanism"), "a file next to this one, or a name"
         )
     with reader.collect_errors():
-        title = check_text(root["title"], "title", root.find_key("title"), "a line") if "title" in root else title
+        title = check_text_node(root["title"], "title", root.find_key("title"), "a line") if "title" in root else title
         if len(title) > MAX_TITLE or not title.isprintable():
             hint = f"expected one line of at most {MAX_TITLE} visible characters"
             raise BadValueError(f"the title has {len(title)} characters", title.where, hint)
     with reader.collect_errors():
         if "scenes" in root:
-            scenes = _check_unique_names(
+            scenes = _require_unique_names(
                 check_texts(root["scenes"], "scenes", root.find_key("scenes"), "names of scenes"), "scene"
             )
             is_single_scene = isinstance(root["scenes"], Text)
@@ -304,7 +304,7 @@ def _select_result_settings(root: Map) -> dict[str, Any]:
     return {key: value for key, value in convert_to_texts(root).items() if key not in ("claims", "titles", "about")}
 
 
-def _check_unique_names(names: tuple[Text, ...], kind: str) -> tuple[Text, ...]:
+def _require_unique_names(names: tuple[Text, ...], kind: str) -> tuple[Text, ...]:
     """Return the names if each occurs once.
 
     Raises BadNameError at the first that is given twice; `kind` is its kind.
@@ -321,7 +321,7 @@ def _read_expression(reader: Reader, root: Map, name: str) -> ParsedExpression |
     The error of a wrong one is collected.
     """
     with reader.collect_errors():
-        return parse_expression(root[name], name, root.find_key(name)) if name in root else None
+        return parse_study_expression(root[name], name, root.find_key(name)) if name in root else None
     return None
 
 
@@ -337,7 +337,11 @@ def _read_method(reader: Reader, root: Map) -> Text:
 def _read_rtol(reader: Reader, root: Map) -> Text | None:
     """Return the tolerance as text; None if it is not given or wrong. The error is collected."""
     with reader.collect_errors():
-        return check_text(root["rtol"], "rtol", root.find_key("rtol"), "a tolerance: 1e-8") if "rtol" in root else None
+        return (
+            check_text_node(root["rtol"], "rtol", root.find_key("rtol"), "a tolerance: 1e-8")
+            if "rtol" in root
+            else None
+        )
     return None
 
 
@@ -358,19 +362,19 @@ def _read_windows(reader: Reader, root: Map) -> dict[str, Window]:
     windows: dict[str, Window] = {}
     with reader.collect_errors():
         node = (
-            check_mapping(root["windows"], "windows", root.find_key("windows"))
+            check_mapping_node(root["windows"], "windows", root.find_key("windows"))
             if "windows" in root
             else root.get_mapping("windows")
         )
         for name, value in node.list_entries():
             with reader.collect_errors():
                 address = f"windows.{name}"
-                window_node = check_mapping(value, address, name)
+                window_node = check_mapping_node(value, address, name)
                 check_keys(reader, window_node, ("from", "to"), address)
                 if not window_node:
                     raise BadValueError(f"{address} is empty", window_node.where, "expected from:, to:, or both")
                 ends = [
-                    parse_expression(window_node[key], f"{address}.{key}", window_node.find_key(key))
+                    parse_study_expression(window_node[key], f"{address}.{key}", window_node.find_key(key))
                     if key in window_node
                     else None
                     for key in ("from", "to")
@@ -387,10 +391,10 @@ def _read_measures(reader: Reader, root: Map, windows: Mapping[str, Window]) -> 
     measures = []
     with reader.collect_errors():
         node, key = root.get_mapping("measures"), "measures"
-        entries = check_mapping(node, key, root.find_key(key)) if key in root else node
+        entries = check_mapping_node(node, key, root.find_key(key)) if key in root else node
         for name, value in entries.list_entries():
             with reader.collect_errors():
-                measures.append(_read_measure(name, check_mapping(value, f"measures.{name}", name), windows, root))
+                measures.append(_read_measure(name, check_mapping_node(value, f"measures.{name}", name), windows, root))
                 _check_single_subtracted_scene(measures)
     return tuple(measures)
 
@@ -424,10 +428,12 @@ def _read_measure(name: Text, node: Map, windows: Mapping[str, Window], root: Ma
         raise BadValueError(message, name.where, f"expected one of: {', '.join(STATISTICS)}")
     (statistic,) = selected
     expected_text = "the name of a series, a joint or an event, or a section"
-    source_name = check_text(node[statistic], f"{address}.{statistic}", statistic, expected_text)
+    source_name = check_text_node(node[statistic], f"{address}.{statistic}", statistic, expected_text)
     window = ""
     if "window" in node:
-        window_name = check_text(node["window"], f"{address}.window", node.find_key("window"), "the name of a window")
+        window_name = check_text_node(
+            node["window"], f"{address}.window", node.find_key("window"), "the name of a window"
+        )
         if statistic not in WINDOW_STATISTICS:
             hint = f"remove window, or use a statistic of samples: {', '.join(SAMPLES)}"
             raise BadValueError(
@@ -460,14 +466,14 @@ def _read_subtracted_scene(name: Text, node: Map, statistic: Text) -> Text | Non
     if statistic not in SERIES_STATISTICS:
         hint = f"remove from, or use one of: {', '.join(SERIES_STATISTICS)}"
         raise BadValueError(f"{address}: {statistic} is not a statistic of a series", node.find_key("from").where, hint)
-    return check_text(node["from"], f"{address}.from", node.find_key("from"), "the name of a scene")
+    return check_text_node(node["from"], f"{address}.from", node.find_key("from"), "the name of a scene")
 
 
 def _read_stored_series(reader: Reader, root: Map) -> tuple[Text, ...]:
     """Return the names of series that are stored for each run; () if there are none. Errors are collected."""
     with reader.collect_errors():
         if "keep" in root and root["keep"] != []:
-            return _check_unique_names(
+            return _require_unique_names(
                 check_texts(root["keep"], "keep", root.find_key("keep"), "names of series"), "series"
             )
     return ()

@@ -8,7 +8,7 @@ from __future__ import annotations
 from typing import Any
 
 from gudgeon.contract.methods import KINEMATIC, OFFERED
-from gudgeon.generator.study.claims import MESSAGES, STATEMENT_KEYS
+from gudgeon.generator.study.claims import DESCRIPTIVE_KEYS, STATEMENT_KEYS
 from gudgeon.generator.study.parts import MAX_COUNT, MAX_ROUNDS, MAX_SEED, MAX_TEXT_LENGTH, MAX_TITLE_LENGTH
 from gudgeon.generator.study.read import MAX_TITLE, SERIES_STATISTICS, WINDOW_STATISTICS
 from gudgeon.generator.study.spec import (
@@ -33,7 +33,7 @@ _LIST: Json = {"anyOf": [_NUMBER, {"type": "array", "items": _NUMBER, "minItems"
 _SPACING: Json = {"enum": [LINEAR, GEOMETRIC]}
 
 
-def make_schema() -> Json:
+def make_study_schema() -> Json:
     """Return the JSON Schema of a study file, with or without parts."""
     value_range = _make_object_schema(
         {"from": _NUMBER, "to": _NUMBER, "count": _make_count_schema(2), "spacing": _SPACING}, "from", "to", "count"
@@ -145,7 +145,7 @@ def _make_claims_schema() -> Json:
         _make_map_schema(_NUMBER),
         {"anyOf": [_TEXT, {"type": "array", "items": _TEXT, "minItems": 1}]},
     )
-    descriptive = {key: {"type": "string", "maxLength": MAX_TEXT_LENGTH} for key in MESSAGES}
+    descriptive = {key: {"type": "string", "maxLength": MAX_TEXT_LENGTH} for key in DESCRIPTIVE_KEYS}
     number = _make_object_schema(
         descriptive | {"measure": _TEXT, "part": _TEXT, "at": coordinate_values, "value": _NUMBER, "beside": _TEXT},
         "measure",

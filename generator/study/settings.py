@@ -17,8 +17,8 @@ MAX_DEPTH, MAX_VALUES = 16, 1_000_000
 def build_tree(value: Any, address: str = "", depth: int = 0) -> Any:
     """Return a file's tree for mappings, lists, arrays, numbers and texts in Python; locations are addresses.
 
-    None becomes an empty text, a bool "true" or "false". Raises BadValueError for other types, keys that are not texts,
-    more than 16 levels and more than a million values in a list.
+    None becomes an empty text, a bool "true" or "false"; any iterable is read as a list. Raises BadValueError for
+    other types, keys that are not texts, more than MAX_DEPTH levels and more than MAX_VALUES values in a list.
     """
     location = Location(f"value of {address}" if address else "the study", 1, 1)
     if depth > MAX_DEPTH:
@@ -80,10 +80,10 @@ def remove_section_name(name: str) -> str:
     return name.removeprefix("parameters.")
 
 
-def apply_settings(
+def apply_set_options(
     fixed_parameters: Mapping[Text, Text], axes: Sequence[Axis], draw: Draw | None, settings: Mapping[str, str]
 ) -> VariedParameters:
-    """Apply values of `--set`: they replace the file's values of these parameters, fixed or varied.
+    """Return the parameters after the options `--set c=0.2mm`, whose values replace the file's, fixed or varied.
 
     Parameters that vary together with them, in a zip or a draw, are not changed. For each axis that loses parameters,
     `VariedParameters.left_out` has an axis with these parameters alone; those of the draw form one grouped axis there.

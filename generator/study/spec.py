@@ -13,7 +13,7 @@ from gudgeon.errors import BadValueError, Location
 from gudgeon.generator.yaml import Text
 from gudgeon.language.tree import Expr
 
-TRENDS_ALONG_DIMENSION = ("grows_along", "alike_along", "spreads_along")  # kinds of trials along a dimension
+TRENDS_ALONG_DIMENSION = ("grows_along", "alike_along", "spreads_along")  # kinds of statements along a dimension
 SELECTION_COMPARISONS = ("larger", "most_lowered")  # kinds that compare two selections of runs
 MEASURE_COMPARISONS = ("exceeds",)  # kinds that compare two measures of the same runs
 NUMBER_COMPARISONS = ("above", "below", "near")  # kinds that compare with a number
@@ -35,7 +35,8 @@ class Selection:
 class NumberClaim:
     """Represent a published number that is compared with a measure; without a value only the measure is reported.
 
-    `beside`: another claim of the same measure, from which the deviation is reported. `heading`: its heading on a page.
+    `reference_claim`: another claim of the same measure, from which the deviation is reported. `heading`: the claim's
+    heading on a page.
     """
 
     name: Text
@@ -45,7 +46,7 @@ class NumberClaim:
     value: Text | None
     says: str
     note: str
-    beside: Text | None = None
+    reference_claim: Text | None = None
     heading: str = ""
 
 

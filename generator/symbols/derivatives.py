@@ -36,8 +36,8 @@ def find_operation_classes(expression: sp.Basic) -> frozenset[type[sp.Basic]]:
 def differentiate(expression: sp.Expr, symbol: sp.Symbol) -> sp.Expr:
     """Return the derivative of an expression by `symbol`, as `sympy.diff` does but faster; results are cached.
 
-    Sums are differentiated term by term, products factor by factor, powers with constant exponents and functions of one
-    argument by the chain rule. SymPy does the rest.
+    Sums are differentiated term by term, products factor by factor, powers with constant exponents and functions of
+    one argument by the chain rule. SymPy differentiates all others.
     """
     if expression == symbol:
         return _ONE

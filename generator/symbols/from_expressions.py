@@ -47,11 +47,11 @@ def make_conditional(left: sp.Expr, right: sp.Expr, then: sp.Expr, otherwise: sp
 
 
 _HALF = sp.Rational(1, 2)
-_MAX_BITS = 4096  # of numbers that were not written, at most
+_MAX_BITS = 4096  # of a numerator or denominator that SymPy computes
 
 
 def make_exponential(exponent: sp.Expr) -> sp.Expr:
-    """Return e^x, with the floats in a sum of the exponent converted to exact rational numbers.
+    """Return e^x; floats in an exponent that is a sum become exact rational numbers.
 
     Otherwise SymPy would take e^5000.0 out of e^(5000.0 − u), and that overflows.
     """
@@ -109,7 +109,7 @@ class _Converter:
     def _convert_node_uncached(self, expr: Expr) -> sp.Expr:
         """Return the SymPy expression of one node of the tree, without reading the cache.
 
-        Floats of integer value below 1e15 become integers, and names what the resolver returns for them. Operands are
+        Floats of integer value below 1e15 become integers; names become the results of the resolver. Operands are
         converted through the cache. Products and powers that SymPy would expand to extreme numbers stay unevaluated.
         """
         match expr:
@@ -153,9 +153,10 @@ class _Converter:
         return apply_unexpanded(lambda a, b: self._make_power_without_squares(a, b, left), a, exponent)
 
     def _make_power_without_squares(self, base: sp.Expr, exponent: sp.Expr, *operands: Expr) -> sp.Expr:
-        """Return base**exponent; from a sum to the power k/2, squares are taken out of the root.
+        """Return base**exponent; from a sum to the power k/2, perfect squares are taken out of the root.
 
-        `operands`: the unconverted base, or both arguments of hypot, whose numbers are then read as written.
+        `operands`: the unconverted base, or both arguments of hypot; their numbers are read as exact decimals of the
+        file.
         """
         if not (base.is_Add and exponent.is_Rational and exponent.q == 2):
             return base**exponent
@@ -223,14 +224,14 @@ def _merge_exponentials(product: sp.Expr) -> sp.Expr:
 
 
 def _make_unexpanded_square(a: sp.Expr) -> sp.Expr:
-    """Return the square of an expression, of an `Unevaluated` where SymPy would expand it to extreme numbers."""
+    """Return the square of an expression, which becomes `Unevaluated` where SymPy would form extreme numbers."""
     return apply_unexpanded(sp.Pow, a, sp.Integer(2))
 
 
 def _make_exact_if_simple(exponent: sp.Expr) -> sp.Expr:
-    """Return a float exponent such as 0.5 or 1.5, with a denominator up to 8, as a rational number; others unchanged.
+    """Return a float exponent such as 0.5 or 1.5 as a rational number if its denominator is at most 8.
 
-    (u**2)**0.5 is then |u| and has its switching point.
+    Other exponents are returned unchanged. (u**2)**0.5 is then |u| and has its switching point.
     """
     exact = _make_exact(exponent)
     return exact if exact.is_Rational and exact.q <= 8 else exponent

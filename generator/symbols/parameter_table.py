@@ -29,8 +29,8 @@ class ParameterEntry:
     value: sp.Expr
     default: float
     dimension: Dimension
-    choice_words: tuple[str, ...] = ()  # what its number, 0, 1, …, stands for
-    expression: Expr | None = None  # as the file has it
+    choice_words: tuple[str, ...] = ()  # words that the values 0, 1, … stand for
+    expression: Expr | None = None  # the default as an expression of the file
 
     @property
     def depends_on_parameters(self) -> bool:
@@ -66,12 +66,12 @@ class ParameterTable(Freezable):
         self.tables: dict[str, list[sp.Symbol]] = {}  # parameters in arrays of Parameters, by the array's name
         self._derived_by: dict[sp.Expr, sp.Symbol] = {}
         self._default_of: dict[sp.Symbol, float] = {}  # of the entries
-        self._parameters, self._instead = scene.parameters, scene.chosen_properties
+        self._parameters, self._chosen_quantities = scene.parameters, scene.chosen_properties
         for name in scene.parameters:
             self._get_or_add_named_parameter(name)
 
     def copy_for_symbols(self, symbols: Symbols) -> ParameterTable:
-        """Return a copy of the table that adds new symbols to the symbol table `symbols`.
+        """Return a shallow copy of the table that adds new symbols to the symbol table `symbols`.
 
         Copy and original share the dictionaries of parameters: a parameter added to one is in both.
         """
@@ -111,8 +111,9 @@ class ParameterTable(Freezable):
     def _add_parameter(self, address: str, base_name: str, quantity: Quantity, place: Place = OWN_FIELD) -> sp.Symbol:
         """Add the parameter of a quantity at an address, after those in its expression; return its symbol.
 
-        `base_name`: base of the symbol's name; `place`: its storage place in Parameters. Its default is the value of
-        the expression with all defaults. The entry's `value` is the expression in symbols, or the number without names.
+        `base_name`: base of the symbol's name; `place`: its storage location in Parameters. Its default is the value
+        of the expression with all defaults. The entry's `value` is the expression in symbols, or the number if the
+        expression contains no names.
         """
         parts = {part.address: part for part in quantity.operands}
 
@@ -127,8 +128,8 @@ class ParameterTable(Freezable):
         default_expression = convert_to_sympy(quantity.value, find_symbol) if _has_names(quantity) else None
         default = float(evaluate(quantity.value, find_default))
         value = sp.Float(default, 17) if default_expression is None else default_expression
-        is_short = "." not in base_name and not address.startswith("parameters.")  # gravity.y is not y
-        field_base_name = address if is_short else ""
+        is_unqualified = "." not in base_name and not address.startswith("parameters.")  # gravity.y is not y
+        field_base_name = address if is_unqualified else ""
         symbol = self.symbols.add_symbol(base_name, place, address, field_base_name=field_base_name)
         self.entries[address] = ParameterEntry(symbol, address, value, default, quantity.dimension, (), quantity.value)
         self._default_of[symbol] = default
@@ -137,10 +138,10 @@ class ParameterTable(Freezable):
     def get_or_add_parameter(self, quantity: Quantity, zero: bool = False) -> sp.Expr:
         """Return the symbol of a quantity's parameter, added at its first use.
 
-        The scene may have another quantity for the address. A number 0 in the file gives 0, without a parameter, unless
-        `zero` is True.
+        A scene's quantity at the same address replaces the argument. A number 0 in the file gives 0, without a
+        parameter, unless `zero` is True.
         """
-        quantity = self._instead.get(quantity.address, quantity)
+        quantity = self._chosen_quantities.get(quantity.address, quantity)
         if quantity.is_zero and not zero:
             return sp.Integer(0)
         if quantity.address not in self.entries:
@@ -152,8 +153,8 @@ class ParameterTable(Freezable):
     def get_or_add_array(self, base_name: str, quantities: Sequence[Quantity]) -> str:
         """Return the name of an array in Parameters that holds the values of several quantities, in their order.
 
-        The array is named after `base_name`. If the first quantity is the first one of an array already, that array is
-        used.
+        The array is named after `base_name`. If the first quantity is the first one of an existing array, that array
+        is used.
         """
         name = next((k for k, s in self.tables.items() if s[0] == self._find_symbol(quantities[0])), "")
         if not name:
@@ -248,10 +249,10 @@ class ParameterTable(Freezable):
         return self.find_place(symbol).member
 
     def find_place(self, symbol: sp.Symbol) -> Place:
-        """Return the place of a parameter in the struct Parameters; the symbol must be a parameter."""
-        home = self.symbols.info[symbol].place
-        assert home is not None
-        return home
+        """Return the storage location of a parameter in the struct Parameters; the symbol must be a parameter."""
+        place = self.symbols.info[symbol].place
+        assert place is not None
+        return place
 
 
 def _has_names(quantity: Quantity) -> bool:

@@ -1,4 +1,4 @@
-"""Squares under roots, recognized by exact decimals: t² − 2·0.2202 t + 0.2202² is (t − 0.2202)².
+"""Perfect squares under roots, factored with exact decimals: t² − 2·0.2202 t + 0.2202² is (t − 0.2202)².
 
 There is no tolerance: a sum that is not exactly a square of these decimals stays under its root, however near it is.
 """
@@ -7,15 +7,16 @@ from __future__ import annotations
 
 import sympy as sp
 
-_MAX_OPERATIONS, DEGREE = 60, 8  # operations under a root, and a power there, up to which squares are looked for
-_MAX_INTEGER = 10**15  # a whole number that binary64 has
+_MAX_OPERATIONS, DEGREE = 60, 8  # maximum number of operations, and maximum power, of an expression under a root
+_MAX_INTEGER = 10**15  # binary64 represents all whole numbers up to it
 
 
 def extract_squares(base: sp.Expr, exponent: sp.Expr, decimals: sp.Expr | None = None) -> sp.Expr:
     """Return base**exponent with squares under a square root taken out: sqrt(t**2 - 2*t + 1) becomes |t - 1|.
 
-    `decimals`: the base with its numbers as written; None: the shortest decimals that identify its binary64 numbers.
-    Other exponents, long bases and bases without squares give the plain power.
+    The method is square-free factorization. `decimals`: the base with the exact decimals of the file; None: the
+    shortest decimals that identify its binary64 numbers. Other exponents, bases of more than `_MAX_OPERATIONS` and
+    bases without squares give the plain power.
     """
     if not (base.is_Add and exponent.is_Rational and exponent.q == 2) or base.count_ops() > _MAX_OPERATIONS:
         return base**exponent
@@ -32,7 +33,7 @@ def extract_squares(base: sp.Expr, exponent: sp.Expr, decimals: sp.Expr | None =
     atom_by_dummy = {dummy: atom for atom, dummy in atoms.items()}
     powers = []
     for part, count in parts:
-        size = _find_scale(part)
+        size = _find_coefficient_divisor(part)
         factor *= size**count
         powers.append(sp.Pow((part / size).expand().xreplace(atom_by_dummy), count))
     return sp.Mul(factor, *powers) ** exponent
@@ -43,21 +44,22 @@ def convert_to_decimal(number: sp.Expr) -> sp.Expr:
     return sp.Rational(repr(float(number))) if number.is_Float and number.is_finite else number
 
 
-def _find_scale(polynomial: sp.Expr) -> sp.Expr:
-    """Return a number by which a polynomial with integer coefficients is divided so that they stay below 1e15.
+def _find_coefficient_divisor(polynomial: sp.Expr) -> sp.Expr:
+    """Return the divisor that keeps the integer coefficients of a polynomial below `_MAX_INTEGER`.
 
-    It is 1, or else the magnitude of the leading coefficient.
+    It is 1 if they are below that already, else the magnitude of the leading coefficient.
     """
     magnitudes = [abs(coefficient) for coefficient in sp.Poly(polynomial).coeffs()]
     return sp.Integer(1) if max(magnitudes) < _MAX_INTEGER else magnitudes[0]
 
 
 def _convert_to_polynomial(expression: sp.Expr, atoms: dict[sp.Expr, sp.Dummy]) -> sp.Expr:
-    """Return an expression as a polynomial in dummy symbols, with its floats as exact decimals.
+    """Return an expression as a polynomial in dummy symbols (generators), with its floats as exact decimals.
 
-    Each part that is not a sum, product or power up to DEGREE gets a dummy. `atoms` maps these parts to their dummies
-    and is extended in place. The degree is the one written: SymPy would take x^0.1 and x^0.0001 for powers of one
-    generator, with as many terms as memory holds.
+    Powers x^(p/q) and exponentials e^(p x/q) with 1 < |p| up to DEGREE become powers |p| of x^(±1/q) and e^(±x/q).
+    Each other part that is not a sum or product gets a dummy. `atoms` maps these parts to their dummies and is
+    extended in place. The exponents are explicit: SymPy would take x^0.1 and x^0.0001 for powers of one generator,
+    with as many terms as memory holds.
     """
     if expression.is_Number:
         return convert_to_decimal(expression)

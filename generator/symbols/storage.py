@@ -1,7 +1,7 @@
-"""Storage of values in generated code: fields of structs, elements of arrays, arguments. Each target writes its own
-syntax.
+"""Storage locations of values in generated code: fields of structs, elements of arrays, arguments.
 
-Tables of a model or a program grow while it is derived, and are only read afterwards (`Freezable`).
+Each target writes its own syntax for them. Tables of a model or a program grow while it is derived, and are only read
+afterwards (`Freezable`).
 """
 
 from __future__ import annotations
@@ -19,9 +19,9 @@ PARAMETERS = "p"  # the argument that holds the parameters of a run
 
 @dataclass(frozen=True)
 class Place:
-    """An argument or local, or a part of it: `Place("rhs")["clearance"][0]["Fx"]`.
+    """A storage location: an argument or local, or a part of it, such as `Place("rhs")["clearance"][0]["Fx"]`.
 
-    `path` has one step for each field name or element number. As a string, by which terms are ordered, the place is
+    `path` has one step for each field name or element number. As a string, by which terms are ordered, the location is
     `rhs.clearance[0].Fx`.
     """
 
@@ -30,7 +30,7 @@ class Place:
     expressions: ClassVar[tuple[sp.Basic, ...]] = ()
 
     def __getitem__(self, step: str | int) -> Place:
-        """Return the storage place of a field (text) or element (number) within this one."""
+        """Return the storage location of a field (text) or element (number) within this one."""
         return Place(self.base, (*self.path, step))
 
     def __str__(self) -> str:
@@ -67,13 +67,13 @@ def make_real_symbol(name: str) -> sp.Symbol:
 
 
 class PlaceSymbol(sp.Symbol):
-    """A symbol that is read at a place; among others it is ordered as a plain symbol of its path."""
+    """A symbol that is read from a storage location; SymPy orders it like a plain symbol of that name."""
 
     place: Place
     __slots__ = ("place",)
 
     def __new__(cls, place: Place) -> PlaceSymbol:
-        """Return the real symbol whose value is read at a place; its name is the text of the place."""
+        """Return the real symbol whose value is read from a storage location; its name is the text of the location."""
         symbol: PlaceSymbol = sp.Symbol.__xnew__(cls, str(place), real=True)
         symbol.place = place
         return symbol
@@ -88,11 +88,11 @@ class PlaceSymbol(sp.Symbol):
         return sp.Symbol.class_key()
 
 
-Key: TypeAlias = str | Place  # what a value is known by: the name of a local or definition, or its place
+Key: TypeAlias = str | Place  # identifies a value: the name of a local or definition, or its storage location
 
 
-def find_key(symbol: sp.Symbol) -> Key:
-    """Return the storage place of a symbol that is read at one (a PlaceSymbol), else the symbol's name."""
+def find_value_key(symbol: sp.Symbol) -> Key:
+    """Return the storage location of a symbol that is read from one (a PlaceSymbol), else the symbol's name."""
     return symbol.place if isinstance(symbol, PlaceSymbol) else str(symbol.name)
 
 

@@ -172,7 +172,7 @@ class DifferentiableMin(_Extreme):
 class Magnitude(sp.Function):
     """|x| of an x that its branch keeps non-negative, except in stages beyond the switching point; never 0.
 
-    It is the base of a broken power: x^1.5 of the held x would be NaN there, |x|^1.5 continues as smoothly.
+    It is the base of a power with a fractional exponent: x^1.5 would be NaN there, |x|^1.5 continues as smoothly.
     """
 
     nargs = 1
@@ -211,10 +211,10 @@ class Switches(Freezable):
     switch_by_key: dict[tuple[str, sp.Expr], Switch] = field(default_factory=dict)
     unused_indices: list[int] = field(default_factory=list)  # numbers of the scene's own switches in the other table
 
-    def copy_for_functions(self) -> Switches:
-        """Return a table of switches for other functions of the same scene, such as those in tree coordinates.
+    def copy_joint_switches(self) -> Switches:
+        """Return a table with the switches of joints with play only, for other functions of the same scene.
 
-        Switches of joints are shared. Those of the scene are left out, and their numbers are given to new ones.
+        The switch objects are shared. The numbers of the scene's own switches are given to new ones.
         """
         joint_switches = {key: switch for key, switch in self.switch_by_key.items() if switch.owner}
         return Switches(joint_switches, sorted(switch.index for switch in self.list_switches("")))

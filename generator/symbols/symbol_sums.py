@@ -38,7 +38,11 @@ def subtract_products(start: sp.Expr, factors: Iterable[tuple[sp.Expr, sp.Expr]]
 
 
 def _combine(start: sp.Expr, factors: Iterable[tuple[sp.Expr, sp.Expr]], is_subtracted: bool) -> sp.Expr:
-    """Return start − Σ a b over pairs (a, b) of factors if `is_subtracted`, else start + Σ a b."""
+    """Return start − Σ a b over pairs (a, b) of factors if `is_subtracted`, else start + Σ a b.
+
+    The fast method needs sums of products of different symbols without like terms; otherwise SymPy's operators are
+    used.
+    """
     pairs = list(factors)
     if not pairs:
         return start

@@ -20,7 +20,7 @@ from gudgeon.generator.symbols.derivatives import differentiate, find_symbols
 from gudgeon.generator.symbols.storage import PARAMETERS, Freezable, Key, Place, PlaceSymbol, make_real_symbol
 from gudgeon.generator.symbols.switches import Switches
 
-OWN_FIELD = Place(PARAMETERS)[""]  # the home of a parameter whose field is called as the symbol
+OWN_FIELD = Place(PARAMETERS)[""]  # stands for the field of a parameter that is called as the symbol
 
 
 def make_identifier(base_name: str) -> str:
@@ -39,7 +39,10 @@ def strip_identifier(symbol: sp.Symbol) -> str:
 
 @dataclass(frozen=True)
 class SymbolInfo:
-    """Place, meaning and unit of a symbol; `home` is where the symbol is read, None for a local of its kernel."""
+    """Storage location, meaning and unit of a symbol.
+
+    `place` is None for a symbol that is a local of each kernel, computed from its definition.
+    """
 
     place: Place | None
     meaning: str
@@ -58,7 +61,7 @@ class Symbols(Freezable):
         """Begin without symbols, definitions and rules, and with an empty table of switches."""
         self.info: dict[sp.Symbol, SymbolInfo] = {}
         self.definitions: dict[sp.Symbol, sp.Expr] = {}
-        self.rules: dict[sp.Symbol, dict[sp.Symbol, sp.Expr]] = {}
+        self.derivative_rules: dict[sp.Symbol, dict[sp.Symbol, sp.Expr]] = {}
         self.switches = Switches()
         self._names: set[str] = set()
         self._shared_table: Symbols | None = None  # the other table of the same library
@@ -81,7 +84,7 @@ class Symbols(Freezable):
         Switches of joints are shared too. A parameter that is added to the new table gets a name and entry in both.
         """
         other_table = Symbols()
-        other_table._shared_table, other_table.switches = self, self.switches.copy_for_functions()
+        other_table._shared_table, other_table.switches = self, self.switches.copy_joint_switches()
         for symbol, info in self.info.items():
             if info.is_parameter:
                 other_table.add_shared_parameter(symbol)
@@ -115,12 +118,12 @@ class Symbols(Freezable):
         return candidate
 
     def find_shorter_names(self, used_names: Collection[str]) -> dict[Key, Key]:
-        """Return shorter names for names that end with a number: without the number, or with the smallest unused one.
+        """Return shorter names for names that end with a number: {"x_2_": "x_"}.
 
-        `used_names`: all names in the function. The result maps each old name to its new one; names that stay are left
-        out.
+        The number is omitted, or replaced by the smallest unused one. `used_names`: all names in the function. Names
+        that stay are left out.
         """
-        locals_ = [name for name in used_names if not ((home := self._find_place(name)) and home.is_parameter)]
+        locals_ = [name for name in used_names if not ((place := self._find_place(name)) and place.is_parameter)]
         numbered_names = sorted(
             (name for name in locals_ if name in self._base_of_numbered_name), key=lambda name: (len(name), name)
         )
@@ -146,7 +149,7 @@ class Symbols(Freezable):
         return self._find_place(name) == Place(PARAMETERS)[name]
 
     def _find_place(self, name: str) -> Place | None:
-        """Return the storage place of the symbol with a name; None for a local or an unknown name."""
+        """Return the storage location of the symbol with a name; None for a local or an unknown name."""
         info = self.info.get(make_real_symbol(name))
         return info.place if info else None
 
@@ -155,8 +158,8 @@ class Symbols(Freezable):
     ) -> sp.Symbol:
         """Return a new real symbol, with an unused name made from `base_name`, and record its place, meaning and unit.
 
-        `place`: the storage place where it is read; None: it is defined by an expression. With OWN_FIELD it is a field
-        of Parameters, called as `field_base_name`, or as the symbol if that is "".
+        `place`: the storage location where it is read; None: it is defined by an expression. With OWN_FIELD it is a
+        field of Parameters, called as `field_base_name`, or as the symbol if that is "".
         """
         shared_table = self._shared_table if place and place.is_parameter else None
         name, field_name = (
@@ -201,29 +204,33 @@ class Symbols(Freezable):
         return symbol
 
     def differentiate(self, expression: sp.Expr, variable: sp.Symbol) -> sp.Expr:
-        """Return the derivative of an expression by `variable` by the chain rule, with the rules of derived symbols.
+        """Return the derivative of an expression by `variable`: the chain rule with its symbols' derivative rules.
 
         A symbol other than `variable` that has no rule for it counts as constant.
         """
         result = sp.Integer(0)
         for symbol in sorted(find_symbols(expression), key=lambda s: s.name):
-            inner_derivative = sp.Integer(1) if symbol == variable else self.rules.get(symbol, {}).get(variable)
+            inner_derivative = (
+                sp.Integer(1) if symbol == variable else self.derivative_rules.get(symbol, {}).get(variable)
+            )
             if inner_derivative is not None:
                 result += differentiate(expression, symbol) * inner_derivative
         return result
 
-    def find_variables(self, expression: sp.Expr) -> set[sp.Symbol]:
-        """Return the symbols of an expression, and those by which the rules of its symbols give derivatives.
+    def find_differentiation_variables(self, expression: sp.Expr) -> set[sp.Symbol]:
+        """Return the variables by which `differentiate` may give a derivative of an expression other than 0.
 
-        `differentiate` returns 0 for all others.
+        They are its symbols, and the variables in the `derivative_rules` of its symbols.
         """
         symbols = find_symbols(expression)
-        return set(symbols).union(*(self.rules[symbol] for symbol in symbols if symbol in self.rules))
+        return set(symbols).union(
+            *(self.derivative_rules[symbol] for symbol in symbols if symbol in self.derivative_rules)
+        )
 
     def differentiate_definitions(self, expression: sp.Expr, variable: sp.Symbol) -> sp.Expr:
         """Return the derivative of an expression by `variable`, through the definitions of derived symbols.
 
-        It is for variables that no rule contains: rates that a drive prescribes.
+        It is for variables without derivative rules: rates that a drive prescribes.
         """
         result = sp.Integer(0)
         for symbol in sorted(find_symbols(expression), key=lambda s: s.name):
@@ -238,9 +245,9 @@ class Symbols(Freezable):
         return result
 
     def read_at_places(self, value: sp.Expr) -> sp.Expr:
-        """Return the value with each symbol that is stored at a place replaced by the `PlaceSymbol` of that place."""
-        homes = ((s, self.info[s].place) for s in value.free_symbols if s in self.info)
-        return value.xreplace({s: PlaceSymbol(home) for s, home in homes if home})
+        """Return the value with each symbol that has a storage location replaced by its `PlaceSymbol`."""
+        places = ((s, self.info[s].place) for s in value.free_symbols if s in self.info)
+        return value.xreplace({s: PlaceSymbol(place) for s, place in places if place})
 
     def expand_definitions(self, expression: sp.Expr) -> sp.Expr:
         """Return `expression` with every derived symbol replaced by its definition, repeatedly, until none is left."""

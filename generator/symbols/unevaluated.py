@@ -1,8 +1,8 @@
 """Products that stay together: SymPy expands (0.01 x)^161, but 1e-322 and x^161 may leave the range of C numbers.
 
-An operation is checked after SymPy has performed it. If the result has a number far from 1 that was not written, or
-powers that each may leave binary64 while their product does not, the operands become `Unevaluated`s, which SymPy cannot
-expand.
+An operation is checked after SymPy has performed it. The check fails if the result has a number far from 1 that no
+operand has, or powers that each may leave binary64 while their product does not. The operands then become
+`Unevaluated`s, which SymPy cannot expand.
 """
 
 from __future__ import annotations
@@ -11,8 +11,8 @@ from collections.abc import Callable
 
 import sympy as sp
 
-_MAX_DECADES = 60  # decades from 1 within which numbers that were not written are accepted
-_MAX_POWER = 16  # a power that is given to the factors of its base one by one, at most
+_MAX_DECADES = 60  # decades from 1 within which numbers that SymPy computes are accepted
+_MAX_POWER = 16  # largest exponent of a product that is expanded into powers of its factors
 
 
 class Unevaluated(sp.Function):
@@ -75,9 +75,10 @@ def apply_unexpanded(operation: Callable[..., sp.Expr], *operands: sp.Expr) -> s
 def _has_new_extreme_numbers(result: sp.Expr, operands: tuple[sp.Expr, ...]) -> bool:
     """Return whether a result contains extreme numbers that no operand has, or is a product of several high powers.
 
-    Extreme numbers are beyond 60 decades from 1. The product counts only if no operand is a product with a high power.
+    Extreme numbers are beyond `_MAX_DECADES` decades from 1. The product counts only if no operand is a product with a
+    high power.
     """
-    extreme_numbers = {part for part in result.atoms(sp.Number) if _is_extreme(part)}
+    extreme_numbers = {part for part in result.atoms(sp.Number) if _is_extreme_number(part)}
     if extreme_numbers and not extreme_numbers <= set().union(*(part.atoms(sp.Number) for part in operands)):
         return True
     return (
@@ -88,13 +89,13 @@ def _has_new_extreme_numbers(result: sp.Expr, operands: tuple[sp.Expr, ...]) -> 
 
 
 def _count_high_powers(product: sp.Mul) -> int:
-    """Return the number of factors of a product that are powers with an exponent of magnitude above 16."""
+    """Return the number of factors of a product that are powers with an exponent of magnitude above `_MAX_POWER`."""
     exponents = [factor.exp for factor in product.args if factor.is_Pow]
     return sum(bool(exponent.is_Number and abs(exponent) > _MAX_POWER) for exponent in exponents)
 
 
-def _is_extreme(x: sp.Number) -> bool:
-    """Return whether a number is finite, not zero, and more than 60 decades larger or smaller than 1."""
+def _is_extreme_number(x: sp.Number) -> bool:
+    """Return whether a number is finite, not zero, and at least `_MAX_DECADES` decades larger or smaller than 1."""
     magnitude = abs(x)
     return bool(
         magnitude.is_finite

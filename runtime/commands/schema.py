@@ -10,9 +10,11 @@ def print_schema(study: bool = False) -> int:
     code.
     """
     if study:
-        from gudgeon.generator.study.schema import make_schema
+        from gudgeon.generator.study.schema import make_study_schema
+
+        print_json(make_study_schema())
     else:
         from gudgeon.generator.targets.json_schema import make_schema
 
-    print_json(make_schema())
+        print_json(make_schema())
     return 0

@@ -19,7 +19,7 @@ from gudgeon.generator.ir.kernels import Kernel, Section
 from gudgeon.generator.ir.series import derive_taylor_series
 from gudgeon.generator.ir.series_rules import NoTaylorSeries, StoreRow
 from gudgeon.generator.ir.statements import Line, Statement
-from gudgeon.generator.symbols.storage import Key, Place, find_key
+from gudgeon.generator.symbols.storage import Key, Place, find_value_key
 from gudgeon.integrators import lanes
 from gudgeon.results.batch import Batch
 from gudgeon.simulation.simulation import Simulation
@@ -77,7 +77,7 @@ def follow(line: Line, known: dict[Key, float], rows: dict[tuple[str, int], list
 def number(value: object, known: dict[Key, float]) -> float:
     """Of an expression."""
     expression = sp.sympify(value)
-    return float(expression.evalf(25, subs={s: known[find_key(s)] for s in expression.free_symbols}))
+    return float(expression.evalf(25, subs={s: known[find_value_key(s)] for s in expression.free_symbols}))
 
 
 @pytest.mark.parametrize(

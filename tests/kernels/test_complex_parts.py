@@ -16,7 +16,7 @@ from gudgeon.generator.ir.statements import Call, Guard, Statement
 from gudgeon.generator.ir.values import Conditional
 from gudgeon.generator.kernels.program import make_program
 from gudgeon.generator.pipeline import derive_scene
-from gudgeon.generator.symbols.storage import Key, Place, find_key
+from gudgeon.generator.symbols.storage import Key, Place, find_value_key
 from gudgeon.loading.shipped import find_shipped_file
 from tests.slow import slow_but
 
@@ -39,7 +39,7 @@ def value_of(value: Any, memory: Memory) -> complex:
         case Conditional():
             assert value.test.relation == "!=" and value.test.bound == (0.0,)
             return value_of(value.then if value_of(value.test.value, memory) != 0 else value.otherwise, memory)
-    names = {symbol: memory[find_key(symbol)] for symbol in value.free_symbols}
+    names = {symbol: memory[find_value_key(symbol)] for symbol in value.free_symbols}
     function = sp.lambdify(list(names), value, [{"ComparedMagnitude": abs}, "math"])
     return complex(function(*names.values()))
 
@@ -67,7 +67,7 @@ def test_both_parts_are_those_of_the_complex_numbers(of: tuple[str, str]) -> Non
     twins = tuple(convert_to_complex(kernel, ("eta", "r", "u", "x", Place("lin")["lu"]), ("s",)) for kernel in plain)
     one, two = Memory(eta=ETA, s=0.0), Memory(eta=ETA.real, eta_i=ETA.imag)
     read = {
-        find_key(s)
+        find_value_key(s)
         for section in plain[2].sections
         for x in section.statements
         for e in x.expressions

@@ -83,7 +83,7 @@ def test_a_model_is_read_only() -> None:
         model.parameter_table.entries,
         model.parameter_table.derived,
         model.symbols.info,
-        model.symbols.rules,
+        model.symbols.derivative_rules,
     ):
         with pytest.raises(TypeError, match="does not support item assignment"):
             table["late"] = None  # type: ignore[assignment]

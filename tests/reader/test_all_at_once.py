@@ -92,7 +92,7 @@ def test_what_follows_from_a_mistake_is_not_told(patches: Patches, message: str)
 
 def test_the_way_of_a_mass_is_short() -> None:
     """From the bytes of a file to the mass matrix: 32 functions handed it on."""
-    script = ROOT / "tools" / "way_of_a_mass.py"
+    script = ROOT / "tools" / "trace_mass.py"
     specified = subprocess.run([sys.executable, str(script)], check=True, capture_output=True, text=True).stdout
     functions = specified.splitlines()[-1].split()
     assert int(functions[0]) <= 15, specified

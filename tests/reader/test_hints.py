@@ -67,7 +67,7 @@ KINDS = [
     (section, other, kind)
     for section in ("joints", "drives", "forces")
     for kind, of in next(f for f in FILE.fields if f.name == section).entry.kinds().items()  # type: ignore[union-attr, misc]
-    for other in of.also
+    for other in of.foreign_names
 ]
 
 

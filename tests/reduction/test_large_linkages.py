@@ -82,7 +82,7 @@ def test_the_tree_of_a_long_chain_is_the_cheapest_of_all_candidates() -> None:
 def test_find_variables_lists_every_variable_with_a_derivative() -> None:
     model = make_chain(4)
     for row in model.rows:
-        variables = model.symbols.find_variables(row.phi)
+        variables = model.symbols.find_differentiation_variables(row.phi)
         for q in model.q:
             assert q in variables or model.symbols.differentiate(row.phi, q) == 0
         assert set(row.phi_q) <= variables

@@ -11,7 +11,7 @@ from ruamel.yaml import YAML
 
 import gudgeon
 from gudgeon.generator.study.read import read_studies
-from gudgeon.generator.study.schema import make_schema
+from gudgeon.generator.study.schema import make_study_schema
 from tests.programs import needs_compiler
 
 FILE = Path(__file__).parents[2] / "studies" / "chen_2022.yaml"
@@ -32,7 +32,7 @@ def test_all_numbers_and_trends_are_there() -> None:
 def test_the_schema_takes_it() -> None:
     jsonschema = pytest.importorskip("jsonschema")
     study = YAML(typ="safe").load(FILE.read_text(encoding="utf-8"))
-    assert not list(jsonschema.Draft202012Validator(make_schema()).iter_errors(study))
+    assert not list(jsonschema.Draft202012Validator(make_study_schema()).iter_errors(study))
 
 
 @needs_compiler

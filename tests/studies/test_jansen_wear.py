@@ -10,7 +10,7 @@ from ruamel.yaml import YAML
 
 import gudgeon
 from gudgeon.generator.study.read import read_studies
-from gudgeon.generator.study.schema import make_schema
+from gudgeon.generator.study.schema import make_study_schema
 from tests.programs import needs_compiler
 from tests.slow import slow_but
 
@@ -25,7 +25,7 @@ def test_it_is_read_whole() -> None:
     assert not any(one.not_computed for one in claims.trends)
     jsonschema = pytest.importorskip("jsonschema")
     study = YAML(typ="safe").load(FILE.read_text(encoding="utf-8"))
-    assert not list(jsonschema.Draft202012Validator(make_schema()).iter_errors(study))
+    assert not list(jsonschema.Draft202012Validator(make_study_schema()).iter_errors(study))
 
 
 @needs_compiler

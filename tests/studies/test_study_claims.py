@@ -15,7 +15,7 @@ from ruamel.yaml import YAML
 
 import gudgeon
 from gudgeon.errors import GudgeonError, InputError, InputErrors
-from gudgeon.generator.study.schema import make_schema
+from gudgeon.generator.study.schema import make_study_schema
 from gudgeon.studies.ensemble import claims
 from gudgeon.studies.ensemble.claim_tables import Claimed
 from gudgeon.studies.ensemble.study import resolve_plans
@@ -262,7 +262,7 @@ def test_all_mistakes_of_claims_at_once(tmp_path: Path) -> None:
 
 def test_the_schema_takes_what_is_read() -> None:
     jsonschema = pytest.importorskip("jsonschema")
-    check = jsonschema.Draft202012Validator(make_schema())
+    check = jsonschema.Draft202012Validator(make_study_schema())
     study = YAML(typ="safe").load(TEXT)
     assert not list(check.iter_errors(study))
     wrong: list[dict[str, Any]] = [

@@ -14,7 +14,7 @@ from ruamel.yaml import YAML
 import gudgeon
 from gudgeon.errors import InputError
 from gudgeon.generator.study.read import KEYS, read_studies, read_study
-from gudgeon.generator.study.schema import make_schema
+from gudgeon.generator.study.schema import make_study_schema
 from gudgeon.generator.study.spec import COUNTED_PARTS, KINDS, SAMPLING_METHODS, STATISTICS
 from gudgeon.studies.ensemble.names import collect_names, typeset_quantity
 from gudgeon.studies.ensemble.resolve import BLOCK
@@ -55,7 +55,7 @@ def test_every_key_statistic_and_method_is_on_the_page() -> None:
 
 def test_the_schema_takes_its_file_and_refuses_others() -> None:
     """All keys of the reader, its words, and nothing beside them."""
-    whole = make_schema()
+    whole = make_study_schema()
     jsonschema.Draft202012Validator.check_schema(whole)
     assert set(whole["properties"]) == set(KEYS)
     study = YAML(typ="safe").load(block("yaml"))

@@ -143,9 +143,9 @@ def test_lines_of_driven_chains_at_samples_of_a_run(mechanism: str, tmp_path: Pa
     """
     page = requested(str(METHODS / f"{mechanism}.yaml"), None, 0.5, tmp_path)
     tree, run, there, message = page.found.program.tree, page.run, page.there, page.at(page.run.q)
-    assert tree and tree.chains
+    assert tree and tree.driven_loop_kernels
     check_every_line(page, [one for one in (*FUNCTIONS, *CHAINS) if one != "reduce_accelerations"], message)
-    n, names = len(tree.system.unknowns), tree.chains.loops.names
+    n, names = len(tree.system.unknowns), tree.driven_loop_kernels.loops.names
     of = {
         name: k
         for body in page.found.model.bodies

@@ -12,7 +12,7 @@ import pytest
 
 import gudgeon
 from gudgeon.errors import ArrayError, BadValueError, UnitError, UnknownNameError
-from gudgeon.generator.kernels.closed_linkage import make_row_kernels
+from gudgeon.generator.kernels.closed_linkage import make_constraint_kernels
 from gudgeon.generator.pipeline import derive_scene
 from gudgeon.generator.reader.read import read_mechanism
 from gudgeon.generator.targets.latex.write import render_equations_text
@@ -215,7 +215,7 @@ def test_the_equations_can_still_be_read() -> None:
     first, second = (derive_scene(data, "slider_crank.yaml", "dry") for _ in range(2))
     assert first.numpy() is first.numpy()
     assert render_equations_text(first) == render_equations_text(second)
-    assert len(make_row_kernels(second)) == 4
+    assert len(make_constraint_kernels(second)) == 4
 
 
 def test_what_a_condition_leaves_out_may_be_divided_by_zero(tmp_path: Path) -> None:

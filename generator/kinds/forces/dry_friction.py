@@ -76,5 +76,5 @@ ELEMENT = ElementType(
     (("F", FORCE), ("v", VELOCITY), ("mode", DIMENSIONLESS)),
     build_loads,
     __doc__,
-    also=("friction", "coulomb", "brake"),
+    foreign_names=("friction", "coulomb", "brake"),
 )

@@ -44,5 +44,5 @@ ELEMENT = ElementType(
     (("Fx", FORCE), ("Fy", FORCE), ("F", FORCE)),
     build_loads,
     __doc__,
-    also=("load", "point_force"),
+    foreign_names=("load", "point_force"),
 )

@@ -74,12 +74,12 @@ class ElementType:
     kind: str
     title: str
     targets: str  # "points" or "bodies"; the ground is one of either
-    counts: tuple[int, ...]  # how many targets there may be
-    fields: tuple[Field, ...]  # the keys beside its own
+    counts: tuple[int, ...]  # allowed numbers of targets
+    fields: tuple[Field, ...]  # its keys in addition to `kind`
     results: tuple[tuple[str, Dimension], ...]  # names of `Loads.series`, for outputs
     build: Callable[..., Loads]
-    doc: str | None  # what documents print of it: a line, then its sketch and its equation
-    also: tuple[str, ...] = ()  # what others call it: told to whoever writes that
+    doc: str | None  # text for documents: a line, then its sketch and its equation
+    foreign_names: tuple[str, ...] = ()  # names in other programs, for hints
 
 
 @cache

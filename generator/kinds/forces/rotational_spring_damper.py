@@ -49,5 +49,5 @@ ELEMENT = ElementType(
     (("M", TORQUE),),
     build_loads,
     __doc__,
-    also=("torsion_spring", "torsional_spring", "rotational_spring", "rotational_damper", "rsda"),
+    foreign_names=("torsion_spring", "torsional_spring", "rotational_spring", "rotational_damper", "rsda"),
 )

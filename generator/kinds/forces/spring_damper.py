@@ -66,5 +66,5 @@ ELEMENT = ElementType(
     (("F", FORCE), ("length", LENGTH)),
     build_loads,
     __doc__,
-    also=("spring", "damper", "dashpot", "tsda"),
+    foreign_names=("spring", "damper", "dashpot", "tsda"),
 )

@@ -40,5 +40,5 @@ ELEMENT = ElementType(
     (("M", TORQUE),),
     build_loads,
     __doc__,
-    also=("moment", "couple"),
+    foreign_names=("moment", "couple"),
 )

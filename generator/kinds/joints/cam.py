@@ -62,5 +62,5 @@ JOINT = JointType(
     derive_constraint_equations,
     __doc__,
     Symbol(gap=find_gap_points),
-    also=("follower", "disc_cam", "disk_cam", "plate_cam", "cam_follower"),
+    foreign_names=("follower", "disc_cam", "disk_cam", "plate_cam", "cam_follower"),
 )

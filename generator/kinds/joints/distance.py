@@ -27,7 +27,7 @@ def derive_constraint_equations(first_frame: Any, second_frame: Any, joint_field
 
 
 def draw_symbol(pen: Any) -> None:
-    """Draw the rod between two pins, with a stand at a point of the ground."""
+    """Draw the rod between two pins, with a fixed support at a point of the ground."""
     pen.add_stand()
     pen.add_line("rod", [pen.first, pen.second])
     for point in (pen.first, pen.second):
@@ -40,9 +40,9 @@ def find_middle(joint: Any) -> Any:
 
 
 def find_gap_points(joint: Any, residuals: Any) -> Any:
-    """Return the end of a rod of this length from the first point, and the second point; (2,) each in ground axes (m).
+    """Return the ideal end point of the rod, at its length from the first point, and the second point, (2,) each.
 
-    joint: the joint at a configuration; the residuals are not used.
+    Both are in ground axes (m). joint: the joint at a configuration; the residuals are not used.
     """
     return joint.first + joint.get_parameter("length") * joint.unit_vector(joint.second - joint.first), joint.second
 
@@ -57,5 +57,5 @@ JOINT = JointType(
     derive_constraint_equations,
     __doc__,
     Symbol(draw_symbol, find_middle, 0.5, find_gap_points),
-    also=("link", "rod", "massless_rod", "coupler"),
+    foreign_names=("link", "rod", "massless_rod", "coupler"),
 )

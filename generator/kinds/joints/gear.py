@@ -85,5 +85,5 @@ JOINT = JointType(
     __doc__,
     Symbol(draw_symbol, find_pitch_point, 0.3, find_gap_points, find_radii),
     joins="bodies",
-    also=("gears", "gear_pair", "spur", "rolling", "mesh"),
+    foreign_names=("gears", "gear_pair", "spur", "rolling", "mesh"),
 )

@@ -59,7 +59,7 @@ class Symbol:
 
     draw: Callable[[Any], None] = draw_squares
     find_name_position: Callable[[Any], Any] = find_second_point  # where the joint's name stands
-    clear: float = 0.8  # how far from there its name keeps, in units of half a bar's width
+    clear: float = 0.8  # distance of the name from there, in units of half a bar's width
     # gap(joint, residuals): the two points between which it is open where a start does not close; their
     # distance is the number next to it. None: no line shows the gap, and the numbers are the residuals of its rows
     gap: Callable[[Any, Any], Any] | None = None
@@ -85,20 +85,20 @@ class JointType:
 
     kind: str
     title: str
-    fields: tuple[Field, ...]  # the keys beside its own, such as `axis` of a translational joint
-    play: str  # what its play is that of, a key of a scene's `play`: "bearing", "guide", or "" where it can have none
-    row_names: tuple[str, ...]  # one short name a row of Φ: the row is called "<joint>.<row name>"
-    row_units: tuple[str, ...]  # "m" or "rad", a row each
+    fields: tuple[Field, ...]  # its keys in addition to `kind`, such as `axis` of a translational joint
+    play: str  # dimensions of its play, a key of a scene's `play`: "bearing", "guide"; "": it cannot have play
+    row_names: tuple[str, ...]  # a short name for each row of Φ, whose full name is "<joint>.<row name>"
+    row_units: tuple[str, ...]  # "m" or "rad" for each row
     rows: Callable[..., list[Any]]
-    doc: str | None  # what documents print of it: a line, then its sketch and its equation
+    doc: str | None  # text for documents: a line, then its sketch and its equation
     symbol: Symbol = field(default_factory=Symbol)
     slides: Slide | None = None
     joins: str = "points"  # "points": [L1.head, L2.tail]; "bodies": [L1, L4]
-    reaction_at: str = "second"  # the point of which body the reaction is given at
-    # rows that hold by themselves where tree coordinates place one body by the other: two rows where the points
-    # coincide, one where the second's point slides along the first's `axis` (generator/reduction/tree.py)
+    reaction_at: str = "second"  # body whose point is the reference point of the reaction: "first" or "second"
+    # rows that tree coordinates satisfy by themselves: two rows if the points coincide, one if the point of the second
+    # body slides along the `axis` of the first (generator/reduction/tree.py)
     carries: tuple[str, ...] = ()
-    also: tuple[str, ...] = ()  # what others call it: told to whoever writes that
+    foreign_names: tuple[str, ...] = ()  # names in other programs, for hints
 
     @property
     def is_pivot(self) -> bool:

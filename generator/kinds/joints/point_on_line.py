@@ -49,5 +49,5 @@ JOINT = JointType(
     Symbol(draw_symbol, find_sliding_point, gap=find_gap_to_line),
     Slide("direction", "second"),
     reaction_at="first",
-    also=("slot", "pin_in_slot", "pin_slot", "line", "half_joint"),
+    foreign_names=("slot", "pin_in_slot", "pin_slot", "line", "half_joint"),
 )

@@ -20,7 +20,7 @@ def derive_constraint_equations(first_frame: Any, second_frame: Any, joint_field
 
 
 def draw_symbol(pen: Any) -> None:
-    """Draw the pin, on the ground with its stand, with play in its hole."""
+    """Draw the pin, with a fixed support on the ground, and with its hole if the joint has play."""
     pen.add_bearing()
     pen.add_pin(pen.second)
 
@@ -36,5 +36,5 @@ JOINT = JointType(
     __doc__,
     Symbol(draw_symbol, gap=find_gap_between_points),
     carries=("x", "y"),
-    also=("pin", "hinge", "pivot", "rotational", "rotation", "turning", "journal", "bearing", "ball"),
+    foreign_names=("pin", "hinge", "pivot", "rotational", "rotation", "turning", "journal", "bearing", "ball"),
 )

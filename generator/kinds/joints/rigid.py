@@ -19,7 +19,7 @@ def derive_constraint_equations(first_frame: Any, second_frame: Any, joint_field
 
 
 def draw_symbol(pen: Any) -> None:
-    """Draw a black square, and what it is fixed to where that is the ground."""
+    """Draw a black square, and the hatched wall if one body is the ground."""
     pen.add_wall(pen.first)
     pen.add_box("weld", pen.second, pen.compute_body_axis(0), 0.62, 0.62)
 
@@ -35,5 +35,5 @@ JOINT = JointType(
     __doc__,
     Symbol(draw_symbol, gap=find_gap_between_points),
     carries=("x", "y"),
-    also=("weld", "welded", "fixed", "fix", "clamp", "clamped", "lock"),
+    foreign_names=("weld", "welded", "fixed", "fix", "clamp", "clamped", "lock"),
 )

@@ -43,5 +43,5 @@ JOINT = JointType(
     derive_constraint_equations,
     __doc__,
     joins="bodies",
-    also=("oscillating_follower", "cam_rocker", "swinging_follower"),
+    foreign_names=("oscillating_follower", "cam_rocker", "swinging_follower"),
 )

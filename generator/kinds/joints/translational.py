@@ -35,7 +35,7 @@ def derive_constraint_equations(first_frame: Any, second_frame: Any, joint_field
 
 
 def draw_symbol(pen: Any) -> None:
-    """Draw the ground's rails, or the axis of the body that guides; bodies have their blocks and guides themselves."""
+    """Draw the ground's rails, or the axis in the body that guides; bodies draw blocks and guides."""
     pen.add_guide()
 
 
@@ -59,5 +59,5 @@ JOINT = JointType(
     Symbol(draw_symbol, find_sliding_point, 1.5, find_gap_to_line),
     Slide("axis", "first"),
     carries=("offset",),
-    also=("prismatic", "slider", "sliding", "slide", "linear", "piston", "guide"),
+    foreign_names=("prismatic", "slider", "sliding", "slide", "linear", "piston", "guide"),
 )

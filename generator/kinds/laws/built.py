@@ -1,6 +1,6 @@
-"""Check what a law's `build` returns: the results of its role, from given symbols, in expressions that C can print.
+"""Check the results of a law's `build`: those of its role, from given symbols, in expressions that C can print.
 
-A law alone is a function of arrays (`make_law_function`).
+`make_law_function` evaluates a law alone as a function of arrays.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from gudgeon.generator.kinds.laws.registered import ORIGINS, find_error_location
 from gudgeon.language.functions import IN_SYMPY
 
 PAIR = tuple(PairSymbols.__annotations__)
-_CHOICES = 64  # combinations of a law's options and numbers that are tried
+_MAX_CHOICES = 64  # combinations of a law's options and numbers that are tried
 
 
 @dataclass(frozen=True)
@@ -107,10 +107,10 @@ def build_law(law: Law, inputs: LawInputs) -> dict[str, Any]:
 
 
 def probe_law(law: Law, options: Mapping[str, str | bool], parameter_names: Iterable[str]) -> Probe:
-    """Return a law's equations and derived constants by name, in symbols `probe_<name>` of its parameters.
+    """Return a law's equations and derived constants by name, with a symbol `probe_<name>` for each of its parameters.
 
     `parameter_names` are the keys of the parameters that get a symbol; the others count as left out. Variables have
-    symbols of their own names. Raises LawError for what `law.build` must not return (`build_law`).
+    symbols of their own names. Raises LawError as `build_law` does.
     """
     import sympy as sp
 
@@ -134,8 +134,8 @@ def probe_law(law: Law, options: Mapping[str, str | bool], parameter_names: Iter
 def compute_law_key(law: Law) -> str:
     """Return the key of a law without a file, from its declaration and its equations for every choice of its options.
 
-    It is a SHA-256 in hexadecimal digits; of a choice that fails, the message counts. The key differs in each process
-    if there are too many choices: nothing is then cached.
+    It is a SHA-256 in hexadecimal digits. If `build` fails for a choice, its message is hashed instead. With more than
+    `_MAX_CHOICES` choices the key is random, so that nothing is cached.
     """
     import sympy as sp
 
@@ -151,8 +151,8 @@ def compute_law_key(law: Law) -> str:
         law.instead,
     )
     digest = hashlib.sha256(repr(declaration).encode())
-    choices = list(itertools.islice(_iterate_option_choices(law), _CHOICES + 1))
-    if len(choices) > _CHOICES:
+    choices = list(itertools.islice(_iterate_option_choices(law), _MAX_CHOICES + 1))
+    if len(choices) > _MAX_CHOICES:
         return f"{os.getpid()} {uuid.uuid4()}"
     for options, parameter_names in choices:
         try:
@@ -270,7 +270,7 @@ def _find_symbols(value: Any) -> set[Any]:
 
 
 def _iterate_expression_parts(value: Any) -> Iterable[Any]:
-    """Return the nodes of a SymPy expression that a file gives, in preorder; nothing for a number."""
+    """Yield the nodes of a SymPy expression in preorder; nothing for a number."""
     import sympy as sp
 
     return sp.preorder_traversal(value) if isinstance(value, sp.Expr) else ()

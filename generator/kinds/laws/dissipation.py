@@ -79,10 +79,10 @@ DISSIPATION = word(
 
 
 def make_hysteresis_factor(inputs: LawInputs, formula_name: str) -> Any:
-    """Return the hysteresis factor 1 + a δ̇/δ̇⁻ for a restitution.
+    """Return the hysteresis factor 1 + a δ̇/δ̇⁻ of a normal force, at least 0 unless the law has the option `pulls`.
 
-    It is not negative unless the law has the option `pulls`. `formula_name` names the formula of a, a key of FACTORS or
-    EXACT. With a e_r < 1 the factor stays positive unless something drives the surfaces apart.
+    a follows from the parameter `restitution` by the formula `formula_name`, a key of FACTORS or EXACT, and becomes a
+    derived constant.
     """
     import sympy as sp
 
@@ -94,14 +94,17 @@ def make_hysteresis_factor(inputs: LawInputs, formula_name: str) -> Any:
 
 
 def make_normal_force(inputs: LawInputs, K: Any, formula_name: str) -> Any:
-    """Return the normal force K δⁿ (1 + a δ̇/δ̇⁻), not negative, of Hertz's form with hysteresis damping."""
+    """Return the normal force K δⁿ (1 + a δ̇/δ̇⁻) of Hertz's form with hysteresis damping (`make_hysteresis_factor`).
+
+    `K`: stiffness; n is the parameter `exponent`.
+    """
     return K * inputs.variables["delta"] ** inputs.parameters["exponent"] * make_hysteresis_factor(inputs, formula_name)
 
 
 def compute_delivered_restitution(a: float) -> float:
-    """Return the restitution e_r of a free impact from the factor a ≥ 0 by root finding; 1 for a = 0.
+    """Return the coefficient of restitution e_r of a free impact for the damping factor a ≥ 0; 1 for a = 0.
 
-    e_r solves a (1 + e_r) = ln[(1 + a)/(1 − a e_r)].
+    e_r solves a (1 + e_r) = ln[(1 + a)/(1 − a e_r)] by Brent's method.
     """
     from scipy.optimize import brentq
 
@@ -114,9 +117,9 @@ def compute_delivered_restitution(a: float) -> float:
 def _solve_exact_factor(inputs: LawInputs, c_e: Any) -> Any:
     """Return the factor a that solves 1 − a c_e = (1 + a) e^{−a(1 + c_e)}, by four steps of Newton's method.
 
-    This is the identity above with e_r = c_e. The start is Hu and Guo's factor, which exceeds a by at most half, so
-    that the steps approach a from above. Each step is at most a third of a, since rounding dominates where a is small.
-    All steps are derived constants of the law.
+    This is the identity of the module with e_r = c_e. The start is Hu and Guo's factor, which exceeds a by at most
+    half, so that the steps approach a from above. Each step is at most a third of a, since rounding dominates where a
+    is small. All steps are derived constants of the law.
     """
     import sympy as sp
 

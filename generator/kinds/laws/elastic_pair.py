@@ -68,16 +68,18 @@ def make_contact_modulus(inputs: LawInputs) -> Any:
 
 
 CYLINDER_FIELDS: tuple[Field, ...] = (RESTITUTION, DISSIPATION, PULLS)
-STEPS = 3  # of Newton's method
-_NEVER = 1e-150  # of 4 c, below every penetration: ln is finite at δ = 0
-_END = 1e-9  # beyond the end, where no run goes on, ln(…) + k − 1 tends to 0, so that a stage's force is a number
+N_NEWTON_STEPS = 3  # of Newton's method
+_MIN_LOG_ARGUMENT = 1e-150  # in units of 4 c: smaller than any penetration, so that ln is finite at δ = 0
+_LIMIT_SMOOTHING = (
+    1e-9  # keeps the root positive beyond the largest penetration, so that the force in a stage is finite
+)
 
 
 def make_cylinder_force(inputs: LawInputs, log_constant: int, max_penetration_ratio: Any) -> dict[str, Any]:
     """Return the steps to the normal force F_n (N) of parallel cylinders, δ > 0, by Newton's method.
 
     F_n contains the hysteresis factor of the option `dissipation`. `log_constant` is k in δ = u (ln(4 c/u) + k). The
-    steps contain `STEPS` unrolled iterations of Newton's method, without a test of convergence. A run stops beyond the
+    steps contain `N_NEWTON_STEPS` unrolled iterations, without a test of convergence. A run stops beyond the
     penetration `max_penetration_ratio` times the clearance. That limit, the stiffness and 4 c become derived
     parameters.
     """
@@ -87,12 +89,12 @@ def make_cylinder_force(inputs: LawInputs, log_constant: int, max_penetration_ra
     K = inputs.derive("spring", sp.pi * inputs.pair.L * make_contact_modulus(inputs), "pi L E*")
     scale = inputs.derive("scale", 4 * inputs.pair.c, "4 (R_i - R_j)")
     inputs.derive(MAX_PENETRATION, max_penetration_ratio * inputs.pair.c, "penetration up to which the law holds")
-    above, p = sp.Symbol("above", real=True), [sp.Symbol(f"p_{n}", real=True) for n in range(STEPS + 1)]
+    above, p = sp.Symbol("above", real=True), [sp.Symbol(f"p_{n}", real=True) for n in range(N_NEWTON_STEPS + 1)]
     far = sp.Symbol("far", real=True)
     root = sp.Symbol("root_far", real=True)
     steps: dict[str, Any] = {
-        "above": log_constant - 1 - sp.log(delta / scale + sp.Float(_NEVER)),
-        "far": (above + sp.sqrt(above**2 + sp.Float(_END**2))) / 2 + sp.Float(_END**2),
+        "above": log_constant - 1 - sp.log(delta / scale + sp.Float(_MIN_LOG_ARGUMENT)),
+        "far": (above + sp.sqrt(above**2 + sp.Float(_LIMIT_SMOOTHING**2))) / 2 + sp.Float(_LIMIT_SMOOTHING**2),
         "root_far": sp.sqrt(2 * far),
         "p_0": 1 + root + far * (1 + sp.Float(0.3) * root) / (sp.Float(1.5) + sp.Float(0.3) * root),
     }

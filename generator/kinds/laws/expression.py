@@ -28,9 +28,9 @@ def build_normal_force(inputs: LawInputs) -> dict[str, Any]:
     import sympy as sp
 
     force, delta = inputs.parameters["force"], inputs.variables["delta"]
-    deepest = inputs.parameters.get(MAX_PENETRATION)
-    if deepest is not None:
-        inputs.derive(MAX_PENETRATION, deepest, "penetration up to which the expression holds")
+    max_penetration = inputs.parameters.get(MAX_PENETRATION)
+    if max_penetration is not None:
+        inputs.derive(MAX_PENETRATION, max_penetration, "penetration up to which the expression holds")
     if force.has(delta):
         depth = SECANT_DEPTH * inputs.pair.c
         inputs.derive("spring", force.subs(delta, depth) / depth, "secant stiffness at a twentieth of the clearance")

@@ -35,9 +35,12 @@ G3 = 0.7670
 REST = 0.0084  # r
 
 
-def fit_function(inputs: Any, ratio: Any, n: Sequence[float]) -> Any:
-    """Return g0 or g1 of symbols, numbers or arrays, for the ratio Λ."""
-    return n[0] + inputs * (n[1] / (ratio + n[2] * inputs) + n[3] + inputs * (n[4] + n[5] * ratio))
+def compute_fitted_coefficient(s: Any, ratio: Any, n: Sequence[float]) -> Any:
+    """Return g0 or g1, the fitted coefficients of the end leakage, for s = √(1 − ε²) and the ratio Λ = L/D.
+
+    `n`: the six fitted numbers, G0 or G1. Arguments are symbols, numbers or arrays.
+    """
+    return n[0] + s * (n[1] / (ratio + n[2] * s) + n[3] + s * (n[4] + n[5] * ratio))
 
 
 def build_film_forces(inputs: LawInputs) -> dict[str, Any]:
@@ -60,8 +63,8 @@ def build_film_forces(inputs: LawInputs) -> dict[str, Any]:
         "root": sp.sqrt(1 - epsilon**2),
         "q": sp.sqrt(w_n**2 + square * w_t**2) + sp.Float(TINY),
         "x": epsilon * w_n / q,
-        "g0": fit_function(root, ratio, G0),
-        "g1": fit_function(root, ratio, G1),
+        "g0": compute_fitted_coefficient(root, ratio, G0),
+        "g1": compute_fitted_coefficient(root, ratio, G1),
         "narrow": ratio**2 / root**3,
         "a0": sp.pi * narrow / (square + g0 * ratio**2),
         "a1": 8 * narrow / (square + g1 * ratio**2),

@@ -61,7 +61,7 @@ VARIABLES: Mapping[str, tuple[str, ...]] = {
 FURTHER_VARIABLES: Mapping[str, tuple[str, ...]] = {"normal": ("deltadot",)}  # δ̇ (m/s)
 CONSTRAINT_VARIABLES = (
     "held_force",
-)  # N, what a law of surfaces that do not give reads in place of it: the force that keeps e = c
+)  # N, a law of rigid surfaces reads it instead: the constraint force that keeps e = c
 RESULTS: Mapping[str, tuple[str, ...]] = {
     "normal": ("F_n",),
     "friction": ("F_t",),
@@ -72,10 +72,10 @@ RESULTS: Mapping[str, tuple[str, ...]] = {
 MEAN_CLEARANCE = "mean_clearance"
 # Constant that a normal law may derive: the penetration (m) beyond which it is not valid and a run stops.
 MAX_PENETRATION = "deepest"
-# What a law with an internal state may derive: the deflection (m) at which its friction slides, which errors of the
-# state are measured by; without it they are measured by the lengths of the linkage.
+# Constant that a law with an internal state may derive: the deflection (m) at which its friction slides. It scales
+# errors of the state; without it the lengths of the linkage scale them.
 BREAKAWAY = "breakaway"
-# Of the clearance: where the stiffness of a force that is no power law is taken, for the default step.
+# Fraction of the clearance at which a force that is not a power law has the stiffness for the default step.
 SECANT_DEPTH = 0.05
 
 
@@ -111,16 +111,18 @@ class Law:
     title: str
     source: str
     validity: str
-    fields: tuple[Field, ...]  # the keys beside `law`
+    fields: tuple[Field, ...]  # the keys in addition to `law`
     build: Callable[..., Any]
     states: tuple[State, ...] = ()
     also: Mapping[str, Mapping[str, str]] = field(default_factory=dict)  # aliases -> the options that they fix
-    instead: Mapping[str, str] = field(default_factory=dict)  # a choice that says something only without a number
+    instead: Mapping[str, str] = field(
+        default_factory=dict
+    )  # option -> number: the option has an effect only without the number
     equation: tuple[str, ...] = ()  # LaTeX, a line each: the law as its source writes it, for docs/laws.md
-    reference: str = ""  # the source as far as it is sure: author, title, journal, year, doi
+    reference: str = ""  # the verified source: author, title, journal, year, doi
     limits: Limits = Limits()  # of a film
-    in_hole: bool = False  # of a pin in a hole alone: it reads the radial clearance or the pin's length
-    rigid: bool = False  # surfaces that do not give: impacts, and contacts that are constraints (engine/run/impacts.c)
+    in_hole: bool = False  # only for a pin in a hole: the law reads the radial clearance or the length of the pin
+    rigid: bool = False  # rigid surfaces: impacts, and contacts that are constraints (engine/run/impacts.c)
 
     @property
     def variables(self) -> tuple[str, ...]:
@@ -153,9 +155,9 @@ class Law:
         return tuple(law_field for law_field in self.fields if law_field.kind != NUMBER)
 
     def check_bounds(self, numbers: Mapping[str, float]) -> None:
-        """Raise BadValueError for a number that violates the law's bounds; `numbers` maps keys of the law to values.
+        """Raise BadValueError for a number outside the law's bounds; `numbers` maps keys of the law to values.
 
-        Bounds whose other key is missing are not checked.
+        A bound by another key that is missing in `numbers` is not checked.
         """
         for field_of_law in self.fields:
             for bound in field_of_law.bounds if field_of_law.name in numbers else ():
@@ -194,7 +196,7 @@ def find_all_laws() -> Mapping[str, Law]:
 
 
 def find_laws_of_role(role: str) -> Mapping[str, Law]:
-    """Return the laws of a role by each of their names: those of this folder first, user-defined ones last."""
+    """Return the laws of a role by each of their names and aliases: bundled laws first, then user-defined ones."""
     laws_by_name: dict[str, Law] = {}
     for laws_of_source in (find_bundled_laws(), USER_LAWS):
         laws_of_role = {law.name: law for law in laws_of_source.values() if law.role == role}

@@ -27,7 +27,7 @@ from gudgeon.language.argument_checks import check_path
 from gudgeon.language.names import check_label, format_name_hint
 from gudgeon.language.units import Dimension
 
-WHOLE = "docs/describing.md has a complete example"
+_EXAMPLE_HINT = "docs/describing.md has a complete example"
 
 
 @dataclass(frozen=True)
@@ -43,7 +43,7 @@ class Origin:
     key: str
 
 
-ORIGINS: dict[str, Origin] = {}  # of the laws in OWN
+ORIGINS: dict[str, Origin] = {}  # of the laws in USER_LAWS, by name
 
 
 def register(law: str | os.PathLike[str] | Law) -> Law:
@@ -61,7 +61,7 @@ def register(law: str | os.PathLike[str] | Law) -> Law:
     except LawError as error:
         raise LawError(f"{format_law_prefix(registered_law.name, origin)}{error.message}", hint=error.hint) from None
     except Exception as error:  # a field of an unexpected type
-        hint = f"check the types of the declaration's fields: {WHOLE}"
+        hint = f"check the types of the declaration's fields: {_EXAMPLE_HINT}"
         name = getattr(registered_law, "name", None)
         raise LawError(
             f"{format_law_prefix(name, origin)}the declaration is invalid: {format_exception(error)}", hint=hint
@@ -91,7 +91,7 @@ def find_law_key(name: str) -> str:
 
 
 def find_error_location(error: BaseException, file: str) -> Location | None:
-    """Return the location in a file at which an error arose; None if it arose elsewhere.
+    """Return the location in a file at which an exception arose; None if it arose elsewhere.
 
     That is the last line of the traceback in the file, or the location of a SyntaxError.
     """
@@ -107,7 +107,7 @@ def _load_law_file(path_as_given: str | os.PathLike[str]) -> tuple[Law, Origin]:
     The module stays in sys.modules, unless it fails. Its prints go to stderr. The key covers modules next to it that it
     imports.
     """
-    display_path, hint = shorten_path(path_as_given), f"expected a Python file that exports LAW; {WHOLE}"
+    display_path, hint = shorten_path(path_as_given), f"expected a Python file that exports LAW; {_EXAMPLE_HINT}"
     if not os.fspath(path_as_given):
         raise LawError("the path of a law's file is empty: ''", hint=hint)
     try:
@@ -130,7 +130,9 @@ def _load_law_file(path_as_given: str | os.PathLike[str]) -> tuple[Law, Origin]:
     law = getattr(module, "LAW", None)
     if not isinstance(law, Law):
         fault = "no LAW" if law is None else f"a LAW of type {type(law).__name__}"
-        raise LawError(f"{display_path} has {fault}", hint=f"expected LAW = Law(name=…, role=…, build=build); {WHOLE}")
+        raise LawError(
+            f"{display_path} has {fault}", hint=f"expected LAW = Law(name=…, role=…, build=build); {_EXAMPLE_HINT}"
+        )
     for imported in _iterate_imported_modules(module, {module}):
         digest.update(Path(str(imported.__file__)).read_bytes())
     return law, Origin(display_path, str(module.__file__), digest.hexdigest())
@@ -272,18 +274,18 @@ def _check_declared_field(declaration: Field, kinds: Mapping[str, str]) -> None:
     default = declaration.default
     expected = "expected a number in SI units, or no default and required=True"
     _require_condition(
-        default is None or _is_number(default), f"the default of {declaration.name} is {default!r}", expected
+        default is None or _is_finite_number(default), f"the default of {declaration.name} is {default!r}", expected
     )
     for bound in declaration.bounds:
         limit = bound.limit
         if isinstance(limit, str):
             _require_condition(limit in kinds, f"a bound of {declaration.name} names a key that the law does not have")
         _require_condition(
-            bound.relation in RELATIONS and (isinstance(limit, str) or _is_number(limit)),
+            bound.relation in RELATIONS and (isinstance(limit, str) or _is_finite_number(limit)),
             f"a bound of {declaration.name} is invalid: {bound.relation!r} {limit!r}",
             f"expected Bound(relation, limit), with {' '.join(RELATIONS)} and a number or a key",
         )
-        if _is_number(default) and not isinstance(limit, str):
+        if _is_finite_number(default) and not isinstance(limit, str):
             is_satisfied = RELATIONS[bound.relation](default, limit)
             _require_condition(
                 is_satisfied,
@@ -292,7 +294,7 @@ def _check_declared_field(declaration: Field, kinds: Mapping[str, str]) -> None:
             )
 
 
-def _is_number(value: object) -> TypeGuard[float]:
+def _is_finite_number(value: object) -> TypeGuard[float]:
     """Return whether a value is a finite number."""
     return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
 

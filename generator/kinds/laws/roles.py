@@ -1,11 +1,10 @@
 """Keys and equations that all laws of one role share: friction, film or mixed lubrication.
 
-Friction by slip: the parts of c_d(v_t), which is odd, without a corner at v_t = 0. Films: what every law asks of its
-oil, clearance and shear torque. Mixed lubrication: the roughness of both surfaces, and where its tips first touch.
-
-The bearing's clearance c is that of the tips: at δ = 0 the highest of them touch. There the mean surfaces are still
-Λ₀ σ_r apart, so that the film thickness ratio is Λ = h/σ_r = Λ₀ − δ/σ_r, h = c + Λ₀ σ_r − e. The film, which fills the
-gap between the mean surfaces, has the clearance c + Λ₀ σ_r: where the tips touch it is finite.
+Friction: odd functions of the slip, without a switching point at v_t = 0. Films: keys of the oil, clearance and shear
+torque. Mixed lubrication: the combined roughness, and the film thickness ratio at which asperities first touch. The
+bearing's clearance c is measured between the tips of the asperities: at δ = 0 the highest of them touch. There the
+mean surfaces are still Λ₀ σ_r apart, so that the film thickness ratio is Λ = h/σ_r = Λ₀ − δ/σ_r, h = c + Λ₀ σ_r − e.
+The film fills the gap between the mean surfaces and has the clearance c + Λ₀ σ_r: it is finite where the tips touch.
 """
 
 from __future__ import annotations
@@ -48,8 +47,8 @@ def make_friction_force(inputs: LawInputs, coefficient: Any) -> dict[str, Any]:
     return {"F_t": -coefficient * inputs.variables["F_n"]}
 
 
-# Where W vanishes so does every numerator: this keeps 0/0 away, in the derivatives (its square) too, and
-# changes no other value.
+# Added to denominators to avoid 0/0 where W vanishes, also in derivatives, which contain its square. It changes no
+# other value.
 TINY = 1e-150
 
 VISCOUS = number("viscosity", "dynamic viscosity", VISCOSITY, symbol=r"\mu", required=True, bounds=(Bound(">", 0.0),))

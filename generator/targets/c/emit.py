@@ -91,7 +91,7 @@ def describe_program(
         motion_pivots=integrated.pivots,
         operations=_count_function_operations(program),
         tree_coordinates=tree.system.unknowns if tree else (),
-        driven_loops=integrated.chain,
+        driven_loops=integrated.driven_loops,
         closures=tuple(row.name for row in tree.system.rows) if tree else (),
         formulation=program.formulation,
         reduction_log=build_reduction_log(
@@ -339,7 +339,7 @@ def print_reduced_file(model: Model, tree: TreeFunctions, render: Render, print_
     texts += [print_kernels(*tree.conversions), print_kernels(*tree.kernels)]
     if tree.has_fallback:
         texts.append(render("multipliers.c.jinja", multipliers=_print_closure_multipliers(model, tree.system)))
-    if loop_kernels := tree.chains:
+    if loop_kernels := tree.driven_loop_kernels:
         texts.append(
             render(
                 "driven_loops.c.jinja",

@@ -83,7 +83,7 @@ def redirect_calls(kernel: Kernel, calls: Mapping[str, Call]) -> Kernel:
         new_call = calls.get(call.function, call)
         if new_call is call:
             return call
-        return replace(new_call, given=(*new_call.given, *call.given), results=call.results)
+        return replace(new_call, inputs=(*new_call.inputs, *call.inputs), results=call.results)
 
     def redirect_line(line: Line) -> Line:
         """Return a line with its call redirected: a call, or the assignment of its status; other lines unchanged."""

@@ -24,7 +24,7 @@ from gudgeon.generator.ir.statements import (
     Largest,
     LargestRow,
     Line,
-    MarkUnread,
+    MarkUnused,
     Return,
     ReturnIfFailed,
     Sines,
@@ -36,7 +36,7 @@ from gudgeon.generator.ir.statements import (
 from gudgeon.generator.ir.values import NO_NAMES
 from gudgeon.generator.kernels.shared import FIRST_SWITCH, SharedFunctionCall
 from gudgeon.generator.symbols.derivatives import find_symbols
-from gudgeon.generator.symbols.storage import Place, find_key
+from gudgeon.generator.symbols.storage import Place, find_value_key
 from gudgeon.generator.targets.c.equal_parts import PrintedPart, merge_equal_parts, redirect_calls
 from gudgeon.generator.targets.c.long_sums import split_long_sums
 from gudgeon.generator.targets.c.printer import (
@@ -154,7 +154,7 @@ class LinePrinter(ValuePrinter):
             case StoreRow():
                 values = ", ".join(map(self.print_expression, line.values))
                 return [f"{line.array}[{line.row}] = (Wide){{{values}}};"]
-            case MarkUnread():
+            case MarkUnused():
                 return [f"(void){self.printer.get_name(line.name)};"]
         return [_PLAIN[type(line)]]
 
@@ -178,7 +178,7 @@ class LinePrinter(ValuePrinter):
     def _print_call(self, call: Call) -> str:
         """Return the call of a function in C without a semicolon: its arguments, then the places of its results."""
         arguments = [
-            self.print_argument(x) if isinstance(x, Place) else self._print_argument_value(x) for x in call.given
+            self.print_argument(x) if isinstance(x, Place) else self._print_argument_value(x) for x in call.inputs
         ]
         return f"{call.function}({', '.join([*arguments, *map(self.print_argument, call.results)])})"
 
@@ -288,7 +288,7 @@ def _print_branch_arrays(branches: DeclareBranches) -> list[str]:
     stored_branches = (
         "discrete->is_frozen ? discrete->branch : NULL;" if branches.held else "NULL; /* branches are not frozen */"
     )
-    declarations = {"": [], "unread": ["double g[N_SWITCHES + 1];"], "rhs": ["double *const g = rhs->g;"]}[
+    declarations = {"": [], "local": ["double g[N_SWITCHES + 1];"], "rhs": ["double *const g = rhs->g;"]}[
         branches.output_target
     ]
     return [f"const double *const branch = {stored_branches}", *declarations]
@@ -366,7 +366,7 @@ def _find_names_used(kernel: Kernel) -> frozenset[str]:
         for line in section.statements:
             names.update(line.reads, line.writes)
             symbols.update(*map(find_symbols, line.expressions))
-    keys = names.union(map(find_key, symbols))
+    keys = names.union(map(find_value_key, symbols))
     called = (kernel.names.get(key, key) for key in keys)
     first_switch = NO_NAMES if kernel.first_switch is None else {FIRST_SWITCH.name}
     return frozenset(names) | first_switch | {key.base if isinstance(key, Place) else key for key in called}

@@ -168,7 +168,7 @@ class LaneLines(functions.LinePrinter):
             case Guard(test=Test() as test, condition=None):
                 return [f"*rare |= ~({self.print_test(test)});"]
             case Call():
-                values = (*line.given, *line.results)
+                values = (*line.inputs, *line.results)
                 arguments = [
                     self.print_argument(x) if isinstance(x, Place) else self.print_expression(x) for x in values
                 ]
@@ -184,7 +184,7 @@ class LaneLines(functions.LinePrinter):
                 )
                 declarations_of_target = {
                     "": [],
-                    "unread": [local_array],
+                    "local": [local_array],
                     "rhs": ["Lanes *const g = reported_branches(rhs);"],
                 }
                 return [f"const Lanes *const branch = {stored_branches};", *declarations_of_target[line.output_target]]

@@ -10,7 +10,7 @@ import sympy as sp
 
 from gudgeon.contract.kernel_source import ENGINE_ENDS
 from gudgeon.generator.equations.model import SIGNS, Model, find_eccentricity_rows
-from gudgeon.generator.equations.notes import find_drives_with_jumps, has_jumps
+from gudgeon.generator.equations.notes import find_drives_with_jumps, has_drive_with_jumps
 from gudgeon.generator.equations.play import Clearance
 from gudgeon.generator.ir.kernels import Kernel
 from gudgeon.generator.kernels import outputs
@@ -115,7 +115,7 @@ def _list_motion_sizes(program: Program) -> Sizes:
     Flags have the values 0 and 1.
     """
     integrated, kinematics, tree = program.integrated, program.kinematics, program.tree
-    driven_loops, system = integrated.chain, integrated.system
+    driven_loops, system = integrated.driven_loops, integrated.system
     newton = program.methods.newton if program.methods else None
     return {
         "INTEGRATES": (int(program.integrates), "1: integrated; 0: no degree of freedom, drives determine positions"),
@@ -132,7 +132,7 @@ def _list_motion_sizes(program: Program) -> Sizes:
             "these, and cosines and sines of their angles",
         ),
         "SMOOTH_DRIVEN_LOOPS": (
-            int(bool(tree and tree.chains and not tree.chains.switch_kernel)),
+            int(bool(tree and tree.driven_loop_kernels and not tree.driven_loop_kernels.switch_kernel)),
             "1: drives of driven loops have no switching functions",
         ),
         "TREE_PIVOTS": (
@@ -163,7 +163,7 @@ def _list_monitoring_sizes(program: Program, bounds: Kernel | None) -> Sizes:
             int(bool(find_drives_with_jumps(model))),
             "1: rates of drives may jump, and there are degrees of freedom",
         ),
-        "RATE_JUMPS": (int(has_jumps(model)), "1: the rate of a drive may jump"),
+        "RATE_JUMPS": (int(has_drive_with_jumps(model)), "1: the rate of a drive may jump"),
         "N_WATCHED": (
             len(find_monitored_switches(program)) + len(model.events),
             "monitored switching functions and user events",
@@ -294,8 +294,11 @@ def _find_largest_block_size(program: Program) -> int:
 
     Blocks of equations occur in positions of kinematically driven scenes and in driven loops of a tree.
     """
-    rows, loop_kernels = program.kinematics and program.kinematics.rows, program.tree and program.tree.chains
-    return max(rows.largest if rows else 0, loop_kernels.square.largest if loop_kernels else 0)
+    rows, loop_kernels = (
+        program.kinematics and program.kinematics.rows,
+        program.tree and program.tree.driven_loop_kernels,
+    )
+    return max(rows.max_block_size if rows else 0, loop_kernels.square.max_block_size if loop_kernels else 0)
 
 
 def _print_defines(sizes: Sizes) -> list[str]:

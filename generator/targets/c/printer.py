@@ -14,7 +14,7 @@ from gudgeon.generator.ir.readable import Readable, convert_to_fraction_of_pi
 from gudgeon.generator.ir.values import Conditional, ContinuedSum, ParameterOrDefault, Sum, Test, Threshold, Value
 from gudgeon.generator.symbols.curves import ContourOf, CurveOf, CurveOn, KnotsOf, make_curve_name
 from gudgeon.generator.symbols.from_expressions import CLASSES
-from gudgeon.generator.symbols.storage import PARAMETERS, Key, Place, Result, find_key
+from gudgeon.generator.symbols.storage import PARAMETERS, Key, Place, Result, find_value_key
 from gudgeon.generator.targets import line_breaks
 from gudgeon.generator.targets.cached_printer import CachedPrinter
 
@@ -48,7 +48,7 @@ class CPrinter(CachedPrinter, C99CodePrinter):
 
     def _print_Symbol(self, expr: sp.Symbol) -> str:
         """Print a symbol by its name in the function."""
-        return self.get_name(find_key(expr))
+        return self.get_name(find_value_key(expr))
 
     def parenthesize(self, item: sp.Expr, level: float, strict: bool = False) -> str:
         """Print an operand, in brackets if its precedence is lower than `level`, or equal unless `strict`.
@@ -56,7 +56,7 @@ class CPrinter(CachedPrinter, C99CodePrinter):
         A positive rational number that is printed without a quotient gets no brackets. A number that is printed as a
         fraction of π, such as 2*PI/3, always gets them.
         """
-        if item.is_Float and (fraction := convert_to_fraction_of_pi(item)) and not fraction.is_one:
+        if item.is_Float and (fraction := convert_to_fraction_of_pi(item)) and not fraction.is_pi:
             return f"({self._print(item)})"
         if item.is_Rational and item.p > 0 and "/" not in (text := self._print(item)):
             return text

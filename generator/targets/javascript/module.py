@@ -52,7 +52,7 @@ def print_equations_script(program: Program) -> str:
     Raises ValueError for curves.
     """
     model, dynamics = program.model, program.dynamics
-    kernels = [*closed_linkage.make_row_kernels(model), *([make_play_kernel(model)] if model.clearances else [])]
+    kernels = [*closed_linkage.make_constraint_kernels(model), *([make_play_kernel(model)] if model.clearances else [])]
     members_read: set[str] = set()
     methods = [print_method(dynamics, members_read, find_right_hand_side_locals(dynamics, model))]
     methods += [print_method(kernel, members_read) for kernel in (*kernels, *program.laws)]

@@ -199,7 +199,7 @@ class LinePrinter:
             condition = f"{self.value_printer.print_test(line.condition)} && " if line.condition else ""
             return [f"if ({condition}!({self.value_printer.print_test(line.test)})) break solved;"]
         if isinstance(line, Call) and line.function.startswith("clearance_"):
-            call_arguments = ", ".join(self._print_argument(x) for x in line.given if x not in _BRANCH_PLACES)
+            call_arguments = ", ".join(self._print_argument(x) for x in line.inputs if x not in _BRANCH_PLACES)
             return [f"Object.assign({line.results[0]}, functions.{line.function}({call_arguments}, {{}}).force);"]
         if not isinstance(line, (Statement, Branch)):
             raise ValueError(f"a line of a function has no counterpart in JavaScript: {line}")

@@ -127,7 +127,7 @@ def make_notation(model: Model) -> Notation:
     """
     order = {s: body.index for body in model.bodies for s in (*body.q, *body.v)}
     for symbol in list_rotated_components(model):  # after the coordinates of their body
-        order[symbol] = 1 + min(order[q] for q in model.symbols.rules[symbol])
+        order[symbol] = 1 + min(order[q] for q in model.symbols.derivative_rules[symbol])
     names, primed_symbols = _assign_unique_names(model)
     return Notation(model.symbols, names, frozenset(_list_shown_symbols(model)), order, primed_symbols)
 
@@ -296,7 +296,7 @@ def list_temporaries(model: Model) -> list[sp.Symbol]:
     They are all definitions except parameters, angles and distances of drives, and rotated components.
     """
     excluded = {symbol for symbols in model.constraints.drive_angles.values() for symbol in symbols}
-    excluded.update(list_drive_distances(model), model.symbols.rules)
+    excluded.update(list_drive_distances(model), model.symbols.derivative_rules)
     return [s for s in model.symbols.definitions if not model.symbols.info[s].place and s not in excluded]
 
 
@@ -310,7 +310,9 @@ def list_rotated_components(model: Model) -> list[sp.Symbol]:
     return [
         symbol
         for symbol, value in model.symbols.definitions.items()
-        if symbol in model.symbols.rules and symbol not in excluded and not isinstance(value, (sp.cos, sp.sin))
+        if symbol in model.symbols.derivative_rules
+        and symbol not in excluded
+        and not isinstance(value, (sp.cos, sp.sin))
     ]
 
 

@@ -19,6 +19,8 @@ from gudgeon.generator.equations.contact_steps import (
     along,
     beta_i,
     beta_rate,
+    contour_depth,
+    contour_slope,
     de_t,
     de_x,
     de_y,
@@ -44,8 +46,6 @@ from gudgeon.generator.equations.contact_steps import (
     v_t,
     w_n,
     w_t,
-    worn,
-    worn_slope,
 )
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.equations.play import Clearance, LawEquations
@@ -93,8 +93,8 @@ NAMES: Mapping[sp.Symbol, Name] = {
     beta_i: make_symbol_name("beta", "i"),
     u_x: make_symbol_name("u", "x"),
     u_y: make_symbol_name("u", "y"),
-    worn: make_symbol_name("d"),
-    worn_slope: Name("d'", "d'"),
+    contour_depth: make_symbol_name("d"),
+    contour_slope: Name("d'", "d'"),
     beta_rate: make_symbol_name("beta", "i", dots=1),
     slant: make_symbol_name("r"),
     steep: make_symbol_name("Gamma"),

@@ -114,7 +114,7 @@ class _TokenCollector:
         members = map(self.model.parameter_table.find_field_name, self.model.parameter_table.list_symbols())
         self.parameter_numbers = {f"{PARAMETERS}.{member}": k for k, member in enumerate(members, 1)}
         tree = program.tree
-        loop_rows = tree.chains.loops.rows if tree and tree.chains else ()
+        loop_rows = tree.driven_loop_kernels.loops.rows if tree and tree.driven_loop_kernels else ()
         self.loop_row_by_local = {make_identifier(f"phi_{row.name}"): row.name for row in loop_rows}
         self.term_names = {name for row in self.model.rows for name in find_symbol_names(row.phi)}
 

@@ -65,9 +65,9 @@ class ClosedLinkage:
     def __init__(self, model: Model) -> None:
         kernels = [
             closed_linkage.make_mass_kernel(model),
-            *closed_linkage.make_row_kernels(model),
+            *closed_linkage.make_constraint_kernels(model),
             closed_linkage.make_start_kernel(model),
-            closed_linkage.make_prepare_kernel(model),
+            closed_linkage.make_parameter_table_kernel(model),
         ]
         self.model, self.n, self.m = model, len(model.q), len(model.all_rows)
         text = "\n\n\n".join(map(print_function, kernels)) + "\n"

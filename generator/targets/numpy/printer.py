@@ -34,7 +34,7 @@ from gudgeon.generator.ir.statements import (
 from gudgeon.generator.ir.values import Conditional, ParameterOrDefault, Sum, Test, Threshold, Value
 from gudgeon.generator.symbols.curves import ContourOf, CurveOf, CurveOn, KnotsOf, make_curve_name
 from gudgeon.generator.symbols.from_expressions import CLASSES
-from gudgeon.generator.symbols.storage import Key, Place, Result, find_key
+from gudgeon.generator.symbols.storage import Key, Place, Result, find_value_key
 from gudgeon.generator.targets import line_breaks
 from gudgeon.generator.targets.cached_printer import CachedPrinter
 
@@ -65,7 +65,7 @@ class NumPyPrinter(CachedPrinter, PythonCodePrinter):
 
     def _print_Symbol(self, expr: sp.Symbol) -> str:
         """Print a symbol by its name in the function."""
-        return self.get_name(find_key(expr))
+        return self.get_name(find_value_key(expr))
 
     def _print_Float(self, expr: sp.Float) -> str:
         """Print a float, a fraction of π as such."""
@@ -77,7 +77,7 @@ class NumPyPrinter(CachedPrinter, PythonCodePrinter):
 
         A number that is printed as a fraction of π, such as 2*np.pi/3, always gets brackets.
         """
-        if item.is_Float and (fraction := convert_to_fraction_of_pi(item)) and not fraction.is_one:
+        if item.is_Float and (fraction := convert_to_fraction_of_pi(item)) and not fraction.is_pi:
             return f"({self._print(item)})"
         return super().parenthesize(item, level, strict)
 
@@ -266,7 +266,7 @@ class LinePrinter:
                     *indent_lines(self._print_line(line.statement)),
                 ]
             case Call():
-                arguments = [self.print_expression(x) for x in (*line.given, *line.results) if x not in _BRANCH_PLACES]
+                arguments = [self.print_expression(x) for x in (*line.inputs, *line.results) if x not in _BRANCH_PLACES]
                 return break_code(f"{line.function}({', '.join(arguments)})")
             case Guard(test=Test() as test):
                 condition = f"{self.print_test(line.condition)} and " if line.condition else ""

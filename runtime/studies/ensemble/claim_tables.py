@@ -215,8 +215,8 @@ def _judge_number(
         finite_values = values[np.isfinite(values)]
         quartiles = np.quantile(finite_values, [0.25, 0.5, 0.75]) if len(finite_values) else np.full(3, np.nan)
         base = number.printed
-        if claim.beside is not None:
-            others = finished_runs.read_values(cells[claim.beside], str(claim.measure), ensemble)
+        if claim.reference_claim is not None:
+            others = finished_runs.read_values(cells[claim.reference_claim], str(claim.measure), ensemble)
             base = float(np.median(others[np.isfinite(others)])) if np.isfinite(others).any() else math.nan
         deviation = 100.0 * (quartiles[1] / base - 1.0) if base else math.nan
         plan = finished_runs.plans.each[number.cell.part]
@@ -236,7 +236,7 @@ def _judge_number(
             "median": _replace_nonfinite(quartiles[1]),
             "q75": _replace_nonfinite(quartiles[2]),
             "deviation": _replace_nonfinite(deviation),
-            "beside": str(claim.beside or ""),
+            "beside": str(claim.reference_claim or ""),
             "note": claim.note,
             "heading": claim.heading,
         }

@@ -1,6 +1,6 @@
 """Print the functions that pass on the mass of a body, from reading the YAML file to the mass matrix.
 
-usage: .venv/bin/python tools/way_of_a_mass.py
+usage: .venv/bin/python tools/trace_mass.py
 A function passes it on if it returns the value in any form: text, token, tree, quantity, symbol.
 Functions that only read it are counted.
 """
@@ -72,8 +72,8 @@ def main() -> None:
     for name, count in passed.items():
         print(f"{count:3} {name}")
     packages = {name.partition(":")[0].rpartition(".")[0] for name in passed}
-    print(f"{len(passed)} functions hand it on {sum(passed.values())} times, {len(packages)} packages;", end=" ")
-    print(f"{len(read - passed.keys())} more look at it")
+    print(f"{len(passed)} functions return it {sum(passed.values())} times, {len(packages)} packages;", end=" ")
+    print(f"{len(read - passed.keys())} more read it")
 
 
 if __name__ == "__main__":
