@@ -250,7 +250,7 @@ def _write_results(request: Request, simulations: Mapping[str, Simulation], outc
     saving, so that a later failure loses no result. A report changes diagnostics and saves again.
     """
     from gudgeon.results.reports.comparison import compute_scene_report
-    from gudgeon.results.series import choose_watched_series
+    from gudgeon.results.series import choose_default_series
 
     if request.verify:
         verify_contacts(outcome.runs, outcome.failures, request.json)
@@ -266,7 +266,7 @@ def _write_results(request: Request, simulations: Mapping[str, Simulation], outc
         message = outcome.files, outcome.write_errors, request.json
         write_reports(runs, simulations, outcome.references, request.out, save, *message)
     first = outcome.runs.get(IDEAL) or next(iter([*outcome.references.values(), *outcome.runs.values()]))
-    watch = request.watch or choose_watched_series(first)
+    watch = request.watch or choose_default_series(first)
     reports = [compute_scene_report(run, outcome.references.get(scene), watch) for scene, run in runs.items()]
     try:
         _draw_picture(request.out, runs, outcome, watch)

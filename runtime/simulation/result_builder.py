@@ -31,7 +31,7 @@ from gudgeon.model.evaluation import Evaluation
 from gudgeon.model.left_limit import find_evaluation_times
 from gudgeon.model.seams import iterate_seam_notes
 from gudgeon.model.written import find_unbounded_drive
-from gudgeon.results.diagnostics import Diagnostics, Peak, collect_provenance, find_date
+from gudgeon.results.diagnostics import Diagnostics, Peak, collect_provenance, get_run_date
 from gudgeon.results.peaks import describe_zeno_points, find_first_contact_force
 from gudgeon.results.results import Result
 from gudgeon.results.samples import split_off_start
@@ -337,7 +337,7 @@ class _ResultParts:
         self, problem: Problem, trajectory: Trajectory, times: Array | None, passing: ShortRunSamples | None
     ) -> None:
         self.problem, self.trajectory, self.times, self.passing = problem, trajectory, times, passing
-        self.date = find_date()
+        self.date = get_run_date()
         if passing:
             self.fields = _FIELDS_OF_PASSING
 

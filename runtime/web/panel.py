@@ -20,7 +20,7 @@ from gudgeon.results.figures.animation import QUICK, SHOWN, SLOW
 from gudgeon.results.figures.configurations import select_configurations
 from gudgeon.results.reports.comparison import ROUNDING_TOL
 from gudgeon.results.results import Result
-from gudgeon.results.series import choose_watched_series, find_rate_names
+from gudgeon.results.series import choose_default_series, find_rate_names
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.web.parameter_panel import build_parameter_sections, list_units
 from gudgeon.web.style_sheet import make_css_class
@@ -72,7 +72,7 @@ def _choose_first_traces(run: Result) -> list[str]:
     source = run.source
     drive_series = [name for drive in source.drives for name in (f"{drive.name}.torque", f"{drive.name}.force")]
     force_series = [f"{name}.F" for name, _ in _list_journals(source)]
-    names = [*choose_watched_series(run)[:1], *source.peaks[:1], *(name for name in drive_series if name in run.names)][
+    names = [*choose_default_series(run)[:1], *source.peaks[:1], *(name for name in drive_series if name in run.names)][
         :2
     ]
     names += [name for name in force_series if name in run.names and np.isfinite(run[name]).any()][:1]
@@ -86,7 +86,7 @@ def _choose_first_values(run: Result) -> list[str]:
     Names that the run lacks are left out.
     """
     source, candidates = run.source, list[str]()
-    for name in choose_watched_series(run):
+    for name in choose_default_series(run):
         candidates += [name, find_rate_names(name)[0]]
     candidates += [*source.outputs, *source.peaks]
     candidates += [f"{drive.name}.{quantity}" for drive in source.drives for quantity in ("torque", "force")]

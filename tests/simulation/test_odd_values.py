@@ -281,7 +281,7 @@ def test_the_orbit_of_a_joint() -> None:
 
 @pytest.mark.parametrize("name", ["gudgeon", "title", "", "a" * 300, "a\nb"])
 def test_what_a_file_is_read_by_is_not_written_over(run: Result, name: str) -> None:
-    with pytest.raises(BadValueError, match="is no name for one of your own"):
+    with pytest.raises(BadValueError, match="is not a valid name"):
         run.save("x.nc", {name: "mine"})
     run.save("x.nc", {"by": "me"})
     assert Result.load("x.nc").source == run.source
