@@ -1,8 +1,8 @@
 """Run `gudgeon check`: report whether a mechanism file is valid; with -v, also how its equations are reduced.
 
-With -v each scene is derived anew. The output has a table of counts and then, for each scene, the reduction log: each
-step with its reason, the solved equations, operations before and after, methods, notes, and the time of each stage of
-the derivation. No line is longer than 100 columns.
+With -v each scene is derived again, without the cache. The output has a table of counts and then, for each scene, the
+reduction log: each elimination step with its reason, the solved equations, operations before and after, methods, notes,
+and the time of each stage of the derivation. No line is longer than WIDTH columns.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 WIDTH = 100  # columns of what is printed
 MAX_INDENT = 14  # maximum indentation of continuation lines, in columns
 MARGIN, GAP = 4, 3  # columns left of a table, and between its columns
-REFERENCE_SOLVERS = ("scipy:*", "sundials:*")  # reference solvers that fit wherever something is integrated
+REFERENCE_SOLVERS = ("scipy:*", "sundials:*")  # methods of reference solvers
 
 
 def check_mechanism(
@@ -42,8 +42,9 @@ def check_mechanism(
 ) -> int:
     """Run `gudgeon check`: check a mechanism file, print the result, and return the exit code.
 
-    name: shipped name or path. settings: texts ADDRESS=VALUE, in place of the file's values. Raises InputError for an
-    invalid file (with `as_json` it is printed), AssemblyError if a scene does not assemble.
+    name: shipped name or path. verbose: with reduction logs. branches: with all assemblies. settings: texts
+    ADDRESS=VALUE, in place of the file's values. Raises InputError for an invalid file, AssemblyError if a scene does
+    not assemble; with `as_json` both are in the printed document.
     """
     from gudgeon.generator.reader.read import read_mechanism
 
@@ -87,8 +88,8 @@ def check_mechanism(
 
 def _find_exit_code(mechanism: Mechanism, findings: assembly_report.Findings) -> int:
     """Return the exit code: that of the first scene that does not assemble, else that of a missing mass, else 0."""
-    lacking = MissingKeyError.exit_code if assembly_report.list_scenes_without_masses(mechanism, findings) else 0
-    return next((error.exit_code for error in findings.errors.values()), lacking)
+    mass_code = MissingKeyError.exit_code if assembly_report.list_scenes_without_masses(mechanism, findings) else 0
+    return next((error.exit_code for error in findings.errors.values()), mass_code)
 
 
 def _build_error_documents(error: InputError) -> list[dict[str, Any]]:
@@ -108,7 +109,7 @@ def _build_error_documents(error: InputError) -> list[dict[str, Any]]:
 
 
 def _format_counts(mechanism: Mechanism) -> str:
-    """Return the numbers of bodies, joints and drives, and the scenes, as text."""
+    """Return the numbers of bodies, joints and drives: "2 bodies, 3 joints, 1 drive; scenes ideal, worn"."""
     numbers = [
         (len(mechanism.bodies), "body", "bodies"),
         (len(mechanism.joints), "joint", "joints"),
@@ -146,15 +147,16 @@ def find_solved_drives(source: KernelSource) -> tuple[str, ...]:
 
 
 def _can_run_in_reference_solvers(source: KernelSource) -> bool:
-    """Return whether the integrators of SciPy and SUNDIALS can run the scene.
+    """Return whether the integrators of SciPy and SUNDIALS can run the scene (integrators/peers).
 
-    Sticking friction, impulses and internal states of laws are supported by the C methods only (integrators/peers).
+    They cannot run scenes without degrees of freedom, or with set-valued friction, jumps of a drive's rate or
+    explicit contact laws.
     """
     return KINEMATIC not in source.methods and not (source.frictions or source.rate_jumps or source.is_explicit)
 
 
 def _describe_reduction(source: KernelSource) -> dict[str, Any]:
-    """Return for `--json` what is integrated, the operations of the accelerations, and the methods that fit."""
+    """Return for `--json` the formulation, tree, closures, solved drives, operation counts and available methods."""
     operations = {"full": source.operations["dynamics"]}
     if "reduced_dynamics" in source.operations:
         operations["reduced"] = source.operations["reduced_dynamics"]
@@ -170,7 +172,10 @@ def _describe_reduction(source: KernelSource) -> dict[str, Any]:
 
 
 def _yield_method_lines(source: KernelSource, seconds: Mapping[str, float]) -> Iterator[tuple[str, str]]:
-    """Yield the (label, text) lines below the reduction log: methods, events, notes, seconds of each stage."""
+    """Yield the (label, text) lines below the reduction log: methods, events, notes, time of each stage.
+
+    `seconds`: wall time by stage of the derivation.
+    """
     yield (
         "methods",
         f"{', '.join(_describe_reduction(source)['methods'])}; auto begins with {select_first_method(source)}",
@@ -184,13 +189,13 @@ def _yield_method_lines(source: KernelSource, seconds: Mapping[str, float]) -> I
 
 
 def _format_events(source: KernelSource) -> list[str]:
-    """Return each event as text: "top (falling, recorded)"."""
+    """Return a text for each event: "top (falling, recorded)"; "ends the run" for one with `action: stop`."""
     does = {"record": "recorded", "stop": "ends the run"}
     return [f"{event.name} ({event.direction}, {does[event.action]})" for event in source.events]
 
 
 def _format_kernel_label(kernel: str) -> str:
-    """Return the label of a kernel's operations in the table."""
+    """Return the row label of a kernel: "operations in dynamics"; a name that contains a space unchanged."""
     return kernel if " " in kernel else f"operations in {kernel}"
 
 

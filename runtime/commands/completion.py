@@ -31,9 +31,7 @@ def complete_files(incomplete: str) -> list[str]:
 
 
 def complete_scenes(context: typer.Context, incomplete: str) -> list[str]:
-    """Return completions of a scene name, from the mechanism on the command line; "ideal" alone if it cannot be
-    read.
-    """
+    """Return completions of a scene name, from the mechanism on the command line; "ideal" if it is not readable."""
     from gudgeon.generator.yaml import parse_yaml
     from gudgeon.loading.shipped import find_shipped_file, list_shipped_mechanisms
 

@@ -165,7 +165,7 @@ def test_signals_that_end_a_program_keep_what_was_computed(ending: str, tmp_path
     gudgeon.load("pendulum", "ideal")  # compiled before: who asks without a pause waits for no compiler
     done = gudgeon_process(line, tmp_path, TERMINATED.replace("SIGTERM", ending))
     assert done.returncode == 128 + getattr(signal, ending), done.stderr
-    assert done.stderr.startswith("interrupted: what was computed is shown and saved; ideal ends at")
+    assert done.stderr.startswith("interrupted: the computed results are shown and saved; ideal ends at")
     assert gudgeon.Result.load(tmp_path / "out/pendulum_ideal.nc").diagnostics.interrupted
     assert not list((tmp_path / "out").glob(".*"))
 

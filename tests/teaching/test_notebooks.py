@@ -116,10 +116,10 @@ def test_a_run_that_fails_is_told(call: Gudgeon, tmp_path: Path) -> None:
     (tmp_path / "short.yaml").write_text(text, encoding="utf-8")
     done = call("equations", "short.yaml", "-o", "x.ipynb")
     assert done.exit_code == 1 and written(tmp_path) == {"short.yaml", "x.ipynb"}
-    assert "x.ipynb is written, but what it runs in its last cells fails: " in done.stderr
+    assert "x.ipynb is written, but the run in its last cells fails: " in done.stderr
     assert "cannot be assembled" in done.stderr
     done = call("exercise", "short.yaml", "-o", "x.md")
-    assert done.exit_code == 1 and "no sheet: the run that its numbers come from fails" in done.stderr
+    assert done.exit_code == 1 and "no sheet: the run fails with drawn values" in done.stderr
     assert written(tmp_path) == {"short.yaml", "x.ipynb"}
 
 
