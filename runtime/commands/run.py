@@ -296,10 +296,7 @@ def _find_reference_runs(ideal: Simulation, outcome: RunOutcome) -> None:
 
 
 def _find_ideal_run(ideal: Simulation, run: Result, outcome: RunOutcome) -> Result:
-    """Return the ideal run at the sample times and with the parameter values of `run`.
-
-    An ideal run of `outcome` with equal times and values is reused.
-    """
+    """Return the ideal run with the sample times and parameter values of `run`; one that `outcome` has is reused."""
     shared = {slot.address for slot in ideal.source.slots}
     values = {address: number for address, number in run.parameters.items() if address in shared}
     for other in (outcome.runs.get(IDEAL_SCENE), *outcome.references.values()):
