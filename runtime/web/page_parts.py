@@ -12,7 +12,7 @@ from warnings import warn
 
 from gudgeon.assembly.guess_warnings import find_user_stack_level
 from gudgeon.contract.methods import KINEMATIC
-from gudgeon.drawing.page import PIXELS
+from gudgeon.drawing.page import PIXELS_PER_INCH
 from gudgeon.drawing.picture import compute_figure_size
 from gudgeon.drawing.rig import Rig
 from gudgeon.errors import BuildError, SolverError
@@ -103,7 +103,7 @@ def _describe_drawing(rig: Rig) -> dict[str, Any]:
     for inches in (WIDE_INCHES, NARROW_INCHES):
         figure_size, sketch = compute_figure_size(rig.sketch, inches), replace(rig.sketch, labels=())
         pixels_per_metre.append(
-            PIXELS
+            PIXELS_PER_INCH
             * min(
                 length_in_inches / length_in_metres
                 for length_in_inches, length_in_metres in zip(figure_size, sketch.high - sketch.low, strict=True)

@@ -12,7 +12,7 @@ import numpy as np
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.drawing.labels import NameLabels
 from gudgeon.drawing.layout import make_layout
-from gudgeon.drawing.page import PIXELS
+from gudgeon.drawing.page import PIXELS_PER_INCH
 from gudgeon.drawing.picture import compute_figure_size, draw_sketch
 from gudgeon.drawing.rig import Rig, make_rig
 from gudgeon.drawing.shapes import Sketch
@@ -158,7 +158,7 @@ def _compute_name_offsets(sketch: Sketch, width_in_inches: float) -> dict[str, t
     """
     from matplotlib.figure import Figure
 
-    figure = Figure(figsize=compute_figure_size(sketch, width_in_inches), dpi=PIXELS)
+    figure = Figure(figsize=compute_figure_size(sketch, width_in_inches), dpi=PIXELS_PER_INCH)
     ax = figure.add_axes((0.0, 0.0, 1.0, 1.0))
     draw_sketch(ax, sketch)
     figure.draw_without_rendering()

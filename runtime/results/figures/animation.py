@@ -17,7 +17,7 @@ import numpy as np
 
 from gudgeon.drawing.labels import NameLabels
 from gudgeon.drawing.layout import make_layout
-from gudgeon.drawing.page import PIXELS, write_animation_page
+from gudgeon.drawing.page import PIXELS_PER_INCH, write_animation_page
 from gudgeon.drawing.picture import STYLE, compute_figure_size, draw_sketch
 from gudgeon.drawing.roles import EDGES, ROLES, TINTS
 from gudgeon.drawing.sketch import compute_common_box, make_sketch
@@ -195,7 +195,7 @@ def _build_animation(run: Result, options: AnimationOptions) -> Animation:
     half_sizes = (
         {part: 0.5 * (np.array(box[2:]) - box[:2]) for part, box in name_artist.boxes.items()} if name_artist else {}
     )
-    width = float(figure.get_size_inches()[0]) * PIXELS
+    width = float(figure.get_size_inches()[0]) * PIXELS_PER_INCH
     title = format_one_line(f"{run.source.title or run.source.mechanism}: {run.source.scene}")
     text = write_animation_page(
         title, sketch_list, [float(t) for t in options.times], options.seconds, width, offsets, half_sizes
@@ -204,9 +204,9 @@ def _build_animation(run: Result, options: AnimationOptions) -> Animation:
 
 
 def _build_sketch_figure(sketch: Sketch, caption: str) -> tuple[Figure, NameLabels | None]:
-    """Return a figure of the sketch with a caption at PIXELS per inch, and its names; None without names."""
+    """Return a figure of the sketch with a caption (PIXELS_PER_INCH dpi), and its names; None without names."""
     width, height = compute_figure_size(sketch, 7.0)
-    figure = Figure(figsize=(width, height + 0.3), dpi=PIXELS)
+    figure = Figure(figsize=(width, height + 0.3), dpi=PIXELS_PER_INCH)
     ax = figure.add_axes((0.0, 0.0, 1.0, height / (height + 0.3)))
     draw_sketch(ax, sketch)
     figure.text(0.01, 0.99, caption, va="top", fontsize=9, parse_math=False)
@@ -272,7 +272,7 @@ def _encode_film(run: Result, options: AnimationOptions, suffix: str) -> bytes:
                 name_artist.previous_offsets = offsets
             offsets = _compute_name_offsets(figure, name_artist)
             if t == options.times[0]:
-                writer.setup(figure, file, PIXELS)
+                writer.setup(figure, file, PIXELS_PER_INCH)
             writer.fig = figure
             writer.grab_frame()
         writer.finish()

@@ -283,11 +283,13 @@ class Plot:
 
         `draw_content` paints the sketch on axes. `margin` is space in inches that new axes leave for a legend.
         """
-        from gudgeon.drawing.picture import PER_INCH, compute_figure_size
+        from gudgeon.drawing.picture import CHARACTERS_PER_INCH, compute_figure_size
 
         with matplotlib.rc_context(STYLE):
             width, height = compute_figure_size(sketch, 7.0)
-            caption_width = TITLE_WIDTH if ax is not None else min(TITLE_WIDTH, int(PER_INCH * (width + margin)))
+            caption_width = (
+                TITLE_WIDTH if ax is not None else min(TITLE_WIDTH, int(CHARACTERS_PER_INCH * (width + margin)))
+            )
             ax = create_axes(width + margin, height) if ax is None else check_axes(ax)
             draw_content(ax)
             ax.set_title(format_figure_title(caption, caption_width))
