@@ -1,4 +1,4 @@
-"""Make the questions of a sheet: degrees of freedom, Φ, Φ_q at a position, γ, a joint's play, accelerations, forces.
+"""Make the questions of an exercise sheet: degrees of freedom, Φ, Φ_q, γ, a joint's play, accelerations, forces.
 
 Abbreviations in formulas are explained in the order of their use.
 """
@@ -18,8 +18,8 @@ from gudgeon.generator.targets.latex.document import Block, Equation, make_parag
 from gudgeon.generator.targets.latex.kinematics import format_gamma
 from gudgeon.generator.targets.latex.letters import Name, make_symbol_name
 from gudgeon.model.compiled import Array
-from gudgeon.teaching.draw_parameters import NOISE
-from gudgeon.teaching.sheet import LONGEST, Question, Subject
+from gudgeon.teaching.draw_parameters import ROUNDING_TOL
+from gudgeon.teaching.sheet import MAX_OPERATIONS, Question, Subject
 
 PHI, PHI_Q, NU = Name(r"\Phi", "Φ"), Name(r"\Phi_{q}", "Φ_q"), Name(r"\nu", "ν")
 GAMMA = Name(
@@ -64,25 +64,27 @@ def _make_mobility_question(subject: Subject) -> Question:
         count += n_equations
     total = Name(f"f = {n} - {count} = {n - count}", f"f = {n} - {count} = {n - count}")
     solved: list[Block] = [
-        make_paragraph(f"Each body has 3 coordinates, which makes {n}; what joins and drives them:"),
+        make_paragraph(f"Each body has 3 coordinates, together {n}. Joints and drives have these rows:"),
         *make_tables(make_row("joint or drive", "type", "rows"), rows),
         make_paragraph(total, "."),
     ]
     if dropped := model.redundancy.dropped:
-        text = f"{', '.join(dropped)} follow from the others: the rank is {len(model.rows)}, and {n - len(model.rows)}"
-        solved.append(make_paragraph(f"Counting is not enough here: {text} are free."))
+        text = (
+            f"{', '.join(dropped)} depend on the others: the rank is {len(model.rows)}, and f = {n - len(model.rows)}"
+        )
+        solved.append(make_paragraph(f"Grübler's count does not hold here: {text}."))
     elif model.rows:
-        text = f" is {len(model.rows)}, as many as there are rows: none follows from the others, and f is what is free."
+        text = f" is {len(model.rows)}, the number of rows: none depends on the others, and the count is right."
         solved.append(make_paragraph("The rank of ", PHI_Q, text))
     requested = make_paragraph(
         "How many coordinates do the bodies have, how many rows does each joint and drive add to ",
         PHI,
-        ", and how many degrees of freedom f are left by Grübler's count? Does the rank of ",
+        ", and how many degrees of freedom f remain by Grübler's count? Does the rank of ",
         PHI_Q,
         " agree?",
     )
     numbers = {"coordinates": float(n), "rows": float(count), "freedoms": float(n - len(model.rows))}
-    return Question("Count the freedoms", (requested,), tuple(solved), numbers)
+    return Question("Count the degrees of freedom", (requested,), tuple(solved), numbers)
 
 
 def _format_owners(subject: Subject) -> str:
@@ -96,7 +98,7 @@ def _make_constraint_question(subject: Subject) -> Question:
         "Write the rows of ",
         PHI,
         f" of {_format_owners(subject)}, in the coordinates of the centres of mass, with the "
-        "letters given above. A joint's points are written from its first body to its second.",
+        "symbols given above. Differences of a joint's points go from its first body to its second.",
     )
     solved: list[Block] = [
         block
@@ -110,7 +112,7 @@ def _make_constraint_question(subject: Subject) -> Question:
 
 
 def _define_new_abbreviations(subject: Subject, quantity: str) -> list[Block]:
-    """Return the definitions of abbreviations in "phi", "phi_q" or "gamma" that no earlier solution explains."""
+    """Return the definitions of abbreviations in "phi", "phi_q" or "gamma" that no earlier solution has."""
     expressions_of = {
         "phi": [row.phi for _, row in subject.selected_rows],
         "phi_q": [entry for _, row in subject.selected_rows for entry in row.phi_q.values()],
@@ -125,9 +127,9 @@ def _define_new_abbreviations(subject: Subject, quantity: str) -> list[Block]:
 
 
 def _make_jacobian_question(subject: Subject) -> Question:
-    """Build the question for the entries of Φ_q in the chosen constraint equations at the sheet's position.
+    """Build the question for the entries of Φ_q in the selected constraint equations at the sheet's position.
 
-    Long formulas are shown below the table, very long ones not at all.
+    Formulas over MAX_CELL_WIDTH characters are below the table; those over MAX_OPERATIONS are left out.
     """
     model, drawn = subject.model, subject.drawn
     compiled = subject.simulation.compiled
@@ -142,7 +144,9 @@ def _make_jacobian_question(subject: Subject) -> Question:
             coordinate_text = subject.notation.format_expression(q)
             left = Name(rf"\partial \Phi_{{{k}}} / \partial {coordinate_text.latex}", f"∂Φ_{k}/∂{coordinate_text.text}")
             entry = subject.notation.expand_symbols(row.phi_q[q])
-            formula: str | Name = subject.notation.format_expression(entry) if sp.count_ops(entry) <= LONGEST else ""
+            formula: str | Name = (
+                subject.notation.format_expression(entry) if sp.count_ops(entry) <= MAX_OPERATIONS else ""
+            )
             if isinstance(formula, Name) and len(formula.text) > MAX_CELL_WIDTH:
                 below.append(subject.make_equation(left, entry))
                 formula = "below"
@@ -154,7 +158,7 @@ def _make_jacobian_question(subject: Subject) -> Question:
         make_paragraph(
             "What entries of ",
             PHI_Q,
-            f" do the rows of {_format_owners(subject)} have there? Check one by moving its coordinate by a little.",
+            f" do the rows of {_format_owners(subject)} have there? Check one entry by a finite difference.",
         ),
     ]
     solved = [
@@ -171,10 +175,7 @@ def _find_entry_unit(row_unit: str, axis: int) -> str:
 
 
 def _make_gamma_question(subject: Subject) -> Question:
-    """Build the question for γ, the right-hand side of the acceleration constraints, in the chosen equations.
-
-    Very long formulas are left out of the solution.
-    """
+    """Build the question for γ in the selected equations; the solution has no formulas over MAX_OPERATIONS."""
     drawn = subject.drawn
     compiled = subject.simulation.compiled
     values = compiled.gamma(drawn.t, drawn.q, drawn.v, drawn.p)
@@ -184,9 +185,9 @@ def _make_gamma_question(subject: Subject) -> Question:
     for k, row in subject.selected_rows:
         numbers[row.name] = float(values[k - 1])
         gamma = format_gamma(row, subject.model, subject.notation)
-        if gamma != 0 and sp.count_ops(gamma) <= LONGEST:
+        if gamma != 0 and sp.count_ops(gamma) <= MAX_OPERATIONS:
             formula = subject.make_equation(make_indexed_symbol("gamma", k), gamma)
-            # cases never break
+            # terms with cases cannot be broken into lines
             if all(len(term.text) <= MAX_CELL_WIDTH or "cases" not in term.latex for term in formula.terms):
                 solved.append(formula)
         unit = "m/s²" if row.unit == "m" else "rad/s²"
@@ -194,7 +195,7 @@ def _make_gamma_question(subject: Subject) -> Question:
             subject.make_value_equation(make_indexed_symbol("gamma", k), numbers[row.name], unit, scale, errors[k - 1])
         )
     requested = [
-        make_paragraph(f"At the same {drawn.t:g} s the rates are"),
+        make_paragraph(f"At the same time, {drawn.t:g} s, the rates are"),
         *tabulate_positions(subject, shows_rates=True),
         make_paragraph("Find ", GAMMA, f" in the rows of {_format_owners(subject)}: its formula, and its value."),
     ]
@@ -212,7 +213,7 @@ def _make_play_question(subject: Subject) -> Iterator[Question]:
     clearance = float(drawn.run.constants[f"{joint}.c"])
     e = float(np.hypot(ex, ey))
     requested = make_paragraph(
-        f"The journal of {joint} is off the middle of its bearing by (",
+        f"The centre of the journal of {joint} is displaced from that of its bearing by (",
         subject.format_number(ex),
         ", ",
         subject.format_number(ey),
@@ -257,7 +258,7 @@ def define_abbreviations(subject: Subject, symbols: list[sp.Symbol]) -> list[Blo
 
 
 def _define_symbol(subject: Subject, symbol: sp.Symbol) -> list[Block]:
-    """Return the definition of one abbreviation as blocks; for a drive with steps with the progress of its steps."""
+    """Return the definition of one abbreviation as blocks; that of a drive with smooth steps by their progress s."""
     value = subject.notation.expand_symbols(subject.model.symbols.definitions[symbol])
     for driven in subject.model.constraints.drive_angles.values():
         if symbol in driven:
@@ -292,13 +293,13 @@ def _define_by_steps(subject: Subject, symbol: sp.Symbol, driven: tuple[sp.Symbo
         Equation(step_notation.format_expression(steps[clamp]), step_notation.format_terms(progress))
         for clamp, progress in shares.items()
     ]
-    still = ", and is still before and behind" if driven.index(symbol) else ", before it 0 and behind it 1"
+    outside_text = " and is constant before and after" if driven.index(symbol) else ", with 0 before and 1 after"
     terms = step_notation.format_terms(
         sp.Add(*(_expand_progress(term, list(rates)) for term in sp.Add.make_args(inside)))
     )
     return [
         *shown,
-        make_paragraph(f"which goes from 0 to 1{still}:"),
+        make_paragraph(f"which increases from 0 to 1{outside_text}:"),
         Equation(step_notation.format_expression(symbol), terms),
     ]
 
@@ -332,7 +333,7 @@ def make_indexed_symbol(quantity: str, index: int) -> Name:
 
 
 def tabulate_positions(subject: Subject, shows_rates: bool, of_other_bodies: bool = False) -> list[Block]:
-    """Return a table of positions (shows_rates: rates) of bodies in the chosen equations (of_other_bodies: others)."""
+    """Return a table of positions (shows_rates: rates) of the bodies in the selected equations, or of the others."""
     model, drawn = subject.model, subject.drawn
     selected_coordinates = {s for _, row in subject.selected_rows for s in row.phi_q}
     header = ("body", "x, m", "y, m", "angle, rad", "angle, degrees")
@@ -348,11 +349,11 @@ def tabulate_positions(subject: Subject, shows_rates: bool, of_other_bodies: boo
 
 
 def _make_acceleration_question(subject: Subject) -> Question:
-    """Build the question for the largest angular acceleration, or else the largest acceleration of a coordinate."""
+    """Build the question for the largest acceleration, preferably angular, of a coordinate that no drive prescribes."""
     model, drawn, compiled = subject.model, subject.drawn, subject.simulation.compiled
     a, driven = drawn.run.a[-1], {q for row in model.rows if len(row.phi_q) == 1 for q in row.phi_q}
     turning = [k for k in range(2, len(a), 3) if model.q[k] not in driven]
-    if not turning or np.abs(a[turning]).max() <= NOISE * np.abs(a).max():
+    if not turning or np.abs(a[turning]).max() <= ROUNDING_TOL * np.abs(a).max():
         turning = [k for k in range(len(a)) if model.q[k] not in driven] or [*range(len(a))]
     k = max(turning, key=lambda k: abs(a[k]))
     name = model.bodies[k // 3].name
@@ -370,10 +371,8 @@ def _make_acceleration_question(subject: Subject) -> Question:
     phi_q, gamma = compiled.phi_q(drawn.t, drawn.q, drawn.p), compiled.gamma(drawn.t, drawn.q, drawn.v, drawn.p)
     signs = [make_symbol_name(base, body.name, dots=2) for body in model.bodies for base in ("x", "y", "theta")]
     shown = range(len(gamma)) if len(gamma) <= MAX_SHOWN_ROWS else [r for r in range(len(gamma)) if phi_q[r, k]]
-    scale, errors = (
-        float(np.abs(gamma).max()),
-        drawn.estimate_uncertainty(lambda q, v: compiled.gamma(drawn.t, q, v, drawn.p)),
-    )
+    scale = float(np.abs(gamma).max())
+    errors = drawn.estimate_uncertainty(lambda q, v: compiled.gamma(drawn.t, q, v, drawn.p))
     solved = [
         make_paragraph("Row by row ", ACCELERATIONS, _format_omission(len(gamma)), " is, in m/s² and rad/s²,"),
         *(
@@ -392,7 +391,7 @@ def _make_acceleration_question(subject: Subject) -> Question:
 
 def _format_omission(n_rows: int) -> str:
     """Return a remark that only some of the `n_rows` equations are shown; "" if all are."""
-    return "" if n_rows <= MAX_SHOWN_ROWS else f", of whose {n_rows} rows those with what is asked stand here,"
+    return "" if n_rows <= MAX_SHOWN_ROWS else f", of whose {n_rows} rows those with the requested unknowns are shown,"
 
 
 def _make_linear_equation(subject: Subject, left: Name, factors: Array, symbols_of_terms: list[Name]) -> Equation:
@@ -404,7 +403,7 @@ def _make_linear_equation(subject: Subject, left: Name, factors: Array, symbols_
         order={symbol: k for k, symbol in enumerate(symbols)},
     )
     scale = float(np.abs(factors).max())
-    shown = [(float(f"{x:.4g}"), s) for x, s in zip(factors, symbols, strict=True) if abs(x) > NOISE * scale]
+    shown = [(float(f"{x:.4g}"), s) for x, s in zip(factors, symbols, strict=True) if abs(x) > ROUNDING_TOL * scale]
     return Equation(
         left, notation.format_terms(sp.Add(*(s * (sp.nsimplify(x) if abs(x) == 1.0 else x) for x, s in shown)))
     )
@@ -429,11 +428,11 @@ def _make_reaction_question(subject: Subject) -> Iterator[Question]:
         message.append(make_paragraph(f"The accelerations at {drawn.t:g} s, of centres of mass and of angles, are"))
         message += _tabulate_by_body(subject, drawn.run.a[-1], "x, m/s²", "y, m/s²", "angle, rad/s²")
     else:
-        message.append(make_paragraph("Take the accelerations of all bodies from the question before."))
+        message.append(make_paragraph("Use the accelerations of all bodies from the previous question."))
     if source.clearances or source.frictions:
-        message.append(make_paragraph("Gravity, forces, friction and joints with play add up to the components of g"))
+        message.append(make_paragraph("Gravity, forces, friction and joints with play have the resultants g"))
         message += _tabulate_by_body(subject, _compute_applied_forces(subject), "x, N", "y, N", "angle, N m")
-    message.append(make_paragraph("By ", KKT, f": what force does {name} put on {second.body}, in ground axes?"))
+    message.append(make_paragraph("By ", KKT, f": what force does {name} exert on {second.body}, in ground axes?"))
     lambdas = [(k, row) for k, row in enumerate(subject.model.rows, 1) if row.owner == name]
     solved: list[Block] = [
         *_make_balance_blocks(subject, [k - 1 for k, _ in lambdas]),
@@ -446,7 +445,7 @@ def _make_reaction_question(subject: Subject) -> Iterator[Question]:
             )
             for k, row in lambdas
         ),
-        make_paragraph(f"The force on {second.body} is what these multipliers put on it, ", FORCE, ":"),
+        make_paragraph(f"The force on {second.body} is that of these multipliers, ", FORCE, ":"),
     ]
     solved += [
         subject.make_value_equation(make_symbol_name("F", axis, name), x, "N", F[2])
@@ -457,7 +456,7 @@ def _make_reaction_question(subject: Subject) -> Iterator[Question]:
 
 
 def _make_balance_blocks(subject: Subject, requested: list[int]) -> list[Block]:
-    """Return the equations of motion as blocks; requested: indices of the multipliers that follow from them."""
+    """Return Φ_qᵀ λ = g − M q̈ as blocks; of more than MAX_SHOWN_ROWS rows those with `requested` multipliers."""
     model, drawn, compiled = subject.model, subject.drawn, subject.simulation.compiled
     phi_q = compiled.phi_q(drawn.t, drawn.q, drawn.p)
     left = _compute_applied_forces(subject) - np.asarray(compiled.mass(drawn.p)) * drawn.run.a[-1]
@@ -471,7 +470,7 @@ def _make_balance_blocks(subject: Subject, requested: list[int]) -> list[Block]:
         q, number = subject.notation.format_expression(model.q[k]), subject.format_number(float(left[k]), scale=scale)
         what = Name(rf"(g - M \ddot{{q}})_{{{q.latex}}} = {number.latex}", f"(g - M·q̈)_{q.text} = {number.text}")
         blocks.append(_make_linear_equation(subject, what, phi_q[:, k], signs))
-    return [*blocks, make_paragraph("and solved for the multipliers")]
+    return [*blocks, make_paragraph("and the multipliers are")]
 
 
 def _get_multiplier(subject: Subject, row: str) -> float:

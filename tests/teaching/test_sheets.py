@@ -160,8 +160,12 @@ def test_numbers_without_what_a_sum_rounded(value: float, text: str) -> None:
 
 
 def test_freedoms_are_counted_and_ranked() -> None:
-    assert questions("four_bar", "ideal")["Count the freedoms"].numbers == {"coordinates": 9, "rows": 9, "freedoms": 0}
-    assert questions("slider_crank", "dry")["Count the freedoms"].numbers == {
+    assert questions("four_bar", "ideal")["Count the degrees of freedom"].numbers == {
+        "coordinates": 9,
+        "rows": 9,
+        "freedoms": 0,
+    }
+    assert questions("slider_crank", "dry")["Count the degrees of freedom"].numbers == {
         "coordinates": 9,
         "rows": 7,
         "freedoms": 2,
