@@ -16,7 +16,7 @@ from gudgeon.drawing.page import PIXELS_PER_INCH
 from gudgeon.drawing.picture import compute_figure_size, draw_sketch
 from gudgeon.drawing.rig import Rig, make_rig
 from gudgeon.drawing.shapes import Sketch
-from gudgeon.results.figures.animation import QUICK, SHOWN, SLOW
+from gudgeon.results.figures.animation import MAX_REAL_TIME, DEFAULT_DURATION, MIN_REAL_TIME
 from gudgeon.results.figures.configurations import select_configurations
 from gudgeon.results.reports.comparison import ROUNDING_TOL
 from gudgeon.results.results import Result
@@ -53,7 +53,7 @@ def build_panel(simulation: Simulation, run: Result, rig: Rig) -> dict[str, Any]
         "joints": [[name, point] for name, point in points_by_joint.items() if f"{name}.Fx" in run.names],
         "traces": _choose_first_traces(run),
         "values": _choose_first_values(run),
-        "seconds": duration if SLOW <= duration <= QUICK else SHOWN,
+        "seconds": duration if MIN_REAL_TIME <= duration <= MAX_REAL_TIME else DEFAULT_DURATION,
         "path": _choose_first_path(rig),
     }
 

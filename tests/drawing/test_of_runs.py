@@ -12,7 +12,7 @@ import pytest
 pytest.importorskip("matplotlib")
 
 import gudgeon  # noqa: E402
-from gudgeon.drawing.drives_and_forces import ARROW  # noqa: E402
+from gudgeon.drawing.drives_and_forces import ARROW_LENGTH  # noqa: E402
 from gudgeon.drawing.labels import NameLabels, count_crossings  # noqa: E402
 from gudgeon.errors import BadValueError, UnknownNameError  # noqa: E402
 from gudgeon.results.figures import plots  # noqa: E402
@@ -145,7 +145,7 @@ def test_applied_forces_are_to_the_scale_of_reactions(pushed: Result) -> None:
         assert span == pytest.approx([metres * pushed[f"{series}.F{axis}"][20] for axis in "xy"], rel=1e-9, abs=1e-12)
     plain = by_gid(pushed.plot.mechanism(float(pushed.t[20])))
     shaft = plain["force-push-2"].get_xy()[0] - plain["force-push"].get_xy()[0]
-    assert np.hypot(*shaft) == pytest.approx(ARROW * names.sketch.unit)
+    assert np.hypot(*shaft) == pytest.approx(ARROW_LENGTH * names.sketch.unit)
 
 
 def test_a_force_has_an_arrow_in_every_drawing_of_a_run(pushed: Result) -> None:

@@ -147,4 +147,4 @@ def test_an_interrupt_is_never_swallowed(count: int, run: Result, tmp_path: Path
 def test_saving_takes_no_memory_for_the_numbers(make: Callable[..., Result]) -> None:
     """What is held besides the result is what describes it, far less than the file."""
     image, _ = hdf5._lay_out_file(list(build_tables(make(samples=20_000))))
-    assert image.size > 5_000_000 and len(image._pages) * hdf5.PAGE < 500_000
+    assert image.size > 5_000_000 and len(image._pages) * hdf5.PAGE_BYTES < 500_000
