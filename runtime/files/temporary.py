@@ -11,7 +11,7 @@ from pathlib import Path
 
 PREFIX = "gudgeon-tmp-"
 GRACE_S = 60.0  # a younger folder may belong to a process that has not locked it yet
-OURS = re.compile(rf"{PREFIX}[a-z0-9_]{{8}}")  # names as mkdtemp makes them
+FOLDER_PATTERN = re.compile(rf"{PREFIX}[a-z0-9_]{{8}}")  # names as mkdtemp makes them
 
 
 class TemporaryFolder:
@@ -60,7 +60,7 @@ def _remove_abandoned_folders(root: Path, max_change_time: float) -> None:
     """
     with suppress(OSError):
         for entry in os.scandir(root):
-            if not OURS.fullmatch(entry.name):
+            if not FOLDER_PATTERN.fullmatch(entry.name):
                 continue
             with suppress(OSError):
                 status = entry.stat(follow_symlinks=False)

@@ -20,8 +20,8 @@ RESERVED: dict[str, str] = {
     "t": "it is time in expressions",
     "pi": "it is a number in expressions",
     "ground": "it is the frame",
-    "energy": "it heads names of results",
-    "work": "it heads names of results",
+    "energy": "names of results begin with it",
+    "work": "names of results begin with it",
 }
 # Words of YAML and Python that look like values or operators: not names in expressions.
 WORDS = frozenset(
@@ -40,7 +40,7 @@ def check_name(name: str, item_kind: str, location: Location | None) -> None:
     reason = RESERVED.get(name) if item_kind not in ("point", "mechanism") else None  # no expression has these alone
     if item_kind in ("parameter", "output", "curve", "expression"):  # the others stand in expressions with a dot only
         reason = "it is a function of expressions" if name in FUNCTIONS else reason
-        reason = "an expression takes it for no name" if name in WORDS else reason
+        reason = "it is not a name in expressions" if name in WORDS else reason
     if item_kind == "output" and name == "time":
         reason = "it is the axis of results"
     alternative = ""
@@ -80,9 +80,10 @@ def check_label(name: str, item_kind: str, location: Location | None) -> None:
         if IDENTIFIER.fullmatch(plain) and len(plain) <= MAX_LENGTH:
             hint += f", such as {plain}"
         if "=" in name and IDENTIFIER.fullmatch(plain := name.partition("=")[0].strip()):
-            hint = f"a value stands behind a colon: {plain}:{name.partition('=')[2].partition('=')[0].rstrip()}"
+            hint = f"a value follows a colon: {plain}:{name.partition('=')[2].partition('=')[0].rstrip()}"
         hint = describe_lookalike(name) + hint
-        raise BadNameError(f"{name[:MAX_LENGTH]!r} cannot name this {item_kind}: it is no identifier", location, hint)
+        message = f"{name[:MAX_LENGTH]!r} cannot name this {item_kind}: it is not an identifier"
+        raise BadNameError(message, location, hint)
     check_not_null(name, f"this {item_kind}", location)
     if len(name) > MAX_LENGTH:
         raise BadNameError(

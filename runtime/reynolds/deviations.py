@@ -16,14 +16,14 @@ from gudgeon.language.names import make_unknown_name_error
 from gudgeon.model.arrays import as_c_array
 from gudgeon.reynolds.bearing import Bearing, check_finite
 from gudgeon.reynolds.equation import Array
-from gudgeon.reynolds.solver import CELLS
+from gudgeon.reynolds.solver import DEFAULT_CELLS
 from gudgeon.reynolds.tables import table
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-EPS = tuple(0.05 * k for k in range(1, 20))
-MOTIONS = tuple(math.pi / 12 * k for k in range(13))
+DEFAULT_EPS = tuple(0.05 * k for k in range(1, 20))
+DEFAULT_MOTIONS = tuple(math.pi / 12 * k for k in range(13))
 RADIUS, CLEARANCE, VISCOSITY = 0.01, 1e-5, 0.1  # m, m, Pa·s; the deviations do not depend on them
 LawForce = Callable[[Array, Array, Array], Array]
 
@@ -75,11 +75,11 @@ def deviation(
     law: str,
     l_over_d: float,
     *,
-    eps: ArrayLike = EPS,
-    motion: ArrayLike = MOTIONS,
+    eps: ArrayLike = DEFAULT_EPS,
+    motion: ArrayLike = DEFAULT_MOTIONS,
     cavitation: str = "reynolds",
     groove: str | None = None,
-    cells: tuple[int, int] = CELLS,
+    cells: tuple[int, int] = DEFAULT_CELLS,
     **keys: float | str | bool,
 ) -> Deviation:
     """Compare a film law (`gudgeon.generator.kinds.laws`, or a registered one) with the solver, and return the

@@ -21,8 +21,8 @@ from scipy import sparse
 from scipy.optimize import brentq
 
 Array = NDArray[np.float64]
-TURN = 2.0 * math.pi
-UNIFORM = 0.5  # fraction of equidistant nodes; the others follow Sommerfeld's angle, dense where h is small
+FULL_TURN = 2.0 * math.pi
+UNIFORM_FRACTION = 0.5  # fraction of equidistant nodes; the others follow Sommerfeld's angle, dense where h is small
 
 
 @dataclass(frozen=True)
@@ -139,12 +139,12 @@ def make_grid(eps: float, l_over_d: float, n_around: int, n_along: int, first_an
     eps: eccentricity ratio. n_around: number of cells around. n_along: cells from the middle to an end, 0 for a sealed
     bearing.
     """
-    spread = TURN / n_around
+    spread = FULL_TURN / n_around
     shift = float(_compute_uniform_angle(np.array([first_angle]), eps)[0])
     half_nodes = _invert_uniform_angle(shift + 0.5 * spread * np.arange(2 * n_around, dtype=float), eps)
     phi, right = half_nodes[::2], half_nodes[1::2]
-    left = np.concatenate([[right[-1] - TURN], right[:-1]])
-    node_spacing = np.concatenate([phi[1:], [phi[0] + TURN]]) - phi
+    left = np.concatenate([[right[-1] - FULL_TURN], right[:-1]])
+    node_spacing = np.concatenate([phi[1:], [phi[0] + FULL_TURN]]) - phi
     weight = spread / _compute_density(phi, eps)
     if not n_along:
         half_length = np.array([l_over_d])
@@ -160,7 +160,9 @@ def make_grid(eps: float, l_over_d: float, n_around: int, n_along: int, first_an
 
 def _compute_density(phi: Array, eps: float) -> Array:
     """Return the derivative of `_compute_uniform_angle` with respect to φ, the relative density of the nodes."""
-    return np.asarray(UNIFORM + (1.0 - UNIFORM) * math.sqrt(1.0 - eps * eps) / (1.0 + eps * np.cos(phi)))
+    return np.asarray(
+        UNIFORM_FRACTION + (1.0 - UNIFORM_FRACTION) * math.sqrt(1.0 - eps * eps) / (1.0 + eps * np.cos(phi))
+    )
 
 
 def _compute_uniform_angle(phi: Array, eps: float) -> Array:
@@ -168,10 +170,12 @@ def _compute_uniform_angle(phi: Array, eps: float) -> Array:
 
     It is the mean of φ and of Sommerfeld's angle γ: (1 + ε cos φ)(1 − ε cos γ) = 1 − ε², dγ = √(1 − ε²)/h dφ.
     """
-    turns = np.floor((phi + math.pi) / TURN)
-    half = 0.5 * (phi - TURN * turns)
-    gamma = 2.0 * np.arctan2(math.sqrt(1.0 - eps) * np.sin(half), math.sqrt(1.0 + eps) * np.cos(half)) + TURN * turns
-    return np.asarray(UNIFORM * phi + (1.0 - UNIFORM) * gamma)
+    turns = np.floor((phi + math.pi) / FULL_TURN)
+    half = 0.5 * (phi - FULL_TURN * turns)
+    gamma = (
+        2.0 * np.arctan2(math.sqrt(1.0 - eps) * np.sin(half), math.sqrt(1.0 + eps) * np.cos(half)) + FULL_TURN * turns
+    )
+    return np.asarray(UNIFORM_FRACTION * phi + (1.0 - UNIFORM_FRACTION) * gamma)
 
 
 def _invert_uniform_angle(values: Array, eps: float) -> Array:
@@ -180,7 +184,7 @@ def _invert_uniform_angle(values: Array, eps: float) -> Array:
     Newton's method within bounds, which are bisected when a step is not half of the last one. Both variables differ by
     at most π. At ε → 1 the slope jumps, so that Newton's method alone may cycle.
     """
-    low, high, phi, last = values - math.pi, values + math.pi, values.copy(), np.full_like(values, TURN)
+    low, high, phi, last = values - math.pi, values + math.pi, values.copy(), np.full_like(values, FULL_TURN)
     for _ in range(200):
         off = _compute_uniform_angle(phi, eps) - values
         low, high = np.where(off < 0.0, phi, low), np.where(off > 0.0, phi, high)

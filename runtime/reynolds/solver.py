@@ -23,11 +23,11 @@ from gudgeon.reynolds.bearing import (
     check_vector,
 )
 from gudgeon.reynolds.cavitation import Flags, Motion, Pressure, solve_pressure
-from gudgeon.reynolds.equation import TURN, Array, Equation, Grid, make_grid
+from gudgeon.reynolds.equation import FULL_TURN, Array, Equation, Grid, make_grid
 
-CELLS = (192, 24)  # around, from the middle to an end
-COARSEST = 64  # cells around, up to which the active set needs no start
-WIDEST = "widest"
+DEFAULT_CELLS = (192, 24)  # around, from the middle to an end
+MAX_COARSE_CELLS = 64  # cells around, up to which the active set needs no start
+WIDEST_GAP = "widest"
 Groove = float | str | None
 
 
@@ -41,7 +41,7 @@ def solve(
     cavitation: str = "reynolds",
     ends: str = "open",
     groove: Groove = None,
-    cells: tuple[int, int] = CELLS,
+    cells: tuple[int, int] = DEFAULT_CELLS,
 ) -> Film:
     """Solve the film between a journal and its bearing: pressure, forces, torques, leakage, error of the forces.
 
@@ -98,10 +98,10 @@ def _find_groove_angle(groove: Groove, direction: Array, sealed: bool, cavitatio
     if groove is None:
         return 0.0 if sealed or cavitation == "elrod_adams" else None
     if isinstance(groove, str):
-        check_choice(groove, "groove", ("a direction in rad", WIDEST))
+        check_choice(groove, "groove", ("a direction in rad", WIDEST_GAP))
         return 0.0
     phi = check_number(groove, "groove") - math.atan2(-direction[1], -direction[0])
-    return math.remainder(phi, TURN)
+    return math.remainder(phi, FULL_TURN)
 
 
 @dataclass(frozen=True)
@@ -205,7 +205,7 @@ def solve_on_two_grids(
     are added.
     """
     levels = [(n_around, n_along), (n_around // 2, n_along // 2)]
-    while levels[-1][0] > COARSEST and not levels[-1][0] % 4 and not levels[-1][1] % 4:
+    while levels[-1][0] > MAX_COARSE_CELLS and not levels[-1][0] % 4 and not levels[-1][1] % 4:
         levels.append((levels[-1][0] // 2, levels[-1][1] // 2))
     equations_by_size = {} if equations is None else equations
     solutions: list[Solution] = []
@@ -318,4 +318,4 @@ def _find_pressure_extent(p: Array, angle: Array) -> tuple[float, float] | None:
     first = next(k for k in range(n) if not has_pressure[peak - k - 1])
     last = next(k for k in range(n) if not has_pressure[(peak + k + 1) % n])
     begins, ends = float(angle[peak - first]), float(angle[(peak + last) % n])
-    return begins, ends + (TURN if ends < begins else 0.0)
+    return begins, ends + (FULL_TURN if ends < begins else 0.0)

@@ -22,7 +22,7 @@ from gudgeon.reynolds.bearing import (
 )
 from gudgeon.reynolds.cavitation import Motion
 from gudgeon.reynolds.equation import Array, Equation
-from gudgeon.reynolds.solver import CELLS, WIDEST, Problem, solve_on_two_grids
+from gudgeon.reynolds.solver import DEFAULT_CELLS, WIDEST_GAP, Problem, solve_on_two_grids
 
 MAX_STATES = 1_000_000  # takes a day
 
@@ -55,7 +55,7 @@ def table(
     cavitation: str = "reynolds",
     ends: str = "open",
     groove: str | None = None,
-    cells: tuple[int, int] = CELLS,
+    cells: tuple[int, int] = DEFAULT_CELLS,
 ) -> Table:
     """Return the forces over eccentricity ratio ε in [0, 1), its rate ε̇ (1/s) and ω_s = ω_i + ω_j − 2ψ̇ (rad/s).
 
@@ -67,7 +67,7 @@ def table(
     sealed = check_choice(ends, "ends", ENDS) == "sealed"
     around, axial = check_cells(cells, sealed)
     if groove is not None:
-        check_choice(groove, "groove", ("None", WIDEST))
+        check_choice(groove, "groove", ("None", WIDEST_GAP))
     states = _broadcast_states(eps, eps_rate, omega_s)
     groove_angle = 0.0 if sealed or groove or cavitation == "elrod_adams" else None
     unique_states, inverse = np.unique(np.stack([x.ravel() for x in states], axis=1), axis=0, return_inverse=True)

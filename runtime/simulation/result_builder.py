@@ -39,7 +39,7 @@ from gudgeon.results.series import explain_missing_masses
 from gudgeon.simulation.audit import has_failed_finding
 from gudgeon.simulation.passing_audit import ShortRunSamples, is_short_run
 from gudgeon.simulation.sample_checks import CheckedSamples, check_samples
-from gudgeon.waiting.cancellation import EVERY
+from gudgeon.waiting.cancellation import POLL_INTERVAL_S
 from gudgeon.waiting.ctrl_c import DelayedCtrlC
 
 INTERRUPTED_NOTE = "interrupted: samples after the last one, and what is computed from all of them, are missing"
@@ -402,7 +402,7 @@ def _make_poll_function(problem: Problem, is_interrupted: bool, is_time_limited:
         nonlocal last_report
         problem.poll_cancellation()
         now = monotonic()
-        if problem.progress and not is_interrupted and now - last_report > EVERY:
+        if problem.progress and not is_interrupted and now - last_report > POLL_INTERVAL_S:
             last_report = now
             problem.progress(1.0, "balancing energy")
         if is_interrupted and is_time_limited and now - time_at_begin > AFTER_CTRL_C:

@@ -1,7 +1,7 @@
 """Poll for cancellation and progress while a run is in C (engine/run/cancellation.c), and run long calls in
 threads.
 
-C calls Python every EVERY seconds, and stops its work if requested.
+C calls Python every POLL_INTERVAL_S seconds, and stops its work if requested.
 - `CancellationPoll`: the callback of C.
 - `run_interruptible` runs one long call of C in another thread, so that Ctrl-C need not wait for its end.
 - `report_work` reports that deriving or compiling is under way.
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
     from gudgeon.model.compiled import CompiledModel
 
-EVERY = 0.05  # s between two polls
+POLL_INTERVAL_S = 0.05  # s between two polls
 # callbacks by the id of cffi's interface, which is stored too, so that ids stay unique
 _functions: dict[int, tuple[Any, Any]] = {}
 Result = TypeVar("Result")
@@ -47,7 +47,7 @@ class CancellationPoll:
     @property
     def c_arguments(self) -> tuple[Any, Any, float]:
         """Return the arguments for C: callback function, handle of this object, seconds between polls."""
-        return self.function, self.handle, EVERY
+        return self.function, self.handle, POLL_INTERVAL_S
 
     def poll_from_c(self) -> int:
         """Call `poll`; return 0, or 1 if it raised an exception, which is stored and makes C stop. C calls this."""

@@ -10,7 +10,7 @@ from contextvars import ContextVar
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from gudgeon.waiting.cancellation import EVERY
+from gudgeon.waiting.cancellation import POLL_INTERVAL_S
 from gudgeon.waiting.ctrl_c import DelayedCtrlC
 
 if TYPE_CHECKING:
@@ -79,7 +79,7 @@ class Programs:
         with DelayedCtrlC() as ctrl_c:
             while message is None:
                 try:
-                    message = process.communicate(timeout=EVERY)
+                    message = process.communicate(timeout=POLL_INTERVAL_S)
                 except subprocess.TimeoutExpired:
                     ctrl_c.raise_delayed()
                     if is_cancelled and is_cancelled():

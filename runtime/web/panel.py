@@ -16,7 +16,7 @@ from gudgeon.drawing.page import PIXELS_PER_INCH
 from gudgeon.drawing.picture import compute_figure_size, draw_sketch
 from gudgeon.drawing.rig import Rig, make_rig
 from gudgeon.drawing.shapes import Sketch
-from gudgeon.results.figures.animation import MAX_REAL_TIME, DEFAULT_DURATION, MIN_REAL_TIME
+from gudgeon.results.figures.animation import DEFAULT_DURATION, MAX_REAL_TIME, MIN_REAL_TIME
 from gudgeon.results.figures.configurations import select_configurations
 from gudgeon.results.reports.comparison import ROUNDING_TOL
 from gudgeon.results.results import Result
@@ -97,7 +97,11 @@ def _choose_first_values(run: Result) -> list[str]:
 
 def _choose_first_path(rig: Rig) -> str:
     """Return the first named point that no joint or force element uses, whose path is drawn; "" if there is none."""
-    points = [carried.shape.part.partition(" ")[2] for carried in rig.shapes if carried.shape.part.startswith("point ")]
+    points = [
+        moving_shape.shape.part.partition(" ")[2]
+        for moving_shape in rig.shapes
+        if moving_shape.shape.part.startswith("point ")
+    ]
     return points[0] if points else ""
 
 
@@ -106,7 +110,7 @@ def list_styles(rig: Rig) -> tuple[list[tuple[str, int]], list[tuple[str, int]]]
 
     Roles that exist on pages only are included.
     """
-    shape_styles = dict.fromkeys((carried.shape.role, carried.shape.tint) for carried in rig.shapes)
+    shape_styles = dict.fromkeys((moving_shape.shape.role, moving_shape.shape.tint) for moving_shape in rig.shapes)
     unique_shape_styles = {
         make_css_class(role, tint): (role, tint) for role, tint in [*shape_styles, *((role, 0) for role in PAGE_ROLES)]
     }
@@ -116,7 +120,7 @@ def list_styles(rig: Rig) -> tuple[list[tuple[str, int]], list[tuple[str, int]]]
 
 def _iterate_name_styles(rig: Rig) -> Iterator[tuple[str, int]]:
     """Yield (role, tint) of each name of the drawing; the tint is that of its part."""
-    tints = {carried.shape.part: carried.shape.tint for carried in rig.shapes}
+    tints = {moving_shape.shape.part: moving_shape.shape.tint for moving_shape in rig.shapes}
     for label in rig.sketch.labels:
         yield label.role, tints.get(label.part, 0)
 

@@ -155,7 +155,7 @@ def test_an_interrupt_keeps_what_was_computed(
         return simulate(self, *args, **options)
 
     monkeypatch.setattr(Simulation, "simulate", interrupted)
-    monkeypatch.setattr("gudgeon.waiting.cancellation.EVERY", 0.0)  # C asks at every right-hand side
+    monkeypatch.setattr("gudgeon.waiting.cancellation.POLL_INTERVAL_S", 0.0)  # C asks at every right-hand side
     done = call("run", pump)
     assert done.exit_code == 130, done.output
     run = gudgeon.Result.load(tmp_path / "out/pump_worn.nc")

@@ -28,7 +28,7 @@ signal.signal(signal.SIGINT, signal.default_int_handler)
 signal.signal(signal.SIGTERM, signal.SIG_DFL)  # whoever runs the tests may have it ignored
 from gudgeon.integrators import single_run
 from gudgeon.waiting import cancellation
-cancellation.EVERY, real, looks = 0.0, single_run.SingleRun._poll_and_report_progress, []
+cancellation.POLL_INTERVAL_S, real, looks = 0.0, single_run.SingleRun._poll_and_report_progress, []
 
 def look(*arguments):
     looks.append(0)

@@ -33,7 +33,7 @@ from gudgeon.generator.targets.numpy.printer import (
     print_statements,
 )
 from gudgeon.language.argument_checks import check_mapping, check_number
-from gudgeon.language.curves import MARGIN, Curve
+from gudgeon.language.curves import RANGE_TOL, Curve
 from gudgeon.language.names import make_missing_name_error, make_unknown_name_error
 from gudgeon.language.quantities import parse_quantity
 
@@ -312,7 +312,7 @@ _CURVE = f'''def curve(of, order, x):
     """A cubic spline (order 0) or a derivative of it: NaN outside its range, or repeated there."""
     knots, c, repeats = of
     first, last = knots[0], knots[-1]
-    margin = {MARGIN} * (last - first)
+    margin = {RANGE_TOL} * (last - first)
     inside = repeats | ((x >= first - margin) & (x <= last + margin))
     x = x - (last - first) * np.floor((x - first) / (last - first)) if repeats else x
     k = np.clip(np.searchsorted(knots, x, side="right") - 1, 0, len(c) - 1)
