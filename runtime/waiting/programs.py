@@ -1,4 +1,4 @@
-"""Run other programs, each in its own process group, so that all its processes end when it is no longer needed."""
+"""Run other programs (subprocesses), each in its own process group, so that it is killed with all its children."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from gudgeon.waiting.ctrl_c import DelayedCtrlC
 if TYPE_CHECKING:
     import subprocess
 
-# function that returns whether waiting shall end
+# function that returns whether waiting is cancelled
 _is_cancelled: ContextVar[Callable[[], bool] | None] = ContextVar("whether waiting is cancelled", default=None)
 
 
@@ -34,7 +34,7 @@ def set_cancellation_check(is_cancelled: Callable[[], bool]) -> Iterator[None]:
 
 
 class Programs:
-    """Run programs within a with block; those still running at its end are killed."""
+    """Context in which programs run; those still running at its end are killed."""
 
     def __init__(self) -> None:
         self._processes: list[subprocess.Popen[str]] = []
@@ -51,7 +51,7 @@ class Programs:
         """
         import subprocess
 
-        with DelayedCtrlC() as ctrl_c:  # not between the start of a process and the note of it
+        with DelayedCtrlC() as ctrl_c:  # no Ctrl-C between the start of a process and its registration
             process = subprocess.Popen(
                 command,
                 cwd=folder,
@@ -84,7 +84,7 @@ class Programs:
                     ctrl_c.raise_delayed()
                     if is_cancelled and is_cancelled():
                         raise KeyboardInterrupt from None
-        ctrl_c.raise_delayed()  # one that came as the program ended
+        ctrl_c.raise_delayed()  # a Ctrl-C during the end of the program
         return message
 
     def stop(self, *processes: subprocess.Popen[str]) -> None:
@@ -93,7 +93,7 @@ class Programs:
         for process in left:
             try:
                 os.killpg(process.pid, signal.SIGKILL)
-            except OSError:  # it is over
+            except OSError:  # the program has ended
                 continue
         for process in left:
             process.communicate()

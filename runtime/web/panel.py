@@ -1,4 +1,4 @@
-"""Prepare the initial contents of a simulator page as JSON: drawing, parameters with ranges, curves, one run."""
+"""Build the initial contents of a simulator page as JSON: drawing, parameters with ranges, curves, one run."""
 
 from __future__ import annotations
 
@@ -59,13 +59,13 @@ def build_panel(simulation: Simulation, run: Result, rig: Rig) -> dict[str, Any]
 
 
 def _list_journals(source: KernelSource) -> list[tuple[str, str]]:
-    """Return (joint, point) for all joints, those with play first; the force acts on the point."""
+    """Return (joint, point on which its force acts) for all joints, those with play first."""
     joints_with_play = [(joint.name, joint.point) for joint in source.clearances]
     return [*joints_with_play, *((joint.name, joint.point) for joint in source.joints)]
 
 
 def _choose_first_traces(run: Result) -> list[str]:
-    """Return the names of the traces shown at first: watched series or drives (two), a force, and Phi.max.
+    """Return the names of the series in the initial charts: up to two default series, peaks or drives, a force, Phi.max.
 
     A force without finite sample is left out.
     """
@@ -80,7 +80,7 @@ def _choose_first_traces(run: Result) -> list[str]:
 
 
 def _choose_first_values(run: Result) -> list[str]:
-    """Return the names of the live values: watched series with their rates, outputs, drives, eccentricities, joint
+    """Return the names of the live values: default series with their rates, outputs, peaks, drives, eccentricities, joint
     forces.
 
     Names that the run lacks are left out.
@@ -158,7 +158,7 @@ def _iterate_names(rig: Rig) -> Iterator[list[Any]]:
 def _compute_name_offsets(sketch: Sketch, width_in_inches: float) -> dict[str, tuple[float, float]]:
     """Return the offsets of names from their parts in pixels, y up, by part.
 
-    width_in_inches: of the figure. matplotlib places the names; a name without room is left out.
+    width_in_inches: of the figure. matplotlib places the names; a name without a free position is left out.
     """
     from matplotlib.figure import Figure
 
@@ -171,10 +171,10 @@ def _compute_name_offsets(sketch: Sketch, width_in_inches: float) -> dict[str, t
 
 
 def pack_run(run: Result, first_names: list[str]) -> dict[str, Any]:
-    """Return a run for a page without simulator, as packed float32.
+    """Return a run for a page without simulator as a dictionary for JSON; "bits" is gzip, base64 of float32 rows.
 
-    It has at most MAX_SAMPLES samples of at most MAX_SERIES series: those of `first_names` first, then forces and
-    eccentricities. The result can be written as JSON.
+    It has at most MAX_SAMPLES samples of t, q, v and at most MAX_SERIES series: `first_names` first, then forces and
+    eccentricities.
     """
     sample_indices = np.unique(np.linspace(0, len(run.t) - 1, MAX_SAMPLES).round().astype(int))
     drawn_series = [name for name in run.names if name.endswith((".Fx", ".Fy", ".ex", ".ey"))]

@@ -66,7 +66,7 @@ def make_css_class(role: str, tint: int) -> str:
 
 @cache
 def _read_style_sheet() -> str:
-    """Return page.css in the form for pages."""
+    """Return the compressed text of page.css; cached."""
     from gudgeon.generator.targets.javascript.compression import compress_style_sheet
 
     return compress_style_sheet(Path(__file__).with_name("page.css").read_text(encoding="utf-8"))
