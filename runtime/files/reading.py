@@ -79,7 +79,7 @@ def read_table_file(file: str | os.PathLike[str], name: str, max_bytes: int, loc
 
 
 def _is_forbidden_part(part: str) -> bool:
-    """Return whether a part of a path is empty, "." or "..", or contains "\\\\" or a character that is not printable."""
+    """Return whether a part of a path is empty, ".", "..", or contains a backslash or an unprintable character."""
     return part in ("", ".", "..") or "\\" in part or not part.isprintable()
 
 

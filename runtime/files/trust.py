@@ -143,7 +143,7 @@ def _read_overflow_user() -> int:
 
 @cache
 def _is_root_unmapped() -> bool:
-    """Return whether this is a user namespace (container) without the machine's root, whose folders have the overflow id.
+    """Return whether this is a user namespace (container) without the machine's root, who then has the overflow id.
 
     The result is cached; it is False if it cannot be read.
     """

@@ -131,7 +131,7 @@ def _format_exponents(exponents: Exponents) -> str:
 
 
 def find_angle_power(expression: Expr) -> int:
-    """Return the power of angle units in an expression of a file: 1 for pi/6, 20 deg or 90 rpm, −1 for N*m/deg, else 0."""
+    """Return the power of angle units in an expression of a file: 1 for pi/6, 20 deg or 90 rpm, −1 for N*m/deg."""
     match expression:
         case Number(text=text, has_unit=has_unit):
             above, *below = text.removeprefix("pi").split("/") if has_unit else [""]

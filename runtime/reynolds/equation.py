@@ -22,14 +22,14 @@ from scipy.optimize import brentq
 
 Array = NDArray[np.float64]
 FULL_TURN = 2.0 * math.pi
-UNIFORM_FRACTION = 0.5  # fraction of equidistant nodes; the others follow Sommerfeld's angle, dense where h is small
+UNIFORM_FRACTION = 0.5  # weight of φ in the variable of equidistant nodes; the rest is Sommerfeld's angle
 
 
 @dataclass(frozen=True)
 class Equation:
     """The flows of a grid. Unknowns are counted along the bearing first: node (i, j) is i·n_rows + j.
 
-    An open end's nodes are unknowns too: p = 0 there, and the unknown is what flows out over the end.
+    The nodes of an open end are unknowns too: there p = 0, and the unknown is the outflow over the end.
     """
 
     grid: Grid
@@ -45,7 +45,7 @@ class Equation:
     def matrix(self) -> sparse.csr_matrix:
         """Return the matrix (n·n_rows, n·n_rows) of the outflow of each cell by the unknowns.
 
-        It is an M-matrix; each column sums to 0, or to what leaves over the end.
+        It is an M-matrix; each column sums to 0, or to the outflow over the end.
         """
         grid, n, m = self.grid, len(self.grid.phi), len(self.grid.zeta)
         i = np.arange(n)
@@ -95,7 +95,7 @@ class Equation:
         grid, n = self.grid, len(self.grid.phi)
         flow = half_speed * (1.0 + grid.eps * np.cos(grid.right))  # through a cell's end, from i to i + 1
         i, zeros = np.arange(n), np.zeros(n)
-        forward, backward = (flow, zeros) if half_speed > 0.0 else (zeros, flow)  # what leaves i by θ_i, by θ_{i+1}
+        forward, backward = (flow, zeros) if half_speed > 0.0 else (zeros, flow)  # outflow of i by θ_i, by θ_{i+1}
         squeeze = w_n * (np.sin(grid.right) - np.sin(grid.left))
         values = np.concatenate([forward - np.roll(backward, 1) + squeeze, backward, -np.roll(forward, 1)])
         indices = (np.concatenate([i, i, i]), np.concatenate([i, (i + 1) % n, (i - 1) % n]))
@@ -108,7 +108,7 @@ class Equation:
 class Grid:
     """Nodes and the cells around them. φ counts from the widest gap, ζ = z/R from the middle to an end.
 
-    Along a sealed bearing nothing changes: it has one node, in a cell as long as the half.
+    A sealed bearing has no axial variation: it has one node along, in a cell as long as the half.
     """
 
     eps: float
@@ -116,8 +116,8 @@ class Grid:
     right: Array  # (n,) a cell's end towards larger φ
     left: Array  # (n,) and towards smaller
     node_spacing: Array  # (n,) from a node to the next
-    weight: Array  # (n,) of the trapezoidal rule in the variable in which nodes lie evenly: no error but that of p
-    zeta: Array  # (m,) nodes but that at the end, where p = 0
+    weight: Array  # (n,) of the trapezoidal rule in the variable in which nodes are equidistant
+    zeta: Array  # (m,) nodes, without that at the end, where p = 0
     height: Array  # (m,) lengths of cells; for an open end with the remaining length (m + 1,)
     gaps: Array  # (m,) from a node to the next, the last to the end; (0,) if sealed
     weight_along: Array  # (m,) Simpson's, of the half
@@ -134,7 +134,7 @@ class Grid:
 
 
 def make_grid(eps: float, l_over_d: float, n_around: int, n_along: int, first_angle: float = 0.0) -> Grid:
-    """Return a grid with a node at φ = start, dense where the film is thin and towards open ends.
+    """Return a grid with a node at φ = `first_angle` (rad), dense where the film is thin and towards open ends.
 
     eps: eccentricity ratio. n_around: number of cells around. n_along: cells from the middle to an end, 0 for a sealed
     bearing.
@@ -181,8 +181,8 @@ def _compute_uniform_angle(phi: Array, eps: float) -> Array:
 def _invert_uniform_angle(values: Array, eps: float) -> Array:
     """Return the angles φ at which `_compute_uniform_angle` has these values.
 
-    Newton's method within bounds, which are bisected when a step is not half of the last one. Both variables differ by
-    at most π. At ε → 1 the slope jumps, so that Newton's method alone may cycle.
+    Safeguarded Newton's method: the bracket is bisected if a step leaves it or is more than half of the last one. Both
+    variables differ by at most π. For ε → 1 the slope nearly jumps, so that Newton's method alone may cycle.
     """
     low, high, phi, last = values - math.pi, values + math.pi, values.copy(), np.full_like(values, FULL_TURN)
     for _ in range(200):

@@ -17,12 +17,13 @@ if TYPE_CHECKING:
 
     from gudgeon.reynolds.deviations import Deviation
 
-DRAWN_CLEARANCE, DRAWN_PRESSURE = 0.25, 0.8  # clearance and largest pressure as drawn, over the radius of the bearing
+DRAWN_CLEARANCE, DRAWN_PRESSURE = 0.25, 0.8  # drawn clearance and largest pressure, over the bearing's radius
 
 
 def draw_film(film: Film) -> Figure:
-    """Return a figure: left p(φ, z), right the middle plane with journal, pressure and force; the gap is not to
-    scale.
+    """Return a figure of a film: left a map of p(φ, z), right the middle plane with journal, pressure and force.
+
+    In the middle plane the gap is not to scale.
     """
     import matplotlib
     from matplotlib.figure import Figure

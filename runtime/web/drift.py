@@ -59,7 +59,7 @@ print(sim.simulate()["Phi.max"].max())  # projected onto Phi = 0 after each step
 
 
 def compute_drift_step(run: Result) -> float:
-    """Return the step (s) of rk4 at which the constraint drift of a driven mechanism is visible: a sixtieth of a period.
+    """Return the step (s) of rk4 at which constraint drift of a driven mechanism is visible: a sixtieth of a period.
 
     The period is 2π over the largest angular velocity of the run, at most its duration. Baumgarte gains of about
     0.1/step then limit the drift.

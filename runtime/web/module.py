@@ -125,7 +125,7 @@ def _find_zig() -> Path:
 
 
 def _list_export_options(source: KernelSource) -> list[str]:
-    """Return the linker options that export the functions that simulator.js calls, as far as the scene declares them."""
+    """Return the linker options that export the functions that simulator.js calls, if the scene declares them."""
     declared_functions = set(re.findall(r"\bgudgeon_(\w+)\(", select_declarations(source)))
     needed_functions = CALLED + (DRIVEN if source.methods == (KINEMATIC,) else ())
     return [f"-Wl,--export=gudgeon_{name}" for name in needed_functions if name in declared_functions]

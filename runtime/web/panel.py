@@ -65,7 +65,7 @@ def _list_journals(source: KernelSource) -> list[tuple[str, str]]:
 
 
 def _choose_first_traces(run: Result) -> list[str]:
-    """Return the names of the series in the initial charts: up to two default series, peaks or drives, a force, Phi.max.
+    """Return the names of the series in the initial charts: two default series, peaks or drives, a force, Phi.max.
 
     A force without finite sample is left out.
     """
@@ -80,8 +80,7 @@ def _choose_first_traces(run: Result) -> list[str]:
 
 
 def _choose_first_values(run: Result) -> list[str]:
-    """Return the names of the live values: default series with their rates, outputs, peaks, drives, eccentricities, joint
-    forces.
+    """Return the names of the live values: default series and rates, outputs, peaks, drives, eccentricities, forces.
 
     Names that the run lacks are left out.
     """
