@@ -29,14 +29,14 @@ class Commands(TyperGroup):
 
     def format_commands(self, ctx: Any, formatter: Any) -> None:
         """Write the section "Commands" of the help text: each command that is not hidden, with its first sentence."""
-        every = ((name, self.get_command(ctx, name)) for name in self.list_commands(ctx))
-        message = [
+        commands = ((name, self.get_command(ctx, name)) for name in self.list_commands(ctx))
+        rows = [
             (name, command.get_short_help_str(MAX_SENTENCE))
-            for name, command in every
+            for name, command in commands
             if command and not command.hidden
         ]
         with formatter.section("Commands"):
-            formatter.write_dl(message)
+            formatter.write_dl(rows)
 
 
 app = typer.Typer(

@@ -115,9 +115,9 @@ def _assemble_scene(linkage: NumPyLinkage, rows: Sequence[int]) -> AssembledScen
         if not closed:
             raise make_closure_error(problem, q)
         compute_start_velocities(problem, q)
-        every = find_mobility(linkage, p, q)
-        mobility = every if len(rows) == every.rows else find_mobility(linkage, p, q, rows)
-    return AssembledScene(linkage, q, every, mobility, find_guess_deviations(linkage, p, q))
+        closed_mobility = find_mobility(linkage, p, q)
+        mobility = closed_mobility if len(rows) == closed_mobility.rows else find_mobility(linkage, p, q, rows)
+    return AssembledScene(linkage, q, closed_mobility, mobility, find_guess_deviations(linkage, p, q))
 
 
 def format_degrees_of_freedom(findings: Findings) -> str:
@@ -138,10 +138,10 @@ def list_scenes_without_masses(mechanism: Mechanism, findings: Findings) -> list
     """Return the names of the scenes that have degrees of freedom, if a body of the file lacks mass or inertia; else
     [].
     """
-    moved = [
+    dynamic_scenes = [
         name for name in mechanism.scenes if name in findings.scenes and findings.scenes[name].scene_mobility.freedoms
     ]
-    return moved if any(body.missing_keys for body in mechanism.bodies.values()) else []
+    return dynamic_scenes if any(body.missing_keys for body in mechanism.bodies.values()) else []
 
 
 def format_verdict(mechanism: Mechanism, findings: Findings) -> str:
@@ -149,20 +149,25 @@ def format_verdict(mechanism: Mechanism, findings: Findings) -> str:
 
     They do not assemble, or need missing masses.
     """
-    unable = {*findings.errors, *list_scenes_without_masses(mechanism, findings)}
-    names = ", ".join(name for name in mechanism.scenes if name in unable)
-    return f"valid, but scene{'s' if len(unable) > 1 else ''} {names} cannot be run" if unable else "valid"
+    failed_scenes = {*findings.errors, *list_scenes_without_masses(mechanism, findings)}
+    names = ", ".join(name for name in mechanism.scenes if name in failed_scenes)
+    return (
+        f"valid, but scene{'s' if len(failed_scenes) > 1 else ''} {names} cannot be run" if failed_scenes else "valid"
+    )
 
 
 def _yield_mass_remark(mechanism: Mechanism, findings: Findings) -> Iterator[tuple[str, str]]:
     """Yield a remark with the missing masses and inertias if a scene with degrees of freedom needs them."""
-    lacking = [
+    missing_texts = [
         f"{b.name} has no {' and no '.join(b.missing_keys)} ({b.where})"
         for b in mechanism.bodies.values()
         if b.missing_keys
     ]
-    if moved := list_scenes_without_masses(mechanism, findings):
-        yield "masses", f"scene {', '.join(moved)} has degrees of freedom and cannot be run: {', '.join(lacking)}"
+    if dynamic_scenes := list_scenes_without_masses(mechanism, findings):
+        yield (
+            "masses",
+            f"scene {', '.join(dynamic_scenes)} has degrees of freedom and cannot be run: {', '.join(missing_texts)}",
+        )
 
 
 def yield_remarks(mechanism: Mechanism, findings: Findings) -> Iterator[tuple[str, str]]:
@@ -174,22 +179,22 @@ def yield_remarks(mechanism: Mechanism, findings: Findings) -> Iterator[tuple[st
     first = next(iter(findings.scenes.values()), None)
     if first is None:
         return
-    if (large := _format_size_remark(mechanism, first)) is not None:
-        yield "size", large
+    if (size_remark := _format_size_remark(mechanism, first)) is not None:
+        yield "size", size_remark
     yield from (("curve", message) for message in iterate_seam_notes(first.linkage.source, first.linkage.p))
-    deep = (
+    journal_messages = (
         message
         for scene in findings.scenes.values()
         for message in describe_journals_in_walls(scene.linkage, scene.linkage.p)
     )
-    yield from (("start", message) for message in dict.fromkeys(deep))
+    yield from (("start", message) for message in dict.fromkeys(journal_messages))
     closed = first.closed_mobility
     if closed.loose:
         yield "loose", f"no joint or drive connects {', '.join(closed.loose)} to the ground"
     if closed.freedoms and mechanism.freedoms is None:
         count = f"{closed.freedoms} degree{'' if closed.freedoms == 1 else 's'} of freedom"
-        meant = f"if that is intended, write freedoms: {closed.freedoms}"
-        yield "freedoms", f"{count} with all joints closed: {', '.join(closed.along)}; {meant}"
+        remedy = f"if that is intended, write freedoms: {closed.freedoms}"
+        yield "freedoms", f"{count} with all joints closed: {', '.join(closed.along)}; {remedy}"
         yield from _yield_unattached_body_remarks(mechanism, closed)
     yield from _yield_mass_remark(mechanism, findings)
     if closed.redundant:
@@ -252,20 +257,22 @@ def _yield_ambiguity_remark(findings: Findings) -> Iterator[tuple[str, str]]:
     """Yield a remark if several assemblies follow the guesses of the file equally well, with a guess that separates
     them.
     """
-    if not (alike := findings.equivalent_assemblies):
+    if not (equivalent_assemblies := findings.equivalent_assemblies):
         return
     start = findings.assemblies[0]
-    telling = next(name for name in start.guess if any(_has_different_guess(name, start, other) for other in alike))
-    here, there = (
-        _format_guess_value(telling, start.guess[telling]),
-        [_format_guess_value(telling, a.guess[telling]) for a in alike],
+    guess_name = next(
+        name for name in start.guess if any(_has_different_guess(name, start, other) for other in equivalent_assemblies)
     )
-    others = ", ".join(dict.fromkeys(value for value in there if value != here))
+    start_text, other_texts = (
+        _format_guess_value(guess_name, start.guess[guess_name]),
+        [_format_guess_value(guess_name, a.guess[guess_name]) for a in equivalent_assemblies],
+    )
+    values_text = ", ".join(dict.fromkeys(value for value in other_texts if value != start_text))
     yield (
         "assemblies",
         (
-            f"{len(alike) + 1} assemblies follow the guesses of the start equally well: also guess {telling},"
-            f" {here} as in the present start or {others}; --branches lists all"
+            f"{len(equivalent_assemblies) + 1} assemblies follow the guesses of the start equally well:"
+            f" also guess {guess_name}, {start_text} as in the present start or {values_text}; --branches lists all"
         ),
     )
 
@@ -288,8 +295,8 @@ def yield_assembly_lines(findings: Findings) -> Iterator[str]:
     noun = "assembly" if count == 1 else "assemblies"
     yield f"{count} {noun} found at the start; each is selected by its start: {{guess: …}}"
     for number, assembly in enumerate(findings.assemblies, 1):
-        here = "  as in the file" if assembly.is_start else ""
-        yield f"  {number}  {format_guess(assembly)}{here}"
+        mark = "  as in the file" if assembly.is_start else ""
+        yield f"  {number}  {format_guess(assembly)}{mark}"
     if any(assembly.guess for assembly in findings.assemblies):
         yield "     replace the guess of the file: with two guesses, both are followed"
 

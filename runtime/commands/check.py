@@ -48,7 +48,7 @@ def check_mechanism(
     """
     from gudgeon.generator.reader.read import read_mechanism
 
-    given, file = parse_settings(settings), find_mechanism(name)
+    overrides, file = parse_settings(settings), find_mechanism(name)
     try:
         data = read_bytes(file)
         mechanism = read_mechanism(data, str(file))
@@ -59,7 +59,7 @@ def check_mechanism(
         return error.exit_code
     seconds: dict[str, dict[str, float]] = {scene: {} for scene in mechanism.scenes}
     with show_status_line(quiet=as_json):
-        findings = assembly_report.assemble_scenes(mechanism, branches, given)
+        findings = assembly_report.assemble_scenes(mechanism, branches, overrides)
         scenes = {
             scene: derive_kernel_source(data, file, scene, seconds=seconds[scene])
             for scene in mechanism.scenes
@@ -74,15 +74,15 @@ def check_mechanism(
             f"{_format_counts(mechanism)}; {assembly_report.format_degrees_of_freedom(findings)}",
         )
     )
-    for whose, remark in assembly_report.yield_remarks(mechanism, findings):
-        print(_wrap_labelled_text(f"  {whose}", remark))
+    for subject, remark in assembly_report.yield_remarks(mechanism, findings):
+        print(_wrap_labelled_text(f"  {subject}", remark))
     for line in assembly_report.yield_assembly_lines(findings) if branches else ():
         print(line)
     if scenes:
         _print_scenes(mechanism, scenes, seconds)
     for scene, problem in findings.errors.items():
-        message = "" if len(findings.errors) == len(mechanism.scenes) else f"scene {scene}: "
-        raise AssemblyError(f"{message}{problem}")
+        prefix = "" if len(findings.errors) == len(mechanism.scenes) else f"scene {scene}: "
+        raise AssemblyError(f"{prefix}{problem}")
     return _find_exit_code(mechanism, findings)
 
 
@@ -115,8 +115,8 @@ def _format_counts(mechanism: Mechanism) -> str:
         (len(mechanism.joints), "joint", "joints"),
         (len(mechanism.drives), "drive", "drives"),
     ]
-    words = [f"{count} {singular if count == 1 else more}" for count, singular, more in numbers]
-    return f"{', '.join(words)}; scenes {', '.join(mechanism.scenes)}"
+    count_texts = [f"{count} {singular if count == 1 else plural}" for count, singular, plural in numbers]
+    return f"{', '.join(count_texts)}; scenes {', '.join(mechanism.scenes)}"
 
 
 def _build_scene_counts(source: KernelSource) -> dict[str, int]:
@@ -338,7 +338,7 @@ def build_log_document(log: ReductionLog) -> dict[str, Any]:
     """Return the reduction log for `--json`, each step with the numbers of coordinates and constraint equations
     left.
     """
-    left = [{"coordinates left": n, "rows left": m} for _, n, m in log.iterate_steps()]
+    remaining_counts = [{"coordinates left": n, "rows left": m} for _, n, m in log.iterate_steps()]
     data = asdict(log)
-    data["steps"] = [step | counts for step, counts in zip(data["steps"], left, strict=True)]
+    data["steps"] = [step | counts for step, counts in zip(data["steps"], remaining_counts, strict=True)]
     return data

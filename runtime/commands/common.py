@@ -94,9 +94,11 @@ def check_addresses(addresses: Iterable[str], file: str, sources: Sequence[Kerne
         for source in sources:
             message, hint = explain_address(source, name)
             if message:
-                every = (*source.written, *source.expressions)
-                meant = (name, f"expressions.{name}")
-                location = next((Location(file, w.line, w.column) for w in every if w.address in meant), None)
+                entries = (*source.written, *source.expressions)
+                addresses_in_file = (name, f"expressions.{name}")
+                location = next(
+                    (Location(file, w.line, w.column) for w in entries if w.address in addresses_in_file), None
+                )
                 raise UnknownNameError(f"--set: {message}", location, hint)
         raise make_missing_name_error(f"--set: no scene has a parameter {name!r}", name, known_addresses)
 

@@ -142,9 +142,9 @@ def _draw_at_time(request: DrawRequest, draw_time: float, values: Mapping[str, f
         try:
             run = simulation.simulate(draw_time, parameters=values, progress=make_bar(request.scene), peaks=())
         except SolverError as error:  # its hint concerns results of runs
-            why, _, _ = str(error).partition("\n")
+            reason, _, _ = str(error).partition("\n")
             hint = "draw an earlier time; gudgeon run shows the motion up to the failure"
-            raise SolverError(f"{why}\n  {hint}", error.time, error.pivot) from error
+            raise SolverError(f"{reason}\n  {hint}", error.time, error.pivot) from error
         except BadValueError as error:
             if not error.message.startswith("t_end is"):
                 raise
@@ -270,6 +270,8 @@ def _draw_assemblies(mechanism: Mechanism, problem: AssemblyProblem, q: Array) -
     configurations = [
         _make_configuration(linkage, assembly.q, _find_velocities(problem, assembly.q)[0]) for assembly in assemblies
     ]
-    here = {True: " (as in the file)", False: ""}
-    titles = [f"{k}  {format_guess(assembly)}{here[assembly.is_start]}" for k, assembly in enumerate(assemblies, 1)]
+    start_marks = {True: " (as in the file)", False: ""}
+    titles = [
+        f"{k}  {format_guess(assembly)}{start_marks[assembly.is_start]}" for k, assembly in enumerate(assemblies, 1)
+    ]
     return _make_sketches(mechanism, problem, configurations), titles

@@ -74,8 +74,8 @@ def _emit_fmu(mechanism: str, target: Path, scene_names: tuple[str, ...]) -> int
     with show_status_line():
         simulation = load(mechanism, scene=scenes[0])
         write_fmu(simulation, target)
-    why = explain_exchange_obstacle(simulation.source)
-    kinds = f"Co-Simulation only ({why})" if why else "Co-Simulation and Model Exchange"
+    obstacle = explain_exchange_obstacle(simulation.source)
+    kinds = f"Co-Simulation only ({obstacle})" if obstacle else "Co-Simulation and Model Exchange"
     report_written_file("fmu", target, f": FMI 3.0, {kinds}, scene {scenes[0]}")
     if others := [scene for scene in select_scenes(mechanism, ()) if scene not in scenes and not scene_names]:
         report_note(f"other scenes, by --scene: {', '.join(others)}")
@@ -169,12 +169,12 @@ def refuse_foreign_files(folder: Path, subfolders: Collection[str] = ()) -> None
         if not sums_by_name and read_regular_file(folder / CHECKSUM_LIST):
             message = f"{folder / CHECKSUM_LIST} is not a list of checksums that `emit` wrote"
             raise InputError(message, hint="restore the list, remove the folder, or name another one")
-        own = (
+        known_names = (
             path.name
             for path in folder.iterdir()
             if _is_unchanged_output(path, sums_by_name) or _is_named_folder(path, subfolders)
         )
-        foreign = sorted({path.name for path in folder.iterdir()} - set(own))
+        foreign = sorted({path.name for path in folder.iterdir()} - set(known_names))
     except OSError as error:
         raise InputError(f"{shown} cannot be read: {error.strerror or error}", hint="name another folder") from error
     listed_names = [name for name in foreign if name in sums_by_name]

@@ -66,9 +66,9 @@ def _check_notebook_run(mechanism: str, scene: str, notebook: Path) -> None:
             with report_work(f"running {simulation.source.mechanism}, scene {scene}, as the notebook will"):
                 run = simulation.simulate()
     except GudgeonError as error:
-        message = GudgeonError(f"{format_path(notebook)} is written, but the run in its last cells fails: {error}")
-        message.exit_code = error.exit_code
-        raise message from error
+        failure = GudgeonError(f"{format_path(notebook)} is written, but the run in its last cells fails: {error}")
+        failure.exit_code = error.exit_code
+        raise failure from error
     if run.diagnostics.interrupted:
         raise KeyboardInterrupt
 

@@ -123,8 +123,8 @@ def _select_law_values(law: Law, name: str, settings: Mapping[str, float | str])
     for key in settings:
         if key not in fields:
             raise make_unknown_name_error(f"key of {name}", key, tuple(fields), None)
-    made: Mapping[str, str | bool] = law.also.get(name, {})
-    options = {field.name: made.get(field.name, field.default_option) for field in law.options}
+    fixed_options: Mapping[str, str | bool] = law.also.get(name, {})
+    options = {field.name: fixed_options.get(field.name, field.default_option) for field in law.options}
     numbers: dict[str, Any] = {}
     description = []
     for field in fields.values():
@@ -243,16 +243,16 @@ def _draw_normal_force(ax: Axes, law: Function, selected_law: _SelectedLaw) -> N
     from gudgeon.generator.kinds.laws.built import count_further_variables
 
     delta = np.linspace(0.0, MAX_PENETRATION * STEEL_JOINT["c"], N_POINTS)
-    further = [APPROACH_SPEED] * count_further_variables(selected_law.law)
-    curves = {ratio: law(delta, ratio, *(ratio * x for x in further))["F_n"] for ratio in RATE_RATIOS}
-    same = np.array_equal(curves[1.0], curves[-1.0])
+    speeds = [APPROACH_SPEED] * count_further_variables(selected_law.law)
+    curves = {ratio: law(delta, ratio, *(ratio * x for x in speeds))["F_n"] for ratio in RATE_RATIOS}
+    are_equal = np.array_equal(curves[1.0], curves[-1.0])
     lines = (
         [(curves[1.0], "approach and separation")]
-        if same
+        if are_equal
         else [(curve, f"{RATE_RATIOS[ratio]}, δ̇/δ̇⁻ = {ratio:g}".replace("-", "−")) for ratio, curve in curves.items()]
     )
     _draw_curves(ax, delta, iter(lines), ("δ", "m"), ("F_n", "N"))
-    by_speed = bool(further) and not np.array_equal(law(delta, 1.0, 0.0)["F_n"], curves[1.0])
+    by_speed = bool(speeds) and not np.array_equal(law(delta, 1.0, 0.0)["F_n"], curves[1.0])
     ax.set_title(STEEL_JOINT_TEXT + f", δ̇⁻ = {APPROACH_SPEED:g} m/s" * by_speed)
 
 

@@ -159,12 +159,14 @@ def _check_options(map_options: MapOptions, step: float | None) -> None:
                 message = f"--range {text}: all runs of a box have the same {_get_axis_name(text)}"
                 raise BadValueError(message, hint="--at gives it")
     elif map_options.at is not None and (setting_names or len(map_options.axes) < 2):
-        what = "step" if map_options.fixed else "rtol"
+        setting_name = "step" if map_options.fixed else "rtol"
         raise BadValueError(
-            f"--at {map_options.at}: {what} is an axis of the map", hint="give two other axes, or --box"
+            f"--at {map_options.at}: {setting_name} is an axis of the map", hint="give two other axes, or --box"
         )
-    rows = map_options.box is None and map_options.fixed and ("step" in setting_names or len(map_options.axes) < 2)
-    if step is not None and not rows:
+    has_step_rows = (
+        map_options.box is None and map_options.fixed and ("step" in setting_names or len(map_options.axes) < 2)
+    )
+    if step is not None and not has_step_rows:
         raise BadValueError("--mark-step: no row is a step", hint="with --method rk4 the rows of the map are steps")
 
 
@@ -183,8 +185,8 @@ def _check_varied_once(option: str, texts: Sequence[str]) -> None:
 
 def _check_axis_names(map_options: MapOptions, simulations: Sequence[Simulation]) -> None:
     """Raise UnknownNameError, with the nearest names, for the name of an axis or range that no scene has."""
-    every = [name for simulation in simulations for name in list_addresses(simulation.source)]
-    known_names = tuple(dict.fromkeys([*SETTINGS, "clearance", *GROUPS, *every]))
+    addresses = [name for simulation in simulations for name in list_addresses(simulation.source)]
+    known_names = tuple(dict.fromkeys([*SETTINGS, "clearance", *GROUPS, *addresses]))
     for option, texts in (("--axis", map_options.axes), ("--range", map_options.ranges)):
         for text in texts:
             if "=" in text and _get_axis_name(text) not in known_names:

@@ -110,8 +110,8 @@ def run_scenes(request: RunRequest) -> int:
     check_output_folder("--out", request.out)
     names = dict.fromkeys([IDEAL_SCENE, *select_scenes(request.file, request.scenes)])
     with show_status_line(quiet=request.json):
-        renew, how = request.regenerate, request.formulation
-        simulations = {name: load(request.file, name, regenerate=renew, formulation=how) for name in names}
+        regenerate, formulation = request.regenerate, request.formulation
+        simulations = {name: load(request.file, name, regenerate=regenerate, formulation=formulation) for name in names}
     _check_request(request, values, simulations)
     for name, simulation in simulations.items():
         path = _build_result_path(request.out, simulation.source.mechanism, name)
@@ -265,8 +265,8 @@ def _write_results(request: RunRequest, simulations: Mapping[str, Simulation], o
             """Save these results again, after their diagnostics have changed."""
             _save_results(request, some, outcome)
 
-        message = outcome.files, outcome.write_errors, request.json
-        write_reports(runs, simulations, outcome.references, request.out, save, *message)
+        report_arguments = outcome.files, outcome.write_errors, request.json
+        write_reports(runs, simulations, outcome.references, request.out, save, *report_arguments)
     first = outcome.runs.get(IDEAL_SCENE) or next(iter([*outcome.references.values(), *outcome.runs.values()]))
     watch = request.watch or choose_default_series(first)
     reports = [compute_scene_report(run, outcome.references.get(scene), watch) for scene, run in runs.items()]
@@ -286,8 +286,8 @@ def _find_reference_runs(ideal: Simulation, outcome: RunOutcome) -> None:
             try:
                 reference = _find_ideal_run(ideal, run, outcome)
             except (GudgeonError, MemoryError) as error:
-                message = MemoryShortage(error) if isinstance(error, MemoryError) else error
-                outcome.failures.setdefault(IDEAL_SCENE, message)
+                failure = MemoryShortage(error) if isinstance(error, MemoryError) else error
+                outcome.failures.setdefault(IDEAL_SCENE, failure)
                 continue
             if len(reference.t) < len(run.t):
                 outcome.interrupted = True
@@ -297,8 +297,8 @@ def _find_reference_runs(ideal: Simulation, outcome: RunOutcome) -> None:
 
 def _find_ideal_run(ideal: Simulation, run: Result, outcome: RunOutcome) -> Result:
     """Return the ideal run with the sample times and parameter values of `run`; one that `outcome` has is reused."""
-    shared = {slot.address for slot in ideal.source.slots}
-    values = {address: number for address, number in run.parameters.items() if address in shared}
+    common_addresses = {slot.address for slot in ideal.source.slots}
+    values = {address: number for address, number in run.parameters.items() if address in common_addresses}
     for other in (outcome.runs.get(IDEAL_SCENE), *outcome.references.values()):
         if other and np.array_equal(other.t, run.t) and all(other.parameters[a] == v for a, v in values.items()):
             return other
@@ -356,8 +356,8 @@ def _show_results(request: RunRequest, source: KernelSource, reports: list[Scene
 
     if request.json:
         scenes = {
-            name: message | {"beyond": find_exceeded_limits(outcome.runs[name])}
-            for name, message in convert_to_json_values(reports).items()
+            name: notes | {"beyond": find_exceeded_limits(outcome.runs[name])}
+            for name, notes in convert_to_json_values(reports).items()
         }
         document = {"mechanism": source.mechanism, "scenes": scenes, "files": outcome.files}
         print_json(document)
@@ -366,13 +366,13 @@ def _show_results(request: RunRequest, source: KernelSource, reports: list[Scene
         for table in build_tables(source.title or source.mechanism, reports, console.width, request.verbose):
             console.print(table)
         runs = [(r.scene, outcome.runs[r.scene]) for r in reports]
-        message = [
+        notes = [
             f"{name}: {note}" for name, run in runs for note in (*run.diagnostics.notes, *find_exceeded_limits(run))
         ]
-        message += [
+        notes += [
             f"{name}: {note}" for name, note in outcome.optimization_notes.items() if note and name in outcome.runs
         ]
-        for note in dict.fromkeys(message):
+        for note in dict.fromkeys(notes):
             console.print(f"note: {escape_invisible(note)}")
         print("".join(f"wrote {format_path(path)}\n" for path in outcome.files.values()), end="")
     outcome.shown = True
@@ -386,25 +386,27 @@ def check_memory_and_disk(request: RunRequest, scenes: Mapping[str, tuple[Simula
     """
     from gudgeon.results.series import get_catalogue
 
-    given, counts = request.output, dict[str, float]()
+    requested_output, counts = request.output, dict[str, float]()
     for name, (simulation, p) in scenes.items():
         counts[name] = 1.0 + (
-            evaluate_scene_number(simulation.source, "output", p, DEFAULT_OUTPUT) if given is None else given
+            evaluate_scene_number(simulation.source, "output", p, DEFAULT_OUTPUT)
+            if requested_output is None
+            else requested_output
         )
     samples_text = f"{len(scenes)} scenes of {max(counts.values()):.0f} samples"
-    each = {
+    bytes_per_sample = {
         name: compute_sample_bytes(simulation.compiled) + compute_evaluation_bytes(simulation.compiled)
         for name, (simulation, _) in scenes.items()
     }
-    check_memory(sum(counts[name] * each[name] for name in scenes), samples_text)
+    check_memory(sum(counts[name] * bytes_per_sample[name] for name in scenes), samples_text)
     if find_spec("h5py"):
         files = [
             8.0 * counts[name] * (1 + len(get_catalogue(simulation.source))) for name, (simulation, _) in scenes.items()
         ]
-        older = sum(
+        old_bytes = sum(
             _get_file_size(request.out, simulation.source.mechanism, name) for name, (simulation, _) in scenes.items()
         )
-        check_disk(request.out, max(*files, sum(files) - older), f"the results, {samples_text},")
+        check_disk(request.out, max(*files, sum(files) - old_bytes), f"the results, {samples_text},")
 
 
 def _get_file_size(out: Path, mechanism: str, scene: str) -> int:

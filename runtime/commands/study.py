@@ -76,7 +76,7 @@ def run_study_file(request: StudyRequest) -> int:
         return report_study(request.finished, request.out, request.json)
     if request.file == REPORT and not Path(REPORT).exists():
         raise BadValueError(f"study {REPORT}: the folder is missing", hint=f"gudgeon study {REPORT} NAME.study")
-    given = parse_settings(tuple(request.sets or ()))
+    overrides = parse_settings(tuple(request.sets or ()))
     if request.folder.suffix.lower() == ".html":
         hint = f"name a folder; gudgeon study {REPORT} FOLDER --out {shorten_path(request.folder)} writes the page"
         raise BadValueError(
@@ -85,7 +85,7 @@ def run_study_file(request: StudyRequest) -> int:
     if not request.runs:
         check_output_folder("--out", request.folder)
     with show_status_line(quiet=request.json):
-        plans = resolve_plans(request.file, given, request.starts, request.seed)
+        plans = resolve_plans(request.file, overrides, request.starts, request.seed)
     if request.runs:
         estimates = {name: estimate_study(plan, request.threads) for name, plan in plans.each.items()}
         report_estimates(plans, estimates, request.json)

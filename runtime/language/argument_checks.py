@@ -174,8 +174,8 @@ def check_names(value: Any, name: str, expected: str) -> list[str]:
     """Return one name, or several in any sequence or set, as a list of plain str. Raises BadValueError with
     `expected`.
     """
-    every = [value] if isinstance(value, str) else check_list(value, name, str, expected)
-    return [str.__str__(check_text(text, name, expected)) for text in every]
+    texts = [value] if isinstance(value, str) else check_list(value, name, str, expected)
+    return [str.__str__(check_text(text, name, expected)) for text in texts]
 
 
 def check_instance(value: Any, name: str, item_type: type[Item]) -> Item:
@@ -205,5 +205,5 @@ def check_optional_positive(value: Any, name: str) -> float | None:
 
 def check_numbers(values: Any, name: str) -> list[float]:
     """Return the finite numbers of a list, array or column as floats; [] for None. Raises BadValueError."""
-    every: list[Any] = [] if values is None else check_list(values, name, object, "a list of numbers")
-    return [check_number(value, f"{name}[{k}]") for k, value in enumerate(every)]
+    values_list: list[Any] = [] if values is None else check_list(values, name, object, "a list of numbers")
+    return [check_number(value, f"{name}[{k}]") for k, value in enumerate(values_list)]

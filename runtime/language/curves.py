@@ -290,8 +290,8 @@ def _build_not_a_knot_equation(a: float, b: float, p: float, q: float) -> tuple[
 
     The outer piece has length a and mean slope p, its neighbour b and q.
     """
-    both = a + b
-    return both, ((a + 2.0 * both) * b * p + a * a * q) / both
+    total_length = a + b
+    return total_length, ((a + 2.0 * total_length) * b * p + a * a * q) / total_length
 
 
 def _compute_periodic_slopes(h: Sequence[float], mean_slopes: Sequence[float]) -> list[float]:
@@ -306,17 +306,19 @@ def _compute_periodic_slopes(h: Sequence[float], mean_slopes: Sequence[float]) -
     ]
     corner_up, corner_down = rows[0][0], rows[-1][2]  # entries (first, last) and (last, first)
     shift = -rows[0][1]
-    kept = [list(row) for row in rows]
-    kept[0][1] -= shift
-    kept[-1][1] -= corner_up * corner_down / shift
-    correction = _solve_tridiagonal(kept)
-    for row in kept:
+    modified_rows = [list(row) for row in rows]
+    modified_rows[0][1] -= shift
+    modified_rows[-1][1] -= corner_up * corner_down / shift
+    correction = _solve_tridiagonal(modified_rows)
+    for row in modified_rows:
         row[3] = 0.0
-    kept[0][3], kept[-1][3] = shift, corner_down
-    other = _solve_tridiagonal(kept)
+    modified_rows[0][3], modified_rows[-1][3] = shift, corner_down
+    correction_by_corner = _solve_tridiagonal(modified_rows)
     fraction = corner_up / shift
-    factor = (correction[0] + fraction * correction[-1]) / (1.0 + other[0] + fraction * other[-1])
-    slopes = [a - factor * b for a, b in zip(correction, other, strict=True)]
+    factor = (correction[0] + fraction * correction[-1]) / (
+        1.0 + correction_by_corner[0] + fraction * correction_by_corner[-1]
+    )
+    slopes = [a - factor * b for a, b in zip(correction, correction_by_corner, strict=True)]
     return [*slopes, slopes[0]]
 
 

@@ -176,5 +176,5 @@ def make_missing_name_error(message: str, name: str, known_names: tuple[str, ...
     if len(known_names) <= 12:
         return UnknownNameError(message, hint=f"there are: {', '.join(known_names)}")
     short, addresses = [n for n in known_names if "." not in n], [n for n in known_names if "." in n]
-    there = [*short[:20], "and addresses such as " * bool(short) + ", ".join(addresses[: 1 if short else 6])]
-    return UnknownNameError(message, hint=f"there are: {', '.join(there)}{'' if short else ' and more'}")
+    shown_names = [*short[:20], "and addresses such as " * bool(short) + ", ".join(addresses[: 1 if short else 6])]
+    return UnknownNameError(message, hint=f"there are: {', '.join(shown_names)}{'' if short else ' and more'}")

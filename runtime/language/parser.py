@@ -214,9 +214,11 @@ class _Parser:
             self.advance()
             return self.parse_name(token, level)
         if token.text != "(":
-            what = f"got {token}" if token.text or token.offset else "got nothing"
+            found_text = f"got {token}" if token.text or token.offset else "got nothing"
             self.raise_error(
-                f"expected a number, a name or '(', {what}", token.offset, "an expression such as 80 mm or 2*pi * t"
+                f"expected a number, a name or '(', {found_text}",
+                token.offset,
+                "an expression such as 80 mm or 2*pi * t",
             )
         self.advance()
         inner = self.parse_sum(level + 1)
@@ -247,8 +249,8 @@ class _Parser:
                 self.raise_error(f"unknown function {token.text!r}", token.offset, hint)
             return self.register_node(Name(token.text, token.offset))
         if not is_call:
-            what = "curve" if token.text in self.curves else "function"
-            self.raise_error(f"{token.text!r} is a {what}", token.offset, f"expected {token.text}(…)")
+            kind = "curve" if token.text in self.curves else "function"
+            self.raise_error(f"{token.text!r} is a {kind}", token.offset, f"expected {token.text}(…)")
         arguments = self.parse_arguments(token, level + 1)
         call = Call(token.text, arguments, token.offset)
         if token.text in self.curves:

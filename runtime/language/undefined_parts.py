@@ -60,10 +60,10 @@ def _iterate_masked_parts(expr: Expr, known_values: Mapping[str, float]) -> Iter
             yield from _iterate_masked_parts(right, known_values)
         case Call(function=function, arguments=arguments):
             if function == "where":
-                less, more, then, otherwise = arguments
-                is_less = evaluate(less, known_values.__getitem__) < evaluate(more, known_values.__getitem__)
+                lower, greater, then, otherwise = arguments
+                is_less = evaluate(lower, known_values.__getitem__) < evaluate(greater, known_values.__getitem__)
                 selected, other = (then, otherwise) if is_less else (otherwise, then)
-                arguments = (less, more, selected, *_iterate_constant_parts(other, {}))
+                arguments = (lower, greater, selected, *_iterate_constant_parts(other, {}))
             yield from arguments
             if function in DIVIDING:
                 yield Binary("/", Number(1.0), arguments[-1])

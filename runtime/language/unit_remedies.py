@@ -169,13 +169,13 @@ def _find_remedy(
         or len(text) > _MAX_LENGTH
     ):
         return ""
-    found = _find_quantity(text, error_location.column - location.column, names)
-    if found is None:
+    quantity = _find_quantity(text, error_location.column - location.column, names)
+    if quantity is None:
         return ""
 
     def list_accepted_proposals(proposals: Iterable[str], max_count: int) -> list[str]:
         """Return the first `max_count` proposals that give a valid value in place of the quantity, each once."""
-        before, after = text[: found.begin], text[found.end :]
+        before, after = text[: quantity.begin], text[quantity.end :]
         divides = before.rstrip().endswith(("/", "**"))
         bracketed = (
             f"({proposal})" if divides and re.search(r"[*(]", proposal) else proposal for proposal in proposals
@@ -187,17 +187,17 @@ def _find_remedy(
         )
         return list(itertools.islice(dict.fromkeys(fitting), max_count))
 
-    written = text[found.begin : found.end]
-    for proposals, most in _iterate_proposals(text, found, names, expected):
-        if shown := list_accepted_proposals(proposals, most):
+    written = text[quantity.begin : quantity.end]
+    for proposals, max_shown in _iterate_proposals(text, quantity, names, expected):
+        if shown := list_accepted_proposals(proposals, max_shown):
             differ = ": they differ by 2*pi" if any("rev" in proposal for proposal in shown) and shown[1:] else ""
             return f"write {' or '.join(shown)}{differ}"
-    guess = find_nearest_name(text[found.unit_at : found.end], UNITS, 0.6) if not found.factors else None
-    if guess and list_accepted_proposals([f"{found.number} {guess}"], 1):
-        return f"did you mean {guess if text[: found.unit_at].endswith(' ') else f'{found.number} {guess}'!r}?"
+    guess = find_nearest_name(text[quantity.unit_at : quantity.end], UNITS, 0.6) if not quantity.factors else None
+    if guess and list_accepted_proposals([f"{quantity.number} {guess}"], 1):
+        return f"did you mean {guess if text[: quantity.unit_at].endswith(' ') else f'{quantity.number} {guess}'!r}?"
     if expected is not None:
-        listed = list_accepted_proposals((f"{found.number} {proposal}" for proposal in UNITS), _MAX_LISTED)
-        if units := ", ".join(proposal.removeprefix(f"{found.number} ") for proposal in listed):
+        listed = list_accepted_proposals((f"{quantity.number} {proposal}" for proposal in UNITS), _MAX_LISTED)
+        if units := ", ".join(proposal.removeprefix(f"{quantity.number} ") for proposal in listed):
             return f"units that fit here: {units}"
     if re.match("did you mean|write|.* is written|a power of", error.hint):  # it was not tried, and does not fit
         return f"expected {describe_dimension(expected)}" if expected else f"units are {', '.join([*UNITS][:12])}, …"
@@ -306,20 +306,20 @@ def _list_unit_meanings(symbol: str) -> list[tuple[Decimal, str]]:
     if symbol in _OTHER_UNITS:
         return [(Decimal(candidate.split()[0]), candidate.split()[1]) for candidate in _OTHER_UNITS[symbol]]
     for prefix in ("da", symbol[:1]):
-        rest = symbol.removeprefix(prefix)
-        if prefix in _PREFIXES and rest != symbol and rest in _PREFIXED:
-            if find_symbol_dimension(plain := prefix.translate(_PLAIN) + rest):
-                return [(Decimal(1), plain)]
-            return [(Decimal(_PREFIXES[prefix]) * number, unit) for number, unit in _list_unit_meanings(rest)]
+        base_symbol = symbol.removeprefix(prefix)
+        if prefix in _PREFIXES and base_symbol != symbol and base_symbol in _PREFIXED:
+            if find_symbol_dimension(listed_symbol := prefix.translate(_PLAIN) + base_symbol):
+                return [(Decimal(1), listed_symbol)]
+            return [(Decimal(_PREFIXES[prefix]) * number, unit) for number, unit in _list_unit_meanings(base_symbol)]
     candidates = [
         candidate for candidate in (*UNITS, *_OTHER_UNITS) if candidate.lower() == symbol.lower() and len(symbol) > 1
     ]
     differences = {candidate: sum(a != b for a, b in zip(candidate, symbol, strict=True)) for candidate in candidates}
     return [
-        meant
+        meaning
         for candidate in candidates
         if differences[candidate] == min(differences.values())
-        for meant in _list_unit_meanings(candidate)
+        for meaning in _list_unit_meanings(candidate)
     ]
 
 
@@ -388,31 +388,31 @@ def _format_quantity(number: str, factors: Sequence[tuple[tuple[Decimal, str], F
 
     factors: pairs of a meaning (number, listed unit) and its power.
     """
-    scale, above, below, rest = Decimal(1), list[str](), list[str](), ""
+    scale, above, below, suffix = Decimal(1), list[str](), list[str](), ""
     for (times, symbol), power in factors:
         if times != 1 and power != 1:
             base, operator = f"({times} {symbol})", "/" if power < 0 else " * "
-            rest += operator + base + (f"**{_format_power(abs(power))}" if abs(power) != 1 else "")
+            suffix += operator + base + (f"**{_format_power(abs(power))}" if abs(power) != 1 else "")
             continue
         scale *= times
-        for sign, unit, own in re.findall(rf"(^|[*/])(?:1/)?({_SYMBOL})(?:\^(\d))?", symbol):
-            exponent = power * int(own or 1) * (-1 if sign == "/" or symbol.startswith("1/") else 1)
+        for sign, unit, unit_power in re.findall(rf"(^|[*/])(?:1/)?({_SYMBOL})(?:\^(\d))?", symbol):
+            exponent = power * int(unit_power or 1) * (-1 if sign == "/" or symbol.startswith("1/") else 1)
             if (
                 not _is_power(exponent)
                 or exponent.denominator == 2
                 and not find_unit(f"{unit}^{_format_power(abs(exponent))}")
             ):
-                rest += f" * (1 {unit})**{_format_power(exponent)}"
+                suffix += f" * (1 {unit})**{_format_power(exponent)}"
             else:
-                raised = unit + (f"^{_format_power(abs(exponent))}" if abs(exponent) != 1 else "")
-                (above if exponent > 0 else below).append(raised)
+                unit_text = unit + (f"^{_format_power(abs(exponent))}" if abs(exponent) != 1 else "")
+                (above if exponent > 0 else below).append(unit_text)
     value = number
     if scale != 1:
         scale *= 1 if number == "pi" else Decimal(number)
         scaled = f"{scale.normalize():{'f' if Decimal('1e-5') < scale < Decimal('1e7') else 'e'}}"
         value = f"pi * {scaled}" if number == "pi" else scaled
     written = "*".join(above) or ("1" if below else "")
-    return " ".join(filter(None, (value, "/".join([written, *below])))) + rest
+    return " ".join(filter(None, (value, "/".join([written, *below])))) + suffix
 
 
 def _format_power(power: Fraction) -> str:

@@ -112,5 +112,5 @@ def _build_start_image(scene_or_run: Any) -> str:
 
 def _format_latex_text(text: str) -> str:
     """Return a text as an upright word of a LaTeX formula, with blanks kept and special characters escaped."""
-    marked = _MARKS.sub(lambda found: r"\backslash " if found[1] == "\\" else f"\\{found[1]}", text)
-    return rf"\mathrm{{{marked}}}".replace(" ", r"\ ").replace("Φ", r"\Phi{}")
+    escaped_text = _MARKS.sub(lambda match: r"\backslash " if match[1] == "\\" else f"\\{match[1]}", text)
+    return rf"\mathrm{{{escaped_text}}}".replace(" ", r"\ ").replace("Φ", r"\Phi{}")

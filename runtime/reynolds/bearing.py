@@ -43,8 +43,8 @@ class Bearing:
         for field in fields(self):
             object.__setattr__(self, field.name, check_positive(getattr(self, field.name), field.name))
         if self.clearance >= 0.1 * self.radius:
-            given = f"clearance is {self.clearance:g} m, radius {self.radius:g} m"
-            raise BadValueError(f"{given}: expected a clearance below a tenth of the radius")
+            values_text = f"clearance is {self.clearance:g} m, radius {self.radius:g} m"
+            raise BadValueError(f"{values_text}: expected a clearance below a tenth of the radius")
         if not 1e-6 <= self.l_over_d <= 1e6:
             raise BadValueError(f"length over diameter is {self.l_over_d:g}: expected 1e-6 to 1e6")
 
@@ -68,8 +68,8 @@ def check_vector(vector: ArrayLike, name: str) -> tuple[float, float]:
 def check_eccentricity(ratio: float) -> None:
     """Raise BadValueError unless the eccentricity ratio |e|/c is below 1, where the film thickness is positive."""
     if ratio >= 1.0:
-        given = f"the eccentricity is {ratio:.6g} times the clearance: expected less than 1"
-        raise BadValueError(given, hint="at 1 the film thickness is 0")
+        message = f"the eccentricity is {ratio:.6g} times the clearance: expected less than 1"
+        raise BadValueError(message, hint="at 1 the film thickness is 0")
 
 
 def check_choice(value: object, name: str, allowed_values: Sequence[str]) -> str:
@@ -117,8 +117,8 @@ class Film:
     T0 = μ R³ (ω_j − ω_i) ∬ θ/h dφ dz: the ruptured film has the drag of a full gap, except with elrod_adams, which
     computes θ. At ends and grooves p = 0.
     leakage: outflow of oil over both ends, m³/s. supply: net inflow of oil, m³/s: with elrod_adams from the groove,
-    with half_sommerfeld over the ends where p < 0 (and from a groove), with reynolds at the reformation of the film, where
-    this condition does not conserve oil. taken_up: rate of the oil stored in the gap, m³/s (elrod_adams with ė·e ≠ 0).
+    with half_sommerfeld over the ends where p < 0 (and from a groove), with reynolds at the reformation of the film,
+    where this condition does not conserve oil. taken_up: rate of the oil stored in the gap, m³/s (elrod_adams with ė·e ≠ 0).
     balance: supply − leakage − taken_up, m³/s: rounding error.
     extent: rising directions between which there is pressure in the middle plane, rad, within one cell; None: nowhere,
     or everywhere.

@@ -86,7 +86,8 @@ def deviation(
     deviation.
 
     l_over_d: length over diameter. eps: (n,) in (0, 1). motion: (m,) rad, see Deviation. cavitation, groove, cells: as
-    for `table`. keys: the law's other keys, in SI, without the viscosity. Raises BadValueError, and the errors of `table` and of the law.
+    for `table`. keys: the law's other keys, in SI, without the viscosity. Raises BadValueError, and the errors of
+    `table` and of the law.
     """
     ratio = check_positive(l_over_d, "l_over_d")
     bearing = _make_bearing(ratio)

@@ -184,15 +184,15 @@ def _invert_uniform_angle(values: Array, eps: float) -> Array:
     Safeguarded Newton's method: the bracket is bisected if a step leaves it or is more than half of the last one. Both
     variables differ by at most π. For ε → 1 the slope nearly jumps, so that Newton's method alone may cycle.
     """
-    low, high, phi, last = values - math.pi, values + math.pi, values.copy(), np.full_like(values, FULL_TURN)
+    low, high, phi, last_step = values - math.pi, values + math.pi, values.copy(), np.full_like(values, FULL_TURN)
     for _ in range(200):
-        off = _compute_uniform_angle(phi, eps) - values
-        low, high = np.where(off < 0.0, phi, low), np.where(off > 0.0, phi, high)
-        step = -off / _compute_density(phi, eps)
-        halved = (phi + step <= low) | (phi + step >= high) | (abs(step) > 0.5 * abs(last))
-        last = np.where(halved & (off != 0.0), 0.5 * (low + high) - phi, step)
-        phi = phi + last
-        if float(np.max(abs(last))) <= 1e-14 * float(np.max(abs(values), initial=1.0)):
+        residual = _compute_uniform_angle(phi, eps) - values
+        low, high = np.where(residual < 0.0, phi, low), np.where(residual > 0.0, phi, high)
+        step = -residual / _compute_density(phi, eps)
+        must_bisect = (phi + step <= low) | (phi + step >= high) | (abs(step) > 0.5 * abs(last_step))
+        last_step = np.where(must_bisect & (residual != 0.0), 0.5 * (low + high) - phi, step)
+        phi = phi + last_step
+        if float(np.max(abs(last_step))) <= 1e-14 * float(np.max(abs(values), initial=1.0)):
             break
     return phi
 

@@ -82,8 +82,8 @@ def _yield_cells(model: Model, mechanism: str) -> Iterator[Cell]:
     yield "code", _write_coordinates_code(model, notation, names)
     used = _find_used_parameters(model)
     shown = (notation.format_expression(symbol) for symbol in (*model.q, *model.v, *(entry.symbol for entry in used)))
-    message = ["## Numbers", "Every parameter of the file in an equation has a symbol."]
-    yield "markdown", "\n\n".join((*message, *map(format_block, make_primes_table(notation, shown))))
+    paragraphs = ["## Numbers", "Every parameter of the file in an equation has a symbol."]
+    yield "markdown", "\n\n".join((*paragraphs, *map(format_block, make_primes_table(notation, shown))))
     yield "code", _write_parameters_code(used, notation, names)
     yield from _yield_constraint_cells(model, names)
     if not scene.mechanism.bodies or not model.rows:
@@ -160,7 +160,7 @@ def _yield_constraint_cells(model: Model, names: dict[sp.Symbol, str]) -> Iterat
         rows, name = list(group), f"Phi_{owner}"
         parts.append(f"*{name}")
         if kind == "drive":
-            what, text = f"Drive {owner}", None
+            title, code = f"Drive {owner}", None
         else:
             joint = mechanism.joints[owner]
             joint_type = joint_types()[joint.kind]
@@ -168,16 +168,16 @@ def _yield_constraint_cells(model: Model, names: dict[sp.Symbol, str]) -> Iterat
                 f"{ref.body}.{ref.point}" if joint_type.joins == "points" else ref.body
                 for ref in (joint.first, joint.second)
             )
-            what, text = (
+            title, code = (
                 f"Joint {owner}, {joint_type.title}: {' and '.join(ends)}",
                 _write_revolute_code(model, owner, name, rows, names),
             )
         yield (
             "markdown",
-            f"{escape_markdown(what)}; {', '.join(f'{escape_markdown(row.name)} in {row.unit}' for row in rows)}.",
+            f"{escape_markdown(title)}; {', '.join(f'{escape_markdown(row.name)} in {row.unit}' for row in rows)}.",
         )
         explicit = [format_expression(row.phi, model, names) for row in rows]
-        yield "code", text or f"{name} = {_write_column_by_lines(explicit)}"
+        yield "code", code or f"{name} = {_write_column_by_lines(explicit)}"
     yield "code", f"Phi = {_write_column(parts)}\nPhi"
 
 
@@ -193,10 +193,10 @@ def _write_revolute_code(
     if not joint_types()[joint.kind].is_pivot or len(rows) != 2:
         return None
     lines = []
-    for what, ref in (("first", joint.first), ("second", joint.second)):
+    for prefix, ref in (("first", joint.first), ("second", joint.second)):
         frame = model.geometry.find_point(ref)
         coordinates = [format_expression(component, model, names) for component in (frame.x, frame.y)]
-        lines.append(f"{what}_{joint_name} = {_write_column_by_lines(coordinates)}  # {ref.body}.{ref.point}")
+        lines.append(f"{prefix}_{joint_name} = {_write_column_by_lines(coordinates)}  # {ref.body}.{ref.point}")
     return "\n".join((*lines, f"{variable} = first_{joint_name} - second_{joint_name}"))
 
 

@@ -59,8 +59,8 @@ def _make_mobility_question(subject: Subject) -> Question:
     rows, count, n = [], 0, 3 * len(mechanism.bodies)
     for name, kind in [*((j.name, j.kind) for j in mechanism.joints.values()), *((d, "") for d in mechanism.drives)]:
         n_equations = 0 if name in play else len(joint_types()[kind].row_names) if kind else 1
-        what = joint_types()[kind].title if kind else "drive"
-        rows.append(make_row(name, f"{what}, has play" if name in play else what, str(n_equations)))
+        title = joint_types()[kind].title if kind else "drive"
+        rows.append(make_row(name, f"{title}, has play" if name in play else title, str(n_equations)))
         count += n_equations
     total = Name(f"f = {n} - {count} = {n - count}", f"f = {n} - {count} = {n - count}")
     solved: list[Block] = [
@@ -119,7 +119,7 @@ def _define_new_abbreviations(subject: Subject, quantity: str) -> list[Block]:
         "gamma": [row.gamma for _, row in subject.selected_rows],
     }
     defined_symbols = set[sp.Symbol]()
-    for before in takewhile(lambda what: what != quantity, expressions_of):
+    for before in takewhile(lambda name: name != quantity, expressions_of):
         defined_symbols |= set(list_abbreviations(subject, expressions_of[before]))
     return define_abbreviations(
         subject, [s for s in list_abbreviations(subject, expressions_of[quantity]) if s not in defined_symbols]
@@ -262,8 +262,8 @@ def _define_symbol(subject: Subject, symbol: sp.Symbol) -> list[Block]:
     value = subject.notation.expand_symbols(subject.model.symbols.definitions[symbol])
     for driven in subject.model.constraints.drive_angles.values():
         if symbol in driven:
-            message = _define_by_steps(subject, symbol, driven)
-            return message or [subject.make_equation(symbol, value)]
+            step_blocks = _define_by_steps(subject, symbol, driven)
+            return step_blocks or [subject.make_equation(symbol, value)]
     return [subject.make_equation(symbol, value)]
 
 
@@ -275,27 +275,32 @@ def _define_by_steps(subject: Subject, symbol: sp.Symbol, driven: tuple[sp.Symbo
     """
     notation, t = subject.notation, subject.model.t
     value = notation.expand_symbols(subject.model.symbols.definitions[driven[0]])
-    shares = {
+    progress_by_clamp = {
         clamp: progress for clamp in value.atoms(sp.Max) if (progress := _find_clamped_progress(clamp)) is not None
     }
     used = {name.text for name in notation.names.values()}
-    base = next(sign for sign in ("s", "u", "w", "z") if not {sign, f"{sign}_1"} & used)
-    steps = {clamp: sp.Symbol(base if len(shares) == 1 else f"{base}_{k}") for k, clamp in enumerate(shares, 1)}
-    inside = value.xreplace(steps)
-    if not steps or inside.has(sp.Max, sp.Min, Select):
+    base_symbol = next(sign for sign in ("s", "u", "w", "z") if not {sign, f"{sign}_1"} & used)
+    steps = {
+        clamp: sp.Symbol(base_symbol if len(progress_by_clamp) == 1 else f"{base_symbol}_{k}")
+        for k, clamp in enumerate(progress_by_clamp, 1)
+    }
+    step_expression = value.xreplace(steps)
+    if not steps or step_expression.has(sp.Max, sp.Min, Select):
         return []
-    rates = {steps[clamp]: sp.diff(progress, t) for clamp, progress in shares.items()}
+    rates = {steps[clamp]: sp.diff(progress, t) for clamp, progress in progress_by_clamp.items()}
     for _ in range(driven.index(symbol)):
-        inside = sp.Add(*(_differentiate_in_time(term, rates, t) for term in sp.Add.make_args(inside)))
-    names = {s: Name(s.name if "_" not in s.name else f"{base}_{{{s.name[2:]}}}", s.name) for s in rates}
+        step_expression = sp.Add(
+            *(_differentiate_in_time(term, rates, t) for term in sp.Add.make_args(step_expression))
+        )
+    names = {s: Name(s.name if "_" not in s.name else f"{base_symbol}_{{{s.name[2:]}}}", s.name) for s in rates}
     step_notation = notation.rename_symbols(names)
     shown = [
         Equation(step_notation.format_expression(steps[clamp]), step_notation.format_terms(progress))
-        for clamp, progress in shares.items()
+        for clamp, progress in progress_by_clamp.items()
     ]
     outside_text = " and is constant before and after" if driven.index(symbol) else ", with 0 before and 1 after"
     terms = step_notation.format_terms(
-        sp.Add(*(_expand_progress(term, list(rates)) for term in sp.Add.make_args(inside)))
+        sp.Add(*(_expand_progress(term, list(rates)) for term in sp.Add.make_args(step_expression)))
     )
     return [
         *shown,
@@ -352,12 +357,12 @@ def _make_acceleration_question(subject: Subject) -> Question:
     """Build the question for the largest acceleration, preferably angular, of a coordinate that no drive prescribes."""
     model, drawn, compiled = subject.model, subject.drawn, subject.simulation.compiled
     a, driven = drawn.run.a[-1], {q for row in model.rows if len(row.phi_q) == 1 for q in row.phi_q}
-    turning = [k for k in range(2, len(a), 3) if model.q[k] not in driven]
-    if not turning or np.abs(a[turning]).max() <= ROUNDING_TOL * np.abs(a).max():
-        turning = [k for k in range(len(a)) if model.q[k] not in driven] or [*range(len(a))]
-    k = max(turning, key=lambda k: abs(a[k]))
+    candidates = [k for k in range(2, len(a), 3) if model.q[k] not in driven]
+    if not candidates or np.abs(a[candidates]).max() <= ROUNDING_TOL * np.abs(a).max():
+        candidates = [k for k in range(len(a)) if model.q[k] not in driven] or [*range(len(a))]
+    k = max(candidates, key=lambda k: abs(a[k]))
     name = model.bodies[k // 3].name
-    what = "angular acceleration of" if k % 3 == 2 else f"acceleration in {'xy'[k % 3]} of the centre of"
+    quantity = "angular acceleration of" if k % 3 == 2 else f"acceleration in {'xy'[k % 3]} of the centre of"
     others = tabulate_positions(subject, shows_rates=False, of_other_bodies=True)
     requested = [
         *([make_paragraph("The other bodies are at"), *others, make_paragraph("with the rates")] if others else []),
@@ -365,7 +370,7 @@ def _make_acceleration_question(subject: Subject) -> Question:
         make_paragraph(
             "Drives determine the whole motion. Write all rows of ",
             ACCELERATIONS,
-            f" at {drawn.t:g} s, by hand or by computer, and solve them: how large is the {what} {name}?",
+            f" at {drawn.t:g} s, by hand or by computer, and solve them: how large is the {quantity} {name}?",
         ),
     ]
     phi_q, gamma = compiled.phi_q(drawn.t, drawn.q, drawn.p), compiled.gamma(drawn.t, drawn.q, drawn.v, drawn.p)
@@ -423,16 +428,16 @@ def _make_reaction_question(subject: Subject) -> Iterator[Question]:
     name = str(subject.rng.permutation(np.array(joint_names, object))[0])
     second = mechanism.joints[name].second
     F = [float(drawn.run[f"{name}.{what}"][-1]) for what in ("Fx", "Fy", "F")]
-    message: list[Block] = []
+    requested: list[Block] = []
     if subject.model.degrees_of_freedom:
-        message.append(make_paragraph(f"The accelerations at {drawn.t:g} s, of centres of mass and of angles, are"))
-        message += _tabulate_by_body(subject, drawn.run.a[-1], "x, m/s²", "y, m/s²", "angle, rad/s²")
+        requested.append(make_paragraph(f"The accelerations at {drawn.t:g} s, of centres of mass and of angles, are"))
+        requested += _tabulate_by_body(subject, drawn.run.a[-1], "x, m/s²", "y, m/s²", "angle, rad/s²")
     else:
-        message.append(make_paragraph("Use the accelerations of all bodies from the previous question."))
+        requested.append(make_paragraph("Use the accelerations of all bodies from the previous question."))
     if source.clearances or source.frictions:
-        message.append(make_paragraph("Gravity, forces, friction and joints with play have the resultants g"))
-        message += _tabulate_by_body(subject, _compute_applied_forces(subject), "x, N", "y, N", "angle, N m")
-    message.append(make_paragraph("By ", KKT, f": what force does {name} exert on {second.body}, in ground axes?"))
+        requested.append(make_paragraph("Gravity, forces, friction and joints with play have the resultants g"))
+        requested += _tabulate_by_body(subject, _compute_applied_forces(subject), "x, N", "y, N", "angle, N m")
+    requested.append(make_paragraph("By ", KKT, f": what force does {name} exert on {second.body}, in ground axes?"))
     lambdas = [(k, row) for k, row in enumerate(subject.model.rows, 1) if row.owner == name]
     solved: list[Block] = [
         *_make_balance_blocks(subject, [k - 1 for k, _ in lambdas]),
@@ -452,7 +457,9 @@ def _make_reaction_question(subject: Subject) -> Iterator[Question]:
         for axis, x in zip("xy", F, strict=False)
     ]
     solved.append(subject.make_value_equation(make_symbol_name("F", name), F[2], "N", F[2]))
-    yield Question("The force in a joint", tuple(message), tuple(solved), dict(zip(("Fx", "Fy", "F"), F, strict=True)))
+    yield Question(
+        "The force in a joint", tuple(requested), tuple(solved), dict(zip(("Fx", "Fy", "F"), F, strict=True))
+    )
 
 
 def _make_balance_blocks(subject: Subject, requested: list[int]) -> list[Block]:

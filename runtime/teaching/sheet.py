@@ -109,8 +109,10 @@ def make_subject(model: Model, simulation: Simulation, data: ExerciseData, seed:
     }
     selected = [
         name
-        for kind, most in (("joint", 2), ("drive", 1))
-        for name in np.array(owners_by_kind[kind], object)[sorted(rng.permutation(len(owners_by_kind[kind]))[:most])]
+        for kind, max_count in (("joint", 2), ("drive", 1))
+        for name in np.array(owners_by_kind[kind], object)[
+            sorted(rng.permutation(len(owners_by_kind[kind]))[:max_count])
+        ]
     ]
     return Subject(model, make_notation(model), simulation, data, rng, tuple(selected))
 
@@ -211,9 +213,9 @@ def _format_driven_quantity(drive: Drive) -> str:
     kind, points = drive.kind, drive.points
     if kind == "distance":
         return "distance of " + " and ".join(f"{p.body}.{p.point}" for p in points)
-    what = "angle" if kind == "angle" else drive.coordinate
-    against = drive.reference
-    return f"{what} of {drive.body}" + (f" against {against}" if against else "")
+    quantity = "angle" if kind == "angle" else drive.coordinate
+    reference = drive.reference
+    return f"{quantity} of {drive.body}" + (f" against {reference}" if reference else "")
 
 
 def _build_repetition_blocks(subject: Subject) -> list[Block]:
@@ -221,5 +223,5 @@ def _build_repetition_blocks(subject: Subject) -> list[Block]:
     drawn = subject.drawn
     if not drawn.parameters:
         return [make_paragraph(f"All values are those of the file; the time is {drawn.t:g} s.")]
-    message = [f"{address} = {x}" for address, x in drawn.parameters.items()]
-    return [make_paragraph(f"Drawn: {', '.join(message)}; the time is {drawn.t:g} s. Other values are the file's.")]
+    value_texts = [f"{address} = {x}" for address, x in drawn.parameters.items()]
+    return [make_paragraph(f"Drawn: {', '.join(value_texts)}; the time is {drawn.t:g} s. Other values are the file's.")]

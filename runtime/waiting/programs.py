@@ -74,28 +74,28 @@ class Programs:
         """
         import subprocess
 
-        message: tuple[str, str] | None = None
+        output: tuple[str, str] | None = None
         is_cancelled = _is_cancelled.get()
         with DelayedCtrlC() as ctrl_c:
-            while message is None:
+            while output is None:
                 try:
-                    message = process.communicate(timeout=POLL_INTERVAL_S)
+                    output = process.communicate(timeout=POLL_INTERVAL_S)
                 except subprocess.TimeoutExpired:
                     ctrl_c.raise_delayed()
                     if is_cancelled and is_cancelled():
                         raise KeyboardInterrupt from None
         ctrl_c.raise_delayed()  # a Ctrl-C during the end of the program
-        return message
+        return output
 
     def stop(self, *processes: subprocess.Popen[str]) -> None:
         """Kill those of these programs that are still running, with their child processes, and wait for their ends."""
-        left = [process for process in processes if process.returncode is None]
-        for process in left:
+        running_processes = [process for process in processes if process.returncode is None]
+        for process in running_processes:
             try:
                 os.killpg(process.pid, signal.SIGKILL)
             except OSError:  # the program has ended
                 continue
-        for process in left:
+        for process in running_processes:
             process.communicate()
 
     def __exit__(self, *_: object) -> None:
