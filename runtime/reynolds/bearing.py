@@ -118,8 +118,8 @@ class Film:
     computes θ. At ends and grooves p = 0.
     leakage: outflow of oil over both ends, m³/s. supply: net inflow of oil, m³/s: with elrod_adams from the groove,
     with half_sommerfeld over the ends where p < 0 (and from a groove), with reynolds at the reformation of the film,
-    where this condition does not conserve oil. taken_up: rate of the oil stored in the gap, m³/s (elrod_adams with ė·e ≠ 0).
-    balance: supply − leakage − taken_up, m³/s: rounding error.
+    where this condition does not conserve oil. taken_up: rate of the oil stored in the gap, m³/s
+    (elrod_adams with ė·e ≠ 0). balance: supply − leakage − taken_up, m³/s: rounding error.
     extent: rising directions between which there is pressure in the middle plane, rad, within one cell; None: nowhere,
     or everywhere.
     """

@@ -275,32 +275,29 @@ def _define_by_steps(subject: Subject, symbol: sp.Symbol, driven: tuple[sp.Symbo
     """
     notation, t = subject.notation, subject.model.t
     value = notation.expand_symbols(subject.model.symbols.definitions[driven[0]])
-    progress_by_clamp = {
+    progress_of = {
         clamp: progress for clamp in value.atoms(sp.Max) if (progress := _find_clamped_progress(clamp)) is not None
     }
     used = {name.text for name in notation.names.values()}
-    base_symbol = next(sign for sign in ("s", "u", "w", "z") if not {sign, f"{sign}_1"} & used)
+    base = next(sign for sign in ("s", "u", "w", "z") if not {sign, f"{sign}_1"} & used)
     steps = {
-        clamp: sp.Symbol(base_symbol if len(progress_by_clamp) == 1 else f"{base_symbol}_{k}")
-        for k, clamp in enumerate(progress_by_clamp, 1)
+        clamp: sp.Symbol(base if len(progress_of) == 1 else f"{base}_{k}") for k, clamp in enumerate(progress_of, 1)
     }
-    step_expression = value.xreplace(steps)
-    if not steps or step_expression.has(sp.Max, sp.Min, Select):
+    inner = value.xreplace(steps)
+    if not steps or inner.has(sp.Max, sp.Min, Select):
         return []
-    rates = {steps[clamp]: sp.diff(progress, t) for clamp, progress in progress_by_clamp.items()}
+    rates = {steps[clamp]: sp.diff(progress, t) for clamp, progress in progress_of.items()}
     for _ in range(driven.index(symbol)):
-        step_expression = sp.Add(
-            *(_differentiate_in_time(term, rates, t) for term in sp.Add.make_args(step_expression))
-        )
-    names = {s: Name(s.name if "_" not in s.name else f"{base_symbol}_{{{s.name[2:]}}}", s.name) for s in rates}
+        inner = sp.Add(*(_differentiate_in_time(term, rates, t) for term in sp.Add.make_args(inner)))
+    names = {s: Name(s.name if "_" not in s.name else f"{base}_{{{s.name[2:]}}}", s.name) for s in rates}
     step_notation = notation.rename_symbols(names)
     shown = [
         Equation(step_notation.format_expression(steps[clamp]), step_notation.format_terms(progress))
-        for clamp, progress in progress_by_clamp.items()
+        for clamp, progress in progress_of.items()
     ]
     outside_text = " and is constant before and after" if driven.index(symbol) else ", with 0 before and 1 after"
     terms = step_notation.format_terms(
-        sp.Add(*(_expand_progress(term, list(rates)) for term in sp.Add.make_args(step_expression)))
+        sp.Add(*(_expand_progress(term, list(rates)) for term in sp.Add.make_args(inner)))
     )
     return [
         *shown,
