@@ -69,9 +69,7 @@ def _make_mobility_question(subject: Subject) -> Question:
         make_paragraph(total, "."),
     ]
     if dropped := model.redundancy.dropped:
-        text = (
-            f"{', '.join(dropped)} depend on the others: the rank is {len(model.rows)}, and f = {n - len(model.rows)}"
-        )
+        text = f"{', '.join(dropped)} depend on the others: the rank is {len(model.rows)}, f = {n - len(model.rows)}"
         solved.append(make_paragraph(f"Grübler's count does not hold here: {text}."))
     elif model.rows:
         text = f" is {len(model.rows)}, the number of rows: none depends on the others, and the count is right."

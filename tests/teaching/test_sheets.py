@@ -196,7 +196,7 @@ def test_a_third_parallel_crank_is_one_too_many_for_gruebler(tmp_path: Path) -> 
     (tmp_path / "parallel.yaml").write_text(PARALLEL, encoding="utf-8")
     _, solved, _ = make_exercise(str(tmp_path / "parallel.yaml"), "ideal", 1, None)
     shown = " ".join(render_document(solved, "txt").split())
-    assert "f = 12 - 13 = -1." in shown and "the rank is 12, and f = 0." in shown
+    assert "f = 12 - 13 = -1." in shown and "the rank is 12, f = 0." in shown
 
 
 def test_a_journal_is_where_the_run_has_it() -> None:
