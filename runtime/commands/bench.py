@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from gudgeon.commands.progress import Report
-from gudgeon.commands.studies import MeasurementRequest, find_exit_code, load_scenes, measure_scenes
+from gudgeon.commands.studies import MeasurementRequest, report_interrupted_scenes, load_scenes, measure_scenes
 from gudgeon.contract.methods import OFFERED
 from gudgeon.errors import BadValueError
 from gudgeon.simulation.simulation import Simulation
@@ -53,4 +53,4 @@ def benchmark_file(request: MeasurementRequest, methods: tuple[str, ...] = ()) -
     measured_scenes, interrupted = measure_scenes(simulations, measure_one_scene, request.json)
     if measured_scenes:
         report_bench(simulations[0].source, measured_scenes, table, step, request.json)
-    return find_exit_code(simulations, measured_scenes, interrupted)
+    return report_interrupted_scenes(simulations, measured_scenes, interrupted)

@@ -31,7 +31,9 @@ def complete_files(incomplete: str) -> list[str]:
 
 
 def complete_scenes(context: typer.Context, incomplete: str) -> list[str]:
-    """Return completions of a scene name, from the mechanism on the command line; "ideal" if it is not readable."""
+    """Return completions of a scene name, from the mechanism on the command line, with "ideal"; only "ideal" if the
+    file cannot be read.
+    """
     from gudgeon.generator.yaml import parse_yaml
     from gudgeon.loading.shipped import find_shipped_file, list_shipped_mechanisms
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from gudgeon.commands.progress import Report
-from gudgeon.commands.studies import MeasurementRequest, find_exit_code, load_scenes, measure_scenes
+from gudgeon.commands.studies import MeasurementRequest, report_interrupted_scenes, load_scenes, measure_scenes
 from gudgeon.contract.kernel_source import RuntimeParameter
 from gudgeon.contract.methods import OFFERED
 from gudgeon.errors import BadValueError
@@ -91,7 +91,7 @@ def map_file(request: MeasurementRequest, map_options: MapOptions) -> int:
     measured_scenes, interrupted = measure_scenes(dynamic_simulations, classify_scene, request.json)
     if measured_scenes:
         report_map(dynamic_simulations[0].source, request.file, measured_scenes, table_path, step, request.json)
-    return find_exit_code(dynamic_simulations, measured_scenes, interrupted)
+    return report_interrupted_scenes(dynamic_simulations, measured_scenes, interrupted)
 
 
 def _map_box(
@@ -131,7 +131,7 @@ def _map_box(
     measured_scenes, interrupted = measure_scenes(dynamic_simulations, classify_box, request.json)
     if measured_scenes:
         report_box(dynamic_simulations[0].source, request.file, measured_scenes, table_path, request.json)
-    return find_exit_code(dynamic_simulations, measured_scenes, interrupted)
+    return report_interrupted_scenes(dynamic_simulations, measured_scenes, interrupted)
 
 
 def _check_options(map_options: MapOptions, step: float | None) -> None:

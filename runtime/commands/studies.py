@@ -113,9 +113,12 @@ def measure_scenes(
     return results, False
 
 
-def find_exit_code(simulations: Sequence[Simulation], measured_scenes: Sequence[Measured], interrupted: bool) -> int:
-    """Return the exit code: 0, or 130 after Ctrl-C, which is reported on stderr with the finished runs of each
-    scene.
+def report_interrupted_scenes(
+    simulations: Sequence[Simulation], measured_scenes: Sequence[Measured], interrupted: bool
+) -> int:
+    """Print the number of finished runs of each scene on stderr if Ctrl-C interrupted the command.
+
+    Returns the exit code: 0, or 130 if interrupted.
     """
     if not interrupted:
         return 0

@@ -93,7 +93,7 @@ class Linkage:
         return body
 
     def add_point(self, body: Body, point: str, position: Point) -> None:
-        """Add a point to a body at a position in the body's frame; a point that it has is moved."""
+        """Add a point to a body at a position in the body's frame; if the body has the point already, move it."""
         if point not in body.point_positions:
             self.bodies_by_point.setdefault(point, []).append(body)
         body.point_positions[point] = position

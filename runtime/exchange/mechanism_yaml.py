@@ -258,13 +258,13 @@ def write_mechanism_text(linkage: Linkage) -> str:
 def _convert_to_bar_axes(body: Body) -> tuple[float, dict[str, Point], Point | None]:
     """Return length, other points and centre of mass of a body in the axes of the bar between its first two points.
 
-    The centre of mass is None if the body has none.
+    Coordinates are divided by the length of the bar. The centre of mass is None if the body has none.
     """
     (x_tail, y_tail), (x_head, y_head) = list(body.point_positions.values())[:2]
     length = math.hypot(x_head - x_tail, y_head - y_tail)
 
     def convert_to_bar_axes(position: Point) -> Point:
-        """Return a position of the body's frame in the axes of the bar."""
+        """Return a position of the body's frame in the axes of the bar, divided by its length."""
         dx, dy = position[0] - x_tail, position[1] - y_tail
         longitudinal, transverse = (
             dx * (x_head - x_tail) + dy * (y_head - y_tail),

@@ -72,7 +72,7 @@ def check_label(name: str, item_kind: str, location: Location | None) -> None:
     text.
 
     This is enough for items that no expression and no C identifier names alone: scenes, materials, bearings, contacts.
-    item_kind: of the item. location: for the error; None if there is no file.
+    item_kind: noun for the message, such as "scene". location: for the error; None if there is no file.
     """
     if not IDENTIFIER.fullmatch(name):
         hint = "expected a letter, then letters, digits or '_', in ASCII"
@@ -126,7 +126,7 @@ def describe_lookalike(name: str) -> str:
 def find_near_names(name: str, known_names: Iterable[str], max_names: int = 3, cutoff: float = 0.6) -> list[str]:
     """Return at most `max_names` known names that a mistyped `name` may stand for, the most similar first.
 
-    The beginning of a dotted address may be missing. cutoff: least similarity, 0 to 1.
+    The beginning of a dotted address may be missing. cutoff: smallest similarity, 0 to 1.
     """
     names_by_ending: dict[str, list[str]] = {}
     for candidate in sorted(known_names, key=lambda name: (name.count("."), name)):

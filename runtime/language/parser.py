@@ -189,7 +189,10 @@ class _Parser:
             self.raise_error(f"a division by {self.token.text} can mean two things", self.token.offset, hint)
 
     def parse_signed(self, level: int) -> Expr:
-        """Return the tree of an operand with its signs and an optional power, which binds tighter than a sign."""
+        """Return the tree of an operand with its signs and an optional power, which binds tighter than a sign.
+
+        level: depth of nesting, here and in the next methods.
+        """
         self.check_depth(level, self.token.offset)
         if self.token.kind == "operator" and self.token.text in ("-", "+"):
             sign = self.advance()

@@ -132,7 +132,9 @@ class _Units:
     """Units of parameters: those in the file, else those of similar parameters in the file, else those of plots."""
 
     def __init__(self, simulation: Simulation) -> None:
-        """Read the units from the mechanism file; none if it cannot be read any more."""
+        """Read the unit of each parameter from the mechanism file and count units by SI unit; a file that cannot be
+        read has none.
+        """
         from gudgeon.generator.yaml import parse_yaml
 
         try:
