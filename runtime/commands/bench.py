@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from gudgeon.commands.progress import Report
-from gudgeon.commands.studies import MeasurementRequest, report_interrupted_scenes, load_scenes, measure_scenes
+from gudgeon.commands.studies import MeasurementRequest, load_scenes, measure_scenes, report_interrupted_scenes
 from gudgeon.contract.methods import OFFERED
 from gudgeon.errors import BadValueError
 from gudgeon.simulation.simulation import Simulation

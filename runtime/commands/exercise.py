@@ -87,11 +87,11 @@ def _format_document(document: Document, suffix: str, exercise_data: ExerciseDat
 
     if suffix == ".md":
         return format_document(document)
-    slots = {".html": _fill_html_slots, ".tex": _fill_tex_slots}.get(suffix, lambda _: {})(exercise_data)
-    return render_document(document, suffix.removeprefix("."), **slots)
+    variables = {".html": _build_html_variables, ".tex": _build_tex_variables}.get(suffix, lambda _: {})(exercise_data)
+    return render_document(document, suffix.removeprefix("."), **variables)
 
 
-def _fill_html_slots(exercise_data: ExerciseData) -> dict[str, str]:
+def _build_html_variables(exercise_data: ExerciseData) -> dict[str, str]:
     """Return the variables of the HTML template; "app" contains the sketch as SVG if matplotlib is installed."""
     texts = {"head": "", "app": "", "scripts": ""}
     if (sketch := _make_sketch(exercise_data)) is not None:
@@ -102,7 +102,7 @@ def _fill_html_slots(exercise_data: ExerciseData) -> dict[str, str]:
     return texts
 
 
-def _fill_tex_slots(exercise_data: ExerciseData) -> dict[str, str]:
+def _build_tex_variables(exercise_data: ExerciseData) -> dict[str, str]:
     """Return the variables of the LaTeX template: the sketch as TikZ and its caption; {} without matplotlib."""
     if (sketch := _make_sketch(exercise_data)) is None:
         return {}

@@ -20,7 +20,7 @@ def import_linkage(file: Path, target: Path | None) -> int:
     target exists, the file cannot be read, or the linkage does not assemble.
     """
     text = convert_to_mechanism(file)
-    is_tried = _check_assembly(text, file)
+    is_assembly_checked = _check_assembly(text, file)
     name = next(line.partition(": ")[2] for line in text.splitlines() if line.startswith("name: "))
     target = target or Path(f"{name}.yaml")
     if target.is_symlink() or target.exists():
@@ -29,7 +29,7 @@ def import_linkage(file: Path, target: Path | None) -> int:
     for line in (line for line in text.splitlines()[1:] if line.startswith("# ")):
         report_note(line[2:])
     report_written_file("mechanism", target)
-    if not is_tried:
+    if not is_assembly_checked:
         report_note(f"More than {MAX_ASSEMBLED_BODIES} bodies: the assembly was not checked.")
     report_note(f"next: gudgeon check {target} -v, gudgeon draw {target}, gudgeon run {target}")
     return 0

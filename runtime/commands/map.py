@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from gudgeon.commands.progress import Report
-from gudgeon.commands.studies import MeasurementRequest, report_interrupted_scenes, load_scenes, measure_scenes
+from gudgeon.commands.studies import MeasurementRequest, load_scenes, measure_scenes, report_interrupted_scenes
 from gudgeon.contract.kernel_source import RuntimeParameter
 from gudgeon.contract.methods import OFFERED
 from gudgeon.errors import BadValueError

@@ -344,7 +344,7 @@ def _list_axis_directions(configuration: Configuration, parts: Sequence[Any]) ->
     the ground. There is one φ in the frame of each of a part's bodies; equal ones are listed once. Directions without a
     parameter are left out.
     """
-    parameter_indices, turns = (
+    parameter_indices, axis_directions = (
         {parameter.address: k for k, parameter in enumerate(configuration.source.slots)},
         list[tuple[Any, ...]](),
     )
@@ -356,8 +356,8 @@ def _list_axis_directions(configuration: Configuration, parts: Sequence[Any]) ->
                     configuration.bodies[body].index + 2 if body in configuration.bodies else -1
                     for body in map(get_body_name, part.ends)
                 ]
-                turns += [("axis", *component_indices, index) for index in dict.fromkeys(indices)]
-    return turns
+                axis_directions += [("axis", *component_indices, index) for index in dict.fromkeys(indices)]
+    return axis_directions
 
 
 class _FrameSearch:
