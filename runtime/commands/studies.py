@@ -41,7 +41,7 @@ class Measured(Protocol):
         """Return the number of finished runs and the number of all runs."""
 
 
-Found = TypeVar("Found", bound=Measured)
+MeasuredScene = TypeVar("MeasuredScene", bound=Measured)
 
 
 @dataclass(frozen=True)
@@ -95,13 +95,13 @@ class MeasurementRequest:
 
 
 def measure_scenes(
-    simulations: Sequence[Simulation], measure_scene: Callable[[Simulation, Report | None], Found], quiet: bool
-) -> tuple[list[Found], bool]:
+    simulations: Sequence[Simulation], measure_scene: Callable[[Simulation, Report | None], MeasuredScene], quiet: bool
+) -> tuple[list[MeasuredScene], bool]:
     """Call `measure_scene` for each scene with a progress callback; return the results and whether Ctrl-C ended it.
 
     After Ctrl-C the last result may be incomplete, and further scenes have none. quiet: without a progress bar.
     """
-    results: list[Found] = []
+    results: list[MeasuredScene] = []
     with show_progress_bars(quiet) as make_bar:
         try:
             for simulation in simulations:

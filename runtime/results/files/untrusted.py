@@ -28,7 +28,7 @@ LOADERS = {
     "gudgeon-result": ("a single run", "gudgeon.Result.load"),
     "gudgeon-batch": ("a batch of runs", "gudgeon.Batch.load"),
 }
-Content = TypeVar("Made")
+Content = TypeVar("Content")
 DAMAGED_HINT = "the file is not a result of gudgeon, or is damaged or truncated; run the scene again"
 
 
