@@ -172,7 +172,7 @@ def test_a_list_that_was_altered_is_what_is_told(tmp_path: Path) -> None:
     file.write_text(good.replace("  model.h", "  ../model.h"))
     with pytest.raises(InputError) as caught:
         refuse_foreign_files(tmp_path / "ideal")
-    assert str(caught.value).startswith(f"{file} is no list")
+    assert str(caught.value).startswith(f"{file} is not a list")
     assert "dynamics.c" not in str(caught.value)
     line = next(each for each in good.splitlines() if each.endswith("  model.h"))
     file.write_text(good.replace(line, "0" * 64 + "  model.h"))
@@ -181,7 +181,7 @@ def test_a_list_that_was_altered_is_what_is_told(tmp_path: Path) -> None:
     ):
         refuse_foreign_files(tmp_path / "ideal")
     (tmp_path / "ideal" / "mine.txt").write_text("x")
-    with pytest.raises(InputError, match=r"did not write so: mine\.txt\n"):
+    with pytest.raises(InputError, match=r"did not write: mine\.txt\n"):
         refuse_foreign_files(tmp_path / "ideal")
 
 

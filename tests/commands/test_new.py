@@ -64,9 +64,9 @@ def test_like_any_that_is_shipped(like: str, call: Gudgeon, tmp_path: Path) -> N
     ("line", "message"),
     [
         ("my-engine", "my_engine"),
-        ("engine.yml", "without .yaml"),
+        ("engine.yml", "expected a name without suffix"),
         ("true", "YAML reads it"),
-        ("../x", "no identifier"),
+        ("../x", "not an identifier"),
         ("a__x", "reserved for emitted code"),
         ("crane --like double_rocke", "did you mean 'double_rocker'"),
         ("there", "already exists"),

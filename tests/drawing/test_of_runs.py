@@ -173,11 +173,11 @@ def test_a_paths_legend_lies_beside_the_drawing(four_bar: Result) -> None:
 def test_what_cannot_be_drawn_is_told(four_bar: Result) -> None:
     for requested, kind, message in (
         (lambda: four_bar.plot.mechanism(None), BadValueError, "t is None: expected a time"),  # type: ignore[arg-type]
-        (lambda: four_bar.plot.mechanism(2.0), BadValueError, "from 0 s to 1 s"),
+        (lambda: four_bar.plot.mechanism(2.0), BadValueError, "of the run, 0 s to 1 s"),
         (lambda: four_bar.plot.mechanism("0.1 kg"), gudgeon.InputError, "time"),
         (lambda: four_bar.plot.mechanism(float("nan")), BadValueError, "not a finite number"),
         (lambda: four_bar.plot.mechanism(0.1, forces=1), BadValueError, "forces is 1"),  # type: ignore[arg-type]
-        (lambda: four_bar.plot.path(), BadValueError, "a point at least"),
+        (lambda: four_bar.plot.path(), BadValueError, "at least one name of a point"),
         (lambda: four_bar.plot.path("coupler.trace"), UnknownNameError, "nearest: coupler.tracer"),
         (lambda: four_bar.plot.path("ground.A0"), UnknownNameError, "that moves"),
         (lambda: four_bar.plot.path(3), BadValueError, "points is 3: expected the name of a point"),  # type: ignore[arg-type]

@@ -120,7 +120,7 @@ def test_forces_and_accelerations_by_the_whole_system(name: str, scene: str) -> 
         assert not any(set(row.phi_q) == {of.model.q[k]} for row in of.model.rows)  # no drive says it
     force = found["The force in a joint"]
     shown = force.requested[-1].text[-1]  # type: ignore[union-attr]
-    joint, second = re.search(r"what force does (\w+) put on (\w+),", str(shown)).groups()  # type: ignore[union-attr]
+    joint, second = re.search(r"what force does (\w+) exert on (\w+),", str(shown)).groups()  # type: ignore[union-attr]
     lambdas = np.array([drawn.run[f"lambda.{row.name}"][-1] for row in of.model.rows])
     own = np.array([row.owner == joint for row in of.model.rows])
     k = source.coordinates.index(f"{second}.x")
