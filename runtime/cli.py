@@ -1,6 +1,6 @@
-"""Define the command line: arguments and options of each command of `gudgeon`. What it does is in `gudgeon.commands`.
+"""Define the command line: arguments and options of each command of `gudgeon`, which `gudgeon.commands` implements.
 
-Only typer is imported here: `gudgeon run` waits for nothing that it may not need.
+Only typer is imported with this module, so that commands start fast.
 Exit codes: 0 success, 1 a run failed, 2 bad input, 130 interrupted.
 """
 
@@ -21,22 +21,22 @@ from gudgeon.commands.outcome import print_warnings_once, report_errors
 from gudgeon.contract.methods import CHOOSING, KINEMATIC, OFFERED
 from gudgeon.language.deprecations import STRESS
 
-WHOLE = 1000  # characters: more than any sentence has
+MAX_SENTENCE = 1000  # characters, more than in any first sentence
 
 
 class Commands(TyperGroup):
-    """List each command with its whole first sentence, which typer would cut at the end of a line."""
+    """Group of commands whose help lists each command with its complete first sentence, which typer would truncate."""
 
     def format_commands(self, ctx: Any, formatter: Any) -> None:
-        """Write the section of commands of the help text, each with its whole first sentence; hidden ones are left
-        out.
-        """
-        every = ((name, self.get_command(ctx, name)) for name in self.list_commands(ctx))
-        message = [
-            (name, command.get_short_help_str(WHOLE)) for name, command in every if command and not command.hidden
+        """Write the section "Commands" of the help text: each command that is not hidden, with its first sentence."""
+        commands = ((name, self.get_command(ctx, name)) for name in self.list_commands(ctx))
+        rows = [
+            (name, command.get_short_help_str(MAX_SENTENCE))
+            for name, command in commands
+            if command and not command.hidden
         ]
         with formatter.section("Commands"):
-            formatter.write_dl(message)
+            formatter.write_dl(rows)
 
 
 app = typer.Typer(
@@ -45,7 +45,7 @@ app = typer.Typer(
     help="Planar linkages whose joints may have play: from a YAML file to equations, C and a simulation.",
     no_args_is_help=True,
     pretty_exceptions_enable=False,
-    rich_markup_mode=None,  # rich takes .2 s to lay out a page of help, and to say which option there is not
+    rich_markup_mode=None,  # with rich, help and errors of options take 0.2 s more
     context_settings={"help_option_names": ["-h", "--help"]},
 )
 
@@ -64,7 +64,7 @@ def simulate_file(
     set_: opt.Set = None,
     t_end: opt.Until = None,
     output: opt.Intervals = None,
-    step: Annotated[str | None, typer.Option(help="Fixed step, in s or with a unit: 5us; auto takes rk4.")] = None,
+    step: Annotated[str | None, typer.Option(help="Fixed step, in s or with a unit: 5us; auto uses rk4.")] = None,
     method: Annotated[
         str,
         typer.Option(
@@ -79,7 +79,7 @@ def simulate_file(
         str, typer.Option(help="reduced (coordinates of a tree), or full: absolute ones, rk4 with Baumgarte's gains.")
     ] = "reduced",
     horizon: Annotated[
-        bool, typer.Option("--horizon", help="Run thrice more to find the time to which each trace can be trusted.")
+        bool, typer.Option("--horizon", help="Run three times more to find the predictability horizon.")
     ] = False,
     out: opt.Out = Path("out"),
     regenerate: Annotated[bool, typer.Option("--regenerate", help="Derive and compile again.")] = False,
@@ -91,16 +91,16 @@ def simulate_file(
     laws: opt.Laws = None,
     quiet: opt.Quiet = False,
 ) -> int:
-    """Simulate scenes and compare them with the ideal one: a table, a NetCDF file a scene, one picture.
+    """Simulate scenes and compare them with the ideal one: a table, a NetCDF file for each scene, one figure.
 
     The ideal scene (no play) is always run too, at the same times and with the same parameters.
 
     Example: gudgeon run engine.yaml --scene worn --set c=0.5mm --t-end 0.2
     """
-    from gudgeon.commands.run import Request, run_scenes
+    from gudgeon.commands.run import RunRequest, run_scenes
 
     return run_scenes(
-        Request(
+        RunRequest(
             file,
             tuple(scene or ()),
             tuple(set_ or ()),
@@ -127,14 +127,16 @@ def simulate_file(
 @report_errors
 def check_file(
     file: opt.File,
-    verbose: Annotated[bool, typer.Option("--verbose", "-v", help="A scene a table: unknowns, operations.")] = False,
+    verbose: Annotated[
+        bool, typer.Option("--verbose", "-v", help="Also a table of counts and the reduction log of each scene.")
+    ] = False,
     branches: opt.Branches = False,
     set_: opt.Set = None,
     json: opt.Json = False,
     laws: opt.Laws = None,
     quiet: opt.Quiet = False,
 ) -> int:
-    """Check a mechanism file: is it valid, does it assemble, and what can move? Errors have line and column.
+    """Check a mechanism file: validity, assembly and degrees of freedom. Errors have line and column.
 
     Example: gudgeon check engine.yaml -v
     """
@@ -149,14 +151,20 @@ def emit_code(
     file: opt.File,
     folder: Annotated[
         Path,
-        typer.Option("--out", "-o", parser=opt.parse_path, metavar="PATH", help="Folder for C, one a scene; or x.fmu."),
+        typer.Option(
+            "--out",
+            "-o",
+            parser=opt.parse_path,
+            metavar="PATH",
+            help="Folder for C with a folder for each scene; or x.fmu.",
+        ),
     ],
     scene: opt.Scenes = None,
     files_as_json: opt.FilesJson = False,
     laws: opt.Laws = None,
     quiet: opt.Quiet = False,
 ) -> int:
-    """Write the generated C, to be read or to be built into something else; to x.fmu as an FMU (FMI 3.0) of a scene.
+    """Write the generated C, to be read or compiled into other programs; to x.fmu as an FMU (FMI 3.0) of a scene.
 
     Example: gudgeon emit engine.yaml -o c --scene worn
 
@@ -195,7 +203,7 @@ def list_laws(
     json: opt.Json = False,
     laws: opt.Laws = None,
 ) -> int:
-    """List the laws of contact, friction and film; of one its equations, keys, validity and reference, or its plot.
+    """List the laws of contact, friction and film; print one law (equations, keys, validity, reference), or plot it.
 
     Example: gudgeon laws flores --plot flores.svg --set restitution=.5
     """
@@ -227,7 +235,7 @@ def create_file(
 def import_file(
     file: opt.Foreign, target: opt.Mechanism = None, files_as_json: opt.FilesJson = False, quiet: opt.Quiet = False
 ) -> int:
-    """Convert a linkage that was drawn or synthesized elsewhere to a mechanism file.
+    """Convert a linkage of pylinkage or PMKS+ to a mechanism file.
 
     Example: gudgeon import four_bar.json -o four_bar.yaml
     """
@@ -248,10 +256,10 @@ def create_exercise(
     laws: opt.Laws = None,
     quiet: opt.Quiet = False,
 ) -> int:
-    """Make an exercise sheet of a mechanism, and its solutions in a second file.
+    """Write an exercise sheet for a mechanism, and its solutions in a second file.
 
     Tasks: write Φ, count the degrees of freedom, Φ_q at a position, γ, the force in a joint. The seed selects the
-    numbers.
+    parameter values.
 
     Example: gudgeon exercise engine.yaml -o sheet.html --seed 7
     """
@@ -275,21 +283,23 @@ def draw_mechanism(
 ) -> int:
     """Draw a mechanism: bodies, joints, drives, forces, joints with play magnified.
 
-    A start that does not close is drawn with its gaps in red, and then reported as `check` reports it.
+    A linkage that does not close at the start is drawn with its gaps in red, then the error of `check` is printed.
 
     Example: gudgeon draw engine.yaml --scene worn --at 20ms -o engine.png
     """
-    from gudgeon.commands.draw import Request, draw_file
+    from gudgeon.commands.draw import DrawRequest, draw_mechanism_file
 
-    return draw_file(Request(file, scene, at, target, tuple(set_ or ()), branches))
+    return draw_mechanism_file(DrawRequest(file, scene, at, target, tuple(set_ or ()), branches))
 
 
 @app.command("schema")
 @report_errors
 def print_json_schema(
-    study: Annotated[bool, typer.Option("--study", help="Of study files.")] = False, laws: opt.Laws = None
+    study: Annotated[bool, typer.Option("--study", help="The schema of study files.")] = False, laws: opt.Laws = None
 ) -> int:
-    """Print the JSON Schema of mechanism files, for editors that complete and check YAML.
+    """Print the JSON Schema of mechanism files (with --study of study files), for editors that complete and check YAML.
+
+    The schema contains the user-defined laws of --laws.
 
     Example: gudgeon schema > gudgeon.schema.json
     """
@@ -311,23 +321,25 @@ def benchmark_methods(
     mark: opt.Mark = None,
     methods: Annotated[
         list[str] | None,
-        typer.Option("--methods", metavar="NAMES", help=f"Only these: {','.join(OFFERED)},scipy:*,sundials:cvode."),
+        typer.Option(
+            "--methods", metavar="NAMES", help=f"Only these methods: {','.join(OFFERED)},scipy:*,sundials:cvode."
+        ),
     ] = None,
     json: opt.Json = False,
     laws: opt.Laws = None,
     quiet: opt.Quiet = False,
 ) -> int:
-    """Measure run time against error with every method, for each scene: a table, a CSV file, a picture.
+    """Measure run time against error with every method, for each scene: a table, a CSV file, a figure.
 
-    Errors are taken against another method at a much tighter tolerance. The cross-checks (scipy:*, sundials:*) run
-    where a scene allows them, at fewer tolerances where they are slow, and not with --quick.
+    Errors are differences from another method at a much tighter tolerance. The cross-checks (scipy:*, sundials:*) run
+    if a scene allows them, at fewer tolerances if they are slow, and not with --quick.
 
     Example: gudgeon bench engine.yaml --scene worn --mark-step 0.1ms
     """
     from gudgeon.commands.bench import benchmark_file
-    from gudgeon.commands.studies import Request
+    from gudgeon.commands.studies import MeasurementRequest
 
-    request = Request(file, tuple(scene or ()), tuple(set_ or ()), t_end, out, csv, quick, mark, json)
+    request = MeasurementRequest(file, tuple(scene or ()), tuple(set_ or ()), t_end, out, csv, quick, mark, json)
     return benchmark_file(request, tuple(methods or ()))
 
 
@@ -355,7 +367,7 @@ def map_stability(
     laws: opt.Laws = None,
     quiet: opt.Quiet = False,
 ) -> int:
-    """Map where runs are stable and where they fail: tolerance (rk4: step) × clearance, or the axes of --axis or --box.
+    """Map stable and failed runs over parameters: tolerance (rk4: step) × clearance, or the axes of --axis or --box.
 
     Each run is stable, inaccurate, diverged or outside the model, with its reason. Failures have the command that
     repeats them.
@@ -365,11 +377,11 @@ def map_stability(
     Example: gudgeon map engine.yaml --box 64 --range c=.05mm..1mm --range stiffness=1GPa..400GPa
     """
     from gudgeon.commands.map import MapOptions, map_file
-    from gudgeon.commands.studies import Request
+    from gudgeon.commands.studies import MeasurementRequest
 
     if context.info_name == "stress":
         typer.echo(f"warning: {STRESS}", err=True)
-    request = Request(file, tuple(scene or ()), tuple(set_ or ()), t_end, out, csv, quick, mark, json)
+    request = MeasurementRequest(file, tuple(scene or ()), tuple(set_ or ()), t_end, out, csv, quick, mark, json)
     return map_file(request, MapOptions(method, at, tuple(axis or ()), box, tuple(range_ or ())))
 
 
@@ -391,26 +403,28 @@ def run_study(
     starts: opt.Starts = None,
     seed: opt.StartSeed = None,
 ) -> int:
-    """Run a study: many runs of a mechanism, over grids, draws and perturbed starts, measured into one dataset.
+    """Run a study: many runs of a mechanism over grids, random draws and perturbed starts, with one dataset of results.
 
-    Finished blocks of runs are on disk at once: after Ctrl-C, a kill or a full disk the same command resumes.
+    Finished blocks of runs are written to disk: after Ctrl-C, a kill or a full disk the same command resumes.
 
     Example: gudgeon study clearance.yaml --out clearance.study, then gudgeon study report clearance.study
     """
-    from gudgeon.commands.study import Request, run_study_file
+    from gudgeon.commands.study import StudyRequest, run_study_file
 
-    return run_study_file(Request(file, out, threads, restart, set_, runs, json, finished, workers, dask, starts, seed))
+    return run_study_file(
+        StudyRequest(file, out, threads, restart, set_, runs, json, finished, workers, dask, starts, seed)
+    )
 
 
 def get_command_name(command: CommandInfo) -> str:
-    """Return the name by which a registered command is called: its own, else that of its function."""
+    """Return the name by which a registered command is called: its explicit name, else the name of its function."""
     return str(command.name or getattr(command.callback, "__name__", ""))
 
 
 def select_called_command(app: typer.Typer) -> typer.Typer:
-    """Return a copy of the app with only the command named in sys.argv; reading the options of all takes 30 ms.
+    """Return a copy of the app with only the command that sys.argv[1] names, to save 30 ms for parsing all options.
 
-    If the first argument names no command, the copy has all of them.
+    If it names no command, the copy has all commands.
     """
     called_commands = [command for command in app.registered_commands if sys.argv[1:2] == [get_command_name(command)]]
     app_copy = copy(app)
@@ -419,6 +433,9 @@ def select_called_command(app: typer.Typer) -> typer.Typer:
 
 
 def main() -> None:
-    """Run the command line: print each warning once, and call the command that sys.argv names."""
+    """Run the command line: print each distinct warning once, and call the command that sys.argv names.
+
+    Raises SystemExit with its exit code.
+    """
     print_warnings_once()
     select_called_command(app)()

@@ -15,7 +15,7 @@ import sys
 
 from gudgeon.waiting.ctrl_c import ENDING, INTERRUPTED, declare_program, ignore_ctrl_c, print_interrupted
 
-FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO)  # errors of writing that are reported in one line
+WRITE_ERRORS = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO)  # of standard output, reported in one line
 
 
 def main() -> None:
@@ -25,7 +25,7 @@ def main() -> None:
     """
     _prepare_streams()
     declare_program()
-    os.environ["MPLBACKEND"] = "agg"  # nothing is shown in a window, whatever is set
+    os.environ["MPLBACKEND"] = "agg"  # matplotlib opens no windows
     ended: list[int] = []
 
     def terminate(number: int, _: object) -> None:
@@ -39,7 +39,7 @@ def main() -> None:
     try:
         _run_command()
     except SystemExit as end:
-        ignore_ctrl_c()  # a command that says itself what an interrupt left ends here too
+        ignore_ctrl_c()  # the command has already reported the interruption
         sys.exit(128 + ended[0] if ended and end.code == INTERRUPTED else end.code)
 
 
@@ -60,16 +60,19 @@ def _run_command() -> None:
         print_interrupted()
         sys.exit(INTERRUPTED)
     except OSError as error:
-        if error.filename is not None or error.errno not in (*FULL, errno.EPIPE):
+        if error.filename is not None or error.errno not in (*WRITE_ERRORS, errno.EPIPE):
             raise
-        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)  # what is still to be written goes nowhere
-        if error.errno != errno.EPIPE:  # a reader that has enough needs no word
+        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)  # discards the rest of the output
+        if error.errno != errno.EPIPE:  # no message if the reader closed the pipe
             print(f"error: cannot write standard output: {error.strerror}", file=sys.stderr)
         sys.exit(1)
 
 
 def _prepare_streams() -> None:
-    """Replace closed standard streams by the null device, and let output escape characters that its encoding lacks."""
+    """Replace closed standard streams by the null device; escape characters of output that its encoding lacks.
+
+    Called once at the start of the process.
+    """
     codecs.register_error("gudgeon", _escape_as_json)
     for number, name in enumerate(("stdin", "stdout", "stderr")):
         stream = getattr(sys, name)
@@ -80,9 +83,9 @@ def _prepare_streams() -> None:
 
 
 def _escape_as_json(error: UnicodeError) -> tuple[str, int]:
-    """Return the replacement of characters that cannot be encoded as JSON escapes, and the position after them.
+    """Return JSON escapes (\\u03a6) for characters that cannot be encoded, and the position after them.
 
-    It is an error handler for codecs; a JSON document stays valid. Errors of decoding are raised.
+    An error handler for codecs.register_error: a JSON document stays valid. Errors of decoding are raised.
     """
     if not isinstance(error, UnicodeEncodeError):
         raise error

@@ -15,7 +15,7 @@ from typing import Any
 
 @dataclass(frozen=True, order=True)
 class Location:
-    """Hold a location in a file; lines and columns count from 1."""
+    """Location in a file; lines and columns count from 1."""
 
     file: str
     line: int
@@ -37,7 +37,7 @@ class GudgeonError(Exception):
 
 
 def _unpickle_error(kind: type[GudgeonError], arguments: tuple[Any, ...]) -> GudgeonError:
-    """Create an error from its class and arguments when it is unpickled, without calling its constructor."""
+    """Return an error of a class with `args`, without calling its constructor; called by pickle."""
     return kind.__new__(kind, *arguments)
 
 
@@ -118,7 +118,7 @@ class InputErrors(InputError):
 
 
 def combine_errors(errors: Iterable[InputError]) -> InputError:
-    """Combine errors of one file: return a single one as it is, several as InputErrors."""
+    """Return several errors of one file as one InputErrors; a single error is returned unchanged."""
     error_list = list(errors)
     return error_list[0] if len(error_list) == 1 else InputErrors(error_list)
 
@@ -163,11 +163,11 @@ class MemoryShortage(GudgeonError):
         what = f": {error}" if str(error) else ""
         super().__init__(
             f"not enough memory{what}\n"
-            "  ask for fewer samples (--output), scenes or runs at once, or raise the limit (ulimit -v)"
+            "  request fewer samples (--output), scenes or runs at once, or raise the limit (ulimit -v)"
         )
 
 
-LIMITED = "a limit is set on the size of files (ulimit -f)"
+FILE_SIZE_LIMIT_HINT = "a limit is set on the size of files (ulimit -f)"
 
 
 class CacheError(GudgeonError):
@@ -184,24 +184,24 @@ class OutputError(GudgeonError):
         code = reason.errno if isinstance(reason, OSError) else None
         self.path = os.fspath(path)
         self.reason = str(reason) if isinstance(reason, str) else reason.strerror or str(reason)
-        self.exit_code = 2 if isinstance(reason, str) or code in _NAMED else 1
-        hint = _HINTS.get(code or 0, "name another file or folder" if self.exit_code == 2 else "")
+        self.exit_code = 2 if isinstance(reason, str) or code in _PATH_ERRORS else 1
+        hint = _ERROR_HINTS.get(code or 0, "name another file or folder" if self.exit_code == 2 else "")
         super().__init__(f"cannot write {shorten_path(path)}: {self.reason}" + (f"\n  {hint}" if hint else ""))
 
 
 def escape_line_breaks(text: str) -> str:
-    """Return a name for messages on one line: line breaks are escaped if it contains any."""
+    """Return a text with its line breaks escaped as \\n and \\r, so that it fits in one line of a message."""
     return text if text.isprintable() else text.replace("\n", "\\n").replace("\r", "\\r")
 
 
 def shorten_path(path: str | os.PathLike[str]) -> str:
-    """Return a path for messages on one line; of one longer than 200 characters, both ends; '' for an empty one."""
+    """Return a path for one line of a message: the first and last 80 of 200 or more characters; "''" if empty."""
     text = escape_line_breaks(os.fspath(path)) or "''"
     return text if len(text) < 200 else f"{text[:80]}…{text[-80:]}"
 
 
 # errors for which another name or folder helps
-_NAMED = {
+_PATH_ERRORS = {
     errno.ENOTDIR,
     errno.EISDIR,
     errno.EEXIST,
@@ -213,9 +213,9 @@ _NAMED = {
     errno.EROFS,
 }
 # hints by error number
-_HINTS = {
-    errno.ENOSPC: "what stood there is as it was; make room or name another folder, and do it again",
-    errno.EDQUOT: "what stood there is as it was; make room or name another folder, and do it again",
-    errno.EFBIG: f"what stood there is as it was; {LIMITED}",
+_ERROR_HINTS = {
+    errno.ENOSPC: "the old file is unchanged; free disk space or name another folder, and repeat the command",
+    errno.EDQUOT: "the old file is unchanged; free disk space or name another folder, and repeat the command",
+    errno.EFBIG: f"the old file is unchanged; {FILE_SIZE_LIMIT_HINT}",
     errno.ENAMETOOLONG: "choose a shorter name",
 }

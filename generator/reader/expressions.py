@@ -16,7 +16,7 @@ from gudgeon.generator.reader.parameters import sort_by_dependencies
 from gudgeon.generator.reader.unit_or_name import choose_interpretation
 from gudgeon.generator.yaml import Map, Text
 from gudgeon.language.dimension_check import check_dimension
-from gudgeon.language.parser import COPIES
+from gudgeon.language.parser import ARGUMENT_COPIES
 from gudgeon.language.tree import Binary, Call, Expr, Name, Unary, iterate_names, replace_names
 from gudgeon.language.units import DIMENSIONLESS
 
@@ -108,5 +108,5 @@ def _measure_tree(tree: Expr, sizes: Mapping[str, tuple[int, int]]) -> tuple[int
             sizes_of_parts = [_measure_tree(argument, sizes) for argument in arguments]
         case _:
             return 1, 1
-    copies = COPIES.get(getattr(tree, "function", ""), 1)
+    copies = ARGUMENT_COPIES.get(getattr(tree, "function", ""), 1)
     return 1 + copies * sum(parts for parts, _ in sizes_of_parts), 1 + max(levels for _, levels in sizes_of_parts)

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from gudgeon.generator.targets.numpy.linkage import NumPyLinkage
     from gudgeon.model.compiled import Array
 
-LARGEST = 50.0  # m: larger lengths are probably numbers without a unit that were meant in mm
+MAX_LENGTH = 50.0  # m, above which a length is probably a number of mm without its unit
 MAX_SEARCHED_COORDINATES = 45  # number of coordinates up to which assemblies are searched without --branches
 # Assemblies whose deviations from the guesses differ by less are ambiguous; rad, or fraction of the size.
 MAX_GUESS_DIFFERENCE = math.radians(5.0)
@@ -34,20 +34,20 @@ MAX_GUESS_DIFFERENCE = math.radians(5.0)
 
 @dataclass(frozen=True)
 class AssembledScene:
-    """Hold the result of assembling one scene: position, mobility without play and of the scene, and
-    deviations from guesses.
+    """Result of assembling one scene: position, mobility without play and with the scene's constraints, deviations
+    from guesses.
     """
 
     linkage: NumPyLinkage
     q: Array
     closed_mobility: Mobility
     scene_mobility: Mobility
-    guess_deviations: Mapping[str, float]  # guesses that are not followed: rad, or m
+    guess_deviations: Mapping[str, float]  # name of a guess that is not followed -> deviation, rad or m
 
 
 @dataclass(frozen=True)
 class Findings:
-    """Hold the results of assembling all scenes, and the assemblies of the first scene that assembles."""
+    """Results of assembling all scenes, and the assemblies of the first scene that assembles."""
 
     scenes: Mapping[str, AssembledScene]
     errors: Mapping[str, GudgeonError]
@@ -55,7 +55,10 @@ class Findings:
 
     @property
     def equivalent_assemblies(self) -> list[Assembly]:
-        """Return the assemblies that follow the file's guesses as well as the start does; [] if none are known."""
+        """Return the other assemblies whose guesses differ from the start's by less than MAX_GUESS_DIFFERENCE.
+
+        [] if no assemblies were searched.
+        """
         first = next(iter(self.scenes.values()), None)
         if first is None or not self.assemblies:
             return []
@@ -67,11 +70,11 @@ class Findings:
 def assemble_scenes(
     mechanism: Mechanism, branches: bool, settings: Mapping[str, float | str] | None = None
 ) -> Findings:
-    """Assemble every scene of a mechanism; find its other assemblies if `branches` is set or the linkage is small.
+    """Assemble every scene of a mechanism; find its assemblies if `branches`, or if the linkage is small.
 
-    settings: values in place of the file's, by address; an address of one scene holds for that scene. An error of a
-    scene is stored in `errors` of the returned Findings. Raises UnknownNameError for an address that no scene has, and
-    an error if the file's `freedoms` are wrong. None: the values of the file.
+    Small: up to MAX_SEARCHED_COORDINATES coordinates. settings: values by address that replace the file's; each applies
+    to the scenes that have the address. An error of a scene is stored in `errors` of the returned Findings. Raises
+    UnknownNameError for an address that no scene has, and InputError if the file's `freedoms` are wrong.
     """
     from gudgeon.generator.pipeline import build_closed_linkage
 
@@ -101,8 +104,8 @@ def assemble_scenes(
 def _assemble_scene(linkage: NumPyLinkage, rows: Sequence[int]) -> AssembledScene:
     """Assemble one linkage and return its position, mobility and the guesses that are not followed.
 
-    rows: indices of the scene's own constraint equations; joints with play have none. Raises AssemblyError if positions
-    or velocities have no solution, or journals lie too deep.
+    rows: indices of the scene's constraint equations; joints with play have none. Raises AssemblyError if the linkage
+    without play has no position or no velocities, or if a journal is too deep in its bearing's wall.
     """
     p = linkage.p
     check_journal_positions(linkage, p)
@@ -112,9 +115,9 @@ def _assemble_scene(linkage: NumPyLinkage, rows: Sequence[int]) -> AssembledScen
         if not closed:
             raise make_closure_error(problem, q)
         compute_start_velocities(problem, q)
-        every = find_mobility(linkage, p, q)
-        mobility = every if len(rows) == every.rows else find_mobility(linkage, p, q, rows)
-    return AssembledScene(linkage, q, every, mobility, find_guess_deviations(linkage, p, q))
+        closed_mobility = find_mobility(linkage, p, q)
+        mobility = closed_mobility if len(rows) == closed_mobility.rows else find_mobility(linkage, p, q, rows)
+    return AssembledScene(linkage, q, closed_mobility, mobility, find_guess_deviations(linkage, p, q))
 
 
 def format_degrees_of_freedom(findings: Findings) -> str:
@@ -128,17 +131,17 @@ def format_degrees_of_freedom(findings: Findings) -> str:
     if len(by_count) == 1 and not findings.errors:
         return f"degrees of freedom {next(iter(by_count))}"
     counts = [f"{count} ({', '.join(names)})" for count, names in by_count.items()]
-    return f"degrees of freedom {', '.join(counts)}" if counts else "none of them assembles"
+    return f"degrees of freedom {', '.join(counts)}" if counts else "no scene assembles"
 
 
 def list_scenes_without_masses(mechanism: Mechanism, findings: Findings) -> list[str]:
     """Return the names of the scenes that have degrees of freedom, if a body of the file lacks mass or inertia; else
     [].
     """
-    moved = [
+    dynamic_scenes = [
         name for name in mechanism.scenes if name in findings.scenes and findings.scenes[name].scene_mobility.freedoms
     ]
-    return moved if any(body.missing_keys for body in mechanism.bodies.values()) else []
+    return dynamic_scenes if any(body.missing_keys for body in mechanism.bodies.values()) else []
 
 
 def format_verdict(mechanism: Mechanism, findings: Findings) -> str:
@@ -146,20 +149,25 @@ def format_verdict(mechanism: Mechanism, findings: Findings) -> str:
 
     They do not assemble, or need missing masses.
     """
-    unable = {*findings.errors, *list_scenes_without_masses(mechanism, findings)}
-    names = ", ".join(name for name in mechanism.scenes if name in unable)
-    return f"valid, but scene{'s' if len(unable) > 1 else ''} {names} cannot be run" if unable else "valid"
+    failed_scenes = {*findings.errors, *list_scenes_without_masses(mechanism, findings)}
+    names = ", ".join(name for name in mechanism.scenes if name in failed_scenes)
+    return (
+        f"valid, but scene{'s' if len(failed_scenes) > 1 else ''} {names} cannot be run" if failed_scenes else "valid"
+    )
 
 
 def _yield_mass_remark(mechanism: Mechanism, findings: Findings) -> Iterator[tuple[str, str]]:
     """Yield a remark with the missing masses and inertias if a scene with degrees of freedom needs them."""
-    lacking = [
+    missing_texts = [
         f"{b.name} has no {' and no '.join(b.missing_keys)} ({b.where})"
         for b in mechanism.bodies.values()
         if b.missing_keys
     ]
-    if moved := list_scenes_without_masses(mechanism, findings):
-        yield "masses", f"scene {', '.join(moved)} moves by forces and cannot be run: {', '.join(lacking)}"
+    if dynamic_scenes := list_scenes_without_masses(mechanism, findings):
+        yield (
+            "masses",
+            f"scene {', '.join(dynamic_scenes)} has degrees of freedom and cannot be run: {', '.join(missing_texts)}",
+        )
 
 
 def yield_remarks(mechanism: Mechanism, findings: Findings) -> Iterator[tuple[str, str]]:
@@ -171,42 +179,42 @@ def yield_remarks(mechanism: Mechanism, findings: Findings) -> Iterator[tuple[st
     first = next(iter(findings.scenes.values()), None)
     if first is None:
         return
-    if (large := _format_size_remark(mechanism, first)) is not None:
-        yield "size", large
+    if (size_remark := _format_size_remark(mechanism, first)) is not None:
+        yield "size", size_remark
     yield from (("curve", message) for message in iterate_seam_notes(first.linkage.source, first.linkage.p))
-    deep = (
+    journal_messages = (
         message
         for scene in findings.scenes.values()
         for message in describe_journals_in_walls(scene.linkage, scene.linkage.p)
     )
-    yield from (("start", message) for message in dict.fromkeys(deep))
+    yield from (("start", message) for message in dict.fromkeys(journal_messages))
     closed = first.closed_mobility
     if closed.loose:
-        yield "loose", f"nothing ties {', '.join(closed.loose)} to the ground: no joint, no drive"
+        yield "loose", f"no joint or drive connects {', '.join(closed.loose)} to the ground"
     if closed.freedoms and mechanism.freedoms is None:
         count = f"{closed.freedoms} degree{'' if closed.freedoms == 1 else 's'} of freedom"
-        meant = f"if that is meant, freedoms: {closed.freedoms}"
-        yield "freedoms", f"{count} with all joints closed: {', '.join(closed.along)}; {meant}"
+        remedy = f"if that is intended, write freedoms: {closed.freedoms}"
+        yield "freedoms", f"{count} with all joints closed: {', '.join(closed.along)}; {remedy}"
         yield from _yield_unattached_body_remarks(mechanism, closed)
     yield from _yield_mass_remark(mechanism, findings)
     if closed.redundant:
-        rows = f"{closed.redundant} row{'' if closed.redundant == 1 else 's'}"
-        counted = f"by counting there are {closed.gruebler} degrees of freedom, by rank {closed.freedoms}"
-        yield "redundant", f"{rows} of Φ say{'s' if closed.redundant == 1 else ''} nothing new: {counted}"
+        rows = "1 row of Φ is" if closed.redundant == 1 else f"{closed.redundant} rows of Φ are"
+        counted = f"{closed.gruebler} degrees of freedom by counting, {closed.freedoms} by rank"
+        yield "redundant", f"{rows} redundant: {counted}"
     if closed.aligned:
         rows = "a row of Φ_q depends" if closed.aligned == 1 else f"{closed.aligned} rows of Φ_q depend"
         yield (
             "singular",
             (
-                f"links lie in one line at the start: {rows} on the others"
-                " there (a dead centre), and accelerations and reactions are not determined; begin beside it"
+                f"links are collinear at the start (a dead centre): {rows} on the others,"
+                " and accelerations and reactions are not determined; start at another position"
             ),
         )
     deviations = {name: x for scene in findings.scenes.values() for name, x in scene.guess_deviations.items()}
     for name, deviation in deviations.items():
         yield (
             "guess",
-            f"{name} is {format_guess_difference(name, deviation)} from your guess: "
+            f"{name} differs by {format_guess_difference(name, deviation)} from the guess: "
             f"{describe_missing_assembly(first.linkage.source)}",
         )
     if not closed.freedoms or mechanism.freedoms is not None:
@@ -214,20 +222,20 @@ def yield_remarks(mechanism: Mechanism, findings: Findings) -> Iterator[tuple[st
 
 
 def _yield_unattached_body_remarks(mechanism: Mechanism, mobility: Mobility) -> Iterator[tuple[str, str]]:
-    """Yield a remark for each driven body that can move away because no joint connects it to the drive's reference."""
+    """Yield a remark for each body with an angle drive that is free because no joint connects it to the reference."""
     joined = {frozenset((joint.first.body, joint.second.body)) for joint in mechanism.joints.values()}
     for drive in mechanism.drives.values():
         other = drive.reference or "ground"
         moves = any(name.rpartition(".")[0] == drive.body for name in mobility.along)
         if drive.kind == "angle" and moves and frozenset((drive.body, other)) not in joined:
-            whom = "the ground" if other == "ground" else other
-            yield "shaft", f"no joint ties {drive.body} to {whom}, against which drive {drive.name} turns it"
+            reference = "the ground" if other == "ground" else other
+            yield "shaft", f"no joint connects {drive.body} to {reference}, the reference of drive {drive.name}"
 
 
 def _format_size_remark(mechanism: Mechanism, scene: AssembledScene) -> str | None:
-    """Return a remark on the largest length of the file if it exceeds `LARGEST` (m), otherwise None.
+    """Return a remark that suggests millimetres if the largest length of the file exceeds MAX_LENGTH; else None.
 
-    It suggests millimetres.
+    `parameters` and `start` are not considered.
     """
     p, source = scene.linkage.p, scene.linkage.source
     lengths = {
@@ -236,12 +244,12 @@ def _format_size_remark(mechanism: Mechanism, scene: AssembledScene) -> str | No
         if slot.dimension == (1, 0, 0) and not slot.address.startswith(("parameters.", "start."))
     }
     address = max(lengths, key=lengths.__getitem__, default="")
-    if not address or lengths[address] <= LARGEST:
+    if not address or lengths[address] <= MAX_LENGTH:
         return None
     size = lengths[address]
     return (
-        f"{address} is {size:.4g} m: bare numbers are metres; if millimetres are meant, write {size:.4g} mm,"
-        f" and so for the others above {LARGEST:g} m"
+        f"{address} is {size:.4g} m: numbers without a unit are metres; if millimetres are meant, write {size:.4g} mm,"
+        f" also for the other lengths above {MAX_LENGTH:g} m"
     )
 
 
@@ -249,20 +257,22 @@ def _yield_ambiguity_remark(findings: Findings) -> Iterator[tuple[str, str]]:
     """Yield a remark if several assemblies follow the guesses of the file equally well, with a guess that separates
     them.
     """
-    if not (alike := findings.equivalent_assemblies):
+    if not (equivalent_assemblies := findings.equivalent_assemblies):
         return
     start = findings.assemblies[0]
-    telling = next(name for name in start.guess if any(_has_different_guess(name, start, other) for other in alike))
-    here, there = (
-        _format_guess_value(telling, start.guess[telling]),
-        [_format_guess_value(telling, a.guess[telling]) for a in alike],
+    guess_name = next(
+        name for name in start.guess if any(_has_different_guess(name, start, other) for other in equivalent_assemblies)
     )
-    others = ", ".join(dict.fromkeys(value for value in there if value != here))
+    start_text, other_texts = (
+        _format_guess_value(guess_name, start.guess[guess_name]),
+        [_format_guess_value(guess_name, a.guess[guess_name]) for a in equivalent_assemblies],
+    )
+    values_text = ", ".join(dict.fromkeys(value for value in other_texts if value != start_text))
     yield (
         "assemblies",
         (
-            f"{len(alike) + 1} fit the start's guesses alike: guess {telling} too, {here} as it is taken now or "
-            f"{others}; --branches lists all"
+            f"{len(equivalent_assemblies) + 1} assemblies follow the guesses of the start equally well:"
+            f" also guess {guess_name}, {start_text} as in the present start or {values_text}; --branches lists all"
         ),
     )
 
@@ -278,16 +288,17 @@ def _format_guess_value(name: str, x: float) -> str:
 
 
 def yield_assembly_lines(findings: Findings) -> Iterator[str]:
-    """Yield a heading and a line for each assembly, with the guess that selects it; nothing if none was sought."""
+    """Yield a heading and a line for each assembly, with the guess that selects it; nothing if none was searched."""
     if not findings.assemblies:
         return
     count = len(findings.assemblies)
-    yield f"{count} assembl{'y' if count == 1 else 'ies'} found at the start; what picks each, as start: {{guess: …}}"
+    noun = "assembly" if count == 1 else "assemblies"
+    yield f"{count} {noun} found at the start; each is selected by its start: {{guess: …}}"
     for number, assembly in enumerate(findings.assemblies, 1):
-        here = "  as the file has it" if assembly.is_start else ""
-        yield f"  {number}  {format_guess(assembly)}{here}"
+        mark = "  as in the file" if assembly.is_start else ""
+        yield f"  {number}  {format_guess(assembly)}{mark}"
     if any(assembly.guess for assembly in findings.assemblies):
-        yield "     each in place of the guess that the file has: beside it, both would be followed"
+        yield "     replace the guess of the file: with two guesses, both are followed"
 
 
 def format_guess(assembly: Assembly) -> str:

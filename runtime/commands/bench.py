@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from gudgeon.commands.progress import Report
-from gudgeon.commands.studies import Request, find_exit_code, load_scenes, measure_scenes
+from gudgeon.commands.studies import MeasurementRequest, load_scenes, measure_scenes, report_interrupted_scenes
 from gudgeon.contract.methods import OFFERED
 from gudgeon.errors import BadValueError
 from gudgeon.simulation.simulation import Simulation
@@ -11,20 +11,20 @@ from gudgeon.studies.bench import SceneBench, list_default_steps, measure_scene
 from gudgeon.studies.methods import select_methods
 from gudgeon.studies.show.bench import report_bench
 
-EVERY = f"leave it out for all that fit; or {','.join(OFFERED)}"
+METHODS_HINT = f"without it all methods are measured; or {','.join(OFFERED)}"
 
 
-def benchmark_file(request: Request, methods: tuple[str, ...] = ()) -> int:
+def benchmark_file(request: MeasurementRequest, methods: tuple[str, ...] = ()) -> int:
     """Run `gudgeon bench`: measure all scenes of a request, print and write the table, and return the exit code.
 
-    methods: names, separated by commas, or () for all. Scenes without degrees of freedom are measured without steps.
-    Raises BadValueError for unknown methods before anything is run.
+    methods: texts of names separated by commas, or () for all. Scenes without degrees of freedom have no steps and no
+    choice of methods. Raises BadValueError for unknown methods before anything is run.
     """
     step, t_end = request.parse_time("--mark-step", request.mark), request.parse_time("--t-end", request.t_end)
     simulations = load_scenes(request)
     method_names = [name.strip() for text in methods for name in text.split(",") if name.strip()] if methods else None
     if method_names == []:
-        raise BadValueError(f"--methods {', '.join(map(repr, methods))}: expected names of methods", hint=EVERY)
+        raise BadValueError(f"--methods {', '.join(map(repr, methods))}: expected names of methods", hint=METHODS_HINT)
     for simulation in simulations:
         if simulation.source.degrees_of_freedom != 0:
             select_methods(
@@ -53,4 +53,4 @@ def benchmark_file(request: Request, methods: tuple[str, ...] = ()) -> int:
     measured_scenes, interrupted = measure_scenes(simulations, measure_one_scene, request.json)
     if measured_scenes:
         report_bench(simulations[0].source, measured_scenes, table, step, request.json)
-    return find_exit_code(simulations, measured_scenes, interrupted)
+    return report_interrupted_scenes(simulations, measured_scenes, interrupted)

@@ -1,8 +1,8 @@
 """Run `gudgeon check`: report whether a mechanism file is valid; with -v, also how its equations are reduced.
 
-With -v each scene is derived anew. The output has a table of counts and then, for each scene, the reduction log: each
-step with its reason, the solved equations, operations before and after, methods, notes, and the time of each stage of
-the derivation. No line is longer than 100 columns.
+With -v each scene is derived again, without the cache. The output has a table of counts and then, for each scene, the
+reduction log: each elimination step with its reason, the solved equations, operations before and after, methods, notes,
+and the time of each stage of the derivation. No line is longer than WIDTH columns.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 WIDTH = 100  # columns of what is printed
 MAX_INDENT = 14  # maximum indentation of continuation lines, in columns
 MARGIN, GAP = 4, 3  # columns left of a table, and between its columns
-REFERENCE_SOLVERS = ("scipy:*", "sundials:*")  # reference solvers that fit wherever something is integrated
+REFERENCE_SOLVERS = ("scipy:*", "sundials:*")  # methods of reference solvers
 
 
 def check_mechanism(
@@ -42,12 +42,13 @@ def check_mechanism(
 ) -> int:
     """Run `gudgeon check`: check a mechanism file, print the result, and return the exit code.
 
-    name: shipped name or path. settings: texts ADDRESS=VALUE, in place of the file's values. Raises InputError for an
-    invalid file (with `as_json` it is printed), AssemblyError if a scene does not assemble.
+    name: shipped name or path. verbose: with reduction logs. branches: with all assemblies. settings: texts
+    ADDRESS=VALUE, in place of the file's values. Raises InputError for an invalid file, AssemblyError if a scene does
+    not assemble; with `as_json` both are in the printed document.
     """
     from gudgeon.generator.reader.read import read_mechanism
 
-    given, file = parse_settings(settings), find_mechanism(name)
+    overrides, file = parse_settings(settings), find_mechanism(name)
     try:
         data = read_bytes(file)
         mechanism = read_mechanism(data, str(file))
@@ -58,7 +59,7 @@ def check_mechanism(
         return error.exit_code
     seconds: dict[str, dict[str, float]] = {scene: {} for scene in mechanism.scenes}
     with show_status_line(quiet=as_json):
-        findings = assembly_report.assemble_scenes(mechanism, branches, given)
+        findings = assembly_report.assemble_scenes(mechanism, branches, overrides)
         scenes = {
             scene: derive_kernel_source(data, file, scene, seconds=seconds[scene])
             for scene in mechanism.scenes
@@ -73,22 +74,22 @@ def check_mechanism(
             f"{_format_counts(mechanism)}; {assembly_report.format_degrees_of_freedom(findings)}",
         )
     )
-    for whose, remark in assembly_report.yield_remarks(mechanism, findings):
-        print(_wrap_labelled_text(f"  {whose}", remark))
+    for subject, remark in assembly_report.yield_remarks(mechanism, findings):
+        print(_wrap_labelled_text(f"  {subject}", remark))
     for line in assembly_report.yield_assembly_lines(findings) if branches else ():
         print(line)
     if scenes:
         _print_scenes(mechanism, scenes, seconds)
     for scene, problem in findings.errors.items():
-        message = "" if len(findings.errors) == len(mechanism.scenes) else f"scene {scene}: "
-        raise AssemblyError(f"{message}{problem}")
+        prefix = "" if len(findings.errors) == len(mechanism.scenes) else f"scene {scene}: "
+        raise AssemblyError(f"{prefix}{problem}")
     return _find_exit_code(mechanism, findings)
 
 
 def _find_exit_code(mechanism: Mechanism, findings: assembly_report.Findings) -> int:
     """Return the exit code: that of the first scene that does not assemble, else that of a missing mass, else 0."""
-    lacking = MissingKeyError.exit_code if assembly_report.list_scenes_without_masses(mechanism, findings) else 0
-    return next((error.exit_code for error in findings.errors.values()), lacking)
+    mass_code = MissingKeyError.exit_code if assembly_report.list_scenes_without_masses(mechanism, findings) else 0
+    return next((error.exit_code for error in findings.errors.values()), mass_code)
 
 
 def _build_error_documents(error: InputError) -> list[dict[str, Any]]:
@@ -108,14 +109,14 @@ def _build_error_documents(error: InputError) -> list[dict[str, Any]]:
 
 
 def _format_counts(mechanism: Mechanism) -> str:
-    """Return the numbers of bodies, joints and drives, and the scenes, as text."""
+    """Return the numbers of bodies, joints and drives: "2 bodies, 3 joints, 1 drive; scenes ideal, worn"."""
     numbers = [
         (len(mechanism.bodies), "body", "bodies"),
         (len(mechanism.joints), "joint", "joints"),
         (len(mechanism.drives), "drive", "drives"),
     ]
-    words = [f"{count} {singular if count == 1 else more}" for count, singular, more in numbers]
-    return f"{', '.join(words)}; scenes {', '.join(mechanism.scenes)}"
+    count_texts = [f"{count} {singular if count == 1 else plural}" for count, singular, plural in numbers]
+    return f"{', '.join(count_texts)}; scenes {', '.join(mechanism.scenes)}"
 
 
 def _build_scene_counts(source: KernelSource) -> dict[str, int]:
@@ -146,15 +147,16 @@ def find_solved_drives(source: KernelSource) -> tuple[str, ...]:
 
 
 def _can_run_in_reference_solvers(source: KernelSource) -> bool:
-    """Return whether the integrators of SciPy and SUNDIALS can run the scene.
+    """Return whether the integrators of SciPy and SUNDIALS can run the scene (integrators/peers).
 
-    Sticking friction, impulses and internal states of laws are supported by the C methods only (integrators/peers).
+    They cannot run scenes without degrees of freedom, or with set-valued friction, jumps of a drive's rate or
+    explicit contact laws.
     """
     return KINEMATIC not in source.methods and not (source.frictions or source.rate_jumps or source.is_explicit)
 
 
 def _describe_reduction(source: KernelSource) -> dict[str, Any]:
-    """Return for `--json` what is integrated, the operations of the accelerations, and the methods that fit."""
+    """Return for `--json` the formulation, tree, closures, solved drives, operation counts and available methods."""
     operations = {"full": source.operations["dynamics"]}
     if "reduced_dynamics" in source.operations:
         operations["reduced"] = source.operations["reduced_dynamics"]
@@ -170,7 +172,10 @@ def _describe_reduction(source: KernelSource) -> dict[str, Any]:
 
 
 def _yield_method_lines(source: KernelSource, seconds: Mapping[str, float]) -> Iterator[tuple[str, str]]:
-    """Yield the (label, text) lines below the reduction log: methods, events, notes, seconds of each stage."""
+    """Yield the (label, text) lines below the reduction log: methods, events, notes, time of each stage.
+
+    `seconds`: wall time by stage of the derivation.
+    """
     yield (
         "methods",
         f"{', '.join(_describe_reduction(source)['methods'])}; auto begins with {select_first_method(source)}",
@@ -184,13 +189,13 @@ def _yield_method_lines(source: KernelSource, seconds: Mapping[str, float]) -> I
 
 
 def _format_events(source: KernelSource) -> list[str]:
-    """Return each event as text: "top (falling, recorded)"."""
+    """Return a text for each event: "top (falling, recorded)"; "ends the run" for one with `action: stop`."""
     does = {"record": "recorded", "stop": "ends the run"}
     return [f"{event.name} ({event.direction}, {does[event.action]})" for event in source.events]
 
 
 def _format_kernel_label(kernel: str) -> str:
-    """Return the label of a kernel's operations in the table."""
+    """Return the row label of a kernel: "operations in dynamics"; a name that contains a space unchanged."""
     return kernel if " " in kernel else f"operations in {kernel}"
 
 
@@ -333,7 +338,7 @@ def build_log_document(log: ReductionLog) -> dict[str, Any]:
     """Return the reduction log for `--json`, each step with the numbers of coordinates and constraint equations
     left.
     """
-    left = [{"coordinates left": n, "rows left": m} for _, n, m in log.iterate_steps()]
+    remaining_counts = [{"coordinates left": n, "rows left": m} for _, n, m in log.iterate_steps()]
     data = asdict(log)
-    data["steps"] = [step | counts for step, counts in zip(data["steps"], left, strict=True)]
+    data["steps"] = [step | counts for step, counts in zip(data["steps"], remaining_counts, strict=True)]
     return data

@@ -1,4 +1,4 @@
-"""Check and read what several commands share: names of scenes, values of --set, targets of output."""
+"""Check arguments that several commands have: names of scenes, values of --set, output files and folders."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from gudgeon.generator.mechanism import Mechanism
     from gudgeon.generator.targets.numpy.linkage import NumPyLinkage
 
-SCENES = "scenes.json"
+SCENES = "scenes.json"  # file of a cache entry
 
 
 def read_scene_names(mechanism: str) -> tuple[str, ...]:
@@ -76,7 +76,7 @@ def parse_settings(texts: Iterable[str]) -> dict[str, float | str]:
             raise BadValueError(f"--set {text}: expected ADDRESS=VALUE", hint="for example --set c=0.5mm")
         key = address.removeprefix("parameters.")
         if key in written:
-            message = f"--set {text}: this number is set already, by --set {written[key]}"
+            message = f"--set {text}: this parameter is set already, by --set {written[key]}"
             raise BadValueError(message, hint="set it once")
         written[key], settings[address] = text, parse_typed_number(value_text)
     return settings
@@ -94,23 +94,25 @@ def check_addresses(addresses: Iterable[str], file: str, sources: Sequence[Kerne
         for source in sources:
             message, hint = explain_address(source, name)
             if message:
-                every = (*source.written, *source.expressions)
-                meant = (name, f"expressions.{name}")
-                location = next((Location(file, w.line, w.column) for w in every if w.address in meant), None)
+                entries = (*source.written, *source.expressions)
+                addresses_in_file = (name, f"expressions.{name}")
+                location = next(
+                    (Location(file, w.line, w.column) for w in entries if w.address in addresses_in_file), None
+                )
                 raise UnknownNameError(f"--set: {message}", location, hint)
-        raise make_missing_name_error(f"--set: no scene has a number {name!r}", name, known_addresses)
+        raise make_missing_name_error(f"--set: no scene has a parameter {name!r}", name, known_addresses)
 
 
 def select_known_settings(source: KernelSource, settings: Mapping[str, float | str]) -> dict[str, float | str]:
-    """Return those values of `--set` whose addresses the scene has; an ideal scene has no viscosity, for example."""
+    """Return the values of `--set` whose addresses the scene has; an ideal scene has no viscosity, for example."""
     known_addresses = set(list_addresses(source))
     return {address: number for address, number in settings.items() if address in known_addresses}
 
 
 def apply_settings(mechanism: Mechanism, linkage: NumPyLinkage, settings: Mapping[str, float | str]) -> NumPyLinkage:
-    """Return a linkage without play with the `settings` of --set; the same object if none of them matters.
+    """Return the linkage without play rebuilt with the `settings` of --set; the same object if they do not change it.
 
-    Addresses of other scenes are ignored. Raises BadValueError for values out of range.
+    Addresses of other scenes and Baumgarte gains are ignored. Raises BadValueError for values out of range.
     """
     from gudgeon.generator.pipeline import build_closed_linkage
 
@@ -128,16 +130,16 @@ def apply_settings(mechanism: Mechanism, linkage: NumPyLinkage, settings: Mappin
     try:
         closed_linkage, _ = build_closed_linkage(mechanism, source.scene, linkage_settings)
     except ArithmeticError as error:
-        message = f"--set: what follows from these numbers is none ({error})"
-        raise BadValueError(message, hint="look for one that is 0, or far too large") from error
+        message = f"--set: values derived from these parameters cannot be computed ({error})"
+        raise BadValueError(message, hint="look for a value that is 0 or far too large") from error
     check_parameter_values(source, closed_linkage.p[:count], is_given)
     return closed_linkage
 
 
 def check_output_folder(option: str, out: Path) -> None:
-    """Raise InputError before a run if the folder `out` cannot be created or written.
+    """Raise InputError if the folder `out` cannot be created or written; called before a run.
 
-    option: the command-line option for the message.
+    A temporary file is written to the nearest existing folder. option: the command-line option for the message.
     """
     import tempfile
 
@@ -145,7 +147,7 @@ def check_output_folder(option: str, out: Path) -> None:
         existing_folder = next(path for path in (out.absolute(), *out.absolute().parents) if path.exists())
         for name in out.absolute().relative_to(existing_folder).parts:
             with suppress(FileNotFoundError, NotADirectoryError):
-                (existing_folder / name).lstat()  # a name too long
+                (existing_folder / name).lstat()  # OSError if a name is too long
     except OSError as error:  # a name too long, a folder that may not be entered
         message = f"{option} {shorten_path(out)}: {error.strerror or error}"
         raise InputError(message, hint="name another folder") from error
@@ -164,8 +166,9 @@ def check_output_folder(option: str, out: Path) -> None:
 
 
 def check_output_file(option: str, path: Path) -> None:
-    """Raise InputError before a run if the file `path` cannot be written or replaced; `option`: name for the
-    message.
+    """Raise InputError if the file `path` cannot be written or replaced; called before a run.
+
+    option: the command-line option for the message.
     """
     check_output_folder(option, path.parent)
     check_output_name(option, path)

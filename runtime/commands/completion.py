@@ -17,22 +17,22 @@ def complete_files(incomplete: str) -> list[str]:
     """
     from gudgeon.loading.shipped import list_shipped_mechanisms
 
-    folder, _, begun = incomplete.rpartition("/")
-    file_names = [] if folder else [name for name in list_shipped_mechanisms() if name.startswith(begun)]
+    folder, _, prefix = incomplete.rpartition("/")
+    file_names = [] if folder else [name for name in list_shipped_mechanisms() if name.startswith(prefix)]
     with suppress(OSError), os.scandir(f"{folder}/" if folder or incomplete.startswith("/") else ".") as entries:
         for entry in entries:
-            if entry.name.startswith(begun) and not entry.name.startswith("."):
-                whole = incomplete.removesuffix(begun) + entry.name
+            if entry.name.startswith(prefix) and not entry.name.startswith("."):
+                completion = incomplete.removesuffix(prefix) + entry.name
                 if entry.is_dir():
-                    file_names.append(f"{whole}/")
+                    file_names.append(f"{completion}/")
                 elif entry.name.endswith((".yaml", ".yml")):
-                    file_names.append(whole)
+                    file_names.append(completion)
     return sorted(file_names)
 
 
 def complete_scenes(context: typer.Context, incomplete: str) -> list[str]:
-    """Return completions of a scene name, from the mechanism on the command line; "ideal" alone if it cannot be
-    read.
+    """Return completions of a scene name, from the mechanism on the command line, with "ideal"; only "ideal" if the
+    file cannot be read.
     """
     from gudgeon.generator.yaml import parse_yaml
     from gudgeon.loading.shipped import find_shipped_file, list_shipped_mechanisms

@@ -1,7 +1,7 @@
 """Run `gudgeon draw`: write a picture of a mechanism at its start, at a time of its motion, or in all its assemblies.
 
-The start needs no compiler: the linkage is closed as `gudgeon check` closes it. A linkage that does not close is drawn
-too, and its error is raised after the picture is written.
+The start needs no compiler: the linkage is assembled in NumPy as by `gudgeon check`. A linkage that does not close is
+drawn too, and its error is raised after the picture is written.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ SUFFIXES = (".svg", ".png", ".pdf", ".dxf")
 
 @dataclass(frozen=True)
 class Picture:
-    """Hold the sketches of a picture, in one row, with a title for each and a caption above them."""
+    """Sketches of a picture in one row, with a title for each and a caption above them."""
 
     sketches: Sequence[Sketch]
     titles: Sequence[str]
@@ -63,7 +63,7 @@ class Picture:
 
 
 @dataclass(frozen=True)
-class Request:
+class DrawRequest:
     """Arguments of the command line, as typed."""
 
     file: str
@@ -74,14 +74,15 @@ class Request:
     branches: bool
 
 
-def draw_file(request: Request) -> int:
-    """Run `gudgeon draw`: draw the mechanism, write the picture, and return the exit code.
+def draw_mechanism_file(request: DrawRequest) -> int:
+    """Run `gudgeon draw`: draw the mechanism, write the picture, and return the exit code 0.
 
-    The picture is of the start, of a time (--at) after a run until then, or of all assemblies (--branches). Raises
-    BadValueError for arguments. Raises the error of `check` for a linkage that does not close, after writing.
+    It shows the start, the time of --at (> 0) after a run to it, or all assemblies (--branches). The default file is
+    out/STEM_SCENE.svg. Raises BadValueError for arguments. For a linkage that does not close or has no velocities, the
+    error of `check` is raised after the picture is written.
     """
     if request.at is not None and request.branches:
-        raise BadValueError("--branches with --at: assemblies are those of the start", hint="leave one of them out")
+        raise BadValueError("--branches with --at: assemblies exist at the start only", hint="leave one of them out")
     values = parse_settings(request.settings)
     select_scenes(request.file, (request.scene,))
     file = find_mechanism(request.file)
@@ -95,7 +96,7 @@ def draw_file(request: Request) -> int:
 
     draw_time = 0.0 if request.at is None else parse_quantity(insert_space_before_unit(request.at), "--at", (0, 0, 1))
     if draw_time < 0.0:
-        raise BadValueError(f"--at is {draw_time:g} s: the motion starts at 0 s", hint="take a time of the motion")
+        raise BadValueError(f"--at is {draw_time:g} s: expected 0 s or more", hint="choose a time of the motion")
     with _convert_drawing_errors(target):
         if draw_time > 0.0:
             drawn, failure = _draw_at_time(request, draw_time, values), None
@@ -112,9 +113,9 @@ def draw_file(request: Request) -> int:
 
 @contextmanager
 def _convert_drawing_errors(target: Path) -> Iterator[None]:
-    """Raise GudgeonError in place of a ValueError or ArithmeticError in the with block: values too large to be drawn.
+    """Convert a ValueError or ArithmeticError in the with block to a GudgeonError: values too large to be drawn.
 
-    NumPy's warnings about them are suppressed.
+    NumPy's warnings about such values are suppressed.
     """
     try:
         with np.errstate(all="ignore"):
@@ -122,11 +123,11 @@ def _convert_drawing_errors(target: Path) -> Iterator[None]:
     except (ValueError, ArithmeticError) as error:
         if isinstance(error, GudgeonError):
             raise
-        message = f"no picture {shorten_path(target)}: its numbers cannot be drawn ({error})"
+        message = f"no picture {shorten_path(target)}: its values cannot be drawn ({error})"
         raise GudgeonError(f"{message}\n  look for a length or a start that is far too large") from error
 
 
-def _draw_at_time(request: Request, draw_time: float, values: Mapping[str, float | str]) -> Picture:
+def _draw_at_time(request: DrawRequest, draw_time: float, values: Mapping[str, float | str]) -> Picture:
     """Run the scene to the time `draw_time` (s) and return the picture there.
 
     Raises SolverError if the run fails before, BadValueError for an impossible time, KeyboardInterrupt after Ctrl-C.
@@ -140,10 +141,10 @@ def _draw_at_time(request: Request, draw_time: float, values: Mapping[str, float
     with show_progress_bars() as make_bar:
         try:
             run = simulation.simulate(draw_time, parameters=values, progress=make_bar(request.scene), peaks=())
-        except SolverError as error:  # its advice is for who keeps a run
-            why, _, _ = str(error).partition("\n")
-            hint = "draw an earlier time, or let gudgeon run show the motion until then"
-            raise SolverError(f"{why}\n  {hint}", error.time, error.pivot) from error
+        except SolverError as error:  # its hint concerns results of runs
+            reason, _, _ = str(error).partition("\n")
+            hint = "draw an earlier time; gudgeon run shows the motion up to the failure"
+            raise SolverError(f"{reason}\n  {hint}", error.time, error.pivot) from error
         except BadValueError as error:
             if not error.message.startswith("t_end is"):
                 raise
@@ -161,10 +162,12 @@ def _format_caption(title: str, scene: str, t: float) -> str:
     return f"{title}: {scene}, t = {format_quantity(t, 's', 6)}"
 
 
-def _draw_start(request: Request, file: Path, values: Mapping[str, float | str]) -> tuple[Picture, GudgeonError | None]:
+def _draw_start(
+    request: DrawRequest, file: Path, values: Mapping[str, float | str]
+) -> tuple[Picture, GudgeonError | None]:
     """Return the picture at the start, and the error of a linkage that does not close or has no velocities, else None.
 
-    An open linkage is drawn at the position nearest to closing. With --branches, all assemblies are drawn.
+    An open linkage is drawn at the position with the smallest residual. With --branches, all assemblies are drawn.
     """
     from gudgeon.assembly.closure import AssemblyProblem
     from gudgeon.generator.pipeline import build_closed_linkage
@@ -211,7 +214,7 @@ def _make_sketches(
 ) -> list[Sketch]:
     """Return a sketch of each configuration of a closed linkage, all with one scale.
 
-    Unexpected degrees of freedom and loose bodies are marked.
+    Motions of loose bodies are marked, and degrees of freedom if the file does not declare `freedoms`.
     """
     from gudgeon.assembly.mobility import find_mobility
     from gudgeon.drawing.failures import draw_free_motions
@@ -237,9 +240,9 @@ def _make_sketches(
 def _draw_unclosed_linkage(
     mechanism: Mechanism, problem: AssemblyProblem, q: Array, caption: str
 ) -> tuple[Picture, GudgeonError]:
-    """Return the picture of a linkage that does not close, with its gaps marked, and its error.
+    """Return the picture of a linkage that does not close, with its gaps marked, and its AssemblyError.
 
-    The error is raised if q or the gaps are not finite.
+    The error is raised at once if q or a residual is not finite.
     """
     from gudgeon.assembly.failures import make_closure_error
     from gudgeon.drawing.failures import draw_gaps
@@ -267,6 +270,8 @@ def _draw_assemblies(mechanism: Mechanism, problem: AssemblyProblem, q: Array) -
     configurations = [
         _make_configuration(linkage, assembly.q, _find_velocities(problem, assembly.q)[0]) for assembly in assemblies
     ]
-    here = {True: " (as the file has it)", False: ""}
-    titles = [f"{k}  {format_guess(assembly)}{here[assembly.is_start]}" for k, assembly in enumerate(assemblies, 1)]
+    start_marks = {True: " (as in the file)", False: ""}
+    titles = [
+        f"{k}  {format_guess(assembly)}{start_marks[assembly.is_start]}" for k, assembly in enumerate(assemblies, 1)
+    ]
     return _make_sketches(mechanism, problem, configurations), titles

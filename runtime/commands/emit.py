@@ -17,17 +17,17 @@ from gudgeon.loading import compiler
 from gudgeon.loading.engine import read_engine_files, read_engine_readme
 from gudgeon.loading.kernel_sources import find_kernel_source, find_mechanism, read_bytes
 
-ENGINE = "engine"  # folder of the files that all scenes share
-REST = "kernel.json"  # the description of a scene, without its texts
-LIST = "emitted.sha256"  # list of the written files in the format of `sha256sum -c`
-_LINE = re.compile(r"([0-9a-f]{64})  ([A-Za-z0-9_][A-Za-z0-9_.]*)")  # a plain name, without a path
+ENGINE_FOLDER = "engine"  # folder of the files that all scenes use
+DESCRIPTION = "kernel.json"  # description of a scene, without its source texts
+CHECKSUM_LIST = "emitted.sha256"  # list of the written files in the format of `sha256sum -c`
+_CHECKSUM_LINE = re.compile(r"([0-9a-f]{64})  ([A-Za-z0-9_][A-Za-z0-9_.]*)")  # a plain name, without a path
 
 
 def emit_c(mechanism: str, folder: Path, scene_names: tuple[str, ...]) -> int:
     """Run `gudgeon emit`: write `folder/<scene>/*` and `folder/engine/*`, and return the exit code.
 
-    A name that ends in .fmu is that of an FMU of one scene. Raises InputError, before anything is written, if a folder
-    contains other files.
+    The engine is written only if a scene needs it. If `folder` ends in .fmu, an FMU of one scene is written instead.
+    Raises InputError, before anything is written, if a folder contains other files.
     """
     if folder.suffix.lower() == ".fmu":
         return _emit_fmu(mechanism, folder, scene_names)
@@ -47,25 +47,25 @@ def emit_c(mechanism: str, folder: Path, scene_names: tuple[str, ...]) -> int:
     for scene in scenes:
         with show_status_line():
             source, _ = find_kernel_source(data, file, scene)
-        texts = {**source.files, REST: replace(source, files={}).to_json() + "\n"}
+        texts = {**source.files, DESCRIPTION: replace(source, files={}).to_json() + "\n"}
         _write_folder(folder / scene, {name: text.encode() for name, text in texts.items()})
         report_written_file(scene, folder / scene, f": {', '.join(texts)}")
         needs_engine |= not source.cdef
     if needs_engine:
         for engine_folder, texts in engine_folders.items():
             _write_folder(folder / engine_folder, {name: text.encode() for name, text in texts.items()})
-        report_written_file(ENGINE, folder / ENGINE, ": what all scenes share")
+        report_written_file(ENGINE_FOLDER, folder / ENGINE_FOLDER, ": files that all scenes use")
     return 0
 
 
 def _emit_fmu(mechanism: str, target: Path, scene_names: tuple[str, ...]) -> int:
-    """Write an FMU of one scene, "ideal" unless named, report what it contains, and return the exit code.
+    """Write an FMU of one scene ("ideal" if `scene_names` is empty), report its kinds, and return the exit code 0.
 
     Raises InputError for several scenes.
     """
     scenes = select_scenes(mechanism, scene_names or ("ideal",))
     if len(scenes) != 1:
-        raise InputError(f"an FMU is of one scene, not of {len(scenes)}", hint="name one with --scene")
+        raise InputError(f"an FMU contains one scene, not {len(scenes)}", hint="select one with --scene")
     check_output_path(target)
     from gudgeon.exchange.fmu import write_fmu
     from gudgeon.exchange.fmu_description import explain_exchange_obstacle
@@ -74,13 +74,13 @@ def _emit_fmu(mechanism: str, target: Path, scene_names: tuple[str, ...]) -> int
     with show_status_line():
         simulation = load(mechanism, scene=scenes[0])
         write_fmu(simulation, target)
-    why = explain_exchange_obstacle(simulation.source)
-    kinds = f"Co-Simulation alone ({why})" if why else "Co-Simulation and Model Exchange"
+    obstacle = explain_exchange_obstacle(simulation.source)
+    kinds = f"Co-Simulation only ({obstacle})" if obstacle else "Co-Simulation and Model Exchange"
     report_written_file("fmu", target, f": FMI 3.0, {kinds}, scene {scenes[0]}")
     if others := [scene for scene in select_scenes(mechanism, ()) if scene not in scenes and not scene_names]:
         report_note(f"other scenes, by --scene: {', '.join(others)}")
     if not compiler.has_compiler():
-        report_note("no C compiler was found: it holds the sources alone, which importers compile")
+        report_note("no C compiler was found: the FMU contains only sources, which the importer compiles")
     return 0
 
 
@@ -89,17 +89,20 @@ def _check_distinct_folders(scenes: tuple[str, ...]) -> None:
 
     Names are compared without case, because some file systems ignore it.
     """
-    owners = {ENGINE: ""}
+    owners = {ENGINE_FOLDER: ""}
     for scene in scenes:
         other = owners.setdefault(scene.casefold(), scene)
         if other != scene:
-            message = f"it would share a folder with scene {other!r}" if other else "that folder is what all share"
-            hint = "give the scene another name, or emit others with --scene"
+            message = f"it needs the folder of scene {other!r}" if other else "its folder is that of the engine"
+            hint = "rename the scene, or select other scenes with --scene"
             raise InputError(f"scene {scene!r} cannot be emitted: {message}", hint=hint)
 
 
 def _group_engine_files() -> dict[str, dict[str, str]]:
-    """Return the engine's texts and README files by folder ("engine/run") and file name, outer folders first."""
+    """Return the engine's source texts and README by folder and file name: {"engine/run": {"run.c": text}}.
+
+    Outer folders come first.
+    """
     engine_folders: dict[str, dict[str, str]] = {}
     for path, text in sorted((*read_engine_files().items(), read_engine_readme())):
         engine_folder, _, name = path.rpartition("/")
@@ -110,16 +113,16 @@ def _group_engine_files() -> dict[str, dict[str, str]]:
 def _write_folder(folder: Path, texts: dict[str, bytes]) -> None:
     """Write all texts and their list of checksums into a folder, or none of them.
 
-    Unchanged files that an earlier version wrote and this one does not are removed. A list of old and new files is
-    written first, so that every file is listed even if the process is killed.
+    Unchanged files of an earlier `emit` without a text are removed, and temporary files of a killed process. A
+    list of old and new files is written first, so that every file is listed even if the process is killed.
     """
     old, new = _read_checksums(folder), {name: {sha256(text).hexdigest()} for name, text in texts.items()}
     old_and_new = {name: old.get(name, set()) | new.get(name, set()) for name in (*new, *(old.keys() - new.keys()))}
     with AtomicFiles(folder, follow=False) as atomic_files:
-        atomic_files.write(LIST, _format_checksums(old_and_new))
+        atomic_files.write(CHECKSUM_LIST, _format_checksums(old_and_new))
         for name, text in texts.items():
             atomic_files.write(name, text)
-        atomic_files.write(LIST, _format_checksums(new))
+        atomic_files.write(CHECKSUM_LIST, _format_checksums(new))
         atomic_files.move_files(1 + len(texts))
         for name in old.keys() - new.keys():
             atomic_files.remove_file(name, lambda data, sums=old[name]: sha256(data).hexdigest() in sums)  # type: ignore[misc]
@@ -135,12 +138,13 @@ def _format_checksums(sums: Mapping[str, set[str]]) -> bytes:
 
 
 def _read_checksums(folder: Path) -> dict[str, set[str]]:
-    """Return the checksums of files that an earlier `emit` wrote into the folder, by file name; {} without a valid
-    list.
+    """Return the SHA-256 sums of files that an earlier `emit` wrote into the folder, by file name.
+
+    A file has several sums if a process was killed. {} without a valid list.
     """
     sums_by_name: dict[str, set[str]] = {}
-    for line in (read_regular_file(folder / LIST) or b"").decode(errors="replace").splitlines():
-        parts = _LINE.fullmatch(line)
+    for line in (read_regular_file(folder / CHECKSUM_LIST) or b"").decode(errors="replace").splitlines():
+        parts = _CHECKSUM_LINE.fullmatch(line)
         if not parts:
             return {}
         sums_by_name.setdefault(parts[2], set()).add(parts[1])
@@ -148,9 +152,10 @@ def _read_checksums(folder: Path) -> dict[str, set[str]]:
 
 
 def refuse_foreign_files(folder: Path, subfolders: Collection[str] = ()) -> None:
-    """Raise InputError if the folder contains anything but unchanged files of an earlier `emit`; it may be absent.
+    """Raise InputError if the folder contains anything but unchanged files of an earlier `emit`.
 
-    A link is refused too. subfolders: names of those that are checked separately.
+    An absent folder is accepted; a symbolic link, a file and an invalid list of checksums are refused. subfolders:
+    names of subfolders that are checked separately.
     """
     shown = shorten_path(folder)
     try:
@@ -161,26 +166,25 @@ def refuse_foreign_files(folder: Path, subfolders: Collection[str] = ()) -> None
         if not folder.is_dir():
             raise InputError(f"{shown} is a file", hint="name another folder")
         sums_by_name = _read_checksums(folder)
-        if not sums_by_name and read_regular_file(folder / LIST):
-            message = f"{folder / LIST} is no list as `emit` writes it: it does not tell which files there are its own"
-            raise InputError(message, hint="put the list back as it was, remove the folder, or name another one")
-        kept = (
+        if not sums_by_name and read_regular_file(folder / CHECKSUM_LIST):
+            message = f"{folder / CHECKSUM_LIST} is not a list of checksums that `emit` wrote"
+            raise InputError(message, hint="restore the list, remove the folder, or name another one")
+        known_names = (
             path.name
             for path in folder.iterdir()
             if _is_unchanged_output(path, sums_by_name) or _is_named_folder(path, subfolders)
         )
-        foreign = sorted({path.name for path in folder.iterdir()} - set(kept))
+        foreign = sorted({path.name for path in folder.iterdir()} - set(known_names))
     except OSError as error:
         raise InputError(f"{shown} cannot be read: {error.strerror or error}", hint="name another folder") from error
     listed_names = [name for name in foreign if name in sums_by_name]
     if foreign and listed_names == foreign:
-        message = (
-            f"{shown}: {', '.join(listed_names[:5])} and the checksums in {LIST} differ: files or list were changed"
-        )
-        raise InputError(message, hint="put back what was changed, move those files away or name another folder")
+        differing = ", ".join(listed_names[:5])
+        message = f"{shown}: {differing} and the checksums in {CHECKSUM_LIST} differ: files or list were changed"
+        raise InputError(message, hint="restore the changed files, move them away or name another folder")
     if foreign:
         foreign, hint = [name for name in foreign if name not in sums_by_name], "move them away or name another folder"
-        raise InputError(f"{shown} holds files that `emit` did not write so: {', '.join(foreign[:5])}", hint=hint)
+        raise InputError(f"{shown} contains files that `emit` did not write: {', '.join(foreign[:5])}", hint=hint)
 
 
 def _is_named_folder(path: Path, names: Collection[str]) -> bool:
@@ -195,7 +199,7 @@ def _is_unchanged_output(path: Path, sums_by_name: Mapping[str, set[str]]) -> bo
     """
     if path.is_symlink() or not path.is_file():
         return False
-    if path.name == LIST:
+    if path.name == CHECKSUM_LIST:
         return bool(sums_by_name) or path.stat().st_size == 0
     if PART.fullmatch(path.name):
         return True

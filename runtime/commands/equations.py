@@ -20,7 +20,7 @@ from gudgeon.waiting.cancellation import report_work
 if TYPE_CHECKING:
     from gudgeon.generator.equations.model import Model
 
-TERMINAL, DEFAULT = Path("-"), "ideal"
+TERMINAL, DEFAULT_SCENE = Path("-"), "ideal"
 SUFFIXES = (".tex", ".txt", ".html", ".ipynb")
 
 
@@ -28,8 +28,8 @@ def write_equations(mechanism: str, target: Path, scenes: tuple[str, ...]) -> in
     """Run `gudgeon equations`: write the equations of a scene to a .tex, .txt, .html or .ipynb file; return the exit
     code.
 
-    target: a folder receives a page of each scene; "-" prints the text. Raises BadValueError for several scenes in a
-    file.
+    target: a folder (existing, or a name without suffix) gets an HTML page of each scene; "-" prints the text. Without
+    `scenes` a file has the scene "ideal". Raises BadValueError for several scenes in a file.
     """
     if os.path.isdir(target) or not (target.suffix or target == TERMINAL):
         return _write_pages(mechanism, target, scenes)
@@ -37,9 +37,9 @@ def write_equations(mechanism: str, target: Path, scenes: tuple[str, ...]) -> in
         require_suffix(target, SUFFIXES)
         check_output_file("--out", target)
     if len(scenes) > 1:
-        message = f"{format_path(target)} holds the equations of one scene, not of {', '.join(scenes)}"
+        message = f"{format_path(target)}: a file contains the equations of one scene, not of {', '.join(scenes)}"
         raise BadValueError(message, hint="name a folder: -o pages/")
-    (scene,) = select_scenes(mechanism, scenes or (DEFAULT,))
+    (scene,) = select_scenes(mechanism, scenes or (DEFAULT_SCENE,))
     with show_status_line(), report_work(f"deriving {find_mechanism(mechanism).stem}, scene {scene}"):
         text = _format_equations(mechanism, scene, target)
     if target == TERMINAL:
@@ -61,14 +61,14 @@ def _check_notebook_run(mechanism: str, scene: str, notebook: Path) -> None:
 
     try:
         with show_status_line(), warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # the notebook shows them
+            warnings.simplefilter("ignore")  # the notebook displays them
             simulation = load(mechanism, scene)
             with report_work(f"running {simulation.source.mechanism}, scene {scene}, as the notebook will"):
                 run = simulation.simulate()
     except GudgeonError as error:
-        message = GudgeonError(f"{format_path(notebook)} is written, but what it runs in its last cells fails: {error}")
-        message.exit_code = error.exit_code
-        raise message from error
+        failure = GudgeonError(f"{format_path(notebook)} is written, but the run in its last cells fails: {error}")
+        failure.exit_code = error.exit_code
+        raise failure from error
     if run.diagnostics.interrupted:
         raise KeyboardInterrupt
 
@@ -121,9 +121,12 @@ def _format_equations(mechanism: str, scene: str, target: Path) -> str:
 
 
 def _find_mechanism_from_notebook(mechanism: str, target: Path) -> str:
-    """Return the path or name by which `load` finds the mechanism from the notebook's folder."""
+    """Return the argument of `load` that finds the mechanism from the notebook's folder.
+
+    It is the given text for a shipped mechanism or an absolute path, else a relative path with a slash or a suffix.
+    """
     file = find_mechanism(mechanism)
-    if file.is_absolute():  # a shipped one has its name
+    if file.is_absolute():  # a shipped mechanism or an absolute path
         return mechanism
     relative_path = os.path.relpath(file, target.parent)
     return relative_path if "/" in relative_path or relative_path.endswith((".yaml", ".yml")) else f"./{relative_path}"

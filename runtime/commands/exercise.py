@@ -48,8 +48,8 @@ def write_exercise(mechanism: str, target: Path, scene: str, seed: int, at: str 
 def make_exercise(mechanism: str, scene: str, seed: int, at: str | None) -> tuple[Document, Document, ExerciseData]:
     """Return the exercise sheet, its solutions, and the drawn parameter values with their run.
 
-    `at`: text of the time, or None for a drawn one. Raises GudgeonError if the run fails with the file's own values
-    too.
+    `at`: text of the time, or None for a random one. Other values are drawn if a run fails; raises GudgeonError if the
+    run fails with the values of the file too.
     """
     from gudgeon.simulation.from_file import load
     from gudgeon.teaching.draw_parameters import draw_parameters
@@ -60,11 +60,11 @@ def make_exercise(mechanism: str, scene: str, seed: int, at: str | None) -> tupl
     from gudgeon.generator.reader.read import read_scene
     from gudgeon.teaching.sheet import list_units, make_sheets, make_subject
 
-    with report_work(f"running {file.stem}, scene {scene}, with other numbers"):
+    with report_work(f"running {file.stem}, scene {scene}, with other parameter values"):
         try:
             exercise_data = draw_parameters(simulation, seed, at, list_units(read_scene(data, str(file), scene)))
         except (AssemblyError, SolverError) as error:
-            failure = GudgeonError(f"no sheet: the run that its numbers come from fails, the file's own too: {error}")
+            failure = GudgeonError(f"no sheet: the run fails with drawn values and with those of the file: {error}")
             failure.exit_code = error.exit_code
             raise failure from error
     with report_work(f"deriving {file.stem}, scene {scene}"):
@@ -78,20 +78,21 @@ def make_exercise(mechanism: str, scene: str, seed: int, at: str | None) -> tupl
 
 
 def _format_document(document: Document, suffix: str, exercise_data: ExerciseData) -> str:
-    """Return a document in the format of a suffix; .html and .tex include a picture if matplotlib is installed."""
+    """Return a document as text in the format of a suffix (.html, .tex, .txt or .md).
+
+    .html and .tex include a sketch of the mechanism if matplotlib is installed.
+    """
     from gudgeon.generator.targets.latex.render import render_document
     from gudgeon.teaching.notebook import format_document
 
     if suffix == ".md":
         return format_document(document)
-    slots = {".html": _fill_html_slots, ".tex": _fill_tex_slots}.get(suffix, lambda _: {})(exercise_data)
-    return render_document(document, suffix.removeprefix("."), **slots)
+    variables = {".html": _build_html_variables, ".tex": _build_tex_variables}.get(suffix, lambda _: {})(exercise_data)
+    return render_document(document, suffix.removeprefix("."), **variables)
 
 
-def _fill_html_slots(exercise_data: ExerciseData) -> dict[str, str]:
-    """Return the texts for the slots of the HTML template by name; "app" has the sketch as SVG if matplotlib is
-    installed.
-    """
+def _build_html_variables(exercise_data: ExerciseData) -> dict[str, str]:
+    """Return the variables of the HTML template; "app" contains the sketch as SVG if matplotlib is installed."""
     texts = {"head": "", "app": "", "scripts": ""}
     if (sketch := _make_sketch(exercise_data)) is not None:
         from gudgeon.drawing.picture import build_figure, encode_figure
@@ -101,10 +102,8 @@ def _fill_html_slots(exercise_data: ExerciseData) -> dict[str, str]:
     return texts
 
 
-def _fill_tex_slots(exercise_data: ExerciseData) -> dict[str, str]:
-    """Return the texts for the slots of the LaTeX template: the sketch as TikZ and its caption; {} without
-    matplotlib.
-    """
+def _build_tex_variables(exercise_data: ExerciseData) -> dict[str, str]:
+    """Return the variables of the LaTeX template: the sketch as TikZ and its caption; {} without matplotlib."""
     if (sketch := _make_sketch(exercise_data)) is None:
         return {}
     from gudgeon.drawing.tikz import write_tikz
@@ -114,7 +113,7 @@ def _fill_tex_slots(exercise_data: ExerciseData) -> dict[str, str]:
 
 
 def _make_sketch(exercise_data: ExerciseData) -> Sketch | None:
-    """Return a sketch of the mechanism at the time of the sheet; None without matplotlib, which places the names."""
+    """Return a sketch of the mechanism at the time of the sheet; None without matplotlib, which places the labels."""
     try:
         import matplotlib  # noqa: F401
     except ImportError:

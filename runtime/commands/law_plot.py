@@ -1,4 +1,4 @@
-"""Run `gudgeon laws NAME --plot`: draw a force law over penetration, slip or eccentricity."""
+"""Run `gudgeon laws NAME --plot`: plot a force law over penetration, slip velocity or eccentricity ratio."""
 
 from __future__ import annotations
 
@@ -23,12 +23,21 @@ if TYPE_CHECKING:
     from gudgeon.generator.kinds.laws.law import Law
 
 SUFFIXES = (".svg", ".png", ".pdf")
-POINTS = 241  # samples of a curve
-STEEL = {"R_i": 10e-3, "R_j": 9.9e-3, "c": 0.1e-3, "L": 20e-3, "E_i": 207e9, "nu_i": 0.3, "E_j": 207e9, "nu_j": 0.3}
-PAIR = "steel, R_i = 10 mm, c = 0.1 mm, L = 20 mm"
+N_POINTS = 241  # samples of a curve
+STEEL_JOINT = {
+    "R_i": 10e-3,
+    "R_j": 9.9e-3,
+    "c": 0.1e-3,
+    "L": 20e-3,
+    "E_i": 207e9,
+    "nu_i": 0.3,
+    "E_j": 207e9,
+    "nu_j": 0.3,
+}
+STEEL_JOINT_TEXT = "steel, R_i = 10 mm, c = 0.1 mm, L = 20 mm"
 # Values of required keys that are not set: by name, otherwise by dimension (exponents of m, kg, s).
-USUAL = {"restitution": 0.9, "roughness": 5e-7, "mu_s": 0.15, "v0": 1e-3, "decay": 5e-3}
-BY_DIMENSION: Mapping[tuple[float, ...], float] = {
+DEFAULTS_BY_NAME = {"restitution": 0.9, "roughness": 5e-7, "mu_s": 0.15, "v0": 1e-3, "decay": 5e-3}
+DEFAULTS_BY_DIMENSION: Mapping[tuple[float, ...], float] = {
     (0, 0, 0): 0.1,
     (1, 0, 0): 2e-5,
     (1, 0, -1): 1e-2,
@@ -39,17 +48,20 @@ BY_DIMENSION: Mapping[tuple[float, ...], float] = {
     (-1, 1, -1): 0.05,
     (-1, 1, -2): 1e9,
 }
-MAX_PENETRATION, SPEED = 0.05, 0.1  # largest δ/c; approach speed in m/s, also slip velocity if the law has none
-RATIOS = {1.0: "approach", 0.0: "rest", -1.0: "parting"}
-SHOWN = {"restitution"}  # its default, 1, would give three equal curves
+MAX_PENETRATION, APPROACH_SPEED = (
+    0.05,
+    0.1,
+)  # largest δ/c; approach speed in m/s, also slip velocity if the law has none
+RATE_RATIOS = {1.0: "approach", 0.0: "rest", -1.0: "separation"}  # by δ̇/δ̇⁻
+NEVER_DEFAULT = {"restitution"}  # keys whose default is not used: restitution 1 gives three equal curves
 # Elastic force of laws that read it from the mechanism file.
-FORCE = "1e7 N/m * delta + 1e18 N/m^3 * delta**3"
+ELASTIC_FORCE = "1e7 N/m * delta + 1e18 N/m^3 * delta**3"
 Function = Callable[..., Mapping[str, Any]]
 
 
 @dataclass(frozen=True)
 class _SelectedLaw:
-    """Hold a law with all its values and options; `description` lists those that are not the law's defaults."""
+    """A law with all its parameter values and options; `description` lists those that are not the law's defaults."""
 
     law: Law
     name: str
@@ -78,8 +90,8 @@ def make_law_figure(law: Law, name: str, settings: Mapping[str, float | str]) ->
 
     if law.rigid:
         raise BadValueError(
-            f"{name} has no curve: its force is whatever keeps surfaces apart that do not give\n"
-            f"  gudgeon laws {name} tells what it does"
+            f"{name} has no curve: it is the constraint force between rigid surfaces\n"
+            f"  gudgeon laws {name} describes it"
         )
     selected_law = _select_law_values(law, name, settings)
     from matplotlib import rc_context
@@ -87,7 +99,7 @@ def make_law_figure(law: Law, name: str, settings: Mapping[str, float | str]) ->
 
     from gudgeon.generator.kinds.laws.built import make_law_function
 
-    function = make_law_function(law, selected_law.numbers, selected_law.options, STEEL)
+    function = make_law_function(law, selected_law.numbers, selected_law.options, STEEL_JOINT)
     with rc_context(plots.STYLE), np.errstate(all="ignore"):
         figure = Figure(figsize=(6.4, 4.2), dpi=120, layout="constrained")
         ax = figure.subplots()
@@ -101,15 +113,18 @@ def make_law_figure(law: Law, name: str, settings: Mapping[str, float | str]) ->
 
 
 def _select_law_values(law: Law, name: str, settings: Mapping[str, float | str]) -> _SelectedLaw:
-    """Return the law with the values of `settings`, and default or usual ones for the rest. Raises as `plot_law`."""
+    """Return the law with the values of `settings`; other keys get the law's defaults, or those of this module.
+
+    `name` is the law's name or an alternative name, which may fix options. Raises as `plot_law`.
+    """
     from gudgeon.generator.field import resolve_dimensions
 
     fields = {field.name: field for field in resolve_dimensions(law.list_fields_of_name(name), settings)}
     for key in settings:
         if key not in fields:
             raise make_unknown_name_error(f"key of {name}", key, tuple(fields), None)
-    made: Mapping[str, str | bool] = law.also.get(name, {})
-    options = {field.name: made.get(field.name, field.default_option) for field in law.options}
+    fixed_options: Mapping[str, str | bool] = law.also.get(name, {})
+    options = {field.name: fixed_options.get(field.name, field.default_option) for field in law.options}
     numbers: dict[str, Any] = {}
     description = []
     for field in fields.values():
@@ -118,7 +133,7 @@ def _select_law_values(law: Law, name: str, settings: Mapping[str, float | str])
                 options[field.name] = _parse_option(field, settings[field.name])
                 description.append(f"{field.name}: {settings[field.name]}")
         elif field.varies:
-            text = str(settings.get(field.name, FORCE))
+            text = str(settings.get(field.name, ELASTIC_FORCE))
             numbers[field.name] = _parse_law_expression(field, text)
             description.append(f"{field.name} = {text}")
         elif (value := _find_parameter_value(field, settings)) is not None:
@@ -130,10 +145,13 @@ def _select_law_values(law: Law, name: str, settings: Mapping[str, float | str])
 
 
 def list_default_parameters(law: Law) -> dict[str, float | str]:
-    """Return the parameter values of a law without settings: defaults or usual values in SI; expressions as text."""
+    """Return the parameter values of a law without settings, by key: defaults of the law or of this module, in SI.
+
+    Keys of expressions have the text ELASTIC_FORCE.
+    """
     return {
         **_select_law_values(law, law.name, {}).numbers,
-        **dict.fromkeys((expression.name for expression in law.expressions), FORCE),
+        **dict.fromkeys((expression.name for expression in law.expressions), ELASTIC_FORCE),
     }
 
 
@@ -168,9 +186,10 @@ def _get_unit(field: Field) -> str:
 
 
 def _find_parameter_value(field: Field, settings: Mapping[str, float | str]) -> float | None:
-    """Return the value of a key: the setting, the law's default, or the usual value; None for an omitted optional key.
+    """Return the value of a key in SI: the setting, else the law's default, else that of DEFAULTS_BY_NAME or
+    DEFAULTS_BY_DIMENSION.
 
-    Raises MissingKeyError for a required key without any of them.
+    None for an optional key without default and setting. Raises MissingKeyError for a required key without a value.
     """
     from gudgeon.language.quantities import parse_quantity
 
@@ -180,9 +199,9 @@ def _find_parameter_value(field: Field, settings: Mapping[str, float | str]) -> 
     if field.name in settings:
         given = settings[field.name]
         return parse_quantity(given, field.name, exponents or (0, 0, 0)) if isinstance(given, str) else float(given)
-    if field.name not in SHOWN and (field.default is not None or not field.required):
+    if field.name not in NEVER_DEFAULT and (field.default is not None or not field.required):
         return None if field.default is None else float(field.default)
-    usual = USUAL.get(field.name, BY_DIMENSION.get(exponents) if exponents else None)
+    usual = DEFAULTS_BY_NAME.get(field.name, DEFAULTS_BY_DIMENSION.get(exponents) if exponents else None)
     if usual is None:
         raise MissingKeyError(f"{field.name} is missing: {field.meaning}\n  for example --set {field.name}=1")
     return usual
@@ -208,7 +227,7 @@ def _draw_curves(
     curves = [(np.where(np.isfinite(y), y, np.nan), description) for y, description in lines]
     for y, description in curves:
         if np.isnan(y).all():
-            raise BadValueError(f"nothing to draw: with these numbers {description} is no finite number anywhere")
+            raise BadValueError(f"nothing to draw: with these values {description} is not finite at any point")
     wide, x_unit = choose_prefix(float(np.abs(x).max()), x_axis[1])
     high, y_unit = choose_prefix(float(np.nanmax([np.nanmax(np.abs(y)) for y, _ in curves])), y_axis[1])
     for y, description in curves:
@@ -217,44 +236,48 @@ def _draw_curves(
 
 
 def _draw_normal_force(ax: Axes, law: Function, selected_law: _SelectedLaw) -> None:
-    """Draw the normal force over penetration during approach, rest and separation; one curve if they agree."""
+    """Draw the normal force over penetration δ for δ̇/δ̇⁻ = 1 (approach), 0 (rest) and −1 (separation).
+
+    One curve if approach and separation agree.
+    """
     from gudgeon.generator.kinds.laws.built import count_further_variables
 
-    delta = np.linspace(0.0, MAX_PENETRATION * STEEL["c"], POINTS)
-    further = [SPEED] * count_further_variables(selected_law.law)
-    curves = {ratio: law(delta, ratio, *(ratio * x for x in further))["F_n"] for ratio in RATIOS}
-    same = np.array_equal(curves[1.0], curves[-1.0])
+    delta = np.linspace(0.0, MAX_PENETRATION * STEEL_JOINT["c"], N_POINTS)
+    speeds = [APPROACH_SPEED] * count_further_variables(selected_law.law)
+    curves = {ratio: law(delta, ratio, *(ratio * x for x in speeds))["F_n"] for ratio in RATE_RATIOS}
+    are_equal = np.array_equal(curves[1.0], curves[-1.0])
     lines = (
-        [(curves[1.0], "approach and parting alike")]
-        if same
-        else [(curve, f"{RATIOS[ratio]}, δ̇/δ̇⁻ = {ratio:g}".replace("-", "−")) for ratio, curve in curves.items()]
+        [(curves[1.0], "approach and separation")]
+        if are_equal
+        else [(curve, f"{RATE_RATIOS[ratio]}, δ̇/δ̇⁻ = {ratio:g}".replace("-", "−")) for ratio, curve in curves.items()]
     )
     _draw_curves(ax, delta, iter(lines), ("δ", "m"), ("F_n", "N"))
-    by_speed = bool(further) and not np.array_equal(law(delta, 1.0, 0.0)["F_n"], curves[1.0])
-    ax.set_title(PAIR + f", δ̇⁻ = {SPEED:g} m/s" * by_speed)
+    by_speed = bool(speeds) and not np.array_equal(law(delta, 1.0, 0.0)["F_n"], curves[1.0])
+    ax.set_title(STEEL_JOINT_TEXT + f", δ̇⁻ = {APPROACH_SPEED:g} m/s" * by_speed)
 
 
 def _draw_friction_force(ax: Axes, law: Function, selected_law: _SelectedLaw) -> None:
-    """Draw F_t/F_n over the slip velocity; for laws with internal states over two oscillations of the slip.
+    """Draw F_t/F_n over the slip velocity.
 
-    The largest velocity is three times the law's largest parameter with the unit m/s.
+    The largest velocity is three times the law's largest parameter in m/s, else APPROACH_SPEED. For laws with internal
+    states the curves are hysteresis loops of two slip amplitudes.
     """
     speeds = [
         selected_law.numbers[parameter.name]
         for parameter in selected_law.law.parameters
         if _get_unit(parameter) == "m/s"
     ]
-    max_slip_velocity = 3.0 * max(speeds, default=SPEED / 3.0)
+    max_slip_velocity = 3.0 * max(speeds, default=APPROACH_SPEED / 3.0)
     if not selected_law.law.states:
-        v_t = np.linspace(-max_slip_velocity, max_slip_velocity, 2 * POINTS)
+        v_t = np.linspace(-max_slip_velocity, max_slip_velocity, 2 * N_POINTS)
         _draw_curves(ax, v_t, iter([(law(1.0, v_t)["F_t"], "F_t/F_n")]), ("v_t", "m/s"), ("F_t/F_n", ""))
-        ax.set_title("the force on the journal by the slip of its surface on the bearing's")
+        ax.set_title("force on the journal over the slip velocity of its surface on the bearing's")
         return
     for amplitude in (2e-5, 2e-4):
         v_t, force = _simulate_slip_oscillation(law, selected_law.law, max_slip_velocity, amplitude)
-        text = f"to and fro, {format_quantity(2 * amplitude, 'm', 2)} apart"
+        text = f"oscillation over {format_quantity(2 * amplitude, 'm', 2)}"
         _draw_curves(ax, v_t, iter([(force, text)]), ("v_t", "m/s"), ("F_t/F_n", ""))
-    ax.set_title("slip as a cosine, third time, F_n = 1 N: what is bent follows")
+    ax.set_title("sinusoidal slip, third period, F_n = 1 N: internal states included")
 
 
 def _simulate_slip_oscillation(
@@ -274,7 +297,7 @@ def _simulate_slip_oscillation(
         solution = law(1.0, max_slip_velocity * np.cos(omega * t), *z)
         return [float(solution[f"{state.name}_rate"]) for state in law_description.states]
 
-    times = np.linspace(4.0 * np.pi, 6.0 * np.pi, 2 * POINTS) / omega
+    times = np.linspace(4.0 * np.pi, 6.0 * np.pi, 2 * N_POINTS) / omega
     none = [0.0] * len(law_description.states)
     try:
         solution = solve_ivp(compute_state_rates, (0.0, times[-1]), none, "Radau", t_eval=times, rtol=1e-6, atol=1e-12)
@@ -282,43 +305,47 @@ def _simulate_slip_oscillation(
         solution = None
     if solution is None or solution.y.shape[1] < len(times):
         names = ", ".join(state.name for state in law_description.states)
-        raise BadValueError(f"nothing to draw: with these numbers {names} cannot be followed; its rate overflows")
+        raise BadValueError(f"nothing to draw: with these values {names} cannot be integrated; its rate overflows")
     v_t = max_slip_velocity * np.cos(omega * times)
     return v_t, law(1.0, v_t, *solution.y)["F_t"]
 
 
-def _draw_film_force(ax: Axes, law: Function, selected_law: _SelectedLaw) -> None:
-    """Draw the film force over ε of a journal that turns, closes the gap, or opens it (ω_s, ε̇ = 1 1/s).
+def _draw_film_forces(ax: Axes, law: Function, selected_law: _SelectedLaw) -> None:
+    """Draw film force components over the eccentricity ratio ε, on a logarithmic axis.
 
-    Raises BadValueError if all forces are 0.
+    There are four curves: −F_r and F_t of a journal that rotates (ω_s = 1 rad/s), −F_r of one that approaches
+    (ε̇ = 1 1/s), and F_r of one that recedes (ε̇ = −1 1/s). Raises BadValueError if no curve has a positive value.
     """
-    epsilon = np.linspace(0.01, 0.95, POINTS)
+    epsilon = np.linspace(0.01, 0.95, N_POINTS)
     turning, closing, opening = (law(epsilon, *w) for w in ((0.0, -0.5 * epsilon), (1.0, 0.0), (-1.0, 0.0)))
     lines = [
-        (-turning["F_r"], "−F_r, turns"),
-        (turning["F_t"], "F_t, turns"),
+        (-turning["F_r"], "−F_r, rotation"),
+        (turning["F_t"], "F_t, rotation"),
         (-closing["F_r"], "−F_r, gap closes"),
         (opening["F_r"], "F_r, gap opens"),
     ]
     if not any((y > 0.0).any() for y, _ in lines):
-        raise BadValueError("nothing to draw: with these numbers all forces are 0")
+        raise BadValueError("nothing to draw: with these values all forces are 0")
     _draw_curves(ax, epsilon, iter(lines), ("ε", ""), ("F", "N"))
     ax.set_yscale("log")
-    ax.set_title(f"{PAIR}; ω_s = 1 rad/s, or ε̇ = ±1 1/s")
+    ax.set_title(f"{STEEL_JOINT_TEXT}; ω_s = 1 rad/s, or ε̇ = ±1 1/s")
 
 
 def _draw_contact_fraction(ax: Axes, law: Function, selected_law: _SelectedLaw) -> None:
-    """Draw the fraction of the dry contact over the penetration of the asperities, up to seven times the roughness."""
+    """Draw the fraction b of the dry contact in mixed lubrication over the penetration δ of the asperities.
+
+    δ goes up to seven times the sum of the law's roughnesses.
+    """
     max_penetration = 7.0 * sum(x for name, x in selected_law.numbers.items() if name.startswith("roughness"))
-    delta = np.linspace(0.0, max_penetration, POINTS)
-    shares = iter([(law(delta)["share"], "of the dry contact; the film has the rest")])
-    _draw_curves(ax, delta, shares, ("δ, how deep the tips lie in each other", "m"), ("share b", ""))
-    ax.set_title("share of the dry contact in force and moments")
+    delta = np.linspace(0.0, max_penetration, N_POINTS)
+    fractions = iter([(law(delta)["share"], "dry contact; the rest is the film's")])
+    _draw_curves(ax, delta, fractions, ("δ, penetration of the asperities", "m"), ("fraction b", ""))
+    ax.set_title("fraction of the dry contact in force and moments")
 
 
 _DRAWN = {
     "normal": _draw_normal_force,
     "friction": _draw_friction_force,
-    "film": _draw_film_force,
+    "film": _draw_film_forces,
     "mixed": _draw_contact_fraction,
 }

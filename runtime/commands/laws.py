@@ -37,7 +37,7 @@ def show_laws(request: LawsRequest) -> int:
     """
     name = request.name
     if request.settings and request.plot is None or request.plot is not None and (name is None or request.as_json):
-        raise BadValueError("--plot draws one law, --set its numbers: gudgeon laws flores --plot flores.svg")
+        raise BadValueError("--plot needs the name of a law, --set needs --plot: gudgeon laws flores --plot flores.svg")
     if name is None:
         if request.as_json:
             print_json(_build_laws_document())
@@ -62,7 +62,7 @@ def show_laws(request: LawsRequest) -> int:
 
 
 def _find_law(name: str) -> Law:
-    """Return the law with this name or alternative name. Raise UnknownNameError with the nearest."""
+    """Return the law with this name or alternative name. Raises UnknownNameError with similar names."""
     from gudgeon.generator.kinds.laws.law import RESULTS, find_laws_of_role
 
     laws_by_name = {called_so: law for role in RESULTS for called_so, law in find_laws_of_role(role).items()}
@@ -97,7 +97,7 @@ def _print_law_table() -> None:
             title = "\n".join(filter(None, (format_one_line(law.title), also)))
             table.add_row(role if k == 0 else "", law.name, Text(title), end_section=k == len(laws) - 1)
     make_plain_console(WIDTH).print(table)
-    print("gudgeon laws NAME has the equations of one, its keys, validity and reference.")
+    print("gudgeon laws NAME prints equations, keys, validity and reference of one law.")
 
 
 def _build_laws_document() -> dict[str, Any]:

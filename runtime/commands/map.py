@@ -1,4 +1,4 @@
-"""Run `gudgeon map`: find which runs are stable over a grid or a box of parameters, show and write the result."""
+"""Run `gudgeon map`: classify runs (stable, inaccurate, diverged …) over a grid or a box of parameters."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from gudgeon.commands.progress import Report
-from gudgeon.commands.studies import Request, find_exit_code, load_scenes, measure_scenes
+from gudgeon.commands.studies import MeasurementRequest, load_scenes, measure_scenes, report_interrupted_scenes
 from gudgeon.contract.kernel_source import RuntimeParameter
 from gudgeon.contract.methods import OFFERED
 from gudgeon.errors import BadValueError
@@ -35,7 +35,7 @@ class MapOptions:
     """Options that only `gudgeon map` has."""
 
     method: str = "auto"
-    at: str | None = None  # a step or a tolerance, where no axis is one
+    at: str | None = None  # step or tolerance, if no axis is one
     axes: tuple[str, ...] = ()
     box: int | None = None
     ranges: tuple[str, ...] = ()
@@ -46,7 +46,7 @@ class MapOptions:
         return self.method in FIXED
 
 
-def map_file(request: Request, map_options: MapOptions) -> int:
+def map_file(request: MeasurementRequest, map_options: MapOptions) -> int:
     """Run `gudgeon map`: classify the runs of all scenes, print the result, write table and picture; return the exit
     code.
 
@@ -60,7 +60,7 @@ def map_file(request: Request, map_options: MapOptions) -> int:
     if not request.json:
         for simulation in simulations:
             if simulation not in dynamic_simulations:
-                print(f"{simulation.source.scene}: no degree of freedom, nothing is integrated, no step to choose")
+                print(f"{simulation.source.scene}: no degrees of freedom: nothing is integrated")
     if not dynamic_simulations:
         return 0
     table_path = request.find_table_path(dynamic_simulations[0].source.mechanism, "map")
@@ -91,24 +91,24 @@ def map_file(request: Request, map_options: MapOptions) -> int:
     measured_scenes, interrupted = measure_scenes(dynamic_simulations, classify_scene, request.json)
     if measured_scenes:
         report_map(dynamic_simulations[0].source, request.file, measured_scenes, table_path, step, request.json)
-    return find_exit_code(dynamic_simulations, measured_scenes, interrupted)
+    return report_interrupted_scenes(dynamic_simulations, measured_scenes, interrupted)
 
 
 def _map_box(
-    request: Request,
+    request: MeasurementRequest,
     map_options: MapOptions,
     dynamic_simulations: Sequence[Simulation],
     t_end: float | None,
     setting: float | None,
     table_path: Path,
 ) -> int:
-    """Classify runs at random points of a box for each scene, show and write them, and return the exit code.
+    """Classify runs at the corners and Sobol points of a box for each scene, show and write them; return the exit code.
 
-    setting: step or tolerance of all runs, or None for the usual one; table_path: of the CSV file.
+    setting: step (s) or tolerance of all runs, or None for the default; table_path: of the CSV file.
     """
 
     def classify_box(simulation: Simulation, progress: Report | None) -> VerdictBox:
-        """Return the verdicts of one scene on points drawn in the box of the command.
+        """Return the verdicts of one scene at the corners and Sobol points of the box.
 
         `progress` is called with fraction and text; None: no progress is reported.
         """
@@ -131,13 +131,13 @@ def _map_box(
     measured_scenes, interrupted = measure_scenes(dynamic_simulations, classify_box, request.json)
     if measured_scenes:
         report_box(dynamic_simulations[0].source, request.file, measured_scenes, table_path, request.json)
-    return find_exit_code(dynamic_simulations, measured_scenes, interrupted)
+    return report_interrupted_scenes(dynamic_simulations, measured_scenes, interrupted)
 
 
 def _check_options(map_options: MapOptions, step: float | None) -> None:
-    """Raise BadValueError for options that do not fit together; step: the value of `--mark-step` in s.
+    """Raise BadValueError for an unknown method, and for options of map that exclude or need each other.
 
-    None if it is not given.
+    step: the value of --mark-step in s; None if it is not given.
     """
     if map_options.method not in OFFERED:
         raise BadValueError(f"--method {map_options.method!r}: expected {', '.join(OFFERED)}")
@@ -145,25 +145,28 @@ def _check_options(map_options: MapOptions, step: float | None) -> None:
     _check_varied_once("--axis", map_options.axes)
     _check_varied_once("--range", map_options.ranges)
     if map_options.box is None and map_options.ranges:
-        hint = "add --box COUNT (0: its corners alone), or vary the number along an --axis"
-        raise BadValueError(f"--range {map_options.ranges[0]}: an edge of a box, and there is no --box", hint=hint)
+        hint = "add --box COUNT (0: only its corners), or vary the parameter along an --axis"
+        raise BadValueError(f"--range {map_options.ranges[0]}: --range needs --box", hint=hint)
     if map_options.box is not None:
         if map_options.axes:
-            raise BadValueError("--box and --axis: a box has edges, give --range NAME=LOW..HIGH")
+            raise BadValueError("--box with --axis: give the edges of a box with --range NAME=LOW..HIGH")
         if not map_options.ranges:
-            raise BadValueError("--box: give its edges, --range NAME=LOW..HIGH")
+            raise BadValueError("--box: give its edges with --range NAME=LOW..HIGH")
         for text in map_options.ranges:
             if ".." not in text.partition("=")[2] or ":" in text:
                 raise BadValueError(f"--range {text}: expected NAME=LOW..HIGH")
             if _get_axis_name(text) in SETTINGS:
-                raise BadValueError(f"--range {text}: a box has one {_get_axis_name(text)}", hint="--at gives it")
+                message = f"--range {text}: all runs of a box have the same {_get_axis_name(text)}"
+                raise BadValueError(message, hint="--at gives it")
     elif map_options.at is not None and (setting_names or len(map_options.axes) < 2):
-        what = "step" if map_options.fixed else "rtol"
+        setting_name = "step" if map_options.fixed else "rtol"
         raise BadValueError(
-            f"--at {map_options.at}: here {what} is an axis of the map", hint="give two other axes, or --box"
+            f"--at {map_options.at}: {setting_name} is an axis of the map", hint="give two other axes, or --box"
         )
-    rows = map_options.box is None and map_options.fixed and ("step" in setting_names or len(map_options.axes) < 2)
-    if step is not None and not rows:
+    has_step_rows = (
+        map_options.box is None and map_options.fixed and ("step" in setting_names or len(map_options.axes) < 2)
+    )
+    if step is not None and not has_step_rows:
         raise BadValueError("--mark-step: no row is a step", hint="with --method rk4 the rows of the map are steps")
 
 
@@ -175,27 +178,27 @@ def _check_varied_once(option: str, texts: Sequence[str]) -> None:
     for text in texts:
         name = _get_axis_name(text).removeprefix("parameters.")
         if name in varied:
-            message = f"{option} {text}: this number is varied already, by {option} {varied[name]}"
-            raise BadValueError(message, hint=f"give each {option} a number of its own")
+            message = f"{option} {text}: this parameter is varied already, by {option} {varied[name]}"
+            raise BadValueError(message, hint=f"give each {option} another parameter")
         varied[name] = text
 
 
 def _check_axis_names(map_options: MapOptions, simulations: Sequence[Simulation]) -> None:
     """Raise UnknownNameError, with the nearest names, for the name of an axis or range that no scene has."""
-    every = [name for simulation in simulations for name in list_addresses(simulation.source)]
-    known_names = tuple(dict.fromkeys([*SETTINGS, "clearance", *GROUPS, *every]))
+    addresses = [name for simulation in simulations for name in list_addresses(simulation.source)]
+    known_names = tuple(dict.fromkeys([*SETTINGS, "clearance", *GROUPS, *addresses]))
     for option, texts in (("--axis", map_options.axes), ("--range", map_options.ranges)):
         for text in texts:
             if "=" in text and _get_axis_name(text) not in known_names:
                 raise make_missing_name_error(
-                    f"{option} {text}: no scene has a number {_get_axis_name(text)!r}",
+                    f"{option} {text}: no scene has a parameter {_get_axis_name(text)!r}",
                     _get_axis_name(text),
                     known_names,
                 )
 
 
 def _get_axis_name(text: str) -> str:
-    """Return the name before the equals sign of an axis or range."""
+    """Return the name of an axis or range, "c" of "c=1mm..2mm"."""
     return text.partition("=")[0].strip()
 
 

@@ -1,4 +1,4 @@
-"""Declare command-line options and arguments that several commands share, for the library typer."""
+"""Declare command-line options and arguments of the commands, for the library typer, and their parsers."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ from gudgeon.language.text_output import escape_invisible
 
 
 def make_integer_parser(min_value: int) -> Callable[[str], int]:
-    """Return a parser of option texts for whole numbers of at least `min_value`.
+    """Return a parser of option texts for whole numbers of at least `min_value` and at most 18 digits.
 
-    Underscores and digits of other scripts are refused with typer.BadParameter.
+    It raises typer.BadParameter for other texts, also for underscores and digits of other scripts.
     """
 
     def parse_integer(text: str) -> int:
@@ -41,14 +41,20 @@ def parse_path(text: str) -> Path:
 
 
 def parse_file(text: str) -> Path:
-    """Convert the text of an option to the path of a file. Raise typer.BadParameter if it ends with a slash."""
+    """Convert the text of an option to the path of a file.
+
+    Raises typer.BadParameter for an empty text and for one that ends with a slash.
+    """
     if str(text).endswith("/"):
         raise typer.BadParameter(f"{escape_invisible(str(text))!r}: this is a folder, expected a file")
     return parse_path(text)
 
 
 def parse_file_or_folder(text: str) -> Path:
-    """Convert the text of an option to a path; a name with a suffix must be a file unless a folder has that name."""
+    """Convert the text of an option to a path of a file or folder.
+
+    Raises typer.BadParameter for an empty text, and for "x.tex/" unless that is an existing folder.
+    """
     parsed_path = parse_path(text)
     return parse_file(text) if parsed_path.suffix and not os.path.isdir(parsed_path) else parsed_path
 
@@ -65,7 +71,7 @@ def _print_version(is_requested: bool) -> None:
         raise typer.Exit
 
 
-Version = Annotated[bool, typer.Option("--version", callback=_print_version, is_eager=True, help="Print it.")]
+Version = Annotated[bool, typer.Option("--version", callback=_print_version, is_eager=True, help="Print the version.")]
 File = Annotated[
     str,
     typer.Argument(
@@ -80,7 +86,7 @@ Scenes = Annotated[
         "--scene", "-s", help="A scene; may be repeated. [default: all]", autocompletion=completion.complete_scenes
     ),
 ]
-OneScene = Annotated[str, typer.Option("--scene", "-s", help="Which scene.", autocompletion=completion.complete_scenes)]
+OneScene = Annotated[str, typer.Option("--scene", "-s", help="The scene.", autocompletion=completion.complete_scenes)]
 Pages = Annotated[
     Path,
     typer.Option(
@@ -88,7 +94,7 @@ Pages = Annotated[
         "-o",
         parser=parse_file_or_folder,
         metavar="PATH",
-        help="x.tex, .txt, .html or .ipynb; a folder: a page of each scene; - prints.",
+        help="x.tex, .txt, .html or .ipynb; a folder: a page for each scene; - prints.",
     ),
 ]
 ScenesOfPages = Annotated[
@@ -96,16 +102,18 @@ ScenesOfPages = Annotated[
     typer.Option(
         "--scene",
         "-s",
-        help="A scene; in a folder several. [default: ideal; there all]",
+        help="A scene; several for a folder. [default: ideal; for a folder all]",
         autocompletion=completion.complete_scenes,
     ),
 ]
-Branches = Annotated[bool, typer.Option("--branches", help="Assemblies, and the guess that picks each.")]
-Json = Annotated[bool, typer.Option("--json", help="Print JSON in SI units for a script, nothing else.")]
-FilesJson = Annotated[bool, typer.Option("--json", help="Print JSON: which files were written, and notes.")]
+Branches = Annotated[bool, typer.Option("--branches", help="Assembly branches, and the guess that selects each.")]
+Json = Annotated[bool, typer.Option("--json", help="Print only JSON, in SI units.")]
+FilesJson = Annotated[bool, typer.Option("--json", help="Print JSON: written files and notes.")]
 Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="Print nothing but warnings and errors.")]
-Out = Annotated[Path, typer.Option("--out", parser=parse_path, metavar="PATH", help="Folder for what is written.")]
-At = Annotated[str | None, typer.Option("--at", metavar="TIME", help="Simulate to there: 0.2s. [default: the start]")]
+Out = Annotated[Path, typer.Option("--out", parser=parse_path, metavar="PATH", help="Folder for the written files.")]
+At = Annotated[
+    str | None, typer.Option("--at", metavar="TIME", help="Simulate to this time: 0.2s. [default: the start]")
+]
 Picture = Annotated[
     Path | None,
     typer.Option(
@@ -118,35 +126,37 @@ Picture = Annotated[
 ]
 Laws = Annotated[
     list[str] | None,
-    typer.Option("--laws", metavar="FILE.py", help="A force law of your own: the file is run as Python; repeatable."),
+    typer.Option("--laws", metavar="FILE.py", help="A user-defined force law: the file is run as Python; repeatable."),
 ]
 Plot = Annotated[
     Path | None,
     typer.Option(
-        "--plot", parser=parse_file, metavar="PATH", help="Draw it: x.svg, .png or .pdf; its numbers by --set mu=.2."
+        "--plot", parser=parse_file, metavar="PATH", help="Plot the law: x.svg, .png or .pdf; values by --set mu=0.2."
     ),
 ]
 LawName = Annotated[
     str | None,
     typer.Argument(
-        metavar="[NAME]", help="Of a law, or what else it is called.", autocompletion=completion.complete_laws
+        metavar="[NAME]", help="Name or alternative name of a law.", autocompletion=completion.complete_laws
     ),
 ]
-# of what teaches
-Name = Annotated[str, typer.Argument(metavar="NAME", help="Of the mechanism or the study; the file is NAME.yaml.")]
+# of new and exercise
+Name = Annotated[str, typer.Argument(metavar="NAME", help="Name of the mechanism or study; the file is NAME.yaml.")]
 Like = Annotated[
     str | None,
-    typer.Option("--like", metavar="NAME", help="A mechanism that comes with gudgeon: four_bar, jansen_leg …"),
+    typer.Option("--like", metavar="NAME", help="A shipped mechanism: four_bar, jansen_leg …"),
 ]
-OfStudy = Annotated[bool, typer.Option("--study", help="A study in place of a mechanism: many runs, what is measured.")]
+OfStudy = Annotated[bool, typer.Option("--study", help="A study file instead of a mechanism file.")]
 Sheet = Annotated[
     Path, typer.Option("--out", "-o", parser=parse_file, metavar="PATH", help="x.html, .tex, .txt or .md.")
 ]
 Seed = Annotated[
-    int, typer.Option("--seed", parser=make_integer_parser(0), metavar="COUNT", help="Which numbers are drawn.")
+    int,
+    typer.Option("--seed", parser=make_integer_parser(0), metavar="COUNT", help="Seed of the random parameter values."),
 ]
 Moment = Annotated[
-    str | None, typer.Option("--at", metavar="TIME", help="When positions and forces are asked for. [default: drawn]")
+    str | None,
+    typer.Option("--at", metavar="TIME", help="Time of the requested positions and forces. [default: drawn]"),
 ]
 # of studies
 Peaks = Annotated[
@@ -155,19 +165,19 @@ Peaks = Annotated[
 ]
 Quick = Annotated[bool, typer.Option("--quick", help="Fewer runs and a shorter window: seconds, not minutes.")]
 Mark = Annotated[
-    str | None, typer.Option("--mark-step", metavar="STEP", help="Show and tell what becomes of this step: 0.1ms.")
+    str | None, typer.Option("--mark-step", metavar="STEP", help="Mark and report the results of this step: 0.1ms.")
 ]
 Set = Annotated[
     list[str] | None,
-    typer.Option("--set", metavar="ADDRESS=VALUE", help="Override a number: c=0.5mm, bodies.L2.mass='0.3 kg'."),
+    typer.Option("--set", metavar="ADDRESS=VALUE", help="Override a parameter: c=0.5mm, bodies.L2.mass='0.3 kg'."),
 ]
 End = Annotated[str | None, typer.Option("--t-end", help="Length of the measured runs, in s or with a unit.")]
 Csv = Annotated[
     Path | None,
-    typer.Option("--csv", parser=parse_file, metavar="PATH", help="Where the table goes, the picture beside it."),
+    typer.Option("--csv", parser=parse_file, metavar="PATH", help="File of the table; the figure has the same name."),
 ]
 Rest = Annotated[
-    str | None, typer.Option("--at", help="Step or tolerance where no axis is one. [default: 1e-8, or the scene's]")
+    str | None, typer.Option("--at", help="Step or tolerance if no axis is one. [default: 1e-8, or the scene's]")
 ]
 Axis = Annotated[
     list[str] | None,
@@ -184,7 +194,7 @@ Box = Annotated[
         "--box",
         parser=make_integer_parser(0),
         metavar="COUNT",
-        help="All corners of the box of --range and so many Sobol points.",
+        help="Number of Sobol points in the box of --range; its corners are added.",
     ),
 ]
 Range = Annotated[list[str] | None, typer.Option("--range", metavar="NAME=LOW..HIGH", help="An edge of the box.")]
@@ -198,15 +208,15 @@ StudyFile = Annotated[
     str,
     typer.Argument(
         metavar="FILE",
-        help="A study: a YAML file (docs/studies.md), or the name of one that comes with"
-        " gudgeon, chen_2022 …; or the word report, for a page.",
+        help="A study: a YAML file (docs/studies.md), or the name of a shipped study,"
+        " chen_2022 …; or the word report, for a page.",
     ),
 ]
-Finished = Annotated[str | None, typer.Argument(metavar="[FOLDER]", help="The finished study of that page.")]
+Finished = Annotated[str | None, typer.Argument(metavar="[FOLDER]", help="The finished study, after the word report.")]
 Threads = Annotated[
     int | None,
     typer.Option(
-        parser=make_integer_parser(1), metavar="COUNT", help="Threads of runs. [default: the cores there are]"
+        parser=make_integer_parser(1), metavar="COUNT", help="Threads that run simulations. [default: all cores]"
     ),
 ]
 Workers = Annotated[
@@ -214,35 +224,35 @@ Workers = Annotated[
     typer.Option(
         parser=make_integer_parser(1),
         metavar="COUNT",
-        help="Processes of their own libraries, in place of threads; then --threads are those of each. [default: none]",
+        help="Worker processes instead of threads; --threads then applies to each process. [default: none]",
     ),
 ]
 Cluster = Annotated[
     str | None,
     typer.Option("--dask", metavar="ADDRESS", help="A cluster of dask.distributed, at the address of its scheduler."),
 ]
-Restart = Annotated[bool, typer.Option("--restart", help="Begin anew, whatever the folder holds of a study.")]
+Restart = Annotated[bool, typer.Option("--restart", help="Start again and discard the study in the folder.")]
 Report = Annotated[
-    bool, typer.Option("--report", help="A page a scene: orbits, contacts, energy, trust. Runs each again.")
+    bool, typer.Option("--report", help="A page for each scene: orbits, contacts, energy, accuracy. Runs each again.")
 ]
 Verify = Annotated[
-    bool, typer.Option("--verify", help="Check contacts at 20,000 times, by positions alone. Runs each again.")
+    bool, typer.Option("--verify", help="Check contacts at 20,000 times from positions only. Runs each again.")
 ]
 Starts = Annotated[
     int | None,
     typer.Option(
-        "--starts", parser=make_integer_parser(1), metavar="COUNT", help="So many perturbed starts of each run."
+        "--starts", parser=make_integer_parser(1), metavar="COUNT", help="Number of perturbed starts of each run."
     ),
 ]
 StartSeed = Annotated[
     int | None,
-    typer.Option("--seed", parser=make_integer_parser(0), metavar="COUNT", help="By which these starts are drawn."),
+    typer.Option("--seed", parser=make_integer_parser(0), metavar="COUNT", help="Random seed of these starts."),
 ]
 Runs = Annotated[
-    bool, typer.Option("--runs", help="Only tell how many runs, blocks, bytes and seconds, by a few on trial.")
+    bool, typer.Option("--runs", help="Only estimate runs, blocks, bytes and seconds from a few trial runs.")
 ]
 Until = Annotated[
-    str | None, typer.Option("--t-end", help="Until when, in s or with a unit. [default: the scene's, or 1 s]")
+    str | None, typer.Option("--t-end", help="End of the run, in s or with a unit. [default: the scene's, or 1 s]")
 ]
 Intervals = Annotated[
     int | None,
@@ -250,11 +260,12 @@ Intervals = Annotated[
 ]
 Watch = Annotated[
     list[str] | None,
-    typer.Option("--watch", "-w", metavar="NAME", help="What to compare with the ideal scene: S9.y, L1.head.x."),
+    typer.Option("--watch", "-w", metavar="NAME", help="Series to compare with the ideal scene: S9.y, L1.head.x."),
 ]
 Foreign = Annotated[
     Path, typer.Argument(parser=parse_file, metavar="FILE", help="JSON of pylinkage, or a text with a link of PMKS+.")
 ]
 Mechanism = Annotated[
-    Path | None, typer.Option("--out", "-o", parser=parse_file, metavar="PATH", help="Where to; else NAME.yaml.")
+    Path | None,
+    typer.Option("--out", "-o", parser=parse_file, metavar="PATH", help="The mechanism file. [default: NAME.yaml]"),
 ]

@@ -31,7 +31,7 @@ def print_error(error: GudgeonError) -> None:
 def report_errors(command: Command) -> Command:
     """Wrap a command so that gudgeon's errors are printed as one line and give its exit code; a decorator.
 
-    Other exceptions keep their traceback. The wrapper takes further keyword arguments. `laws`: files of user-defined
+    Other exceptions keep their traceback. The wrapper has further keyword arguments. `laws`: files of user-defined
     laws that are registered first. `files_as_json`: print the written files as JSON. `quiet`: print only warnings and
     errors.
     """

@@ -1,5 +1,4 @@
-"""Show progress bars and status lines on stderr if it is a terminal; Rich is imported when there is something to
-show."""
+"""Show progress bars and status lines on stderr if it is a terminal; Rich is imported on first use."""
 
 from __future__ import annotations
 
@@ -22,14 +21,15 @@ def is_terminal() -> bool:
 
 @contextmanager
 def show_progress_bars(quiet: bool = False) -> Iterator[Callable[[str], Report | None]]:
-    """Yield a function of a name that returns a callback for `simulate(progress=…)`, within a with block.
+    """Return a context that yields make_bar(name), which returns a callback for `simulate(progress=…)`.
 
-    The callback is None without a terminal or if `quiet`. A bar appears with its first report.
+    The callback is None without a terminal or if `quiet`. A bar appears with its first report; all are removed at the
+    end of the context.
     """
     if quiet or not is_terminal():
         yield lambda name: None
         return
-    shown: list[Any] = []  # rich's Progress, once the first piece of work is done
+    shown: list[Any] = []  # rich's Progress, created at the first report
 
     def make_bar(name: str) -> Report:
         """Return the callback of one task; its bar appears with the first report."""
@@ -54,8 +54,9 @@ def show_progress_bars(quiet: bool = False) -> Iterator[Callable[[str], Report |
 
 @contextmanager
 def show_status_line(quiet: bool = False) -> Iterator[None]:
-    """Show one line on stderr about each derivation and compilation within the with block; nothing if `quiet` or no
-    terminal.
+    """Show one line on stderr during each derivation and compilation in the with block.
+
+    Nothing is shown if `quiet`, or if stderr is not a terminal.
     """
     if quiet or not is_terminal():
         yield

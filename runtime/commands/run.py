@@ -1,12 +1,11 @@
 """Run `gudgeon run`: simulate scenes, compare each with the ideal one, save and show the results.
 
-- `check_memory_and_disk` checks memory and disk for all scenes before the first of them begins.
-- `verify_contacts` and `write_reports` do what `--verify` and `--report` request. For a report each scene is run
-again, and its result is saved again with what that run showed.
-- `format_origin` and `check_origin` prevent that a result of another mechanism file is replaced. Two files may
-contain the
-  same name. A result stores digests of its file's path and of its bytes: if one of them is equal, the mechanism is the
-  same. A result without digests may be replaced.
+- `check_memory_and_disk` checks memory and disk for all scenes before the first run.
+- `verify_contacts` and `write_reports` implement `--verify` and `--report`. For a report each scene is run again, and
+  its result is saved again with the additional diagnostics.
+- `format_origin` and `check_origin` prevent that a result of another mechanism file of the same name is replaced. A
+  result stores hashes of its mechanism file's path and bytes; one equal hash is sufficient. A result without hashes may
+  be replaced.
 """
 
 from __future__ import annotations
@@ -56,13 +55,13 @@ if TYPE_CHECKING:
 Settings: TypeAlias = Mapping[str, float | str]  # address -> SI, or text with a unit
 Files: TypeAlias = dict[str, str]  # scene, or "picture" -> path
 
-IDEAL = "ideal"
-ORIGIN = "origin"  # attribute of the file
-_NOTED = re.compile(rb"gudgeon-origin ([0-9a-f]{16}) ([0-9a-f]{16})")  # read without HDF5, whose import takes time
+IDEAL_SCENE = "ideal"
+ORIGIN_ATTRIBUTE = "origin"  # attribute of the NetCDF file
+_ORIGIN_PATTERN = re.compile(rb"gudgeon-origin ([0-9a-f]{16}) ([0-9a-f]{16})")  # found without HDF5, a slow import
 
 
 @dataclass(frozen=True)
-class Request:
+class RunRequest:
     """Arguments of the command line, as typed."""
 
     file: str
@@ -87,7 +86,7 @@ class Request:
 
 @dataclass
 class RunOutcome:
-    """Hold results, failures and written files of one command so far; complete enough to be shown at any time."""
+    """Results, failures and written files of `gudgeon run` so far; it can be shown at any time, also after Ctrl-C."""
 
     runs: dict[str, Result] = field(default_factory=dict)
     references: dict[str, Result] = field(default_factory=dict)
@@ -101,18 +100,18 @@ class RunOutcome:
     interrupted: bool = False
 
 
-def run_scenes(request: Request) -> int:
+def run_scenes(request: RunRequest) -> int:
     """Run `gudgeon run`: simulate the scenes and the ideal one, compare, save and show them, and return the exit code.
 
-    Targets and parameters are checked before anything runs. Errors of single scenes are printed; after Ctrl-C, finished
-    results are saved and shown, with exit code 130.
+    Output files and parameters are checked before anything runs. Errors of single scenes are printed at the end. After
+    Ctrl-C finished results are saved and shown, with exit code 130.
     """
     values = parse_settings(request.settings)
     check_output_folder("--out", request.out)
-    names = dict.fromkeys([IDEAL, *select_scenes(request.file, request.scenes)])
+    names = dict.fromkeys([IDEAL_SCENE, *select_scenes(request.file, request.scenes)])
     with show_status_line(quiet=request.json):
-        renew, how = request.regenerate, request.formulation
-        simulations = {name: load(request.file, name, regenerate=renew, formulation=how) for name in names}
+        regenerate, formulation = request.regenerate, request.formulation
+        simulations = {name: load(request.file, name, regenerate=regenerate, formulation=formulation) for name in names}
     _check_request(request, values, simulations)
     for name, simulation in simulations.items():
         path = _build_result_path(request.out, simulation.source.mechanism, name)
@@ -120,7 +119,7 @@ def run_scenes(request: Request) -> int:
         check_origin(path, format_origin(request.file, simulation.source.sha256))
         if request.report:
             check_output_name("--out", path.with_suffix(".html"))
-    check_output_name("--out", request.out / f"{simulations[IDEAL].source.mechanism}.png")
+    check_output_name("--out", request.out / f"{simulations[IDEAL_SCENE].source.mechanism}.png")
     outcome = RunOutcome()
     try:
         _simulate_scenes(request, values, simulations, outcome)
@@ -148,23 +147,25 @@ def _format_interruption(names: Iterable[str], outcome: RunOutcome) -> str:
     from gudgeon.simulation.predictability_horizon import UNFINISHED
 
     if not outcome.runs:
-        return "interrupted before anything was computed: nothing is shown or saved"
+        return "interrupted before any result was computed: nothing is shown or saved"
     unsaved = [name for name in outcome.runs if name not in outcome.files]
-    kept = " and ".join(["shown"] * outcome.shown + ["saved"] * (not unsaved)) or "neither shown nor saved"
-    text = f"interrupted: what was computed is {kept}"
+    state = " and ".join(["shown"] * outcome.shown + ["saved"] * (not unsaved)) or "neither shown nor saved"
+    text = f"interrupted: the computed results are {state}"
     if unsaved and outcome.shown or 0 < len(unsaved) < len(outcome.runs):
         text += f"; not saved: {', '.join(unsaved)}"
     if any(UNFINISHED in run.diagnostics.notes for run in outcome.runs.values()):
         text += "; the search for the horizon was not finished"
     ended = [f"{name} ends at {run.t[-1]:.6g} s" for name, run in outcome.runs.items() if run.diagnostics.interrupted]
-    left = [name for name in names if name not in outcome.runs and name not in outcome.failures]
-    beside = {IDEAL: "was run as the reference alone"} if outcome.references else {}
-    missing = [f"{name} {beside.get(name, 'was not begun')}" for name in left]
-    return "; ".join([text, *ended, *missing])
+    missing = [name for name in names if name not in outcome.runs and name not in outcome.failures]
+    reasons = {IDEAL_SCENE: "was run as the reference only"} if outcome.references else {}
+    return "; ".join([text, *ended, *(f"{name} {reasons.get(name, 'was not started')}" for name in missing)])
 
 
-def _check_request(request: Request, settings: Settings, simulations: Mapping[str, Simulation]) -> None:
-    """Raise errors for unknown addresses, series and invalid parameter values before anything is run or written."""
+def _check_request(request: RunRequest, settings: Settings, simulations: Mapping[str, Simulation]) -> None:
+    """Raise InputError for unknown addresses of --set, invalid values, and unknown series of --watch and --peaks.
+
+    Called before anything is run or written.
+    """
     check_addresses(settings, request.file, [simulation.source for simulation in simulations.values()])
     for simulation in simulations.values():
         prepare_values(simulation.compiled, select_known_settings(simulation.source, settings))
@@ -178,7 +179,7 @@ def _check_request(request: Request, settings: Settings, simulations: Mapping[st
                     raise make_missing_name_error(f"{option}: no scene has a series {name!r}", name, series)
 
 
-def _select_peak_series(request: Request, source: KernelSource) -> tuple[str, ...] | None:
+def _select_peak_series(request: RunRequest, source: KernelSource) -> tuple[str, ...] | None:
     """Return the names of series for the argument `peaks` of simulate: those of the scene's file and of `--peaks`.
 
     Names that the scene lacks are left out. None without `--peaks`: simulate then uses those of the file.
@@ -192,27 +193,28 @@ def _select_peak_series(request: Request, source: KernelSource) -> tuple[str, ..
 
 
 def _simulate_scenes(
-    request: Request, settings: Settings, simulations: Mapping[str, Simulation], outcome: RunOutcome
+    request: RunRequest, settings: Settings, simulations: Mapping[str, Simulation], outcome: RunOutcome
 ) -> None:
     """Run all scenes and store results and failures in `outcome`; after Ctrl-C, return with the partial result.
 
-    The ideal scene is the last: it runs as long as the longest scene with play, and is cheap. A failed run is stored up
-    to its failure.
+    The ideal scene is the last: by default it runs as long as the longest scene with play, by method auto. A failed run
+    is stored up to its failure, and the next scene is run.
     """
     t_end, step = (None if text is None else parse_typed_number(text) for text in (request.t_end, request.step))
-    own = {
+    p = {
         name: prepare_values(s.compiled, select_known_settings(s.source, settings))[0]
         for name, s in simulations.items()
     }
-    longest = max((evaluate_scene_end(s.source, own[n]) for n, s in simulations.items() if n != IDEAL), default=T_END)
-    check_memory_and_disk(request, {name: (simulation, own[name]) for name, simulation in simulations.items()})
+    end_times = (evaluate_scene_end(s.source, p[n]) for n, s in simulations.items() if n != IDEAL_SCENE)
+    max_end_time = max(end_times, default=T_END)
+    check_memory_and_disk(request, {name: (simulation, p[name]) for name, simulation in simulations.items()})
     with show_progress_bars(quiet=request.json) as make_bar:
-        for name in sorted(simulations, key=lambda name: name == IDEAL):
+        for name in sorted(simulations, key=lambda name: name == IDEAL_SCENE):
             simulation, until = simulations[name], t_end
-            method = "auto" if name == IDEAL and len(simulations) > 1 else request.method
+            method = "auto" if name == IDEAL_SCENE and len(simulations) > 1 else request.method
             if until is None:
                 until = evaluate_scene_number(
-                    simulation.source, "t_end", own[name], longest if name == IDEAL else T_END
+                    simulation.source, "t_end", p[name], max_end_time if name == IDEAL_SCENE else T_END
                 )
             outcome.optimization_notes[name] = simulation.compiled.lib.optimization_note
             try:
@@ -225,7 +227,7 @@ def _simulate_scenes(
                     horizon=request.horizon or request.report,
                     parameters=select_known_settings(simulation.source, settings),
                     progress=make_bar(name),
-                    against=simulations[IDEAL] if simulation.source.clearances else None,
+                    against=simulations[IDEAL_SCENE] if simulation.source.clearances else None,
                     peaks=_select_peak_series(request, simulation.source),
                 )
             except (AssemblyError, SolverError) as error:  # the other scenes are still run
@@ -243,30 +245,30 @@ def _simulate_scenes(
                 return
 
 
-def _write_results(request: Request, simulations: Mapping[str, Simulation], outcome: RunOutcome) -> None:
+def _write_results(request: RunRequest, simulations: Mapping[str, Simulation], outcome: RunOutcome) -> None:
     """Verify the results if requested, then save, compare, report, draw and show them.
 
-    `--verify` precedes, since it adds notes to the runs; its errors are stored as failures. All else follows the first
-    saving, so that a later failure loses no result. A report changes diagnostics and saves again.
+    The contacts are verified first, since that adds notes to the runs; faults are stored as failures. Results are saved
+    before the other steps, so that a later failure loses none; a report changes diagnostics and saves again.
     """
     from gudgeon.results.reports.comparison import compute_scene_report
-    from gudgeon.results.series import choose_watched_series
+    from gudgeon.results.series import choose_default_series
 
     if request.verify:
         verify_contacts(outcome.runs, outcome.failures, request.json)
-    runs = {scene: outcome.runs[scene] for scene in sorted(outcome.runs, key=lambda scene: scene != IDEAL)}
+    runs = {scene: outcome.runs[scene] for scene in sorted(outcome.runs, key=lambda scene: scene != IDEAL_SCENE)}
     _save_results(request, runs, outcome)
-    _find_reference_runs(simulations[IDEAL], outcome)
+    _find_reference_runs(simulations[IDEAL_SCENE], outcome)
     if request.report:
 
         def save(some: Mapping[str, Result]) -> None:
             """Save these results again, after their diagnostics have changed."""
             _save_results(request, some, outcome)
 
-        message = outcome.files, outcome.write_errors, request.json
-        write_reports(runs, simulations, outcome.references, request.out, save, *message)
-    first = outcome.runs.get(IDEAL) or next(iter([*outcome.references.values(), *outcome.runs.values()]))
-    watch = request.watch or choose_watched_series(first)
+        report_arguments = outcome.files, outcome.write_errors, request.json
+        write_reports(runs, simulations, outcome.references, request.out, save, *report_arguments)
+    first = outcome.runs.get(IDEAL_SCENE) or next(iter([*outcome.references.values(), *outcome.runs.values()]))
+    watch = request.watch or choose_default_series(first)
     reports = [compute_scene_report(run, outcome.references.get(scene), watch) for scene, run in runs.items()]
     try:
         _draw_picture(request.out, runs, outcome, watch)
@@ -275,17 +277,17 @@ def _write_results(request: Request, simulations: Mapping[str, Simulation], outc
 
 
 def _find_reference_runs(ideal: Simulation, outcome: RunOutcome) -> None:
-    """Store an ideal run to compare with for each scene with play; one that Ctrl-C ended is not used.
+    """Store the ideal run with which each scene with play is compared in `outcome.references`.
 
-    An error of an ideal run is stored as a failure of the ideal scene.
+    A reference that Ctrl-C ended is not stored. An error is stored as a failure of the ideal scene.
     """
     for scene, run in outcome.runs.items():
         if run.source.clearances:  # other scenes are ideal ones with other parameters
             try:
                 reference = _find_ideal_run(ideal, run, outcome)
             except (GudgeonError, MemoryError) as error:
-                message = MemoryShortage(error) if isinstance(error, MemoryError) else error
-                outcome.failures.setdefault(IDEAL, message)
+                failure = MemoryShortage(error) if isinstance(error, MemoryError) else error
+                outcome.failures.setdefault(IDEAL_SCENE, failure)
                 continue
             if len(reference.t) < len(run.t):
                 outcome.interrupted = True
@@ -294,26 +296,27 @@ def _find_reference_runs(ideal: Simulation, outcome: RunOutcome) -> None:
 
 
 def _find_ideal_run(ideal: Simulation, run: Result, outcome: RunOutcome) -> Result:
-    """Return the ideal run at the sample times and parameter values of `run`; a known run that fits is used again."""
-    shared = {slot.address for slot in ideal.source.slots}
-    values = {address: number for address, number in run.parameters.items() if address in shared}
-    for other in (outcome.runs.get(IDEAL), *outcome.references.values()):
+    """Return the ideal run with the sample times and parameter values of `run`; one that `outcome` has is reused."""
+    common_addresses = {slot.address for slot in ideal.source.slots}
+    values = {address: number for address, number in run.parameters.items() if address in common_addresses}
+    for other in (outcome.runs.get(IDEAL_SCENE), *outcome.references.values()):
         if other and np.array_equal(other.t, run.t) and all(other.parameters[a] == v for a, v in values.items()):
             return other
     return ideal.simulate(output=run.t, parameters=values, stop=False, peaks=())
 
 
-def _save_results(request: Request, runs: Mapping[str, Result], outcome: RunOutcome) -> None:
-    """Write a NetCDF file for each scene and record its path; nothing without h5py.
+def _save_results(request: RunRequest, runs: Mapping[str, Result], outcome: RunOutcome) -> None:
+    """Write a NetCDF file for each scene and store its path in `outcome.files`.
 
-    Errors, such as a full disk, are stored in `outcome.write_errors`.
+    Errors, such as a full disk, are stored in `outcome.write_errors`. Without h5py nothing is written and a note is
+    printed.
     """
     if not has_packages("NetCDF files", "h5py"):
         return
     for scene, run in runs.items():
         path = _build_result_path(request.out, run.source.mechanism, scene)
         try:
-            run.save(path, {ORIGIN: format_origin(request.file, run.source.sha256)})
+            run.save(path, {ORIGIN_ATTRIBUTE: format_origin(request.file, run.source.sha256)})
             outcome.files[scene] = str(path)
         except GudgeonError as error:
             outcome.write_errors.append(error)
@@ -324,7 +327,7 @@ def _save_results(request: Request, runs: Mapping[str, Result], outcome: RunOutc
 def _draw_picture(out: Path, runs: Mapping[str, Result], outcome: RunOutcome, watch: Sequence[str]) -> None:
     """Write the picture of all runs and record its path; errors are stored in `outcome.write_errors`.
 
-    Nothing is drawn without matplotlib. watch: names of the series shown.
+    Without matplotlib nothing is drawn and a note is printed. watch: names of the series shown.
     """
     if not has_packages("picture", "matplotlib"):
         return
@@ -345,7 +348,7 @@ def _build_result_path(out: Path, mechanism: str, scene: str) -> Path:
     return out / f"{mechanism}_{scene}.nc"
 
 
-def _show_results(request: Request, source: KernelSource, reports: list[SceneReport], outcome: RunOutcome) -> None:
+def _show_results(request: RunRequest, source: KernelSource, reports: list[SceneReport], outcome: RunOutcome) -> None:
     """Print tables, notes and written files, or the JSON document, and mark the outcome as shown."""
     from gudgeon.language.text_output import make_plain_console
     from gudgeon.results.reports.comparison import build_tables, convert_to_json_values
@@ -353,8 +356,8 @@ def _show_results(request: Request, source: KernelSource, reports: list[SceneRep
 
     if request.json:
         scenes = {
-            name: message | {"beyond": find_exceeded_limits(outcome.runs[name])}
-            for name, message in convert_to_json_values(reports).items()
+            name: notes | {"beyond": find_exceeded_limits(outcome.runs[name])}
+            for name, notes in convert_to_json_values(reports).items()
         }
         document = {"mechanism": source.mechanism, "scenes": scenes, "files": outcome.files}
         print_json(document)
@@ -363,46 +366,47 @@ def _show_results(request: Request, source: KernelSource, reports: list[SceneRep
         for table in build_tables(source.title or source.mechanism, reports, console.width, request.verbose):
             console.print(table)
         runs = [(r.scene, outcome.runs[r.scene]) for r in reports]
-        message = [
+        notes = [
             f"{name}: {note}" for name, run in runs for note in (*run.diagnostics.notes, *find_exceeded_limits(run))
         ]
-        message += [
+        notes += [
             f"{name}: {note}" for name, note in outcome.optimization_notes.items() if note and name in outcome.runs
         ]
-        for note in dict.fromkeys(message):
+        for note in dict.fromkeys(notes):
             console.print(f"note: {escape_invisible(note)}")
         print("".join(f"wrote {format_path(path)}\n" for path in outcome.files.values()), end="")
     outcome.shown = True
 
 
-def check_memory_and_disk(request: Request, scenes: Mapping[str, tuple[Simulation, Array]]) -> None:
-    """Raise MemoryError if samples and derived series do not fit into memory, OutputError if the files do not fit on
-    disk.
+def check_memory_and_disk(request: RunRequest, scenes: Mapping[str, tuple[Simulation, Array]]) -> None:
+    """Raise MemoryError if samples and evaluations do not fit into memory, OutputError if the files do not fit on disk.
 
-    scenes: each simulation with its parameter values. Files contain every series and replace older ones one after the
-    other. The disk is not checked if no file is written.
+    scenes: each simulation with its parameter values. A file contains every series and replaces an older one, so that
+    at least the largest file must fit. The disk is not checked without h5py.
     """
     from gudgeon.results.series import get_catalogue
 
-    given, counts = request.output, dict[str, float]()
+    requested_output, counts = request.output, dict[str, float]()
     for name, (simulation, p) in scenes.items():
         counts[name] = 1.0 + (
-            evaluate_scene_number(simulation.source, "output", p, DEFAULT_OUTPUT) if given is None else given
+            evaluate_scene_number(simulation.source, "output", p, DEFAULT_OUTPUT)
+            if requested_output is None
+            else requested_output
         )
     samples_text = f"{len(scenes)} scenes of {max(counts.values()):.0f} samples"
-    each = {
+    bytes_per_sample = {
         name: compute_sample_bytes(simulation.compiled) + compute_evaluation_bytes(simulation.compiled)
         for name, (simulation, _) in scenes.items()
     }
-    check_memory(sum(counts[name] * each[name] for name in scenes), samples_text)
+    check_memory(sum(counts[name] * bytes_per_sample[name] for name in scenes), samples_text)
     if find_spec("h5py"):
         files = [
             8.0 * counts[name] * (1 + len(get_catalogue(simulation.source))) for name, (simulation, _) in scenes.items()
         ]
-        older = sum(
+        old_bytes = sum(
             _get_file_size(request.out, simulation.source.mechanism, name) for name, (simulation, _) in scenes.items()
         )
-        check_disk(request.out, max(*files, sum(files) - older), f"the results, {samples_text},")
+        check_disk(request.out, max(*files, sum(files) - old_bytes), f"the results, {samples_text},")
 
 
 def _get_file_size(out: Path, mechanism: str, scene: str) -> int:
@@ -417,9 +421,9 @@ def _build_report_path(out: Path, mechanism: str, scene: str) -> Path:
 
 
 def verify_contacts(runs: dict[str, Result], failures: dict[str, GudgeonError], quiet: bool) -> None:
-    """Check the contacts of every run with play (Result.check), and replace the run by one with notes on the result.
+    """Check the contacts of every run with play (Result.check), and replace it in `runs` by a copy with notes.
 
-    Faults and errors are stored in `failures`. quiet: without a status line.
+    Faults and errors are stored in `failures`, unless the scene has one. quiet: without a status line.
     """
     for scene, run in runs.items():
         if not run.source.clearances:
@@ -430,7 +434,7 @@ def verify_contacts(runs: dict[str, Result], failures: dict[str, GudgeonError], 
             notes = (
                 *run.diagnostics.notes,
                 *findings.notes,
-                f"{len(findings.faults) or 'no'} faults of contacts at {findings.samples} samples",
+                f"contact check: {len(findings.faults) or 'no'} faults at {findings.samples} samples",
             )
             runs[scene] = replace(run, diagnostics=replace(run.diagnostics, notes=notes))
             findings.raise_faults()
@@ -470,26 +474,27 @@ def write_reports(
 
 
 def format_origin(mechanism: str, digest: str) -> str:
-    """Return a text for the result file with the digests of the path and the bytes of the mechanism file.
+    """Return the attribute of a result file with hashes of the path and the bytes of the mechanism file.
 
-    digest: SHA-256 of the bytes.
+    For example "gudgeon-origin 0123456789abcdef fedcba9876543210". digest: SHA-256 of the bytes.
     """
     path_hash = sha256(os.fsencode(find_mechanism(mechanism).resolve())).hexdigest()
     return f"gudgeon-origin {path_hash[:16]} {digest[:16]}"
 
 
 def check_origin(path: Path, origin: str) -> None:
-    """Raise InputError if the file `path` is a result of another mechanism file; it may be absent or unreadable.
+    """Raise InputError if the file `path` is the result of another mechanism file: both hashes differ from `origin`.
 
-    origin: text of `format_origin`; path or contents of the mechanism must agree.
+    Nothing is raised if the file is absent, unreadable or has no hashes. origin: text of `format_origin`.
     """
-    ours = _NOTED.match(origin.encode())
+    ours = _ORIGIN_PATTERN.match(origin.encode())
     try:
         with path.open("rb") as file, mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as data:
-            noted = _NOTED.search(data)
+            noted = _ORIGIN_PATTERN.search(data)
             origins = set(noted.groups()) if noted else set()
     except (OSError, ValueError):  # no file; errors of writing are reported later
         return
     if ours and origins and not origins & set(ours.groups()):
-        message = f"--out: {shorten_path(path)} is the result of another mechanism file that has the same name"
-        raise InputError(message, hint="name another folder with --out, or remove it; or change `name:` in one of them")
+        message = f"--out: {shorten_path(path)} is the result of another mechanism file with the same name"
+        hint = "name another folder with --out, or remove the result; or change `name:` in one of the files"
+        raise InputError(message, hint=hint)

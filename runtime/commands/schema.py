@@ -6,8 +6,9 @@ from gudgeon.language.text_output import print_json
 
 
 def print_schema(study: bool = False) -> int:
-    """Print the JSON Schema (draft 2020-12) of mechanism files, or of study files with `study`; return the exit
-    code.
+    """Print the JSON Schema (draft 2020-12) of mechanism files, or with `study` of study files; return the exit code.
+
+    Registered user-defined laws are included.
     """
     if study:
         from gudgeon.generator.study.schema import make_study_schema

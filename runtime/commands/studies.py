@@ -1,4 +1,4 @@
-"""Read the arguments that `gudgeon bench` and `gudgeon map` share: scenes, parameter values, output file."""
+"""Read the common arguments of `gudgeon bench` and `gudgeon map`: scenes, parameter values, output file."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ from gudgeon.waiting.ctrl_c import INTERRUPTED
 
 
 class Measured(Protocol):
-    """Result of one scene; incomplete after Ctrl-C."""
+    """Result of `bench` or `map` for one scene; incomplete after Ctrl-C."""
 
     @property
     def scene(self) -> str:
@@ -41,11 +41,11 @@ class Measured(Protocol):
         """Return the number of finished runs and the number of all runs."""
 
 
-Found = TypeVar("Found", bound=Measured)
+MeasuredScene = TypeVar("MeasuredScene", bound=Measured)
 
 
 @dataclass(frozen=True)
-class Request:
+class MeasurementRequest:
     """Arguments that both commands have, as typed."""
 
     file: str
@@ -64,9 +64,7 @@ class Request:
         return parse_settings(self.sets)
 
     def select_parameters(self, simulation: Simulation) -> dict[str, float | str]:
-        """Return those values of `--set` whose addresses the scene has; an ideal scene has no viscosity, for
-        example.
-        """
+        """Return the values of `--set` whose addresses the scene has; an ideal scene has no viscosity, for example."""
         known_addresses = set(list_addresses(simulation.source))
         return {name: value for name, value in self.parameters.items() if name in known_addresses}
 
@@ -83,10 +81,9 @@ class Request:
         return value
 
     def find_table_path(self, mechanism: str, table_kind: str) -> Path:
-        """Return the path of the CSV file: that of --csv, else MECHANISM_KIND.csv in --out; pictures have the same
-        name.
+        """Return the path of the CSV file: that of --csv, else MECHANISM_KIND.csv in --out, for example pump_map.csv.
 
-        Raises InputError if one of them cannot be written.
+        Raises InputError if it, or the picture of the same name (.png), cannot be written.
         """
         table = self.csv or self.out / f"{mechanism}_{table_kind}.csv"
         if self.csv is not None:
@@ -98,13 +95,13 @@ class Request:
 
 
 def measure_scenes(
-    simulations: Sequence[Simulation], measure_scene: Callable[[Simulation, Report | None], Found], quiet: bool
-) -> tuple[list[Found], bool]:
-    """Call `measure_scene` for every scene with a progress callback; return the results, and whether Ctrl-C came.
+    simulations: Sequence[Simulation], measure_scene: Callable[[Simulation, Report | None], MeasuredScene], quiet: bool
+) -> tuple[list[MeasuredScene], bool]:
+    """Call `measure_scene` for each scene with a progress callback; return the results and whether Ctrl-C ended it.
 
-    After Ctrl-C the last result may be incomplete. quiet: without a progress bar.
+    After Ctrl-C the last result may be incomplete, and further scenes have none. quiet: without a progress bar.
     """
-    results: list[Found] = []
+    results: list[MeasuredScene] = []
     with show_progress_bars(quiet) as make_bar:
         try:
             for simulation in simulations:
@@ -116,23 +113,26 @@ def measure_scenes(
     return results, False
 
 
-def find_exit_code(simulations: Sequence[Simulation], measured_scenes: Sequence[Measured], interrupted: bool) -> int:
-    """Return the exit code: 0, or 130 after Ctrl-C, which is reported on stderr with the finished runs of each
-    scene.
+def report_interrupted_scenes(
+    simulations: Sequence[Simulation], measured_scenes: Sequence[Measured], interrupted: bool
+) -> int:
+    """Print the number of finished runs of each scene on stderr if Ctrl-C interrupted the command.
+
+    Returns the exit code: 0, or 130 if interrupted.
     """
     if not interrupted:
         return 0
     if not measured_scenes:
-        print("interrupted before anything was measured: nothing is shown or written", file=sys.stderr)
+        print("interrupted before any run was finished: nothing is shown or written", file=sys.stderr)
         return INTERRUPTED
     parts = ["{}: {} of {} runs".format(scene.scene, *scene.done) for scene in measured_scenes]
     names = {scene.scene for scene in measured_scenes}
-    parts += [f"{s.source.scene}: not begun" for s in simulations if s.source.scene not in names]
-    print(f"interrupted: what is shown and written is partial ({'; '.join(parts)})", file=sys.stderr)
+    parts += [f"{s.source.scene}: not started" for s in simulations if s.source.scene not in names]
+    print(f"interrupted: the results shown and written are partial ({'; '.join(parts)})", file=sys.stderr)
     return INTERRUPTED
 
 
-def load_scenes(request: Request) -> list[Simulation]:
+def load_scenes(request: MeasurementRequest) -> list[Simulation]:
     """Load all requested scenes with optimized code, and check the values of --set before anything runs.
 
     Raises UnknownNameError for an address that no scene has, BadValueError for values.

@@ -21,11 +21,11 @@ from gudgeon.studies.ensemble.workers import open_workers
 from gudgeon.studies.show.study import report_estimates, report_studies
 
 INTERRUPTED, FAILED = 130, 1
-REPORT = "report"  # typed in place of a file
+REPORT = "report"  # instead of a file: write a page
 
 
 @dataclass(frozen=True)
-class Request:
+class StudyRequest:
     """Arguments of the command, as typed."""
 
     file: str
@@ -63,29 +63,29 @@ def report_study(folder: str, out: Path | None, json: bool) -> int:
     return 0
 
 
-def run_study_file(request: Request) -> int:
-    """Run what is missing of a study, print the results, and return the exit code: 1 if every run failed.
+def run_study_file(request: StudyRequest) -> int:
+    """Run the unfinished runs of a study, print the results, and return the exit code: 1 if every run failed.
 
     It is 130 after Ctrl-C. For the file "report" the page of the finished study is written; with `--runs` only
-    estimates are printed. Raises BadValueError for options that do not fit together.
+    estimates are printed. Raises BadValueError for options that exclude each other.
     """
     if request.finished is not None:
         if request.file != REPORT:
             hint = f"gudgeon study {REPORT} FOLDER writes a page of it"
-            raise BadValueError(f"study takes one file, and found {shorten_path(request.finished)} too", hint=hint)
+            raise BadValueError(f"study: expected one file, got {shorten_path(request.finished)} too", hint=hint)
         return report_study(request.finished, request.out, request.json)
     if request.file == REPORT and not Path(REPORT).exists():
-        raise BadValueError(f"study {REPORT}: of which study?", hint=f"gudgeon study {REPORT} NAME.study")
-    given = parse_settings(tuple(request.sets or ()))
+        raise BadValueError(f"study {REPORT}: the folder is missing", hint=f"gudgeon study {REPORT} NAME.study")
+    overrides = parse_settings(tuple(request.sets or ()))
     if request.folder.suffix.lower() == ".html":
         hint = f"name a folder; gudgeon study {REPORT} FOLDER --out {shorten_path(request.folder)} writes the page"
         raise BadValueError(
-            f"--out: {shorten_path(request.folder)} is a page's name, and a study is a folder", hint=hint
+            f"--out: {shorten_path(request.folder)} is the name of a page: expected a folder", hint=hint
         )
     if not request.runs:
         check_output_folder("--out", request.folder)
     with show_status_line(quiet=request.json):
-        plans = resolve_plans(request.file, given, request.starts, request.seed)
+        plans = resolve_plans(request.file, overrides, request.starts, request.seed)
     if request.runs:
         estimates = {name: estimate_study(plan, request.threads) for name, plan in plans.each.items()}
         report_estimates(plans, estimates, request.json)
@@ -102,10 +102,10 @@ def run_study_file(request: Request) -> int:
 
 
 def _report_interruption(plans: Plans, folder: Path) -> None:
-    """Print to stderr, after Ctrl-C, how many blocks of runs are stored in the folder."""
+    """Print to stderr how many blocks of runs are stored in the folder; called after Ctrl-C."""
     n_blocks = sum(len(plan.blocks) for plan in plans.each.values())
     n_stored = min(
         n_blocks, sum(StudyFolder(folder / name, plan).count_block_files() for name, plan in plans.each.items())
     )
     text = f"{n_stored} of {n_blocks} blocks of runs are in {format_path(folder)}"
-    print(f"interrupted: {text}; the same command goes on from there", file=sys.stderr)
+    print(f"interrupted: {text}; the same command resumes the study", file=sys.stderr)

@@ -9,7 +9,7 @@ import numpy as np
 
 from gudgeon.assembly.linkage import compute_point_position
 from gudgeon.drawing.configuration import Configuration, find_outline_points
-from gudgeon.drawing.drives_and_forces import HEAD, draw_arrow
+from gudgeon.drawing.drives_and_forces import HEAD_LENGTH, draw_arrow
 from gudgeon.drawing.shapes import Shape
 from gudgeon.language.plot_units import choose_prefix
 from gudgeon.model.compiled import Array
@@ -36,8 +36,8 @@ def draw_arrows(
 ) -> Arrows:
     """Return the arrows of vectors given as name: (position, vector), with a reference arrow of a round value.
 
-    A vector of the magnitude `max_magnitude` (SI) is LONGEST units long; `unit_length` is a unit in m. Very short
-    arrows are left out; without a positive magnitude there are none.
+    A vector of the magnitude `max_magnitude` (SI) is drawn MAX_ARROW_LENGTH units long; `unit_length` is a unit in m.
+    Arrows below 1e-3 units are left out; without a positive magnitude there are none.
     """
     if not max_magnitude > 0.0:
         return Arrows(role, (), 0.0, "")
@@ -50,7 +50,7 @@ def draw_arrows(
                 role,
                 position,
                 position + metres_per_unit * vector,
-                min(0.85 * HEAD * unit_length, 0.6 * length),
+                min(0.85 * HEAD_LENGTH * unit_length, 0.6 * length),
             )
     reference = find_round_number(max_magnitude)
     factor, text = choose_prefix(reference, si_unit)

@@ -20,8 +20,8 @@ from gudgeon.drawing.layout import Layout
 from gudgeon.drawing.shapes import Disc, Label, Line, Shape, compute_rectangle, compute_rounded_outline
 from gudgeon.model.compiled import Array
 
-BLOCK = (2.1, 1.25)  # half length and width of a slider, in units
-SLOT, STRIP = 1.0, 0.55  # half widths: of a slotted link, of a bar that guides
+BLOCK_HALF_SIZE = (2.1, 1.25)  # half length and width of a slider, in units
+SLOT_HALF_WIDTH, BAR_HALF_WIDTH = 1.0, 0.55  # half widths: of a slotted link, of a bar that guides
 
 
 def draw_bodies(
@@ -42,7 +42,7 @@ def draw_bodies(
 def _iterate_outlines(configuration: Configuration, layout: Layout, body: str) -> Iterator[tuple[str, Array]]:
     """Yield role and closed outline (N, 2) of a body: its link or plate, its guides for other bodies, its blocks.
 
-    A body with a guide or block that has points at one place only is drawn without link or plate.
+    A body with a guide or block whose points coincide has no link or plate.
     """
     unit, positions = layout.unit, remove_repeated_positions(find_outline_points(configuration, body).values())
     guide_parts, block_parts = [], []
@@ -57,18 +57,21 @@ def _iterate_outlines(configuration: Configuration, layout: Layout, body: str) -
     for part in guide_parts:
         ends = compute_guide_ends(configuration, layout, part)
         if wall_gap := compute_wall_gap(configuration, part, unit):
-            yield "guide", compute_rounded_outline(ends, BLOCK[1] * unit + wall_gap + 0.55 * unit)
-            yield "channel", compute_rounded_outline(ends, BLOCK[1] * unit + wall_gap)
+            yield "guide", compute_rounded_outline(ends, BLOCK_HALF_SIZE[1] * unit + wall_gap + 0.55 * unit)
+            yield "channel", compute_rounded_outline(ends, BLOCK_HALF_SIZE[1] * unit + wall_gap)
         else:
-            yield "body", compute_rounded_outline(ends, (STRIP if is_block(part) else SLOT + 0.55) * unit)
+            yield (
+                "body",
+                compute_rounded_outline(ends, (BAR_HALF_WIDTH if is_block(part) else SLOT_HALF_WIDTH + 0.55) * unit),
+            )
     for part in block_parts:
         yield (
             "body",
             compute_rectangle(
                 find_sliding_axis(configuration, part)[2],
                 compute_guide_directions(configuration, part)[1],
-                BLOCK[0] * unit,
-                BLOCK[1] * unit,
+                BLOCK_HALF_SIZE[0] * unit,
+                BLOCK_HALF_SIZE[1] * unit,
             ),
         )
 
@@ -82,11 +85,11 @@ def _has_one_position(configuration: Configuration, body: str) -> bool:
 def compute_guide_ends(configuration: Configuration, layout: Layout, part: PartInfo) -> list[Array]:
     """Return both ends of a slot or guide bar, two points (2,) in m, as far as the slider travels.
 
-    They extend to the body's own point on the line, except for a slot on one of the body's links.
+    They extend to the guiding body's point on the line, except for a slot that lies on one of the body's links.
     """
     line_point, axis, _ = find_sliding_axis(configuration, part)
     low_coordinate, high_coordinate = layout.travel[part.name]
-    overhang = (BLOCK[0] + 0.6 if is_block(part) else 1.6) * layout.unit
+    overhang = (BLOCK_HALF_SIZE[0] + 0.6 if is_block(part) else 1.6) * layout.unit
     low_coordinate, high_coordinate = low_coordinate - overhang, high_coordinate + overhang
     guide = get_body_name(find_guide_and_slider(part)[0])
     if is_block(part) or not _is_on_link(

@@ -21,7 +21,7 @@ from gudgeon.model.compiled import Array
 from gudgeon.model.contours import find_slider_dimensions
 
 GROUND = "ground"
-UNKNOWN = JointType("", "joint", (), "", (), (), lambda *_: [], None)  # of a file that a later gudgeon wrote
+UNKNOWN = JointType("", "joint", (), "", (), (), lambda *_: [], None)  # a kind of a file from a later version
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,8 +43,8 @@ class Configuration:
         """Raise GudgeonError for a scene whose file lacks the ends of its parts."""
         if self.source.start_rows and not self.source.parts:
             raise GudgeonError(
-                "this result does not say what its joints, drives and forces join: an earlier version of gudgeon wrote"
-                " it\n  run the scene again"
+                "this result lacks the ends of its joints, drives and forces: an earlier version of gudgeon wrote it\n"
+                "  run the scene again"
             )
 
     @cached_property
@@ -78,7 +78,7 @@ class Configuration:
 
     @cached_property
     def clearances(self) -> Mapping[str, ClearanceInfo]:
-        """Joints with play by name whose play is a circle."""
+        """Joints with a circular clearance (bearings with play) by name."""
         return {joint.name: joint for joint in self.source.clearances if not joint.is_corner}
 
     @cached_property
@@ -114,7 +114,7 @@ class Configuration:
                 yield part
 
     def find_parts(self, name: str) -> Iterator[PartInfo]:
-        """Return the part of that name, as an iterator: joints, drives and forces have different names."""
+        """Return an iterator over the parts of that name: one joint, drive or force element, or none."""
         return (part for part in self.source.parts if part.name == name)
 
     @cached_property
@@ -154,7 +154,7 @@ class Configuration:
         return float(self.p[self._parameter_indices[address]]) if address in self._parameter_indices else 0.0
 
     def is_specified(self, address: str) -> bool:
-        """Return whether the file specifies a value at an address."""
+        """Return whether the file specifies a value, a number or an expression, at an address."""
         return address in self._parameter_indices or any(entry.address == address for entry in self.source.written)
 
     def compute_direction(self, part: PartInfo, key: str, body: str) -> Array:

@@ -7,11 +7,11 @@ from collections.abc import Iterator
 import numpy as np
 
 from gudgeon.contract.kernel_source import PartInfo
-from gudgeon.drawing.bodies import BLOCK
+from gudgeon.drawing.bodies import BLOCK_HALF_SIZE
 from gudgeon.drawing.configuration import GROUND, Configuration, get_body_name
 from gudgeon.drawing.joint_geometry import find_pivot_joint, find_sliding_axis, has_rail, iterate_sliding_joints
 from gudgeon.drawing.layout import Layout
-from gudgeon.drawing.pen import PIN, draw_ground_wall
+from gudgeon.drawing.pen import PIN_RADIUS, draw_ground_wall
 from gudgeon.drawing.shapes import (
     Disc,
     Label,
@@ -26,10 +26,15 @@ from gudgeon.drawing.shapes import (
 )
 from gudgeon.model.compiled import Array
 
-ARROW, HEAD = 5.2, 1.3  # lengths in units: of an arrow whose size means nothing, and of its head
-DRIVEN, LOADED, WOUND = 2.3, 3.1, 1.9  # radii of arrows around a pin: a drive's, a torque's; of a spiral spring
-RADII = {"angle": DRIVEN, "coordinate": DRIVEN, "torque": LOADED, "rotational_spring_damper": WOUND}
-ALONG = 0.5  # cosine above which a guide counts as parallel to a coordinate
+ARROW_LENGTH, HEAD_LENGTH = 5.2, 1.3  # units: an arrow that is not to scale, and its head
+DRIVE_RADIUS, TORQUE_RADIUS, SPIRAL_RADIUS = 2.3, 3.1, 1.9  # units: round arrows of drives and torques; spiral springs
+RADIUS_BY_KIND = {
+    "angle": DRIVE_RADIUS,
+    "coordinate": DRIVE_RADIUS,
+    "torque": TORQUE_RADIUS,
+    "rotational_spring_damper": SPIRAL_RADIUS,
+}
+MIN_PARALLEL_COSINE = 0.5  # cosine above which a guide counts as parallel to a coordinate
 
 
 def draw_drives_and_forces(configuration: Configuration, layout: Layout) -> Iterator[Shape]:
@@ -69,7 +74,7 @@ def label_drives_and_forces(configuration: Configuration, layout: Layout, shows_
             position, clearance = configuration.get_position(part.ends[1]), 2.0
         else:
             position = find_pivot(configuration, part)
-            clearance = RADII[part.kind]
+            clearance = RADIUS_BY_KIND[part.kind]
         is_zero = (
             shows_zero_loads
             and part.kind in ("force", "torque")
@@ -124,15 +129,15 @@ def compute_arrow_radii(configuration: Configuration) -> dict[str, float]:
     """
     radii = dict[str, float]()
     for part in (*configuration.iterate_parts("drives"), *configuration.iterate_parts("forces")):
-        if part.kind in RADII and part.options.get("coordinate", "theta") == "theta":
+        if part.kind in RADIUS_BY_KIND and part.options.get("coordinate", "theta") == "theta":
             joint, _ = _find_pivot_joint_and_body(configuration, part)
             if joint is not None:
-                radii[joint.name] = max(radii.get(joint.name, 0.0), RADII[part.kind])
+                radii[joint.name] = max(radii.get(joint.name, 0.0), RADIUS_BY_KIND[part.kind])
     return radii
 
 
 def _find_pivot_joint_and_body(configuration: Configuration, part: PartInfo) -> tuple[PartInfo | None, str]:
-    """Return the joint about which the body of a drive or force element turns, None without one, and the body's name.
+    """Return the pivot joint and the name of the rotating body of a drive or force element; None without such a joint.
 
     The body is the first one that is not the ground; the joint connects it with the element's other body or the ground.
     """
@@ -145,12 +150,12 @@ def _find_pivot_joint_and_body(configuration: Configuration, part: PartInfo) -> 
 def _draw_angle_drive(configuration: Configuration, layout: Layout, part: PartInfo) -> Iterator[Shape]:
     """Yield the arrow of a driven angle around its pivot, counterclockwise if the angle grows.
 
-    The rate is that of the first body relative to the second; an unknown rate counts as growing.
+    The rate is that of the first body relative to the second, or to the ground; an unknown rate counts as growing.
     """
     rate = configuration.get_angular_velocity(get_body_name(part.ends[0]))
     rate -= configuration.get_angular_velocity(get_body_name(part.ends[1])) if len(part.ends) > 1 else 0.0
     centre, u = find_pivot(configuration, part), layout.unit
-    yield from draw_round_arrow(f"drive {part.name}", "drive", centre, DRIVEN * u, rate >= 0.0, HEAD * u)
+    yield from draw_round_arrow(f"drive {part.name}", "drive", centre, DRIVE_RADIUS * u, rate >= 0.0, HEAD_LENGTH * u)
 
 
 def _draw_coordinate_drive(configuration: Configuration, layout: Layout, part: PartInfo) -> Iterator[Shape]:
@@ -165,22 +170,27 @@ def _draw_coordinate_drive(configuration: Configuration, layout: Layout, part: P
     direction = np.eye(2)["xy".index(axis)] * (
         -1.0 if configuration.v is not None and configuration.v[index] < 0.0 else 1.0
     )
-    (middle, _), half_arrow = _find_arrow_position(configuration, layout, part), 0.5 * ARROW * layout.unit * direction
-    yield from draw_arrow(f"drive {part.name}", "drive", middle - half_arrow, middle + half_arrow, HEAD * layout.unit)
+    (middle, _), half_arrow = (
+        _find_arrow_position(configuration, layout, part),
+        0.5 * ARROW_LENGTH * layout.unit * direction,
+    )
+    yield from draw_arrow(
+        f"drive {part.name}", "drive", middle - half_arrow, middle + half_arrow, HEAD_LENGTH * layout.unit
+    )
 
 
 def _find_arrow_position(configuration: Configuration, layout: Layout, part: PartInfo) -> tuple[Array, Array]:
-    """Return the middle of a driven coordinate's arrow (2,), in m, and its offset direction, a unit vector: above or to
-    the left.
+    """Return the middle (2,), m, of the arrow of a driven coordinate x or y, and the unit vector of its offset.
 
-    For a body that slides on the ground along the coordinate, the arrow is next to the block, away from the ground.
+    The arrow lies above the point (for y: left of it). For a body that slides on the ground along the coordinate, it
+    lies next to the block, away from the ground.
     """
     axis = np.eye(2)["xy".index(part.options["coordinate"])]
     position, normal = configuration.get_position(part.ends[0]), rotate_quarter_turn(axis)
     for joint in iterate_sliding_joints(configuration):
         if joint.name in layout.ground_directions and get_body_name(part.ends[0]) in map(get_body_name, joint.ends):
             _, line_direction, slider = find_sliding_axis(configuration, joint)
-            if abs(float(line_direction @ axis)) > ALONG:
+            if abs(float(line_direction @ axis)) > MIN_PARALLEL_COSINE:
                 position, normal = (
                     slider,
                     -normal if float(layout.ground_directions[joint.name] @ normal) > 0.0 else normal,
@@ -203,7 +213,7 @@ def _draw_cylinder(configuration: Configuration, layout: Layout, part: PartInfo)
         "piston",
         np.array([head - 0.85 * u * rotate_quarter_turn(axis), head + 0.85 * u * rotate_quarter_turn(axis)]),
     )
-    yield from (Disc(name, "pin", position, 0.8 * PIN * u) for position in (begin, end))
+    yield from (Disc(name, "pin", position, 0.8 * PIN_RADIUS * u) for position in (begin, end))
 
 
 def _draw_ground_ends(configuration: Configuration, part: PartInfo, owner: str, layout: Layout) -> Iterator[Shape]:
@@ -222,8 +232,8 @@ def _draw_ground_ends(configuration: Configuration, part: PartInfo, owner: str, 
 def _draw_spring_damper(configuration: Configuration, layout: Layout, part: PartInfo) -> Iterator[Shape]:
     """Yield a spring, a damper, or both in parallel, between the two points of an element.
 
-    An element without stiffness and damping is drawn as a spring. Between coincident points only dots are drawn. Next
-    to a ground rail, both symbols are on the side away from the ground.
+    An element without stiffness and damping is drawn as a spring. Between coincident points only dots are drawn. If the
+    element lies along a ground rail, both symbols are on the side away from the ground.
     """
     name, u = f"force {part.name}", layout.unit
     begin, end = (configuration.get_position(point) for point in part.ends)
@@ -261,10 +271,10 @@ def _draw_spring_damper(configuration: Configuration, layout: Layout, part: Part
 def _find_ground_side(
     configuration: Configuration, layout: Layout, part: PartInfo, begin: Array, end: Array
 ) -> Array | None:
-    """Return the direction of the ground, a unit vector, if an element lies along the rail of the joint between its
-    bodies.
+    """Return the direction of the ground, a unit vector, if an element lies along a ground rail; else None.
 
-    Returns None otherwise. `begin` and `end` are the element's points.
+    The rail is that of a sliding joint between the bodies of the element. Both points `begin` and `end` must be within
+    half a bar's width of its line.
     """
     bodies = {get_body_name(end) for end in part.ends}
     for joint in iterate_sliding_joints(configuration):
@@ -311,7 +321,7 @@ def _draw_damper(owner: str, begin: Array, end: Array, unit: float) -> Iterator[
 def _draw_spiral_spring(configuration: Configuration, layout: Layout, part: PartInfo) -> Iterator[Shape]:
     """Yield a spiral spring of 2.25 turns around the pivot of a rotational spring or damper."""
     angle, centre = np.linspace(0.0, 4.5 * np.pi, 90), find_pivot(configuration, part)
-    radius = layout.unit * np.linspace(0.6, WOUND, len(angle))
+    radius = layout.unit * np.linspace(0.6, SPIRAL_RADIUS, len(angle))
     yield Line(
         f"force {part.name}", "spring", centre + np.column_stack([np.cos(angle), np.sin(angle)]) * radius[:, None]
     )
@@ -321,7 +331,9 @@ def _draw_torque(configuration: Configuration, layout: Layout, part: PartInfo) -
     """Yield the round arrow of a torque around its pivot; clockwise only if the torque is negative."""
     is_counterclockwise = configuration.loads.get(part.name, (1.0, 0.0))[0] >= 0.0
     centre, unit = find_pivot(configuration, part), layout.unit
-    yield from draw_round_arrow(f"force {part.name}", "force", centre, LOADED * unit, is_counterclockwise, HEAD * unit)
+    yield from draw_round_arrow(
+        f"force {part.name}", "force", centre, TORQUE_RADIUS * unit, is_counterclockwise, HEAD_LENGTH * unit
+    )
 
 
 def _draw_force(configuration: Configuration, layout: Layout, part: PartInfo) -> Iterator[Shape]:
@@ -332,7 +344,7 @@ def _draw_force(configuration: Configuration, layout: Layout, part: PartInfo) ->
         yield Disc(name, "no force", point, 0.9 * unit)
         return
     yield from draw_arrow(
-        name, "force", point, point + arrow_vector, min(HEAD * unit, 0.6 * float(np.hypot(*arrow_vector)))
+        name, "force", point, point + arrow_vector, min(HEAD_LENGTH * unit, 0.6 * float(np.hypot(*arrow_vector)))
     )
 
 
@@ -345,11 +357,11 @@ def _compute_arrow_vector(configuration: Configuration, layout: Layout, part: Pa
     load = np.array(configuration.loads.get(part.name, (0.0, 0.0)))
     if not (np.isfinite(load).all() and load.any()):
         return np.zeros(2)
-    return load * layout.newton if layout.newton > 0.0 else ARROW * layout.unit * unit_vector(load)
+    return load * layout.newton if layout.newton > 0.0 else ARROW_LENGTH * layout.unit * unit_vector(load)
 
 
 def _draw_dry_friction(configuration: Configuration, layout: Layout, part: PartInfo) -> Iterator[Shape]:
-    """Yield a rough line under the second body's point, and for a moving surface the arrow of its speed."""
+    """Yield a zigzag line under the second body's point, and for a moving surface the arrow of its speed."""
     name, u = f"force {part.name}", layout.unit
     line_direction = configuration.compute_direction(part, "direction", get_body_name(part.ends[0]))
     down = (
@@ -357,7 +369,7 @@ def _draw_dry_friction(configuration: Configuration, layout: Layout, part: PartI
         if rotate_quarter_turn(line_direction)[1] >= 0.0
         else rotate_quarter_turn(line_direction)
     )
-    centre = configuration.get_position(part.ends[1]) + BLOCK[1] * u * down
+    centre = configuration.get_position(part.ends[1]) + BLOCK_HALF_SIZE[1] * u * down
     points = compute_zigzag(centre - 2.0 * u * line_direction, centre + 2.0 * u * line_direction, 0.3 * u, 7, 0.0)
     yield Line(name, "rough", points - 0.1 * u * down)
     if (speed := configuration.get_parameter(f"forces.{part.name}.speed")) != 0.0:
@@ -365,9 +377,9 @@ def _draw_dry_friction(configuration: Configuration, layout: Layout, part: PartI
         yield from draw_arrow(
             name,
             "force",
-            arrow_centre - 0.5 * ARROW * u * direction,
-            arrow_centre + 0.5 * ARROW * u * direction,
-            HEAD * u,
+            arrow_centre - 0.5 * ARROW_LENGTH * u * direction,
+            arrow_centre + 0.5 * ARROW_LENGTH * u * direction,
+            HEAD_LENGTH * u,
         )
 
 

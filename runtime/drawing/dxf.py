@@ -26,11 +26,11 @@ except ImportError as error:
     raise GudgeonError("DXF needs ezdxf: pip install 'gudgeon[plot,dxf]'") from error
 
 VERSION = "R2010"  # texts are UTF-8, lines have any colour
-SCALE = 1e3  # mm in a metre: what most CAD takes a bare number for
+MM_PER_M = 1e3
 MILLIMETRES = 4  # $INSUNITS
 FORBIDDEN = str.maketrans(dict.fromkeys('<>/\\":;?*|=`,', "_"))  # in names of layers
-LONGEST = 200  # letters of a layer's name; the format has room for 255
-APART = 0.1  # of the widest sketch, between two
+MAX_LAYER_NAME = 200  # characters; the format allows 255
+SKETCH_GAP = 0.1  # between two sketches, as a fraction of the widest one
 
 
 def encode_dxf(sketches: Sequence[Sketch], titles: Sequence[str]) -> bytes:
@@ -43,7 +43,7 @@ def encode_dxf(sketches: Sequence[Sketch], titles: Sequence[str]) -> bytes:
         document = ezdxf.new(VERSION, units=MILLIMETRES)
         document.header["$MEASUREMENT"] = 1
         modelspace, layers = document.modelspace(), _Layers(document)
-        distance = (1.0 + APART) * max(float(sketch.high[0] - sketch.low[0]) for sketch in sketches)
+        distance = (1.0 + SKETCH_GAP) * max(float(sketch.high[0] - sketch.low[0]) for sketch in sketches)
         for k, (sketch, title) in enumerate(zip(sketches, titles, strict=True)):
             offset = np.array([k * distance, 0.0])
             _draw_sketch(modelspace, layers, sketch, offset)
@@ -52,7 +52,7 @@ def encode_dxf(sketches: Sequence[Sketch], titles: Sequence[str]) -> bytes:
                 _draw_text(modelspace, title, position, sketch.unit, {"layer": layers("titles", 0)})
         classes = document.classes
         classes.add_required_classes(document.dxfversion)
-        classes.classes = dict(sorted(classes.classes.items()))  # ezdxf takes them from sets, in an order by hash
+        classes.classes = dict(sorted(classes.classes.items()))  # ezdxf iterates over sets, in an order by hash
         out = io.StringIO()
         document.write(out)
     return out.getvalue().encode(document.output_encoding)
@@ -82,7 +82,7 @@ class _Layers:
         Forbidden characters are replaced, and a number is added to a name that another part uses.
         """
         if part not in self._names:
-            valid_name = format_one_line(part).translate(FORBIDDEN)[:LONGEST].strip() or "drawing"
+            valid_name = format_one_line(part).translate(FORBIDDEN)[:MAX_LAYER_NAME].strip() or "drawing"
             name, count = valid_name, 1
             while name in self._table:
                 count += 1
@@ -135,7 +135,7 @@ def _draw_text(
 ) -> None:
     """Draw a text in one line with the middle of its left edge at a position (m); `height` is in m."""
     ((x, y),) = _convert_to_millimetres(position)
-    entity = modelspace.add_text(format_one_line(text), height=SCALE * height, dxfattribs=attributes)
+    entity = modelspace.add_text(format_one_line(text), height=MM_PER_M * height, dxfattribs=attributes)
     entity.set_placement((x, y), align=TextEntityAlignment.MIDDLE_LEFT)
 
 
@@ -146,4 +146,4 @@ def _convert_to_millimetres(*points: Array) -> list[tuple[float, float]]:
     """
     if not np.isfinite(points).all():
         raise ValueError("a coordinate is not finite")
-    return [(SCALE * float(x), SCALE * float(y)) for x, y in points]
+    return [(MM_PER_M * float(x), MM_PER_M * float(y)) for x, y in points]

@@ -1,4 +1,4 @@
-"""Draw the faults that `check` reports: joints that do not close, loose bodies, undriven motions."""
+"""Draw the faults that `check` reports: joints that do not close, unconnected bodies, undriven motions."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ from gudgeon.assembly.failures import format_length
 from gudgeon.assembly.mobility import compute_free_motions
 from gudgeon.contract.kernel_source import PartInfo
 from gudgeon.drawing.configuration import Configuration, get_joint_type
-from gudgeon.drawing.drives_and_forces import HEAD, draw_arrow, draw_round_arrow, find_pivot
+from gudgeon.drawing.drives_and_forces import HEAD_LENGTH, draw_arrow, draw_round_arrow, find_pivot
 from gudgeon.drawing.joint_geometry import JointGeometry
 from gudgeon.drawing.shapes import Label, Line, Shape, unit_vector
 from gudgeon.model.compiled import Array
 
 MIN_REPORTED_FRACTION = 1e-3  # fraction of the largest residual above which a residual is reported
-ARROW_LENGTH = 4.0  # units, of an arrow to where a body may go
-MIN_MOTION_FRACTION = 1e-6  # fraction of the largest motion below which there is none
+ARROW_LENGTH = 4.0  # units, of an arrow along a free motion
+MIN_MOTION_FRACTION = 1e-6  # fraction of the largest motion below which a body counts as fixed
 
 
 def draw_gaps(problem: AssemblyProblem, configuration: Configuration) -> tuple[list[Shape], list[Label]]:
@@ -59,7 +59,7 @@ def _compute_gap_line(configuration: Configuration, part: PartInfo, lengths: lis
     """Return the line from the actual to the required end of a joint, driven coordinate or driven distance, (2, 2), in
     m.
 
-    `lengths` are the residuals in m. Returns None for a joint whose symbol has no such line.
+    `lengths` are the residuals in m. Returns None for a joint whose symbol declares no gap line.
     """
     if part.section == "joints":
         gap = get_joint_type(part).symbol.gap
@@ -77,7 +77,7 @@ def draw_free_motions(
 ) -> tuple[list[Shape], list[Label]]:
     """Return arrows along the free motions of the bodies of a closed linkage, and labels.
 
-    The names of bodies in `unconnected_bodies` get the label "nothing holds NAME". `unit` is half a bar's width in m.
+    Bodies in `unconnected_bodies` have the label "NAME is unconnected". `unit` is half a bar's width in m.
     """
     motions = compute_free_motions(problem.linkage, problem.p, configuration.q, problem.t)
     max_motion = float(np.abs(motions * np.where(problem.is_angle, problem.size, 1.0)[:, None]).max(initial=0.0))
@@ -98,7 +98,7 @@ def draw_free_motions(
         if body in unconnected_bodies:
             labels.append(
                 Label(
-                    f"free {body}", "free", f"nothing holds {body}", configuration.get_centre_of_mass(body), 1.5 * unit
+                    f"free {body}", "free", f"{body} is unconnected", configuration.get_centre_of_mass(body), 1.5 * unit
                 )
             )
     return shapes, labels
@@ -113,7 +113,7 @@ def _draw_motion_arrows(
     `motions` (3, k) are the body's parts of k free motions. A motion below `min_motion` (m) counts as none; `size` (m)
     converts angles. With one free direction, no round arrow is drawn.
     """
-    part, head_length = f"free {body}", HEAD * unit
+    part, head_length = f"free {body}", HEAD_LENGTH * unit
     directions, singular_values, _ = np.linalg.svd(motions[:2], full_matrices=False)
     free_directions = [
         direction

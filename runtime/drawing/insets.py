@@ -13,9 +13,10 @@ from gudgeon.drawing.shapes import Disc, Label, Line, Shape, compute_rectangle, 
 from gudgeon.language.plot_units import choose_prefix
 from gudgeon.model.compiled import Array
 
-DASHED = " (dashed: as far as the journal's centre may go)"
-RADIUS, JOURNAL = 5.0, 0.4  # radius of an inset's hole in units; of the journal as a fraction of that
-LONG, HIGH, APART, WALL, DOT = 0.9, 0.34, 0.26, 0.06, 0.06  # halves of slider, gap, half a wall, a corner: the same
+DASHED_NOTE = " (dashed: as far as the journal's centre may go)"
+INSET_RADIUS, JOURNAL_FRACTION = 5.0, 0.4  # radius of an inset's hole in units; of the journal as a fraction of that
+# fractions of the inset's radius
+SLIDER_HALF_LENGTH, SLIDER_HALF_HEIGHT, GAP_FRACTION, WALL_HALF_THICKNESS, CORNER_RADIUS = 0.9, 0.34, 0.26, 0.06, 0.06
 
 
 def compute_eccentricity(configuration: Configuration, joint: str) -> Array:
@@ -45,8 +46,8 @@ def compute_magnification(configuration: Configuration, joint: str, unit: float)
 
     With it, the clearance or gap of the joint fits the inset. `unit` is half a bar's width in m.
     """
-    fraction = APART if joint in configuration.guides else 1.0 - JOURNAL
-    exact_factor = RADIUS * fraction * unit / configuration.get_clearance(joint)
+    fraction = GAP_FRACTION if joint in configuration.guides else 1.0 - JOURNAL_FRACTION
+    exact_factor = INSET_RADIUS * fraction * unit / configuration.get_clearance(joint)
     step = 10.0 ** (np.floor(np.log10(exact_factor)) - 1.0)
     return float(np.floor(exact_factor / step) * step)
 
@@ -61,11 +62,11 @@ def draw_insets(
 ) -> Iterator[tuple[list[Shape], Label, str]]:
     """Yield shapes, label and note of the inset of each joint with play that is not visible to scale.
 
-    Insets are in columns to the right of the box, or in rows below a box that is too low. Gap and eccentricity are to
+    Insets are in columns to the right of the box, or in rows below it if more fit there. Gap and eccentricity are to
     scale; radii and a slider's lengths are not. `contact_names`: joints and corners in contact, drawn red;
     `earlier_contact_names`: those that were in contact since the previous picture, with a red bearing or wall.
     """
-    radius = RADIUS * unit
+    radius = INSET_RADIUS * unit
     joint_names = dict.fromkeys(joint.joint for joint in configuration.source.clearances)
     inset_joints = [name for name in joint_names if not is_visible_to_scale(configuration, name, unit)]
     for joint, centre in zip(
@@ -80,7 +81,7 @@ def draw_insets(
         unit_factor, unit_text = choose_prefix(clearance, "m")
         quantity, suffix = ("gap", " on each side") if joint in configuration.guides else ("clearance", "")
         note = f"{joint}: {quantity} {clearance * unit_factor:.4g} {unit_text}{suffix}, drawn ×{factor:g}"
-        remark = DASHED * (joint == next((name for name in inset_joints if name in configuration.clearances), ""))
+        remark = DASHED_NOTE * (joint == next((name for name in inset_joints if name in configuration.clearances), ""))
         yield (
             shapes,
             Label(f"inset {joint}", "inset", label_text, centre - [0.0, label_distance], 0.0, 270.0),
@@ -102,14 +103,17 @@ def _draw_journal(
     `radius` is that of the inset in m. The bearing is red if `joint` is in `earlier_contact_names`, the journal if it
     is in `contact_names`.
     """
-    clearance, factor = configuration.get_clearance(joint), compute_magnification(configuration, joint, radius / RADIUS)
+    clearance, factor = (
+        configuration.get_clearance(joint),
+        compute_magnification(configuration, joint, radius / INSET_RADIUS),
+    )
     eccentricity_vector = compute_eccentricity(configuration, joint)
-    part, hole_radius = f"inset {joint}", clearance * factor + JOURNAL * radius
+    part, hole_radius = f"inset {joint}", clearance * factor + JOURNAL_FRACTION * radius
     journal_centre = centre + factor * eccentricity_vector
     shapes: list[Shape] = [
         Disc(part, "touched" if joint in earlier_contact_names else "bearing", centre, 1.16 * hole_radius),
         Disc(part, "hole", centre, hole_radius),
-        Disc(part, "touching" if joint in contact_names else "journal", journal_centre, JOURNAL * radius),
+        Disc(part, "touching" if joint in contact_names else "journal", journal_centre, JOURNAL_FRACTION * radius),
         Disc(part, "clearance", centre, clearance * factor),
         Line(part, "scale", np.array([centre, journal_centre])),
     ]
@@ -129,23 +133,28 @@ def _draw_slider(
 
     The two walls are along the axis; a wall or corner in contact is red. Gaps between corners and walls are magnified.
     """
-    clearance, factor = configuration.get_clearance(joint), compute_magnification(configuration, joint, radius / RADIUS)
+    clearance, factor = (
+        configuration.get_clearance(joint),
+        compute_magnification(configuration, joint, radius / INSET_RADIUS),
+    )
     _, axis, _ = find_sliding_axis(configuration, next(configuration.find_parts(joint)))
     part, normal, corner_approaches = (
         f"inset {joint}",
         rotate_quarter_turn(axis),
         compute_corner_approaches(configuration, joint),
     )
-    wall_distance = HIGH * radius + clearance * factor + WALL * radius
+    wall_distance = SLIDER_HALF_HEIGHT * radius + clearance * factor + WALL_HALF_THICKNESS * radius
     shapes: list[Shape] = []
     for sign, wall_name in ((1.0, "upper"), (-1.0, "lower")):
         is_red = any(name in earlier_contact_names for name in corner_approaches if wall_name in name)
-        wall = compute_rectangle(centre + sign * wall_distance * normal, axis, 1.16 * radius, WALL * radius)
+        wall = compute_rectangle(
+            centre + sign * wall_distance * normal, axis, 1.16 * radius, WALL_HALF_THICKNESS * radius
+        )
         shapes.append(Line(part, "touched" if is_red else "bearing", wall, True))
     corner_positions = {
         name: centre
-        + (LONG if "front" in name else -LONG) * radius * axis
-        + (1.0 if "upper" in name else -1.0) * (HIGH * radius + factor * approach) * normal
+        + (SLIDER_HALF_LENGTH if "front" in name else -SLIDER_HALF_LENGTH) * radius * axis
+        + (1.0 if "upper" in name else -1.0) * (SLIDER_HALF_HEIGHT * radius + factor * approach) * normal
         for name, approach in corner_approaches.items()
     }
     upper, lower = (
@@ -154,15 +163,17 @@ def _draw_slider(
     )
     shapes.append(Line(part, "journal", np.array([*upper, *reversed(lower)]), True))
     for name, position in corner_positions.items():
-        shapes.append(Disc(part, "touching" if name in contact_names else "journal", position, DOT * radius))
-    label_distance = 1.16 * abs(axis[1]) * radius + abs(normal[1]) * (wall_distance + WALL * radius) + 0.2 * radius
+        shapes.append(Disc(part, "touching" if name in contact_names else "journal", position, CORNER_RADIUS * radius))
+    label_distance = (
+        1.16 * abs(axis[1]) * radius + abs(normal[1]) * (wall_distance + WALL_HALF_THICKNESS * radius) + 0.2 * radius
+    )
     return shapes, max(corner_approaches.values()) / clearance, float(label_distance)
 
 
 def _place_insets(n: int, radius: float, lower_corner: Array, upper_corner: Array) -> Iterator[Array]:
     """Yield the centres of n insets of a radius (m) outside of the box from `lower_corner` to `upper_corner`.
 
-    They are in columns to the right of the box, or in rows below it if more fit there.
+    They are in columns to the right of the box; in rows below it if one column is not enough and a row holds more.
     """
     n_rows = max(1, int((upper_corner[1] - lower_corner[1]) / (3.1 * radius)))
     width = float(upper_corner[0] - lower_corner[0])

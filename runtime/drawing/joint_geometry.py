@@ -16,7 +16,7 @@ from gudgeon.drawing.shapes import rotate_quarter_turn, unit_vector
 from gudgeon.model.compiled import Array
 from gudgeon.model.contours import compute_corner_approach
 
-GAP = 0.5  # units: between a slider and each wall of its guide, if not more
+MIN_WALL_GAP = 0.5  # units, smallest drawn gap between a slider with play and each wall of its guide
 
 
 @dataclass(frozen=True, eq=False)
@@ -93,14 +93,14 @@ class JointGeometry:
 
 
 def iterate_sliding_joints(configuration: Configuration) -> Iterator[PartInfo]:
-    """Return the joints with a line on which a body slides."""
+    """Return an iterator over the joints with a line on which a body slides: guides and slots."""
     return (part for part in configuration.iterate_parts("joints") if get_joint_type(part).slides)
 
 
 def find_guide_and_slider(part: PartInfo) -> tuple[str, str]:
     """Return the names of the guiding point and of the sliding point of a sliding joint.
 
-    They are exchanged if the ground would slide and the joint keeps the angle, so that the ground guides.
+    They are exchanged if the declared slider is the ground and the joint keeps the angle: the ground is then the guide.
     """
     slides, (first_end, second_end) = get_joint_type(part).slides, part.ends
     assert slides is not None
@@ -126,7 +126,7 @@ def find_sliding_axis(configuration: Configuration, part: PartInfo) -> tuple[Arr
 
 
 def has_rail(part: PartInfo) -> bool:
-    """Return whether the ground guides; a slot's pin is fixed to the ground like other pins."""
+    """Return whether a sliding joint's guide is the ground, so that it is drawn as a rail; False for other joints."""
     return get_joint_type(part).slides is not None and get_body_name(find_guide_and_slider(part)[0]) == GROUND
 
 
@@ -144,8 +144,10 @@ def find_pivot_joint(configuration: Configuration, body: str, other_body: str) -
 
 
 def compute_wall_gap(configuration: Configuration, part: PartInfo, unit: float) -> float:
-    """Return the drawn gap between slider and each wall of a guide, m; 0 without play."""
-    return max(GAP * unit, configuration.get_clearance(part.name)) if part.name in configuration.guides else 0.0
+    """Return the drawn gap between slider and each wall of a guide, m: at least MIN_WALL_GAP units; 0 without play."""
+    return (
+        max(MIN_WALL_GAP * unit, configuration.get_clearance(part.name)) if part.name in configuration.guides else 0.0
+    )
 
 
 def compute_guide_directions(configuration: Configuration, part: PartInfo) -> tuple[Array, Array]:
@@ -179,9 +181,9 @@ def _compute_tilt_in_guide(configuration: Configuration, part: PartInfo) -> floa
 
 
 def compute_corner_approaches(configuration: Configuration, joint: str) -> Mapping[str, float]:
-    """Return how much nearer to its wall each corner of a slider is than in the middle of its guide, in m, by corner.
+    """Return the displacement (m) of each corner of a slider towards its wall from the middle of its guide, by corner.
 
-    `joint` is the name of a sliding joint with play. A corner touches its wall where the value reaches the play.
+    `joint` is the name of a sliding joint with play. A corner touches its wall if the value equals the clearance.
     """
     part = next(configuration.find_parts(joint))
     first, second = part.ends

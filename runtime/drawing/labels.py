@@ -1,4 +1,4 @@
-"""Place names next to the parts of a sketch, without overlap and with as few crossings of lines as possible.
+"""Place names (labels) next to the parts of a sketch, without overlap and with as few crossings of lines as possible.
 
 Positions are searched when the figure is drawn, in pixels: greedily, in the order of the names, on rings around each
 part. The same figure gives the same positions.
@@ -18,26 +18,36 @@ from gudgeon.errors import GudgeonError
 from gudgeon.language.text_output import format_one_line
 from gudgeon.model.compiled import Array
 
-try:  # here, because everything that draws imports this module before matplotlib
+try:  # here, because all drawing modules import this module before matplotlib
     from matplotlib.artist import Artist
     from matplotlib.lines import Line2D
     from matplotlib.text import Text
 except ModuleNotFoundError as error:
     raise GudgeonError("figures need matplotlib: pip install 'gudgeon[plot]'") from error
 
-RINGS = (2.0, 6.0, 11.0, 17.0, 25.0, 35.0, 48.0, 64.0, 84.0, 110.0, 145.0, 190.0)  # points from the named part
-ORDER = (45.0, 0.0, 90.0, 180.0, 270.0, 135.0, 315.0, 225.0, *(22.5 + 45.0 * k for k in range(8)))  # on a ring, degrees
+RING_DISTANCES = (2.0, 6.0, 11.0, 17.0, 25.0, 35.0, 48.0, 64.0, 84.0, 110.0, 145.0, 190.0)  # points from the named part
+ANGLES_DEG = (
+    45.0,
+    0.0,
+    90.0,
+    180.0,
+    270.0,
+    135.0,
+    315.0,
+    225.0,
+    *(22.5 + 45.0 * k for k in range(8)),
+)  # on a ring, degrees
 MIN_LEADER_DISTANCE = 15.0  # points from its part, beyond which a name has a leader line
-GAP = 1.2  # points between names
-CROSSED = 2.0  # cost of a crossing of a leader line, in crossings of other lines
-LEFT_FREE = 3.0  # points between a name and the leader line of another one
+NAME_GAP = 1.2  # points between names
+LEADER_CROSSING_COST = 2.0  # of a crossing of a leader line, as a multiple of a crossing of another line
+MIN_LEADER_GAP = 3.0  # points between a name and the leader line of another one
 
 
 class NameLabels(Artist):
     """All names of a sketch; `boxes` are their boxes after drawing, (left, low, right, high) in pixels by part.
 
-    `beside` is then the offset of each name's middle from its part. `held` has the offsets of the previous picture of a
-    motion, which are kept while there is room.
+    `label_offsets` then has the offset of each name's middle from its part. `previous_offsets` has those of the
+    previous picture of a motion, which names keep while they overlap no other name.
     """
 
     def __init__(self, sketch: Sketch, size: float) -> None:
@@ -93,8 +103,8 @@ class NameLabels(Artist):
     def place_texts(self, renderer: Any) -> None:
         """Find a position for each name in pixels, and create leader lines for distant names.
 
-        Sets `label_offsets` (pixels from the part), `boxes` and `leads` (leader lines), and hides texts without a
-        position. The search begins at `previous_offsets`.
+        Sets `label_offsets` (pixels from the part), `boxes` and `leader_lines`, and hides texts without a free
+        position. Names keep their `previous_offsets` if these are free.
         """
         axes: Any = self.axes
         figure, to_pixels = axes.get_figure(root=True), axes.transData.transform
@@ -125,7 +135,7 @@ class NameLabels(Artist):
     def _create_omission_note(self, count: int) -> Text:
         """Return a text for the upper right corner that names were left out."""
         axes: Any = self.axes
-        note = f"{count} name{'' if count == 1 else 's'} left out: there is no room"
+        note = f"{count} name{'' if count == 1 else 's'} omitted: not enough space"
         text = Text(1.0, 1.0, note, size=7.0, color="#888888", ha="right", va="bottom", transform=axes.transAxes)
         text.set_figure(axes.get_figure(root=True))
         return text
@@ -203,9 +213,10 @@ def compute_leader_line(anchor: Array, text_centre: Array, half_size: Array, cle
 
 
 def is_leader_needed(anchor: Array, text_centre: Array, half_size: Array, clearance: float, point_size: float) -> bool:
-    """Return whether a name is more than LED points from its part, so that it needs a leader line.
+    """Return whether a name needs a leader line: its box is more than MIN_LEADER_DISTANCE points from its part.
 
-    Arguments as for `compute_leader_line`, in pixels; `point_size` is the size of a point.
+    The part is a circle of radius `clearance` around `anchor`. Arguments as for `compute_leader_line`, in pixels;
+    `point_size` is the size of a typographic point.
     """
     edge = np.clip(anchor, text_centre - half_size, text_centre + half_size)
     return float(np.hypot(*(edge - anchor))) - clearance > MIN_LEADER_DISTANCE * point_size
@@ -242,26 +253,25 @@ def find_best_position(
     picture_box: Array,
     leader_lines: Array,
 ) -> Array | None:
-    """Return the best position of the middle of a name in pixels, (2,); None if every one overlaps a name or leaves the
-    picture.
+    """Return the best position of the middle of a name in pixels; None if all overlap a name or leave the picture.
 
-    It is the nearest position without crossings of lines, names or leader lines, or else the one with the fewest. Rings
-    around `anchor` are searched, beginning with `direction` (degrees). `half_size` is half the name's size,
+    Positions on rings around `anchor` are searched outwards, `direction` (degrees) first. The first one without
+    crossings is returned, else the one with the smallest cost of crossings. `half_size` is half the name's size,
     `leader_lines` (L, 4) those of earlier names.
     """
-    angles = np.radians([direction, *ORDER])
+    angles = np.radians([direction, *ANGLES_DEG])
     unit_vectors = np.column_stack([np.cos(angles), np.sin(angles)])
     fallback, fewest = anchor, np.inf
-    for ring in RINGS:
+    for ring in RING_DISTANCES:
         radius = clearance + ring * point_size
         middles = anchor + unit_vectors * (radius + half_size)
-        if ring == RINGS[0] and clearance * point_size > 0.0:
+        if ring == RING_DISTANCES[0] and clearance * point_size > 0.0:
             middles = np.vstack([anchor, middles])
-        boxes = np.hstack([middles - half_size - GAP * point_size, middles + half_size + GAP * point_size])
+        boxes = np.hstack([middles - half_size - NAME_GAP * point_size, middles + half_size + NAME_GAP * point_size])
         is_free = ~find_overlaps(boxes, occupied_boxes).any(axis=1) & _are_boxes_within(boxes, picture_box)
         crossings = np.array(
             [
-                count_crossings(box, shape_segments) + CROSSED * count_crossings(box, leader_lines)
+                count_crossings(box, shape_segments) + LEADER_CROSSING_COST * count_crossings(box, leader_lines)
                 if is_allowed
                 else np.inf
                 for box, is_allowed in zip(boxes, is_free, strict=True)
@@ -272,9 +282,9 @@ def find_best_position(
                 leader = compute_leader_line(anchor, middles[j], half_size, clearance)
                 n_crossed = sum(
                     count_crossings(box, leader)
-                    for box in occupied_boxes + LEFT_FREE * point_size * np.array([-1, -1, 1, 1])
+                    for box in occupied_boxes + MIN_LEADER_GAP * point_size * np.array([-1, -1, 1, 1])
                 )
-                crossings[j] += CROSSED * (
+                crossings[j] += LEADER_CROSSING_COST * (
                     n_crossed + sum(_have_intersection(leader[0], other_line) for other_line in leader_lines)
                 )
         costs = crossings + 0.02 * ring
@@ -287,7 +297,10 @@ def find_best_position(
 
 
 def find_overlaps(boxes: Array, other_boxes: Array) -> NDArray[np.bool_]:
-    """Return a matrix (B, T) that is true where a box (B, 4) overlaps another box (T, 4)."""
+    """Return a matrix (B, T) that is true where a box of `boxes` (B, 4) overlaps one of `other_boxes` (T, 4).
+
+    A box is (left, low, right, high); boxes that only touch do not overlap.
+    """
     a, b = boxes[:, None], other_boxes[None]
     overlaps_in_x = (a[..., 0] < b[..., 2]) & (b[..., 0] < a[..., 2])
     return np.asarray(overlaps_in_x & (a[..., 1] < b[..., 3]) & (b[..., 1] < a[..., 3]), dtype=bool)

@@ -20,11 +20,9 @@ from gudgeon.drawing.joint_geometry import JointGeometry, find_sliding_axis, has
 from gudgeon.drawing.shapes import rotate_quarter_turn, unit_vector
 from gudgeon.model.compiled import Array
 
-ASIDE = (
-    0.03,
-    0.1,
-)  # fraction of the size from which the ground's points, or all points, count as on one side of a guide
-MAX_MAGNIFIED = 3.0  # units: a clearance that needs no magnification
+# mean offset, as a fraction of the size, from which the ground's points, or all points, count as on one side of a guide
+MIN_SIDE_OFFSETS = (0.03, 0.1)
+MIN_VISIBLE_CLEARANCE = 3.0  # units, above which a clearance needs no magnification
 # half a bar's width as a fraction of the whole, its minimum, and its maximum as a fraction of the shortest link
 UNIT_FRACTION, MIN_UNIT_FRACTION, MAX_LINK_FRACTION = 0.017, 0.005, 0.16
 
@@ -47,8 +45,8 @@ class Layout:
 def make_layout(configurations: Sequence[Configuration], start_configuration: Configuration | None = None) -> Layout:
     """Return the layout for the drawings of one configuration, or of several configurations of a motion.
 
-    The side of the ground at a guide depends on the ground's points and on `start_configuration`, by default the first
-    configuration. All drawings of a mechanism therefore agree. `start_configuration` None: the first configuration.
+    The side of the ground at a guide follows from `start_configuration`, so that all drawings of a mechanism agree;
+    None: the first configuration.
     """
     first_configuration, start_configuration = configurations[0], start_configuration or configurations[0]
     positions = np.array(
@@ -111,11 +109,11 @@ def _collect_drawn_points(configuration: Configuration) -> list[Array]:
 def _compute_symbol_unit(configuration: Configuration, positions: Array) -> float:
     """Return half a bar's width in m, from the size of the drawing and its shortest link.
 
-    `positions` (N, 2) are all drawn points. If they are one point, the file's largest length takes the place of the
-    size, or 1 m without lengths.
+    `positions` (N, 2) are all drawn points. If they coincide, the size is the file's largest length, or 1 m without
+    lengths.
     """
     drawing_size = float(np.ptp(positions, axis=0).max())
-    if not drawing_size > 0.0:  # one point: as large as the file's largest length
+    if not drawing_size > 0.0:  # all points coincide
         lengths = (
             abs(configuration.get_parameter(parameter.address))
             for parameter in configuration.source.slots
@@ -131,8 +129,8 @@ def _compute_symbol_unit(configuration: Configuration, positions: Array) -> floa
 
 
 def is_visible_to_scale(configuration: Configuration, joint: str, unit: float) -> bool:
-    """Return whether a joint's play is visible without magnification."""
-    return configuration.get_clearance(joint) > MAX_MAGNIFIED * unit
+    """Return whether a joint's clearance exceeds MIN_VISIBLE_CLEARANCE units, so that it needs no magnified inset."""
+    return configuration.get_clearance(joint) > MIN_VISIBLE_CLEARANCE * unit
 
 
 def _compute_slider_position(configuration: Configuration, part: PartInfo) -> float:
@@ -144,8 +142,8 @@ def _compute_slider_position(configuration: Configuration, part: PartInfo) -> fl
 def _find_rail_side(start_configuration: Configuration, part: PartInfo) -> Array:
     """Return the direction of the ground at a guide, a unit vector across its axis.
 
-    The ground is away from its other points, or else away from the mechanism at `start_configuration`. If neither
-    differs enough, it is below or to the right.
+    It points away from the mean of the ground's points, or else of all points at `start_configuration`. If both means
+    are within MIN_SIDE_OFFSETS of the guide, it points down or to the right.
     """
     line_point, axis, slider = find_sliding_axis(start_configuration, part)
     normal = rotate_quarter_turn(axis)
@@ -153,8 +151,8 @@ def _find_rail_side(start_configuration: Configuration, part: PartInfo) -> Array
         start_configuration.get_position(name) for name in start_configuration.points if get_body_name(name) == GROUND
     ]
     for positions, reference, min_offset in (
-        (ground, line_point, ASIDE[0]),
-        (_collect_drawn_points(start_configuration), slider, ASIDE[1]),
+        (ground, line_point, MIN_SIDE_OFFSETS[0]),
+        (_collect_drawn_points(start_configuration), slider, MIN_SIDE_OFFSETS[1]),
     ):
         offset = float((np.array(positions) - reference).mean(axis=0) @ normal)
         if abs(offset) > min_offset * float(np.ptp(positions, axis=0).max()):
@@ -164,10 +162,9 @@ def _find_rail_side(start_configuration: Configuration, part: PartInfo) -> Array
 
 
 def _find_pin_ground_direction(configurations: Sequence[Configuration], part: PartInfo) -> Array:
-    """Return the direction of the ground at a pin, a unit vector: down unless links lie there in some configuration.
+    """Return the direction of the ground at a pin, a unit vector: down if no point of its bodies lies within 50° of it.
 
-    Otherwise it is the one of the four axis directions with the fewest points of the pin's bodies within 50°, over all
-    configurations.
+    Otherwise it is the axis direction with the fewest points of the pin's bodies within 50°, over all configurations.
     """
     end = next(end for end in part.ends if get_body_name(end) == GROUND)
     first, angles = configurations[0], []
@@ -196,8 +193,8 @@ def _find_pin_ground_direction(configurations: Sequence[Configuration], part: Pa
 def _find_element_ground_direction(configurations: Sequence[Configuration], part: PartInfo) -> Array:
     """Return the direction of the ground at the ground end of a drive or spring, a unit vector.
 
-    It points away from the other end, on average over the configurations. If the average is almost zero, it is that of
-    the first configuration.
+    It points away from the other end, on average over the configurations. If the average is shorter than
+    MIN_SIDE_OFFSETS[0], it is that of the first configuration.
     """
     ground_end, other_end = sorted(part.ends, key=lambda end: get_body_name(end) != GROUND)
     spans = [
@@ -205,7 +202,7 @@ def _find_element_ground_direction(configurations: Sequence[Configuration], part
         for configuration in configurations
     ]
     mean = np.sum([unit_vector(span) for span in spans], axis=0)
-    return unit_vector(mean if float(np.hypot(*mean)) > ASIDE[0] * len(spans) else spans[0])
+    return unit_vector(mean if float(np.hypot(*mean)) > MIN_SIDE_OFFSETS[0] * len(spans) else spans[0])
 
 
 def _compute_angular_distances(angles: Array, direction: float) -> Array:

@@ -16,7 +16,7 @@ from gudgeon.drawing.roles import EDGES, NAMES, ROLES, TINTS, resolve_colour
 from gudgeon.drawing.shapes import Disc, Shape, Sketch
 from gudgeon.model.compiled import Array
 
-PIXELS = 100.0  # an inch
+PIXELS_PER_INCH = 100.0
 Styles = dict[tuple[str, int], int]
 
 
@@ -75,13 +75,13 @@ def write_animation_page(
     }
     return re.sub(
         f"@({'|'.join(replacements)})@", lambda match: replacements[match[1]], PAGE
-    )  # in one go: a title may hold such a word
+    )  # in one pass: a title may contain such a word
 
 
 def _map_shapes_by_identifier(sketch: Sketch) -> dict[str, Shape]:
     """Return the shapes of a sketch by an identifier that is the same in all pictures of a motion.
 
-    The identifier is made of the part and, from its second shape on, a number.
+    The identifier consists of the part and, from its second shape on, a number: "body-L1", "body-L1-2".
     """
     counts, shapes_by_identifier = dict[str, int](), dict[str, Shape]()
     for shape in sketch.shapes:
@@ -91,7 +91,10 @@ def _map_shapes_by_identifier(sketch: Sketch) -> dict[str, Shape]:
 
 
 def _order_identifiers(sketches: Sequence[Sketch]) -> list[str]:
-    """Return the identifiers of all shapes of all sketches, in the order of painting."""
+    """Return the identifiers of all shapes that occur in any of the sketches, in the order of painting.
+
+    Shapes of the first sketch precede others of the same order.
+    """
     order = {
         name: ROLES[shape.role].order
         for sketch in reversed(sketches)
@@ -132,7 +135,7 @@ def _format_style(role: str, tint: int) -> str:
     """Return the CSS of a role for shapes with the colours of body `tint`."""
     role_style = ROLES[role]
     dashes = f";stroke-dasharray:{' '.join(f'{x:g}' for x in role_style.dashes)}" if role_style.dashes else ""
-    width = role_style.width * PIXELS / 72.0
+    width = role_style.width * PIXELS_PER_INCH / 72.0
     edge, face = resolve_colour(role_style.edge, tint), resolve_colour(role_style.face, tint)
     return f"stroke:{edge};fill:{face};stroke-width:{width:.2f}{dashes}"
 
@@ -145,7 +148,7 @@ def _iterate_name_offsets(
 ) -> Iterator[Mapping[str, tuple[float, float]]]:
     """Yield the offset of each name from its part for each picture, in pixels, by part.
 
-    A name without room keeps its previous offset. Names without an offset in `label_offsets` are left out.
+    A name without a free position keeps its previous offset. Names without an offset in `label_offsets` are left out.
     """
     lower_corner, picture_box = sketches[0].low, scale * np.array([*np.zeros(2), *(sketches[0].high - sketches[0].low)])
     for sketch in sketches:
@@ -156,7 +159,7 @@ def _iterate_name_offsets(
             label_offsets,
             lambda points: scale * (np.asarray(points) - lower_corner),
             scale,
-            PIXELS / 72.0,
+            PIXELS_PER_INCH / 72.0,
             picture_box,
         )
         label_offsets = {**label_offsets, **new_offsets}

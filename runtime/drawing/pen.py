@@ -8,7 +8,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from gudgeon.drawing.bodies import BLOCK, SLOT, compute_guide_ends
+from gudgeon.drawing.bodies import BLOCK_HALF_SIZE, SLOT_HALF_WIDTH, compute_guide_ends
 from gudgeon.drawing.configuration import GROUND, get_body_name
 from gudgeon.drawing.joint_geometry import JointGeometry, compute_guide_directions, compute_wall_gap
 from gudgeon.drawing.layout import Layout, is_visible_to_scale
@@ -23,13 +23,13 @@ from gudgeon.drawing.shapes import (
 )
 from gudgeon.model.compiled import Array
 
-PIN, WORN = 0.46, 0.86  # radii in units: of a pin, of the hole around one that has play
-STAND = 2.3  # how far below its pin the ground is
+PIN_RADIUS, PLAY_HOLE_RADIUS = 0.46, 0.86  # units: of a pin, of the hole around a pin with play
+SUPPORT_HEIGHT = 2.3  # units, distance of the ground from the pin of a fixed support
 
 
 @dataclass(frozen=True, eq=False)
 class Pen(JointGeometry):
-    """Drawing functions for one joint: each method adds to `shapes`. Roles are those of roles.py."""
+    """Drawing functions for the symbol of one joint: each method adds to `shapes`. Roles are those of roles.py."""
 
     layout: Layout
     shapes: list[Shape] = field(default_factory=list)
@@ -71,10 +71,10 @@ class Pen(JointGeometry):
 
     def add_pin(self, position: Array, size: float = 1.0) -> None:
         """Add a pin; `size` is a fraction of the usual size."""
-        self.add_disc("pin", position, size * PIN * self.unit)
+        self.add_disc("pin", position, size * PIN_RADIUS * self.unit)
 
-    def add_stand(self) -> None:
-        """Add the triangle and the hatched ground under each end of the joint on the ground.
+    def add_fixed_support(self) -> None:
+        """Add the symbol of a fixed support (triangle and hatched ground) under each end of the joint on the ground.
 
         Nothing is added if neither body is the ground.
         """
@@ -84,7 +84,7 @@ class Pen(JointGeometry):
                     self.configuration.get_position(end),
                     self.layout.ground_directions[self.part.name],
                 )
-                self.shapes.extend(_draw_stand(self.name, position, direction, self.unit))
+                self.shapes.extend(_draw_fixed_support(self.name, position, direction, self.unit))
 
     def add_wall(self, position: Array) -> None:
         """Add the ground at a fixed point; nothing if neither body is the ground."""
@@ -94,31 +94,31 @@ class Pen(JointGeometry):
             )
 
     def add_bearing(self) -> None:
-        """Add the stand of a pin, and for a joint with play the hole around its first point.
+        """Add the fixed support of a pin on the ground, and for a joint with play the hole around its first point.
 
-        A clearance that is visible to scale is drawn as a circle of its radius instead, without a stand.
+        A clearance that is visible to scale is drawn as a circle of its radius instead, without a support.
         """
         configuration, name = self.configuration, self.part.name
         has_play = name in configuration.clearances
         if has_play and is_visible_to_scale(configuration, name, self.unit):
             self.add_disc("clearance", self.first, float(configuration.p[configuration.clearances[name].clearance]))
             return
-        self.add_stand()
+        self.add_fixed_support()
         if has_play:
-            self.add_disc("worn", self.first, WORN * self.unit)
+            self.add_disc("worn", self.first, PLAY_HOLE_RADIUS * self.unit)
 
     def add_rail(self, distance: float, side_sign: float = 1.0) -> None:
-        """Add the hatched ground under a slider over its whole travel.
+        """Add a rail with hatching along the whole travel of a slider, parallel to its line.
 
-        `distance` is that of the ground from the slider's line in m. With `side_sign` −1 the ground is on the other
-        side of the line.
+        `distance` is that of the rail from the line in m. With `side_sign` −1 the rail is on the side away from the
+        ground.
         """
         line_point, axis, name = self.on_line, self.along, self.part.name
         if name in self.configuration.guides:
             axis = compute_guide_directions(self.configuration, self.part)[0]
         min_travel, max_travel = self.layout.travel[name]
         overhang, ground_direction = (
-            (2.0 * BLOCK[0] + 0.4) * self.unit * axis,
+            (2.0 * BLOCK_HALF_SIZE[0] + 0.4) * self.unit * axis,
             side_sign * self.layout.ground_directions[name],
         )
         begin, end = (
@@ -139,15 +139,15 @@ class Pen(JointGeometry):
             return
         wall_gap = compute_wall_gap(self.configuration, self.part, self.unit)
         for sign in (1.0, -1.0) if wall_gap else (1.0,):
-            self.add_rail(BLOCK[1] * self.unit + wall_gap, sign)
+            self.add_rail(BLOCK_HALF_SIZE[1] * self.unit + wall_gap, sign)
 
     def add_slot(self) -> None:
-        """Add the slot in the guiding body, as long as the travel."""
+        """Add the slot of a pin-in-slot joint in the guiding body, as long as the slider's travel."""
         self.add_line(
             "slot",
             list(
                 compute_rounded_outline(
-                    compute_guide_ends(self.configuration, self.layout, self.part), SLOT * self.unit
+                    compute_guide_ends(self.configuration, self.layout, self.part), SLOT_HALF_WIDTH * self.unit
                 )
             ),
             True,
@@ -187,12 +187,12 @@ def draw_ground_wall(
     yield from (Line(part, "hatch", stroke) for stroke in compute_hatching(begin, end, ground_direction, 0.95 * unit))
 
 
-def _draw_stand(part: str, pin: Array, direction: Array, unit: float) -> Iterator[Shape]:
-    """Yield the triangle from a pin to the ground, and the hatched ground under it.
+def _draw_fixed_support(part: str, pin: Array, direction: Array, unit: float) -> Iterator[Shape]:
+    """Yield the symbol of a fixed support (ground pivot): a triangle from a pin to the ground, and hatching under it.
 
     `direction` is the unit vector from the pin to the ground, `unit` half a bar's width in m.
     """
-    ground_point, tangent = pin + STAND * unit * direction, rotate_quarter_turn(direction)
+    ground_point, tangent = pin + SUPPORT_HEIGHT * unit * direction, rotate_quarter_turn(direction)
     yield Line(
         part, "stand", np.array([pin, ground_point - 1.25 * unit * tangent, ground_point + 1.25 * unit * tangent]), True
     )

@@ -22,13 +22,12 @@ from matplotlib.figure import Figure  # isort: skip
 from matplotlib.patches import Circle, Patch, Polygon  # isort: skip
 
 MAX_SIDE_IN, MIN_SIDE_IN = 8.0, 3.2  # inches, of the longer and the shorter side
-# inches: of half a bar's width at least, for which the longer side may grow so far
-MIN_UNIT_IN, MAX_GROWN_SIDE_IN = 0.042, 24.0
-APART = 0.3  # inches between pictures side by side
-PER_INCH = 12.0  # characters of a caption
+MIN_UNIT_IN, MAX_GROWN_SIDE_IN = 0.042, 24.0  # inches: smallest half width of a bar, and longest side to achieve it
+PICTURE_GAP_IN = 0.3  # inches between pictures side by side
+CHARACTERS_PER_INCH = 12.0  # characters of a caption
 MAX_LARGE_NAMES = 28  # names that fit in the larger type
 STYLE = {"font.size": 9, "text.usetex": False, "svg.hashsalt": "gudgeon", "path.sketch": None}
-_LACKS = re.compile(r"Glyph (\d+) .*missing from font")
+_MISSING_GLYPH = re.compile(r"Glyph (\d+) .*missing from font")
 
 
 def draw_sketch(ax: Axes, sketch: Sketch, is_background: bool = False) -> None:
@@ -46,7 +45,7 @@ def draw_sketch(ax: Axes, sketch: Sketch, is_background: bool = False) -> None:
         shape_counts[shape.part] += 1
         identifier = make_identifier("", shape.part)
         patch.set_gid(identifier if shape_counts[shape.part] == 1 else f"{identifier}-{shape_counts[shape.part]}")
-        ax.add_artist(patch)  # limits are set below: add_patch would look for them shape by shape
+        ax.add_artist(patch)  # limits are set below: add_patch would update them for each shape
     if sketch.labels:
         names = NameLabels(sketch, 8.0 if len(sketch.labels) <= MAX_LARGE_NAMES else 7.0)
         ax.add_artist(names)
@@ -90,10 +89,10 @@ def build_figure(sketches: Sequence[Sketch], titles: Sequence[str], caption: str
     n_rows = -(-len(sketches) // n_columns)
     picture_sizes = [compute_figure_size(sketch, MAX_SIDE_IN if n_columns == 1 else 5.0) for sketch in sketches]
     width, height = max(w for w, _ in picture_sizes), max(h for _, h in picture_sizes)
-    n_lines = len(textwrap.wrap(caption, int(PER_INCH * n_columns * width)))
+    n_lines = len(textwrap.wrap(caption, int(CHARACTERS_PER_INCH * n_columns * width)))
     title_height, notes_height = 0.25 + 0.17 * n_lines, 0.17 * max(len(sketch.notes) for sketch in sketches) + 0.05
     with matplotlib.rc_context(STYLE):
-        column_width = width + APART * (n_columns > 1)
+        column_width = width + PICTURE_GAP_IN * (n_columns > 1)
         figure = Figure(
             figsize=(
                 n_columns * column_width,
@@ -123,7 +122,7 @@ def build_figure(sketches: Sequence[Sketch], titles: Sequence[str], caption: str
             note = "\n".join(sketch.notes)
             position = ((column * column_width + 0.12) / figure_width, (picture_top - height - 0.02) / figure_height)
             figure.text(*position, note, fontsize=7.5, va="top", color="#444444", parse_math=False)
-        width = int(PER_INCH * figure_width)
+        width = int(CHARACTERS_PER_INCH * figure_width)
         figure.suptitle(
             format_figure_title(caption, width),
             x=0.1 / figure_width,
@@ -137,21 +136,21 @@ def build_figure(sketches: Sequence[Sketch], titles: Sequence[str], caption: str
 
 @contextmanager
 def report_missing_glyphs() -> Iterator[None]:
-    """Replace matplotlib's warnings about characters that the font lacks by one warning within this context.
+    """Return a context in which matplotlib's warnings about missing glyphs are combined into one.
 
-    Other warnings are issued again at the end of the context.
+    That warning and all others are issued at the end of the context.
     """
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         yield
-    missing_codes = dict.fromkeys(match[1] for w in caught if (match := _LACKS.match(str(w.message))))
+    missing_codes = dict.fromkeys(match[1] for w in caught if (match := _MISSING_GLYPH.match(str(w.message))))
     for w in caught:
-        if not _LACKS.match(str(w.message)):
+        if not _MISSING_GLYPH.match(str(w.message)):
             warnings.warn_explicit(w.message, w.category, w.filename, w.lineno)
     if missing_codes:
         characters = "".join(chr(int(code)) for code in missing_codes)
-        hint = "matplotlib.rcParams['font.family'] names another"
-        warnings.warn(f"the font has no sign for {characters}: {hint}", stacklevel=4)
+        hint = "set another font in matplotlib.rcParams['font.family']"
+        warnings.warn(f"the font has no glyph for {characters}: {hint}", stacklevel=4)
 
 
 def encode_figure(picture: Figure, suffix: str, dpi: int = 120) -> bytes:

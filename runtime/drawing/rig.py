@@ -1,13 +1,12 @@
-"""Own `Rig`, a drawing for animation: each point stores the body or joint with which it moves.
+"""Own `Rig`, a drawing for animation (rigging): each point of a shape is attached to a moving frame of the mechanism.
 
-A point moves with another point, with an angle about that, and with a length:
+The position of a point follows from a reference point, an angle and a length:
 
     x = r_P(p, q) + A(φ) (c₀ + s c₁)
 
-r_P: a point of the mechanism, or the origin; φ: 0, a body's angle, the direction from P to Q, that of a part's axis or
-gravity, or of a load; s: the distance of P and Q, or a number of the file (a gear's radius). Bars, plates, pins, blocks
-on their guides, springs, cylinders and pitch circles are that, whatever symbol they have; so symbols are drawn by
-Python alone, and a page moves them (drawing.js).
+r_P: a point of the mechanism, or the origin; φ: 0, a body's angle, or the direction from P to Q, of a part's axis, of
+gravity or of a load; s: the distance of P and Q, or a parameter (a gear's radius). The frame and c₀, c₁ of each point
+are fitted to drawings at several configurations. Symbols are drawn by Python only; a page moves them (drawing.js).
 """
 
 from __future__ import annotations
@@ -26,15 +25,15 @@ from gudgeon.drawing.shapes import Disc, Shape, Sketch
 from gudgeon.drawing.sketch import compute_common_box, make_sketch
 from gudgeon.model.compiled import Array
 
-EXACT = 1e-9  # tolerance of a moved point as a fraction of the drawing's size
-TRIED = ((0.25, 0.03, 14), (0.02, 0.003, 8))  # additional configurations: changes of q and p, and their number
-SEED = 20261123
-MIN_CONFIGURATIONS = 5  # configurations that show the same shape, at least
+FRAME_TOL = 1e-9  # tolerance of a moved point as a fraction of the drawing's size
+TRIAL_CHANGES = ((0.25, 0.03, 14), (0.02, 0.003, 8))  # (change of q, relative change of p, number) of configurations
+RANDOM_SEED = 20261123
+MIN_CONFIGURATIONS = 5  # drawings of a shape with the same number of points that a fit needs
 
 
 @dataclass(frozen=True)
 class MovingFrame:
-    """A moving frame of points: P ("": the origin), an angle φ and a length s.
+    """A moving frame: origin at the point P ("": the origin of the ground), angle φ and length s.
 
     φ: () for 0, ("body", k) for q[k], ("pair", Q) for the direction from P to Q, ("axis", k, k, j) for parameters and
     q[j] (−1: none), ("load", name). s: −1: none, −2: the distance of P and Q, else an index in p. In drawing.js
@@ -85,7 +84,7 @@ class MovingShape:
     moving_frames: tuple[MovingFrame, ...]
     offsets: Array
     radius: tuple[float, float, int] = (0.0, 0.0, -1)
-    max_error: float = 0.0  # m: how far it is off at the worst configuration that was tried
+    max_error: float = 0.0  # m, largest error of a point at the tried configurations
 
     def move_to(self, configuration: Configuration) -> Shape:
         """Return the shape moved to a configuration: points of a line, or centre and radius of a disc."""
@@ -119,7 +118,7 @@ class Rig:
         """Larger side of the box, m."""
         return float((self.sketch.high - self.sketch.low).max())
 
-    def to_json_data(self, resolution: float = 1e-2 * EXACT) -> dict[str, Any]:
+    def to_json_data(self, resolution: float = 1e-2 * FRAME_TOL) -> dict[str, Any]:
         """Return the data for drawing.js as a dictionary that JSON can hold.
 
         Lengths are integers in units of `resolution` times the size of the drawing. Successive points of a shape with
@@ -177,7 +176,7 @@ def make_rig(configurations: Sequence[Configuration], layout: Layout | None = No
     """Return the rig for the configurations of a motion: the drawing of the first, with a moving frame for each point.
 
     Insets are left out, and drives' arrows keep their direction of the first configuration. A point that no moving
-    frame reproduces to EXACT gets the nearest moving frame; the error is stored as `max_error`.
+    frame reproduces to FRAME_TOL gets the nearest moving frame; the error is stored as `max_error`.
     """
     layout = layout or make_layout(configurations)
     configurations = [replace(configuration, v=configurations[0].v) for configuration in configurations]
@@ -200,7 +199,7 @@ def make_rig(configurations: Sequence[Configuration], layout: Layout | None = No
         search = _FrameSearch(
             trial_configurations,
             list(_iterate_candidate_frames(trial_configurations[0], part)),
-            EXACT * size,
+            FRAME_TOL * size,
             len(motion_configurations),
         )
         for key, shape in part_shapes:
@@ -212,7 +211,7 @@ def make_rig(configurations: Sequence[Configuration], layout: Layout | None = No
         key=lambda moving_shape: ROLES[moving_shape.shape.role].order,
     )
     label_frames = [
-        _find_label_frame(trial_configurations, sketches, k, EXACT * size, len(motion_configurations))
+        _find_label_frame(trial_configurations, sketches, k, FRAME_TOL * size, len(motion_configurations))
         for k in range(len(sketches[0].labels))
     ]
     labels, offsets = (
@@ -225,7 +224,7 @@ def make_rig(configurations: Sequence[Configuration], layout: Layout | None = No
 def _find_label_frame(
     configurations: Sequence[Configuration], sketches: Sequence[Sketch], k: int, tolerance: float, n_motion: int
 ) -> tuple[MovingFrame, Array]:
-    """Return moving frame and offsets (4,) of the k-th name, which moves with its part.
+    """Return the moving frame of the k-th label of the drawings, one of its part, and its offsets c₀, c₁ as (4,).
 
     `sketches` are the drawings of `configurations`, of which the first `n_motion` belong to the motion. `tolerance` is
     in m.
@@ -240,7 +239,7 @@ def _find_label_frame(
 
 
 def _number_shapes(sketch: Sketch) -> Iterator[tuple[tuple[str, int], Shape]]:
-    """Yield each shape of a sketch with its key: the part and the shape's number within the part, from 0."""
+    """Yield (key, shape) for each shape of a sketch; the key is (part, number of the shape within the part), from 0."""
     counts = dict[str, int]()
     for shape in sketch.shapes:
         counts[shape.part] = counts.get(shape.part, -1) + 1
@@ -248,13 +247,12 @@ def _number_shapes(sketch: Sketch) -> Iterator[tuple[tuple[str, int], Shape]]:
 
 
 def _vary_configurations(configurations: Sequence[Configuration], size: float) -> Iterator[Configuration]:
-    """Yield additional configurations with separated bodies, other lengths and other loads, by which moving frames are
-    distinguished.
+    """Yield randomly changed configurations, by which moving frames that agree in the motion are distinguished.
 
-    Positions, parameters in m and loads change at random with a fixed seed, so that the configurations are always the
-    same. `size` is that of the drawing in m.
+    Coordinates, parameters in m and loads change by TRIAL_CHANGES with a fixed seed; constraints are violated. `size`
+    is that of the drawing in m.
     """
-    source, random_generator = configurations[0].source, np.random.default_rng(SEED)
+    source, random_generator = configurations[0].source, np.random.default_rng(RANDOM_SEED)
     length_parameters = {i for point in source.points for i in (point.x, point.y) if i >= 0}
     length_parameters |= {
         i
@@ -263,7 +261,7 @@ def _vary_configurations(configurations: Sequence[Configuration], size: float) -
     }
     is_angle = np.zeros(len(source.coordinates), dtype=bool)
     is_angle[[body.index + 2 for body in source.bodies]] = True
-    for position_change, length_change, count in TRIED:
+    for position_change, length_change, count in TRIAL_CHANGES:
         for i in range(count):
             configuration, length_indices = (
                 configurations[i % len(configurations)],
@@ -346,7 +344,7 @@ def _list_axis_directions(configuration: Configuration, parts: Sequence[Any]) ->
     the ground. There is one φ in the frame of each of a part's bodies; equal ones are listed once. Directions without a
     parameter are left out.
     """
-    parameter_indices, turns = (
+    parameter_indices, axis_directions = (
         {parameter.address: k for k, parameter in enumerate(configuration.source.slots)},
         list[tuple[Any, ...]](),
     )
@@ -358,14 +356,15 @@ def _list_axis_directions(configuration: Configuration, parts: Sequence[Any]) ->
                     configuration.bodies[body].index + 2 if body in configuration.bodies else -1
                     for body in map(get_body_name, part.ends)
                 ]
-                turns += [("axis", *component_indices, index) for index in dict.fromkeys(indices)]
-    return turns
+                axis_directions += [("axis", *component_indices, index) for index in dict.fromkeys(indices)]
+    return axis_directions
 
 
 class _FrameSearch:
-    """Possible moving frames of a part, evaluated at all configurations.
+    """Least-squares search for the moving frame of each point of a part's shapes, among candidate frames.
 
-    The first `n_motion` configurations have the file's parameters.
+    The first `n_motion` configurations belong to the motion and have the file's parameters; the others are changed at
+    random.
     """
 
     def __init__(
@@ -388,12 +387,11 @@ class _FrameSearch:
         ]
 
     def attach_shape(self, shape: Shape, shapes_by_configuration: Sequence[Shape | None]) -> MovingShape:
-        """Return the shape with the first moving frame of each point that reproduces it within the tolerance.
+        """Return the shape with a moving frame for each point: the first that reproduces it within the tolerance.
 
-        A point that no moving frame reproduces gets the best one.
-
-        `shapes_by_configuration` are its drawings at all configurations, None where it is absent. If fewer than
-        MIN_CONFIGURATIONS have the same number of points, only the first is used.
+        Without one it is the frame with the smallest rank (see `_fit_frame`). `shapes_by_configuration` are its
+        drawings at all configurations, None where it is absent. If fewer than MIN_CONFIGURATIONS have the same number
+        of points, only the first is used.
         """
         points = _get_shape_points(shape)
         indices = [
@@ -460,7 +458,7 @@ class _FrameSearch:
                 ]
             ].max(axis=0),
         )
-        # where nothing explains it at other lengths, it is right at least at the file's
+        # if no frame fits at other parameters, prefer one that fits at the file's parameters
         return (
             np.hstack([offset, slope]),
             np.where(motion_errors > self.tolerance, 1e3 * motion_errors, 0.0) + max_errors,
@@ -470,8 +468,9 @@ class _FrameSearch:
     def _fit_radius(self, shape: Shape, shapes_by_configuration: Sequence[Shape | None]) -> tuple[float, float, int]:
         """Return r₀, r₁ and parameter index k of a disc's radius r₀ + r₁ p[k]; index −1 for a constant radius.
 
-        The constant radius is also returned if no single parameter explains all drawings. For a line the result is (0,
-        0, −1). `shapes_by_configuration`: the shape in each configuration; None counts with the radius of `shape`.
+        The constant radius is also returned if the radius is not linear in any single parameter. For a line the result
+        is (0, 0, −1). `shapes_by_configuration`: the shape in each configuration; None counts with the radius of
+        `shape`.
         """
         if not isinstance(shape, Disc):
             return 0.0, 0.0, -1

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-# soft tints and dark edges of bodies, by turns; Okabe and Ito's hues
+# fill and edge colours of bodies, used cyclically; hues of Okabe and Ito
 TINTS = ("#cfe3f1", "#fbe3bd", "#cdebe0", "#f3dbe8", "#fad6c1", "#dceff9", "#e6e6e6", "#f6f2c0")
 EDGES = ("#1f5f8b", "#946000", "#007050", "#8d4a70", "#9c4300", "#2f7ba8", "#555555", "#7d7500")
 INK, GREY, DRIVEN, LOADED, WOUND, WRONG = "#222222", "#888888", "#b3261e", "#00695c", "#4a4a4a", "#d50000"

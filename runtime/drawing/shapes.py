@@ -19,7 +19,7 @@ class Line:
     role: str
     points: Array
     closed: bool = False
-    tint: int = 0  # of a body: which of the colours
+    tint: int = 0  # index of the body's colour
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,7 +35,7 @@ class Disc:
 
 @dataclass(frozen=True, eq=False)
 class Label:
-    """A text at a distance `clear` (m) from a place (2,), in the direction `direction` (degrees) if there is room."""
+    """A text at a distance `clearance` (m) from `position` (2,), in the direction `direction` (degrees) if it fits."""
 
     part: str
     role: str
@@ -56,7 +56,7 @@ class Sketch:
     labels: tuple[Label, ...]
     low: Array
     high: Array
-    unit: float  # m: half the width of a bar, by which all symbols are measured
+    unit: float  # m: half the width of a bar, the unit of all symbols
     notes: tuple[str, ...] = field(default=())  # scales of arrows and insets
 
     def of(self, part: str) -> list[Shape]:
@@ -76,7 +76,7 @@ def unit_vector(vector: Array, otherwise: tuple[float, float] = (1.0, 0.0)) -> A
 
 
 def compute_arc(centre: Array, radius: float, begin: float, end: float, count: int = 25) -> Array:
-    """Return points of an arc, angles in rad."""
+    """Return `count` points (count, 2) of an arc from angle `begin` to `end` (rad), ends included."""
     angle = np.linspace(begin, end, count)
     return centre + radius * np.column_stack([np.cos(angle), np.sin(angle)])
 
@@ -158,7 +158,7 @@ def compute_hatching(begin: Array, end: Array, direction: Array, length: float) 
     line_length = float(np.hypot(*span))
     count = max(2, round(line_length / (0.62 * length)))
     stroke_vector = 0.75 * length * (direction - tangent)
-    first_fraction = min(0.12, 0.75 * length / max(line_length, 1e-300))  # as far as the first one leans
+    first_fraction = min(0.12, 0.75 * length / max(line_length, 1e-300))  # the first stroke ends above `begin`
     return [
         np.array([start, start + stroke_vector])
         for start in begin + np.linspace(first_fraction, 1.0, count)[:, None] * span

@@ -10,10 +10,10 @@ from collections.abc import Iterator, Mapping, Sequence
 import numpy as np
 
 from gudgeon.drawing.arrows import Arrows, find_round_number
-from gudgeon.drawing.bodies import BLOCK, draw_bodies, label_bodies
+from gudgeon.drawing.bodies import BLOCK_HALF_SIZE, draw_bodies, label_bodies
 from gudgeon.drawing.configuration import Configuration, get_joint_type
 from gudgeon.drawing.drives_and_forces import (
-    HEAD,
+    HEAD_LENGTH,
     compute_arrow_radii,
     draw_arrow,
     draw_drives_and_forces,
@@ -46,10 +46,10 @@ def make_sketch(
 ) -> Sketch:
     """Return the drawing of a configuration; `shapes_on_top` with `labels`, and `arrows` with scales, lie on top.
 
-    With a `box` from `compute_common_box` the drawing has the same box as others of a motion. Without
-    `shows_zero_loads` names contain no values that change. `contact_names`: joints with play in contact, None: those
-    that overlap; `earlier_contact_names`: those in contact since the previous picture. `shows_insets` False leaves
-    insets out. Bodies in `unconnected_bodies` have the colour of an error.
+    With a `box` from `compute_common_box` the drawing has the same box as others of a motion. `shows_zero_loads`: label
+    a zero force "NAME = 0". `contact_names`: joints with play in contact, None: those that overlap;
+    `earlier_contact_names`: those in contact since the previous picture. `shows_insets` False leaves insets out. Bodies
+    in `unconnected_bodies` have the colour of an error.
     """
     layout = layout or make_layout([configuration])
     shapes_on_top = [*shapes_on_top, *(shape for kind in arrows for shape in kind.shapes)]
@@ -82,7 +82,7 @@ def make_sketch(
 
 
 def compute_box(shapes: Sequence[Shape], layout: Layout) -> tuple[Array, Array]:
-    """Return the box of shapes with a margin for names."""
+    """Return the lower and upper corner of the box of shapes, with a margin of MARGIN units for names, in m."""
     lower_corner, upper_corner = compute_bounding_box(shapes)
     return lower_corner - MARGIN * layout.unit, upper_corner + MARGIN * layout.unit
 
@@ -122,7 +122,9 @@ def _draw_references(
     if (gravity := find_gravity_direction(configuration)) is not None:
         centre = np.array([lower_corner[0] + 1.5 * unit, upper_corner[1] - 2.5 * unit])
         shapes = list(
-            draw_arrow("gravity", "gravity", centre - 2.0 * unit * gravity, centre + 2.0 * unit * gravity, HEAD * unit)
+            draw_arrow(
+                "gravity", "gravity", centre - 2.0 * unit * gravity, centre + 2.0 * unit * gravity, HEAD_LENGTH * unit
+            )
         )
         yield shapes, Label("gravity", "gravity", "g", centre, 0.6 * unit, 0.0)
     box_size = upper_corner - lower_corner
@@ -136,7 +138,7 @@ def _draw_references(
         tail = start - [0.0, 2.6 * unit * (k + 1)]
         tip = tail + [kind.length, 0.0]
         yield (
-            list(draw_arrow(f"scale {kind.role}", kind.role, tail, tip, HEAD * unit)),
+            list(draw_arrow(f"scale {kind.role}", kind.role, tail, tip, HEAD_LENGTH * unit)),
             Label(f"scale {kind.role}", "scale", f"{kind.role}{kind.on}: {kind.text}", tip, 0.6 * unit, 0.0),
         )
 
@@ -157,15 +159,14 @@ def draw_joints(configuration: Configuration, layout: Layout) -> Iterator[Shape]
 def label_joints(configuration: Configuration, layout: Layout, arrow_radii: Mapping[str, float]) -> Iterator[Label]:
     """Yield the label of each joint, outside of the arrows around it.
 
-    `arrow_radii` are the radii in units of these arrows, by joint. The label of a joint on a rail lies beyond the
-    ground.
+    `arrow_radii` are the radii in units of these arrows, by joint. The label of a joint on a rail lies beyond the rail.
     """
     for part in configuration.iterate_parts("joints"):
         symbol = get_joint_type(part).symbol
         position = symbol.find_name_position(JointGeometry(configuration, part))
         clearance, angle = max(symbol.clear, arrow_radii.get(part.name, 0.0)), 45.0
-        if has_rail(part) and part.name in layout.ground_directions:  # beyond the ground, where nothing slides
+        if has_rail(part) and part.name in layout.ground_directions:  # beyond the rail, away from the slider
             x, y = layout.ground_directions[part.name]
-            clearance, angle = BLOCK[1] + 1.2, float(np.degrees(np.arctan2(y, x)))
+            clearance, angle = BLOCK_HALF_SIZE[1] + 1.2, float(np.degrees(np.arctan2(y, x)))
             clearance += compute_wall_gap(configuration, part, layout.unit) / layout.unit
         yield Label(f"joint {part.name}", "joint", part.name, position, clearance * layout.unit, angle)

@@ -99,7 +99,7 @@ def _iterate_name_nodes(
 ) -> Iterator[str]:
     """Yield the TikZ nodes of names that were placed, with a thin leader line for names far from their parts.
 
-    Names that matplotlib left out are left out here.
+    Names that matplotlib omitted are omitted here.
     """
     for label, text in zip(sketch.labels, names.texts, strict=True):
         if label.part not in names.label_offsets or not text.get_visible():

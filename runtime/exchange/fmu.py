@@ -65,13 +65,15 @@ def write_fmu(simulation: Simulation, target: str | os.PathLike[str]) -> None:
 
 
 def build_fmu(simulation: Simulation) -> bytes:
-    """Return the FMU of a scene as the bytes of a zip archive, always the same for the same scene.
+    """Return the FMU of a scene as the bytes of a zip archive, reproducible for the same scene and compiler.
 
-    Without a compiler it contains the sources only. Raises as `write_fmu`.
+    It contains descriptions, sources and a binary for this machine; without a compiler only sources. Raises as
+    `write_fmu`.
     """
     source = simulation.source
     if source.contours or source.cdef:
-        raise BadValueError("a scene whose bearings have contours does not go into an FMU: they are no numbers of it")
+        message = "an FMU cannot contain a scene with contours of bearings or user-defined C"
+        raise BadValueError(message, hint="choose another scene")
     name = re.sub(r"\W", "_", f"{source.mechanism}_{source.scene}", flags=re.ASCII)
     scene_files = {
         path: text for path, text in source.files.items() if path not in (README, "lanes.c")
@@ -109,10 +111,10 @@ def _format_readme(source: KernelSource, name: str, scene_files: Mapping[str, st
             f"C that gudgeon wrote for the mechanism `{source.mechanism}`, scene `{source.scene}`, and its engine. SI.",
             "",
             *listed_lines,
-            "- `fmu.h`: numbers, start and variables of this scene, as the FMU's functions read them",
-            "- `engine/fmi/fmi3.c`: these functions; the rest of `engine` are time loops, methods, contacts, events",
+            "- `fmu.h`: parameters, start and variables of this scene, which the functions of the FMU read",
+            "- `engine/fmi/fmi3.c`: these functions; the rest of `engine` has time loops, methods, contacts, events",
             "",
-            "In this folder, where the importer does not do it by `buildDescription.xml`:",
+            "To compile in this folder, if the importer does not use `buildDescription.xml`:",
             "",
             "```",
             f"cc {flags} {' '.join(UNITS)} -lm -o {name}.so",
@@ -208,7 +210,10 @@ def _format_header(simulation: Simulation) -> str:
         "FMU_JUMPS": len(find_jump_switches(source)),
         "FMU_MIN_RELATIVE_CLEARANCE": repr(MIN_RELATIVE_CLEARANCE),
     }
-    lines = ["/* What the FMU's functions must know of this scene. */", "#define FMU_AT_LEAST(n) ((n) > 0 ? (n) : 1)"]
+    lines = [
+        "/* Constants and tables of this scene for the FMU's functions. */",
+        "#define FMU_AT_LEAST(n) ((n) > 0 ? (n) : 1)",
+    ]
     lines += [f"#define {name} {value}" for name, value in defines.items()]
     lines += [
         _format_c_array("double", "fmu_defaults", [repr(float(parameter.default)) for parameter in source.slots]),

@@ -76,9 +76,9 @@ def iterate_outputs(source: KernelSource) -> Iterator[tuple[str, str, int, int, 
 
 
 def _format_bound_attributes(source: KernelSource, address: str) -> str:
-    """Return the XML attributes of a parameter: its description, and min and max of its constant conditions.
+    """Return the XML attributes of a parameter: description of all its conditions, and min and max of constant ones.
 
-    Other conditions cannot be written in FMI; the description lists them. Returns "" without conditions.
+    Strict (<, >) and variable bounds are in the description only. Returns "" without conditions.
     """
     condition_text = format_conditions(source, address)
     attributes = f" description={quoteattr(f'expected {condition_text}')}" if condition_text else ""
@@ -103,15 +103,15 @@ def iterate_parameters(source: KernelSource) -> Iterator[tuple[int, str, str, fl
 def explain_exchange_obstacle(source: KernelSource) -> str:
     """Return the reason why a scene supports co-simulation only, or "" if an importer may integrate it too."""
     if source.degrees_of_freedom == 0:
-        return "no freedom is left: it follows its drives"
+        return "no degrees of freedom: drives determine the motion"
     if source.frictions or source.rigid:
-        return f"{', '.join((*source.frictions, *source.rigid))}: modes that the engine's own loops switch"
+        return f"{', '.join((*source.frictions, *source.rigid))}: modes that only the time loops of the engine switch"
     if source.rate_jumps:
         return f"impulses where the rate of {', '.join(source.rate_jumps)} jumps"
     if source.states:
         return f"internal states of laws ({', '.join(source.states)})"
     if source.chain:
-        return "loops that drives alone determine"
+        return "kinematic loops that only drives determine"
     return source.reason_without_jacobian
 
 
@@ -134,7 +134,7 @@ def list_states(source: KernelSource) -> list[tuple[str, str]]:
 
 
 def compute_instantiation_token(source: KernelSource) -> str:
-    """Return the instantiation token by which a library recognizes its description.
+    """Return the instantiation token (FMI 3) that ties the library to its description.
 
     It is a hash of mechanism, scene and generated C.
     """
@@ -143,7 +143,7 @@ def compute_instantiation_token(source: KernelSource) -> str:
 
 
 def _find_rate_unit(unit: str) -> str:
-    """Return the unit of the time derivative of a quantity."""
+    """Return the unit of the time derivative of a quantity: "m" → "m/s", "m/s" → "m/s^2", "J" → "W"."""
     return {"J": "W", "m/s": "m/s^2", "rad/s": "rad/s^2"}.get(unit, f"{unit}/s")
 
 
@@ -186,8 +186,8 @@ def _iterate_variable_elements(source: KernelSource) -> Iterator[str]:
     )
     yield (
         f'    <Float64 name="relative_tolerance" valueReference="{VR_RTOL}" causality="parameter" variability="fixed"'
-        f' min="1e-14" max="1.0" start="{RTOL!r}" description="of a step in co-simulation, in place of the tolerance'
-        ' that the importer asks for; docs/error_control.md of gudgeon defines it"/>'
+        f' min="1e-14" max="1.0" start="{RTOL!r}" description="error tolerance of a step in co-simulation, instead of'
+        ' the tolerance of the importer; docs/error_control.md of gudgeon defines it"/>'
     )
     for k, address, unit, default in iterate_parameters(source):
         bounds = _format_bound_attributes(source, address)
@@ -222,10 +222,10 @@ def _format_local_variable(name: str, reference: int, unit: str, attributes: str
 
 
 def find_jump_switches(source: KernelSource) -> list[int]:
-    """Return the indices of switching points at which a value may jump, because the branches may differ there.
+    """Return the indices of the switching functions across which an expression may be discontinuous.
 
-    They are read from the header of the scene. Branches of contact laws meet, so that they are left out. Empty for
-    co-simulation only.
+    They are those with 0 in the array meets[] of the scene's header. Empty for a scene that supports co-simulation
+    only.
     """
     if explain_exchange_obstacle(source):
         return []

@@ -75,9 +75,7 @@ class Linkage:
     gravity: Point | None = None
     measured: bool = False  # whether the file specifies the unit
     notes: list[str] = field(default_factory=list)
-    bodies_by_point: dict[str, list[Body]] = field(
-        default_factory=dict
-    )  # bodies of each point; written by `add_body` and `add_point`
+    bodies_by_point: dict[str, list[Body]] = field(default_factory=dict)  # updated by `add_body` and `add_point`
 
     def add_body(self, body: Body) -> Body:
         """Add a body, and return it.
@@ -85,17 +83,17 @@ class Linkage:
         Raises InputError if it has fewer than two points, or if the first two coincide.
         """
         if len(body.point_positions) < 2:
-            raise InputError(f"link {body.name}: it holds {len(body.point_positions)} joints, expected two at least")
+            raise InputError(f"link {body.name}: it has {len(body.point_positions)} joints, expected at least two")
         (x_first, y_first), (x_second, y_second) = list(body.point_positions.values())[:2]
         if not math.hypot(x_second - x_first, y_second - y_first) > 0.0:
-            raise InputError(f"link {body.name}: its first two joints are at one place")
+            raise InputError(f"link {body.name}: its first two joints coincide")
         self.bodies.append(body)
         for point in body.point_positions:
             self.bodies_by_point.setdefault(point, []).append(body)
         return body
 
     def add_point(self, body: Body, point: str, position: Point) -> None:
-        """Add a point to a body at a position in the body's frame; a point that it has is moved."""
+        """Add a point to a body at a position in the body's frame; if the body has the point already, move it."""
         if point not in body.point_positions:
             self.bodies_by_point.setdefault(point, []).append(body)
         body.point_positions[point] = position

@@ -16,16 +16,16 @@ LINE_MASS = 1.0  # kg/m, for bodies whose mass the file does not specify
 ENDS = ("tail", "head")
 NOT_POINTS = (*ENDS, "origin", "com", "x", "y", "theta", "vx", "vy", "omega", "ax", "ay", "alpha")
 KINDS = ("body", "joint", "drive", "parameter")  # kinds that share one set of names
-MAX_WISH = 40  # characters of another program's name that are kept: a number, `_slot` or `_motor` follows
+MAX_SUGGESTION = 40  # characters of another program's name that are used; a number, `_slot` or `_motor` may follow
 HEAD = """\
-# {title}: read from a file of another program.
+# {title}: converted from a file of another program.
 {notes}format: gudgeon/1
 name: {name}
 """
 
 
 class _UniqueNames:
-    """Unique names that a mechanism file allows, for things of certain kinds."""
+    """Set of unique names that a mechanism file allows for elements of certain kinds."""
 
     def __init__(self, *kinds: str) -> None:
         """Create an empty set of names; kinds: see `check_name`."""
@@ -33,13 +33,16 @@ class _UniqueNames:
         self.used_names, self.last_number = set[str](), dict[str, int]()
 
     def get_unique_name(self, key: Hashable, suggestion: str) -> str:
-        """Return a unique valid name for a thing, as similar to `suggestion` as the format allows.
+        """Return a unique valid name for the element `key`, as similar to `suggestion` as the format allows.
 
-        The same key gives the same name. Names are shortened, and a number is added to a used one.
+        The same key gives the same name. Other characters become "_", names are shortened to MAX_SUGGESTION, and a
+        number is added to a used name.
         """
         if key not in self.name_by_key:
-            ascii_name = unicodedata.normalize("NFKD", suggestion[: 10 * MAX_WISH]).encode("ascii", "ignore").decode()
-            valid_name = re.sub(r"[\W_]+", "_", ascii_name)[:MAX_WISH].strip("_")
+            ascii_name = (
+                unicodedata.normalize("NFKD", suggestion[: 10 * MAX_SUGGESTION]).encode("ascii", "ignore").decode()
+            )
+            valid_name = re.sub(r"[\W_]+", "_", ascii_name)[:MAX_SUGGESTION].strip("_")
             if not self._is_valid_name(valid_name):
                 valid_name = f"x_{valid_name}".rstrip("_")
             unused_name, number = valid_name, self.last_number.get(valid_name, 1)
@@ -99,7 +102,7 @@ class _Writer:
         length, points, com = self.shapes[id(body)]
         mass = body.mass if body.mass is not None else LINE_MASS * length * _convert_unit_to_metres(self.unit)
         inertia = body.inertia
-        if inertia is None and com is not None:  # "auto" is that of a bar whose centre of mass is in its middle
+        if inertia is None and com is not None:  # "auto" assumes the centre of mass in the middle
             inertia = mass * (length * _convert_unit_to_metres(self.unit)) ** 2 / 12.0
         inertia_text = "auto" if inertia is None else f"{_format_number(inertia)} kg*m^2"
         entries = [
@@ -136,7 +139,7 @@ class _Writer:
         for index, line in enumerate(self.linkage.lines):
             body, carrier = self.linkage.find_body(line.point), line.body
             if body is None:
-                raise InputError(f"joint {line.point}: it keeps to a line, and no link holds it")
+                raise InputError(f"joint {line.point}: it slides on a line, but belongs to no link")
             line_point = (
                 self.format_point_reference(carrier, line.through)
                 if carrier
@@ -145,7 +148,7 @@ class _Writer:
             x, y = _convert_direction(carrier, line.direction) if carrier else line.direction
             length = math.hypot(x, y)
             if not length > 0.0:
-                raise InputError(f"joint {line.point}: the line to which it keeps has no direction")
+                raise InputError(f"joint {line.point}: the line on which it slides has no direction")
             direction = f"[{_format_number(x / length)}, {_format_number(y / length)}]"
             points = f"[{self.format_point_reference(body, line.point)}, {line_point}]"
             name = self.names.get_unique_name(("line", index), f"{line.point}_slot")
@@ -170,9 +173,9 @@ class _Writer:
         linkage = self.linkage
         notes = list(dict.fromkeys(linkage.notes))
         if any(body.mass is None for body in linkage.bodies):
-            notes.append(f"masses are not in it: bars of {LINE_MASS:g} kg/m stand for them")
+            notes.append(f"masses are not in the file: those of bars of {LINE_MASS:g} kg/m are used")
         if not linkage.measured:
-            notes.append("it has no units: lengths are taken for metres")
+            notes.append("the file has no units: lengths are assumed to be in metres")
         comments = "".join(f"# {note[0].upper()}{note[1:]}.\n" for note in map(_format_comment, notes))
         name = _UniqueNames("mechanism").get_unique_name("", linkage.name)
         texts = [HEAD.format(title=_format_comment(linkage.name), notes=comments, name=name)]
@@ -236,7 +239,7 @@ class _Writer:
         start_angle = max(start_angle + n_turns * math.tau, low)
         if start_angle > high + 1e-9:
             raise InputError(
-                f"link {drive.body.name}: at {math.degrees(start_angle):g}° it lies outside its arc from"
+                f"link {drive.body.name}: its angle {math.degrees(start_angle):g}° is outside its arc from"
                 f" {math.degrees(low):g}° to {math.degrees(high):g}°"
             )
         high_text, width_text, offset_text = (
@@ -248,20 +251,20 @@ class _Writer:
 def write_mechanism_text(linkage: Linkage) -> str:
     """Return the YAML text of a linkage. Raises InputError for a linkage without bodies."""
     if not linkage.bodies:
-        raise InputError("nothing in it moves: it has no link of two joints")
+        raise InputError("the linkage has no moving body: expected a link with two joints")
     return _Writer(linkage).format_text()
 
 
 def _convert_to_bar_axes(body: Body) -> tuple[float, dict[str, Point], Point | None]:
     """Return length, other points and centre of mass of a body in the axes of the bar between its first two points.
 
-    The centre of mass is None if the body has none.
+    Coordinates are divided by the length of the bar. The centre of mass is None if the body has none.
     """
     (x_tail, y_tail), (x_head, y_head) = list(body.point_positions.values())[:2]
     length = math.hypot(x_head - x_tail, y_head - y_tail)
 
     def convert_to_bar_axes(position: Point) -> Point:
-        """Return a position of the body's frame in the axes of the bar."""
+        """Return a position of the body's frame in the axes of the bar, divided by its length."""
         dx, dy = position[0] - x_tail, position[1] - y_tail
         longitudinal, transverse = (
             dx * (x_head - x_tail) + dy * (y_head - y_tail),
@@ -287,10 +290,10 @@ def _convert_unit_to_metres(unit: str) -> float:
 
 
 def _format_number(x: float) -> str:
-    """Return a number with 15 digits."""
+    """Return a number as text with 15 significant digits; −0 becomes "0"."""
     return f"{x + 0.0:.15g}"
 
 
 def _format_comment(text: str) -> str:
-    """Return a text that can stand in a comment: printable, at most 200 characters."""
+    """Return a text for a comment: its printable characters, at most 200."""
     return "".join(c for c in text if c.isprintable())[:200]

@@ -1,4 +1,4 @@
-"""Read the URLs that PMKS+ (https://pmksplus.com) shares; such a URL encodes the whole mechanism.
+"""Read (parse) the URLs that PMKS+ (https://pmksplus.com) shares; such a URL encodes the whole mechanism.
 
 After "?" follow, separated by dots, flags, decimal and whole settings, units, a part for each joint, an empty part, a
 part for each link, an empty part, and forces. Numbers are in thousandths to the base 64; a leading 0 makes a number
@@ -23,10 +23,10 @@ DIGITS = {digit: k for k, digit in enumerate("0123456789ABCDEFGHIJKLMNOPQRSTUVWX
 MAX_DIGITS = 12  # digits of a number to the base 64
 PRISMATIC, INPUT, GROUNDED = 1, 2, 4  # bits of a joint's flags
 CLOCKWISE, GRAVITY = 1, 2  # bits of the flags of the mechanism
-LENGTHS = ((0.0254, "m"), (1.0, "cm"), (1.0, "m"))  # of the first digit of the units: inches, cm, m
+LENGTH_UNITS = ((0.0254, "m"), (1.0, "cm"), (1.0, "m"))  # (factor, unit) by the first digit of the units: inch, cm, m
 PISTON, ROOT = "P", "Y"
-BEGIN = "j="
-REMEDY = "this link is of PMKS+ before April 2023: draw the linkage in today's PMKS+ and share it from there"
+OLD_LINK_PREFIX = "j="
+OLD_LINK_HINT = "the link is from PMKS+ before April 2023: draw the linkage in the present PMKS+ and share it again"
 UNITS = {
     "cm": (1.0, "cm"),
     "m": (1.0, "m"),
@@ -68,9 +68,9 @@ def read_pmks(query: str, name: str = "pmks") -> Linkage:
     """
     sections = query.split(".")
     if len(sections) < 5:
-        raise InputError("the link of PMKS+ has too few parts", hint="copy the whole link that Share gives")
+        raise InputError("the link of PMKS+ has too few parts", hint="copy the complete link from Share")
     flags, _, integer_settings, unit_settings = sections[:4]
-    scale, unit = LENGTHS[min(_decode_digits(unit_settings[:1] or "1"), len(LENGTHS) - 1)]
+    scale, unit = LENGTH_UNITS[min(_decode_digits(unit_settings[:1] or "1"), len(LENGTH_UNITS) - 1)]
     linkage, special_joints = Linkage(name, unit, measured=True), SpecialJoints()
     joints, links, forces = _split_sections(sections[4:])
     for joint in joints:
@@ -81,18 +81,18 @@ def read_pmks(query: str, name: str = "pmks") -> Linkage:
     )
     _read_links(linkage, links, special_joints, scale)
     add_input_drives(linkage, special_joints, rate)
-    linkage.notes.append("its masses are taken for kg, moments of inertia for kg m^2")
+    linkage.notes.append("masses are assumed to be in kg, moments of inertia in kg m^2")
     if flag_bits & GRAVITY:
         linkage.gravity = 0.0, -9.81
     if any("," in force for force in forces):
-        linkage.notes.append("forces of the file are left out")
+        linkage.notes.append("forces of the file are omitted")
     return linkage
 
 
 def _split_sections(parts: Sequence[str]) -> tuple[list[str], list[str], list[str]]:
     """Return the parts of joints, of links and of forces, three lists; an empty part ends each section.
 
-    Names by id, which old links have, are skipped. Raises InputError for a truncated link.
+    A part with names by id, which old links have before the joints, is skipped. Raises InputError for a truncated link.
     """
     sections: list[list[str]] = [[]]
     for part in parts:
@@ -110,9 +110,7 @@ def _split_sections(parts: Sequence[str]) -> tuple[list[str], list[str], list[st
         if len(first_cells) % 2 == 0 and first_cells[0][1:] not in cells_of_links:
             del sections[0][0]
     if len(sections) < 3 or not sections[0]:
-        raise InputError(
-            "the link of PMKS+ ends before its joints and links do", hint="copy the whole link that Share gives"
-        )
+        raise InputError("the link of PMKS+ is truncated", hint="copy the complete link from Share")
     return sections[0], sections[1], sections[2]
 
 
@@ -124,7 +122,7 @@ def _decode_digits(text: str) -> int:
     value = 0
     for digit in text:
         if digit not in DIGITS:
-            raise InputError(f"{digit!r} is no digit of PMKS+", hint="copy the whole link that Share gives")
+            raise InputError(f"{digit!r} is not a digit of PMKS+", hint="copy the complete link from Share")
         value = 64 * value + DIGITS[digit]
     return value
 
@@ -155,7 +153,7 @@ def _read_joint(linkage: Linkage, text: str, special_joints: SpecialJoints, scal
     if len(cells) == 4:
         cells.insert(1, "")
     if len(cells) != 5 or len(cells[0]) < 2:
-        raise InputError(f"{text[:60]!r} is no joint of PMKS+")
+        raise InputError(f"{text[:60]!r} is not a joint of PMKS+")
     flags, name = _decode_digits(cells[0][0]), cells[0][1:]
     try:
         x, y, angle = map(_decode_decimal, cells[2:])
@@ -204,7 +202,7 @@ def _read_link(text: str) -> _Link:
     colour_index = next((k for k in (5, 6) if len(cells) > k and _is_colour(cells[k])), 6)
     first_cell, number_cells, other_cells = cells[0], cells[colour_index - 4 : colour_index], cells[colour_index + 1 :]
     if len(first_cell) < 3 or len(number_cells) < 4 or "" not in other_cells:
-        raise InputError(f"{text[:60]!r} is no link of PMKS+")
+        raise InputError(f"{text[:60]!r} is not a link of PMKS+")
     try:
         mass, inertia, x, y = map(_decode_decimal, number_cells)
     except InputError as error:
@@ -215,14 +213,14 @@ def _read_link(text: str) -> _Link:
 
 
 def _is_colour(text: str) -> bool:
-    """Return whether a text is a hexadecimal colour."""
+    """Return whether a text is a hexadecimal colour of 3 or 6 digits, such as "fa0"."""
     return len(text) in (3, 6) and all(digit in "0123456789abcdefABCDEF" for digit in text)
 
 
 def _read_links(linkage: Linkage, link_texts: Sequence[str], special_joints: SpecialJoints, scale: float) -> None:
-    """Read the parts of all links and add the bodies and pistons of the root links.
+    """Read the parts of all links and add the bodies and pistons of the root links to the linkage.
 
-    A link without mass gets that of its welded parts. Raises InputError.
+    Other links are only parts of welded links: a root link without mass gets theirs. Raises InputError.
     """
     links = [_read_link(text) for text in link_texts]
     by_name = {link.name: link for link in links}
@@ -269,7 +267,7 @@ def add_link(
     positions = {joint: linkage.positions[joint] for joint in joints}
     linkage.add_body(Body(name, positions, mass or None, inertia or None, com if mass else None))
     if mass and not inertia:
-        linkage.notes.append("moments of inertia that are not in it are those of slender bars")
+        linkage.notes.append("missing moments of inertia are those of slender bars")
 
 
 def _combine_welded_parts(link: _Link, parts: Sequence[_Link]) -> None:
@@ -297,7 +295,7 @@ def add_input_drives(linkage: Linkage, special_joints: SpecialJoints, rate: floa
     for joint in special_joints.inputs:
         bodies, is_grounded = linkage.bodies_by_point.get(joint, []), joint in linkage.ground
         if joint in special_joints.sliders:
-            raise InputError(f"joint {joint}: a slider that is driven is not read", hint="leave the input out of it")
+            raise InputError(f"joint {joint}: driven sliders are not supported", hint="remove its input")
         if is_grounded and bodies:
             drives = [Drive(body, rate) for body in bodies]
         elif not is_grounded and len(bodies) == 2:
@@ -306,8 +304,8 @@ def add_input_drives(linkage: Linkage, special_joints: SpecialJoints, rate: floa
         else:
             joined_text = "no link" if not bodies else "one link" if len(bodies) == 1 else f"{len(bodies)} links"
             raise InputError(
-                f"joint {joint}: it is an input and joins {joined_text}, expected two links, or links and the ground",
-                hint="make it an input where two links meet, or at the ground",
+                f"joint {joint}: it is an input of {joined_text}, expected two links, or links and the ground",
+                hint="choose as input a joint of two links, or one at the ground",
             )
         for drive in drives:
             if any(
@@ -328,24 +326,25 @@ def _add_piston(linkage: Linkage, link: _Link, special_joints: SpecialJoints) ->
         raise InputError(f"piston {link.name}: expected a slider and a pin")
     slider, pin = sliders[0], pins[0]
     if slider in special_joints.inputs:
-        raise InputError(f"piston {link.name}: a slider that is driven is not read", hint="leave the input out of it")
+        raise InputError(f"piston {link.name}: driven sliders are not supported", hint="remove its input")
     if slider not in linkage.ground:
-        raise InputError(f"piston {link.name}: a slider on a link that moves is not read", hint="ground the slider")
+        message = f"piston {link.name}: sliders on moving links are not supported"
+        raise InputError(message, hint="ground the slider")
     linkage.lines.append(
         Line(pin, slider, None, (math.cos(special_joints.sliders[slider]), math.sin(special_joints.sliders[slider])))
     )
-    linkage.notes.append(f"the mass of piston {link.name} is left out: its pin runs in a slot")
+    linkage.notes.append(f"the mass of piston {link.name} is omitted: its pin slides in a slot")
 
 
 def read_old_pmks(query: str, name: str = "pmks") -> Linkage:
     """Return the linkage of a link from before April 2023; `query`: the text after the question mark.
 
-    Raises InputError, with a hint how to share the linkage anew, for text that such links do not contain.
+    Raises InputError, with a hint to share the linkage again, for text that such links do not contain.
     """
     try:
         return _read_old_link(query, name)
     except InputError as error:
-        raise InputError(error.message, hint=error.hint or REMEDY) from error
+        raise InputError(error.message, hint=error.hint or OLD_LINK_HINT) from error
 
 
 def _read_old_link(query: str, name: str) -> Linkage:
@@ -364,26 +363,26 @@ def _read_old_link(query: str, name: str) -> Linkage:
     for line in filter(str.strip, parts.get("l", "").splitlines()):
         cells = line.strip().split(",")
         if len(cells) < 6:
-            raise InputError(f"{line[:60]!r} is no link of PMKS+")
+            raise InputError(f"{line[:60]!r} is not a link of PMKS+")
         mass, inertia, x, y = (_read_number(cells[k], f"link {cells[0]}") for k in (1, 2, 3, 4))
         joints = list(dict.fromkeys(filter(None, cells[5].split("|"))))
         check_joints_exist(linkage, cells[0], joints)
         add_link(linkage, cells[0], joints, mass, inertia, (scale * x, scale * y), old_joints)
     rate = _read_number(settings[0], "the speed") * math.pi / 30.0
     add_input_drives(linkage, old_joints, -rate if settings[1] == "true" else rate)
-    linkage.notes.append("its masses are taken for kg, moments of inertia for kg m^2")
+    linkage.notes.append("masses are assumed to be in kg, moments of inertia in kg m^2")
     if settings[2] == "true":
         linkage.gravity = 0.0, -9.81
     if parts.get("f", "").strip():
-        linkage.notes.append("forces of the file are left out")
+        linkage.notes.append("forces of the file are omitted")
     return linkage
 
 
 def _read_old_joint(linkage: Linkage, line: str, special_joints: SpecialJoints, scale: float) -> None:
     """Read the line of a joint and add it to the linkage; a driven one is also added to `special_joints`.
 
-    Its cells: id, x, y, links, kind, whether it is grounded, angle, friction, whether it is driven. From 2022 on: id,
-    x, y, links, kind and whether it is grounded in one cell, whether it is driven. Raises InputError.
+    Its cells: id, x, y, links, kind (R, P), grounded (t, f), angle, friction, driven (t, f). From 2022 on: id, x, y,
+    links, kind and grounded in one cell ("Rt"), driven. Raises InputError, also for sliders.
     """
     cells = line.rstrip(",").split(",")
     name = cells[0]
@@ -392,9 +391,9 @@ def _read_old_joint(linkage: Linkage, line: str, special_joints: SpecialJoints, 
     elif len(cells) >= 9:
         kind, grounded_flag, driven_flag = cells[4], cells[5], cells[8]
     else:
-        raise InputError(f"{line[:60]!r} is no joint of PMKS+")
+        raise InputError(f"{line[:60]!r} is not a joint of PMKS+")
     if kind != "R":
-        raise InputError(f"joint {name}: a slider of such a link is not read", hint=REMEDY)
+        raise InputError(f"joint {name}: sliders of such links are not supported", hint=OLD_LINK_HINT)
     if grounded_flag not in ("t", "f") or driven_flag not in ("t", "f"):
         raise InputError(f"joint {name}: expected t or f for whether it is grounded and driven")
     x, y = (_read_number(cells[k], f"joint {name}") for k in (1, 2))
@@ -413,5 +412,5 @@ def _read_number(text: str, owner: str) -> float:
     except ValueError:
         value = math.nan
     if not abs(value) <= MAX_NUMBER:
-        raise InputError(f"{owner}: {text[:40]!r} is no number of a linkage")
+        raise InputError(f"{owner}: {text[:40]!r}: expected a number up to {MAX_NUMBER:g}")
     return value

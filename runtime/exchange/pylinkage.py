@@ -15,10 +15,10 @@ from typing import Any
 from gudgeon.errors import InputError
 from gudgeon.exchange.linkage import MAX_NUMBER, Body, Drive, Line, Linkage, Point
 
-OLD = ("Static", "Crank", "Fixed", "Linear", "Prismatic", "Revolute")
-STEPPED = "pylinkage counts steps: the crank turns by one step's angle in a second"
+JOINT_TYPES = ("Static", "Crank", "Fixed", "Linear", "Prismatic", "Revolute")
+STEP_NOTE = "pylinkage counts steps: the crank rotates by the angle of one step in a second"
 DRIVERS = ("driver", "arc_driver")
-_ARC = ("arc_start", "arc_end")
+_ARC_KEYS = ("arc_start", "arc_end")
 Entry = Mapping[str, Any]
 
 
@@ -29,9 +29,9 @@ def read_pylinkage(parsed_json: Any) -> Linkage:
     """
     joints = parsed_json.get("joints") if isinstance(parsed_json, dict) else None
     if not isinstance(joints, list) or not joints or not all(isinstance(joint, dict) for joint in joints):
-        raise InputError("no joints in it", hint="save a Linkage or a Mechanism of pylinkage as JSON")
+        raise InputError("the file has no joints", hint="save a Linkage or a Mechanism of pylinkage as JSON")
     linkage = Linkage(str(parsed_json.get("name") or "linkage")[:200])
-    if any(str(joint.get("type")) in OLD for joint in joints):
+    if any(str(joint.get("type")) in JOINT_TYPES for joint in joints):
         _read_joints(linkage, joints)
     else:
         _read_links(linkage, joints, parsed_json.get("links"))
@@ -114,19 +114,19 @@ def _read_joints(linkage: Linkage, joints: Sequence[Entry]) -> None:
     for name, parent_names in parents.items():
         for parent in parent_names:
             if parent is not None and parent not in by_name and parent not in linkage.ground:
-                raise InputError(f"joint {name}: it hangs on {parent!r}, which is not in the file")
+                raise InputError(f"joint {name}: it depends on {parent!r}, which is not in the file")
     try:
         for name in TopologicalSorter(parents_in_file).static_order():
             _add_joint(linkage, name, by_name[name], parents[name])
     except CycleError as error:
-        raise InputError(f"joints hang on each other: {', '.join(error.args[1])}"[:300]) from error
+        raise InputError(f"joints depend on each other: {', '.join(error.args[1])}"[:300]) from error
 
 
 _PARENTS = ("joint0", "joint1", "joint2")
 
 
 class _GroundPoints:
-    """Points of the ground that stand within joints as their parents; equal positions share a point."""
+    """Ground points that joints define inline as their parents; equal positions have one point."""
 
     def __init__(self, linkage: Linkage, joint_names: Container[str]) -> None:
         """Create an empty set; `joint_names` are the names of the file's joints, which ground points must not have."""
@@ -146,7 +146,8 @@ class _GroundPoints:
 def _find_parent(ground_points: _GroundPoints, joint_name: str, joint: Entry, key: str) -> str | None:
     """Return the name of a joint's parent under `key`, or None if there is none.
 
-    A parent within the joint becomes a point of the ground. Raises InputError.
+    A parent is {"ref": NAME}, or {"inline": true, "x": …, "y": …}, which becomes a point of the ground. Raises
+    InputError.
     """
     parent = joint.get(key)
     if not isinstance(parent, dict):
@@ -171,9 +172,9 @@ def _add_joint(linkage: Linkage, name: str, joint: Entry, parents: Sequence[str 
     elif joint_type == "Crank":
         body = linkage.find_or_add_bar(_require_parent(name, parents[0]), name, _read_length(joint, "distance", owner))
         if body is None:
-            raise InputError(f"{owner}: a crank that the ground holds")
+            raise InputError(f"{owner}: a crank cannot be fixed to the ground")
         linkage.drives.append(Drive(body, _read_number(joint, "angle", owner)))
-        linkage.notes.append(STEPPED)
+        linkage.notes.append(STEP_NOTE)
     elif joint_type == "Revolute":
         for key, parent in zip(("distance0", "distance1"), parents, strict=False):
             linkage.find_or_add_bar(_require_parent(name, parent), name, _read_length(joint, key, owner))
@@ -186,14 +187,14 @@ def _add_joint(linkage: Linkage, name: str, joint: Entry, parents: Sequence[str 
         _add_line(linkage, name, _require_parent(name, parents[1]), _require_parent(name, parents[2]))
     else:
         raise InputError(
-            f"{owner}: {_shorten_text(joint_type)} is no joint of pylinkage; expected one of {', '.join(OLD)}"
+            f"{owner}: {_shorten_text(joint_type)} is not a joint of pylinkage: expected {', '.join(JOINT_TYPES)}"
         )
 
 
 def _require_parent(name: str, parent: str | None) -> str:
-    """Return the parent. Raises InputError if there is none."""
+    """Return `parent`, a name. Raises InputError that names the joint `name` if it is None."""
     if parent is None:
-        raise InputError(f"joint {name}: it says too few joints that it hangs on")
+        raise InputError(f"joint {name}: a joint on which it depends is missing")
     return parent
 
 
@@ -211,8 +212,8 @@ def _add_fixed_point(linkage: Linkage, name: str, parents: Sequence[str | None],
         linkage.add_point(parent_body, name, parent_body.compute_position(first, second, distance, angle))
     else:
         raise InputError(
-            f"joint {name}: it is fixed to {first} and {second}, which nothing holds at a distance",
-            hint="a rigid body has one: in gudgeon write what is meant as bodies and joints",
+            f"joint {name}: it is fixed to {first} and {second}, which are not points of one rigid body",
+            hint="write a mechanism file with bodies and joints instead",
         )
 
 
@@ -227,7 +228,7 @@ def _add_line(linkage: Linkage, point_name: str, first_point: str, second_point:
         points = body.point_positions
     else:
         raise InputError(
-            f"joint {point_name}: its line leads through {first_point} and {second_point}, which no body holds"
+            f"joint {point_name}: its line passes through {first_point} and {second_point}, which no body contains"
         )
     (x_first, y_first), (x_second, y_second) = points[first_point], points[second_point]
     linkage.lines.append(Line(point_name, first_point, body, (x_second - x_first, y_second - y_first)))
@@ -239,7 +240,7 @@ def _read_links(linkage: Linkage, joints: Sequence[Entry], links: Any) -> None:
     Joints of ground links and motor joints are fixed. Raises InputError.
     """
     if not isinstance(links, list) or not all(isinstance(link, dict) for link in links):
-        raise InputError("no links in it", hint="a Mechanism of pylinkage has joints and links")
+        raise InputError("the file has no links", hint="a Mechanism of pylinkage has joints and links")
     named_links = [(_read_name(link, "id", "link"), link) for link in links]
     if len(dict(named_links)) < len(named_links):
         repeated_name = next(name for name, link in named_links if dict(named_links)[name] is not link)
@@ -309,9 +310,10 @@ def _list_joints_of_link(link: Entry, name: str) -> list[str]:
 
 
 def _add_link(linkage: Linkage, name: str, link: Entry, joints: list[str]) -> None:
-    """Add the body of a link at the positions of its joints, and the drive of a driver.
+    """Add the body of a link at the positions of its joints, and the drive of a "driver" or "arc_driver".
 
-    Raises InputError for an unknown joint, a motor joint that is not the link's, or an arc of no length.
+    The default rate is 1° per step, the default arc 0 to π. Raises InputError for an unknown joint, a motor joint that
+    is not the link's, or an arc without length.
     """
     owner, link_type, motor = f"link {name}", link.get("type", "link"), str(link.get("motor_joint"))
     for joint in joints:
@@ -325,9 +327,9 @@ def _add_link(linkage: Linkage, name: str, link: Entry, joints: list[str]) -> No
         raise InputError(f"{owner}: it is driven at {motor}, expected one of its joints as motor_joint")
     rate, arc = _read_number({"angular_velocity": math.tau / 360.0, **link}, "angular_velocity", owner), None
     if link_type == "arc_driver":
-        begin, end = (_read_number({"arc_start": 0.0, "arc_end": math.pi, **link}, key, owner) for key in _ARC)
+        begin, end = (_read_number({"arc_start": 0.0, "arc_end": math.pi, **link}, key, owner) for key in _ARC_KEYS)
         if not end > begin:
-            raise InputError(f"{owner}: its arc ends at {end:g} rad, where it begins or before ({begin:g} rad)")
+            raise InputError(f"{owner}: its arc ends at {end:g} rad, expected more than its start, {begin:g} rad")
         arc = begin, end
     linkage.drives.append(Drive(body, rate, None, arc))
-    linkage.notes.append(STEPPED)
+    linkage.notes.append(STEP_NOTE)

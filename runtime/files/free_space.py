@@ -22,9 +22,9 @@ _GROUPS = ("memory.max", "memory.current"), ("memory.limit_in_bytes", "memory.us
 
 
 def check_memory(size: float, purpose: str) -> None:
-    """Raise MemoryError if `size` bytes exceed the free memory; `purpose` names what needs them.
+    """Raise MemoryError if `size` bytes exceed MAX_MEMORY_FRACTION of the free memory.
 
-    Up to MIN_CHECKED_BYTES are always allowed.
+    Up to MIN_CHECKED_BYTES are always allowed. `purpose` is the subject of the message ("a table of 9 runs").
     """
     if size > MIN_CHECKED_BYTES and size > MAX_MEMORY_FRACTION * (free := read_free_memory()):
         raise MemoryError(f"{purpose} would take {format_size(size)}, and {format_size(free)} are free")
@@ -33,7 +33,7 @@ def check_memory(size: float, purpose: str) -> None:
 def check_disk(folder: str | os.PathLike[str], size: float, purpose: str, path: str | os.PathLike[str] = "") -> None:
     """Raise OutputError if `size` bytes exceed the free disk space of a folder.
 
-    `purpose` names what needs them; the error is that of `path`, or else of the folder.
+    `purpose` is the subject of the message ("the results"); the error names `path`, or else the folder.
     """
     if size > (free := read_free_disk_space(folder)):
         description = (
@@ -53,9 +53,9 @@ def read_free_disk_space(folder: str | os.PathLike[str]) -> float:
 
 
 def read_free_memory(root: Path = Path("/")) -> float:
-    """Return the bytes of memory that this process may still use: of machine, control groups and own limit.
+    """Return the bytes of memory that this process may still use: the minimum of machine, control groups and ulimit.
 
-    `root` is the folder with /proc and /sys. The result is infinite if nothing is known.
+    `root` is the folder with /proc and /sys. The result is at least 0, and infinite if nothing is known.
     """
     return max(
         0.0,
@@ -69,15 +69,15 @@ def _read_free_memory_of_machine(root: Path) -> float:
         for line in (root / "proc/meminfo").read_text().splitlines():
             if line.startswith("MemAvailable:"):
                 return 1024.0 * int(line.split()[1])
-    with suppress(OSError, ValueError):  # macOS says only how much there is
+    with suppress(OSError, ValueError):  # macOS: total memory
         return float(os.sysconf("SC_PHYS_PAGES")) * os.sysconf("SC_PAGE_SIZE")
     return math.inf
 
 
 def _read_free_memory_of_groups(root: Path) -> Iterator[float]:
-    """Yield the free memory in bytes of the process's control groups with a limit, parents included, after an infinity.
+    """Yield infinity, then the free bytes of each control group (cgroup v1, v2) of the process with a limit.
 
-    File pages that can be dropped count as free.
+    Parent groups are included. File pages that can be dropped count as free.
     """
     yield math.inf
     lines: list[str] = []

@@ -1,7 +1,6 @@
-"""Read files, but only regular files up to a maximum size. Files that a mechanism names must be in its folder, not
-behind links.
+"""Read regular files up to a maximum size. Files that a mechanism names must be in its folder and not symbolic links.
 
-`read_user_file` reads what a call or the command line names, `read_table_file` what a mechanism names.
+`read_user_file` reads files of calls and the command line, `read_table_file` files that a mechanism names.
 """
 
 from __future__ import annotations
@@ -15,15 +14,14 @@ from gudgeon.files.writing import describe_file_type
 
 _MAX_PATH_PARTS = 8  # largest number of parts of a path
 MAX_BYTES = 1 << 20  # of a mechanism file
-MAX_TABLE_BYTES = 1 << 26  # of a table of a curve: more than a million points
+MAX_TABLE_BYTES = 1 << 26  # of a table of a curve, more than a million points
 
 
 def read_user_file(file: str | os.PathLike[str], max_bytes: int, description: str = "", hint: str = "") -> bytes:
-    """Return the bytes of a file that a call or the command line names, at most `max_bytes`.
+    """Return the bytes of a file that a call or the command line names.
 
     `description` and `hint` are used in errors. Raises InputError if it cannot be read or is not a regular file,
-    LimitError if it is too large. Devices and pipes are not opened: they may have no end or block, and files are read
-    more than once.
+    LimitError if it has more than `max_bytes`. Devices and pipes are not opened: reading may block or not end.
     """
     file_text = f"{description} {shorten_path(file)}".strip()
     try:
@@ -49,7 +47,7 @@ def check_regular_file(status: os.stat_result, file_text: str, hint: str = "") -
     """
     if not stat.S_ISREG(status.st_mode):
         is_pipe = stat.S_ISFIFO(status.st_mode)
-        hint = "write what comes through the pipe to a file first" if is_pipe else hint
+        hint = "write the output of the pipe to a file first" if is_pipe else hint
         raise InputError(f"cannot read {file_text}: it is {describe_file_type(status)}, not a file", hint=hint)
 
 
@@ -63,12 +61,12 @@ def read_table_file(file: str | os.PathLike[str], name: str, max_bytes: int, loc
     parts = name.split("/")
     if not 0 < len(parts) <= _MAX_PATH_PARTS or any(map(_is_forbidden_part, parts)):
         hint = "expected the name of a file in the mechanism's folder or below: lift.csv, data/lift.csv"
-        raise BadValueError(f"{name[:60]!r} is no path to a table", location, hint)
+        raise BadValueError(f"{name[:60]!r} is not a path to a table", location, hint)
     try:
         data, status = _read_without_links(Path(file).parent, parts, max_bytes)
     except OSError as error:
         has_link = _has_link(Path(file).parent, parts)
-        reason = "a link is not followed" if has_link else error.strerror or error
+        reason = "links are not followed" if has_link else error.strerror or error
         hint = "expected a file in the folder of the mechanism or below"
         raise InputError(f"cannot read the table {name}: {reason}", location, hint) from error
     if not stat.S_ISREG(status.st_mode):
@@ -81,14 +79,15 @@ def read_table_file(file: str | os.PathLike[str], name: str, max_bytes: int, loc
 
 
 def _is_forbidden_part(part: str) -> bool:
-    """Return whether a part of a path is empty, "." or "..", or has characters that are not allowed."""
+    """Return whether a part of a path is empty, ".", "..", or contains a backslash or an unprintable character."""
     return part in ("", ".", "..") or "\\" in part or not part.isprintable()
 
 
 def _read_without_links(folder: Path, parts: list[str], max_bytes: int) -> tuple[bytes, os.stat_result]:
-    """Return bytes and status of a file, opened folder by folder, so that no link can be inserted meanwhile.
+    """Return bytes and status of a file; folders are opened one by one, so that no link can be inserted meanwhile.
 
-    A file that is not regular or too large is not read: its bytes are b"". Raises OSError for links.
+    At most `max_bytes` + 1 are read. A file that is not regular or too large is not read: its bytes are b"". Raises
+    OSError for links.
     """
     folder_descriptor = os.open(folder, os.O_RDONLY | os.O_DIRECTORY | os.O_CLOEXEC)
     try:

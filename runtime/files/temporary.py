@@ -1,4 +1,4 @@
-"""Make temporary folders that are removed even after killed processes: each is locked by its process."""
+"""Create temporary folders that are removed even if their process is killed: each is locked by its process."""
 
 from __future__ import annotations
 
@@ -11,17 +11,17 @@ from pathlib import Path
 
 PREFIX = "gudgeon-tmp-"
 GRACE_S = 60.0  # a younger folder may belong to a process that has not locked it yet
-OURS = re.compile(rf"{PREFIX}[a-z0-9_]{{8}}")  # names as mkdtemp makes them
+FOLDER_PATTERN = re.compile(rf"{PREFIX}[a-z0-9_]{{8}}")  # names of mkdtemp
 
 
 class TemporaryFolder:
-    """Hold a folder in $TMPDIR, for this user only, until `remove` or the end of the process.
+    """A folder in $TMPDIR, for this user only, until `remove_folder` or the end of the process.
 
-    The lock (flock) of the folder ends with the process. Whoever makes the next folder removes those without a lock.
+    The lock (flock) of the folder ends with the process. The next TemporaryFolder removes folders without a lock.
     """
 
     def __init__(self) -> None:
-        """Make and lock the folder. Raise OSError if that fails."""
+        """Create and lock the folder, and remove abandoned ones. Raises OSError if it cannot be created."""
         root = Path(tempfile.gettempdir())
         self.path = Path(tempfile.mkdtemp(prefix=PREFIX, dir=root))
         self._lock: int | None = _lock_folder(self.path)
@@ -56,11 +56,11 @@ def _lock_folder(folder: Path) -> int | None:
 def _remove_abandoned_folders(root: Path, max_change_time: float) -> None:
     """Remove temporary folders of this user that changed before `max_change_time` (s since 1970) and have no lock.
 
-    The processes that made them have ended. Errors are ignored.
+    Their processes have ended. Errors are ignored.
     """
     with suppress(OSError):
         for entry in os.scandir(root):
-            if not OURS.fullmatch(entry.name):
+            if not FOLDER_PATTERN.fullmatch(entry.name):
                 continue
             with suppress(OSError):
                 status = entry.stat(follow_symlinks=False)

@@ -1,8 +1,8 @@
-"""Check whether another user could have written code in a folder, as ssh checks its keys.
+"""Check by owners and permissions whether another user could have written code in a folder, as ssh checks its keys.
 
 Code in the cache runs with the rights of the user who loads it. The folder and its contents must belong to the user or
-root, and group and others must not be able to write there. On the path to it, no one else may replace a folder. An
-access list that grants writing shows in the bits of the group.
+root, and group and others must have no write permission. On the path to it, no other user may replace a folder. Write
+permissions in an access list appear in the bits of the group.
 """
 
 from __future__ import annotations
@@ -16,13 +16,14 @@ MAX_LINKS = 40  # largest number of links on a path, as in the kernel
 
 
 class UntrustedPathError(Exception):
-    """Signal that another user may have written a file; the text says which and who."""
+    """Signal that another user may have written a file; the text names both."""
 
 
 def check_trusted_path(path: str | os.PathLike[str]) -> None:
-    """Raise UntrustedPathError if another user may write the folder or replace it or a folder above it.
+    """Raise UntrustedPathError if another user may write to the folder, or replace it or a folder above it.
 
-    The folder need not exist yet: then only the existing folders above it are checked.
+    The folder need not exist: then only the existing folders above it are checked. Links are followed component by
+    component.
     """
     components, is_complete = _find_path_components(os.fspath(path))
     for component, status in components[:-1] if is_complete else components:
@@ -40,7 +41,7 @@ def check_owner_and_permissions(path: str | os.PathLike[str], status: os.stat_re
         raise UntrustedPathError(f"{os.fspath(path)} belongs to another user (uid {status.st_uid})")
     if status.st_mode & 0o022 and not stat.S_ISLNK(status.st_mode):
         writer = "everybody" if status.st_mode & 0o002 else f"the group (gid {status.st_gid})"
-        raise UntrustedPathError(f"{writer} may write {os.fspath(path)}")
+        raise UntrustedPathError(f"{writer} may write to {os.fspath(path)}")
 
 
 def check_trusted_folder(path: str | os.PathLike[str]) -> None:
@@ -55,9 +56,9 @@ def check_trusted_folder(path: str | os.PathLike[str]) -> None:
 
 
 def _check_path_component(path: str, status: os.stat_result) -> None:
-    """Raise UntrustedPathError if another user may replace a folder or link on the path.
+    """Raise UntrustedPathError if another user owns a folder or link on the path, or may replace entries of the folder.
 
-    All users may write in folders in which only the owners of files may rename them (/tmp).
+    A folder with the sticky bit (/tmp), in which only owners rename their files, and links may be writable by all.
     """
     trusted_users = (os.geteuid(), 0)
     if status.st_uid not in trusted_users and not (status.st_uid == _read_overflow_user() and _is_root_unmapped()):
@@ -66,7 +67,7 @@ def _check_path_component(path: str, status: os.stat_result) -> None:
         return
     if status.st_mode & 0o002 or (status.st_mode & 0o020 and not _is_own_group(status.st_gid)):
         writer = "everybody" if status.st_mode & 0o002 else f"the group (gid {status.st_gid})"
-        raise UntrustedPathError(f"{writer} may write {path}")
+        raise UntrustedPathError(f"{writer} may write to {path}")
 
 
 def read_trusted_file(path: str | os.PathLike[str]) -> bytes:
@@ -78,16 +79,16 @@ def read_trusted_file(path: str | os.PathLike[str]) -> bytes:
     with open(descriptor, "rb", buffering=0) as file:
         status = os.fstat(descriptor)
         if not stat.S_ISREG(status.st_mode):
-            raise OSError(errno.EINVAL, "no regular file", os.fspath(path))
+            raise OSError(errno.EINVAL, "not a regular file", os.fspath(path))
         check_owner_and_permissions(path, status)
         return file.read()
 
 
 def _find_path_components(path: str) -> tuple[list[tuple[str, os.stat_result]], bool]:
-    """Return (path, status) of the folders and links from / to a folder as the kernel passes them, and whether all
-    exist.
+    """Return (path, status) of all folders and links through which the kernel resolves a path, and whether all exist.
 
-    The list ends before the first folder that does not exist. Raises OSError for too many links.
+    The list begins at / (or the current folder) and ends before the first folder that does not exist. Raises OSError
+    for more than MAX_LINKS links.
     """
     names = [name for name in reversed(path.split("/")) if name not in ("", ".")]
     folder = "/" if path.startswith("/") else os.getcwd()
@@ -116,9 +117,9 @@ def _find_path_components(path: str) -> tuple[list[tuple[str, os.stat_result]], 
 
 
 def _is_own_group(group: int) -> bool:
-    """Return whether a group has the user's name and no other member, as many systems make one for each user.
+    """Return whether a group is the user's private group: it has the user's name and no other member.
 
-    `group` is its number; the answer is False for a group or user without an entry.
+    `group` is its number; False for a group or user without an entry.
     """
     import grp
     import pwd
@@ -142,8 +143,7 @@ def _read_overflow_user() -> int:
 
 @cache
 def _is_root_unmapped() -> bool:
-    """Return whether this is a container in which the machine's root has no user id, so that its folders seem to be
-    nobody's.
+    """Return whether this is a user namespace (container) without the machine's root, who then has the overflow id.
 
     The result is cached; it is False if it cannot be read.
     """

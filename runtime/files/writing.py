@@ -20,7 +20,7 @@ from typing import BinaryIO
 from gudgeon.errors import OutputError
 
 PART = re.compile(r"\.gudgeon-[0-9a-f]{16}\.part")  # temporary names, which a killed process may leave
-MAX_REGULAR_BYTES = 1 << 26  # bytes of the largest file that may be an emitted one
+MAX_REGULAR_BYTES = 1 << 26  # largest file that `read_regular_file` reads
 _OPEN_FLAGS = os.O_RDWR | os.O_CREAT | os.O_EXCL | os.O_CLOEXEC | os.O_NOFOLLOW
 _FOLDER_FLAGS = getattr(os, "O_PATH", os.O_RDONLY) | os.O_DIRECTORY | os.O_CLOEXEC  # O_PATH: not to be listed
 
@@ -28,13 +28,13 @@ _FOLDER_FLAGS = getattr(os, "O_PATH", os.O_RDONLY) | os.O_DIRECTORY | os.O_CLOEX
 class AtomicFiles:
     """Write files of one folder under temporary names and move them into place; a context.
 
-    The folder is made if it does not exist; follow: it may be a link. Files that were not moved are removed at the end
-    of the context, after an error also the folders that were made. sync: each file reaches the disk before it is moved,
-    for results that cannot be repeated. Without it, a power failure may lose both files on some file systems.
+    The folder is created if it does not exist; follow: it may be a link. Files that were not moved are removed at the
+    end of the context, after an error also the created folders. sync: each file is flushed to the disk before it is
+    moved, for results that cannot be repeated. Without it, a power failure may lose both files on some file systems.
     """
 
     def __init__(self, folder: str | os.PathLike[str], *, sync: bool = False, follow: bool = True) -> None:
-        """Store the folder and the options; nothing is made or opened before the context begins."""
+        """Store the folder and the options; nothing is created or opened before the context begins."""
         self.folder, self.sync, self.follow = Path(folder), sync, follow
         self._made_folders: list[Path] = []
         self._fd = -1
@@ -42,7 +42,7 @@ class AtomicFiles:
         self._complete_files: list[tuple[str, str]] = []  # temporary name, name
 
     def __enter__(self) -> AtomicFiles:
-        """Make and open the folder."""
+        """Create the folder if necessary, and open it."""
         with convert_os_errors(self.folder):
             self._made_folders = [path for path in (self.folder, *self.folder.parents) if not os.path.lexists(path)]
             self.folder.mkdir(parents=True, exist_ok=True)
@@ -58,8 +58,7 @@ class AtomicFiles:
             raise
 
     def _remove_temporary_files(self, failed: bool) -> None:
-        """Remove temporary files, close the folder and, if `failed`, remove the folders that were made, if they are
-        empty.
+        """Remove temporary files, close the folder and, if `failed`, remove the created folders that are empty.
 
         A second call continues the first, which Ctrl-C may have interrupted.
         """
@@ -72,7 +71,7 @@ class AtomicFiles:
             os.close(descriptor)
         new_folders, self._made_folders = self._made_folders, []
         for folder in new_folders if failed else ():
-            with suppress(OSError):  # it holds something else by now
+            with suppress(OSError):  # not empty
                 folder.rmdir()
 
     @contextmanager
@@ -85,10 +84,10 @@ class AtomicFiles:
         with convert_os_errors(self.folder / name):
             old_status = _check_replaceable_file(self.folder, name, self._fd)
             temporary_name = f".gudgeon-{os.urandom(8).hex()}.part"
-            self._temporary_names.append(temporary_name)  # first: Ctrl-C may come as it has been opened
+            self._temporary_names.append(temporary_name)  # first, since Ctrl-C may come just after the file is opened
             try:
                 descriptor = os.open(temporary_name, _OPEN_FLAGS, 0o600 if old_status else 0o666, dir_fd=self._fd)
-            except FileExistsError:  # another's: it stays
+            except FileExistsError:  # a file of another process: not removed
                 self._temporary_names.remove(temporary_name)
                 raise
             with open(descriptor, "w+b") as file:
@@ -223,14 +222,14 @@ def _check_replaceable_file(folder: Path, name: str, descriptor: int) -> os.stat
         return None
     if stat.S_ISLNK(status.st_mode):
         if folder.absolute() == Path("/dev"):
-            raise OutputError(folder / name, "the system's own")
+            raise OutputError(folder / name, "it is a link of the system")
         return None
     if not stat.S_ISREG(status.st_mode):
         raise OutputError(
             folder / name, "it is a folder" if stat.S_ISDIR(status.st_mode) else f"it is {describe_file_type(status)}"
         )
     if not status.st_mode & 0o222:
-        raise OutputError(folder / name, "there is a file that is write-protected")
+        raise OutputError(folder / name, "the existing file is write-protected")
     return status
 
 
@@ -242,12 +241,12 @@ def _flush_to_disk(descriptor: int) -> None:
     try:
         os.fsync(descriptor)
     except OSError as error:
-        if error.errno not in (errno.EINVAL, errno.ENOTSUP, errno.ENOSYS):  # a file system that cannot
+        if error.errno not in (errno.EINVAL, errno.ENOTSUP, errno.ENOSYS):  # a file system without fsync
             raise
 
 
 def describe_file_type(status: os.stat_result) -> str:
-    """Return a description of a path that is not a regular file, such as "a pipe", from the result of os.stat."""
+    """Return the type of a path that is not a regular file, from the result of os.stat: "a pipe", "a special file"."""
     descriptions = {
         stat.S_IFDIR: "a folder",
         stat.S_IFIFO: "a pipe",
@@ -256,17 +255,17 @@ def describe_file_type(status: os.stat_result) -> str:
         stat.S_IFBLK: "a device",
         stat.S_IFLNK: "a link",
     }
-    return descriptions.get(stat.S_IFMT(status.st_mode), "no regular file")
+    return descriptions.get(stat.S_IFMT(status.st_mode), "a special file")
 
 
 def _copy_permissions(descriptor: int, old_status: os.stat_result) -> None:
     """Set permissions and, if allowed, owner of an open file to those of the file that it replaces.
 
-    Refusals of the system are ignored.
+    A PermissionError is ignored.
     """
     status = os.fstat(descriptor)
     with suppress(PermissionError):
         if (status.st_uid, status.st_gid) != (old_status.st_uid, old_status.st_gid):
             os.fchown(descriptor, old_status.st_uid, old_status.st_gid)
-    with suppress(PermissionError):  # a file system that has none
+    with suppress(PermissionError):  # a file system without permissions
         os.fchmod(descriptor, stat.S_IMODE(old_status.st_mode) & 0o777)

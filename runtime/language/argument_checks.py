@@ -55,7 +55,7 @@ def check_text(value: object, name: str, expected: str = "a text") -> str:
     try:
         value.encode()
     except UnicodeEncodeError:
-        raise_bad_value(name, value, f"{expected} of whole characters")
+        raise_bad_value(name, value, f"{expected} that can be encoded as UTF-8")
     return value
 
 
@@ -67,8 +67,9 @@ def check_callable(value: Any, name: str) -> Any:
 
 
 def check_path(value: Any, name: str) -> str | os.PathLike[str]:
-    """Return a file name (str or PathLike) unchanged; raise BadValueError unless the file system can have such a
-    name.
+    """Return a file name (str or PathLike) unchanged; raise BadValueError for other types and invalid names.
+
+    Invalid are names with a zero byte or characters that cannot be encoded. The file need not exist.
     """
     if not isinstance(value, (str, os.PathLike)) or not isinstance(os.fspath(value), str):
         raise_bad_value(name, value, "the name of a file: a text or a Path")
@@ -77,7 +78,7 @@ def check_path(value: Any, name: str) -> str | os.PathLike[str]:
     except UnicodeEncodeError:
         is_possible = False
     if not is_possible:
-        raise_bad_value(name, value, "a name that a file can have")
+        raise_bad_value(name, value, "a valid file name")
     return value
 
 
@@ -106,7 +107,7 @@ def check_number(value: Any, name: str) -> float:
     try:
         if isinstance(value, (str, bytes, bool, np.bool_)) or np.ndim(value) or np.iscomplexobj(value):
             raise TypeError
-        if isinstance(value, np.ndarray) and value.dtype.kind in "mMb":  # of a time without a unit NumPy makes a number
+        if isinstance(value, np.ndarray) and value.dtype.kind in "mMb":  # NumPy converts times without a unit to float
             raise TypeError
         result = float(value)
     except (TypeError, ValueError, OverflowError):
@@ -118,7 +119,7 @@ def check_number(value: Any, name: str) -> float:
 
 
 def check_not_subnormal(number: float, name: str) -> float:
-    """Return the number unchanged. Raises BadValueError if it is subnormal, since such numbers have lost digits."""
+    """Return the number unchanged. Raises BadValueError if it is subnormal, since such numbers have fewer digits."""
     if number and abs(number) < sys.float_info.min:
         raise BadValueError(f"{name}: {number!r} is out of range", hint=IN_RANGE)
     return number
@@ -145,12 +146,12 @@ def check_mapping(value: Any, name: str, hint: str = "") -> Mapping[str, Any]:
     if not isinstance(value, Mapping) and getattr(value, "ndim", 0) == 1 and callable(getattr(value, "items", None)):
         mapping = dict(value.items())
         if len(mapping) != len(value):
-            raise BadValueError(f"{name}: its index has a name twice", hint="give each number once")
+            raise BadValueError(f"{name}: its index repeats a name", hint="give each value once")
     if not isinstance(mapping, Mapping):
         raise BadValueError(f"{name} is a {type(value).__name__}: expected a mapping", hint=hint)
     for key in mapping:
         if not isinstance(key, str):
-            raise BadValueError(f"{name}: its key {shorten_value(key)} is no text", hint=hint)
+            raise BadValueError(f"{name}: its key {shorten_value(key)} is not a text", hint=hint)
     return mapping
 
 
@@ -173,8 +174,8 @@ def check_names(value: Any, name: str, expected: str) -> list[str]:
     """Return one name, or several in any sequence or set, as a list of plain str. Raises BadValueError with
     `expected`.
     """
-    every = [value] if isinstance(value, str) else check_list(value, name, str, expected)
-    return [str.__str__(check_text(text, name, expected)) for text in every]
+    texts = [value] if isinstance(value, str) else check_list(value, name, str, expected)
+    return [str.__str__(check_text(text, name, expected)) for text in texts]
 
 
 def check_instance(value: Any, name: str, item_type: type[Item]) -> Item:
@@ -204,5 +205,5 @@ def check_optional_positive(value: Any, name: str) -> float | None:
 
 def check_numbers(values: Any, name: str) -> list[float]:
     """Return the finite numbers of a list, array or column as floats; [] for None. Raises BadValueError."""
-    every: list[Any] = [] if values is None else check_list(values, name, object, "a list of numbers")
-    return [check_number(value, f"{name}[{k}]") for k, value in enumerate(every)]
+    values_list: list[Any] = [] if values is None else check_list(values, name, object, "a list of numbers")
+    return [check_number(value, f"{name}[{k}]") for k, value in enumerate(values_list)]

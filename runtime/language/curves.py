@@ -27,15 +27,13 @@ SPLINE, MONOTONE = INTERPOLATIONS = ("spline", "monotone")
 STOP, HOLD, LINE = EXTRAPOLATE = ("none", "hold", "line")
 MIN_POINTS = {NATURAL: 2, CLAMPED: 2, PERIODIC: 3, NOT_A_KNOT: 4}  # smallest number of points by condition at the ends
 _INTERPOLATION_NAMES = {SPLINE: "cubic spline", MONOTONE: "monotone cubic"}  # names of the interpolations in messages
-MAX_LISTED_KNOTS = (
-    4000  # points: tables of longer curves are stored and emitted as bytes, which takes a tenth of the time
-)
-MARGIN = 1e-9  # of the range: an argument may be outside by so much through rounding
+MAX_LISTED_KNOTS = 4000  # tables of longer curves are stored and emitted as bytes, in a tenth of the time
+RANGE_TOL = 1e-9  # fraction of the range by which an argument may be outside, because of rounding
 
 
 @dataclass(frozen=True)
 class Curve:
-    """Hold a curve over increasing knots x (n + 1) with coefficients (n, 4), SI units.
+    """A piecewise cubic curve over increasing knots x (n + 1) with coefficients (n, 4), SI units.
 
     A dimension of None fits any dimension.
     """
@@ -49,9 +47,9 @@ class Curve:
     value: Dimension | None = None
     unit: str | None = None  # SI, of the value: an angle's is rad
     over: str = ""  # unit of x in the file; "": SI
-    source: str = ""  # file that the points came from
+    source: str = ""  # file of the points
     interpolation: str = SPLINE
-    points: int = 0  # number of points; one piece may have been halved (`make_even_pieces`)
+    points: int = 0  # number of points; there may be one more knot (`make_even_pieces`)
 
     @property
     def is_periodic(self) -> bool:
@@ -105,15 +103,13 @@ class Curve:
         file_range = f", from {low / size:.6g} to {high / size:.6g} {self.over}" if size != 1.0 else ""
         return (
             f"at {value_text}, outside its range, from {ends[0]} to {ends[1]} (SI, angles in rad){file_range};"
-            f" in curves.{self.name} ends: periodic repeats it, extrapolate: hold or line goes on"
+            f" in curves.{self.name}, ends: periodic repeats it, extrapolate: hold or line extends it"
         )
 
     def describe(self) -> str:
-        """Return a description of the curve: interpolation, points and their file, ends, range, and what holds
-        outside.
-        """
+        """Return a description: "cubic spline through 5 points, natural ends, from 0 to 1 s, outside none"."""
         ends = f"{self.ends.replace('_', '-')} ends"
-        after = "repeated" if self.is_periodic else {STOP: "none", HOLD: "held", LINE: "straight on"}[self.extrapolate]
+        after = "repeated" if self.is_periodic else {STOP: "none", HOLD: "held", LINE: "linear"}[self.extrapolate]
         points = f"{self.points} points{f' of {self.source}' * bool(self.source)}"
         return (
             f"{_INTERPOLATION_NAMES[self.interpolation]} through {points}, {ends}, {self.range_text}, outside {after}"
@@ -124,19 +120,19 @@ class Curve:
         return float(_evaluate_cubic(np.array(self.coefficients[-1]), np.float64(self.x[-1] - self.x[-2]), order))
 
     def is_within(self, x: Any) -> Any:
-        """Return whether the curve has a value at x (number or array), with a tolerance of MARGIN times the range.
+        """Return whether the curve has a value at x (number or array), with a tolerance of RANGE_TOL times the range.
 
         Periodic and extrapolated curves have one at every finite x.
         """
         if self.is_periodic or self.extrapolate != STOP:
             return np.isfinite(x)
-        margin = MARGIN * (self.x[-1] - self.x[0])
+        margin = RANGE_TOL * (self.x[-1] - self.x[0])
         return (x >= self.x[0] - margin) & (x <= self.x[-1] + margin)
 
     def evaluate(self, x: Any, order: int = 0) -> Any:
         """Return the values or derivatives of the given order (0 to 3) at x, a number or an array, in SI.
 
-        Outside its range a curve is continued periodically, held or straight as its options say, else NaN.
+        Outside its range a curve is periodic, constant (hold) or linear as its options say, else NaN.
         """
         x = np.asarray(x, dtype=float)
         (knots, pieces), first, last = self._tables, self.x[0], self.x[-1]
@@ -180,7 +176,7 @@ class Curve:
         """Return the curve from the list that `to_data` wrote; lists of earlier versions lack the last entry, the
         file's unit.
         """
-        name, x, coefficients, ends, extrapolate, unit, *over = data  # results of earlier versions hold no `over`
+        name, x, coefficients, ends, extrapolate, unit, *over = data  # earlier versions did not store `over`
         if isinstance(x, str):
             x, pieces = _decode_tables(x, coefficients)
         else:
@@ -205,7 +201,7 @@ def make_even_pieces(
 ) -> tuple[tuple[float, ...], tuple[tuple[float, float, float, float], ...]]:
     """Return knots and coefficients with an even number of pieces; if it is odd, the last piece is halved.
 
-    Neighbouring pieces are distinguished by odd and even index, also across the end of a periodic curve.
+    Switching functions distinguish neighbouring pieces by odd and even index, also across the end of a periodic curve.
     """
     if len(pieces) % 2 == 0:
         return tuple(x), tuple(pieces)
@@ -294,8 +290,8 @@ def _build_not_a_knot_equation(a: float, b: float, p: float, q: float) -> tuple[
 
     The outer piece has length a and mean slope p, its neighbour b and q.
     """
-    both = a + b
-    return both, ((a + 2.0 * both) * b * p + a * a * q) / both
+    total_length = a + b
+    return total_length, ((a + 2.0 * total_length) * b * p + a * a * q) / total_length
 
 
 def _compute_periodic_slopes(h: Sequence[float], mean_slopes: Sequence[float]) -> list[float]:
@@ -310,17 +306,19 @@ def _compute_periodic_slopes(h: Sequence[float], mean_slopes: Sequence[float]) -
     ]
     corner_up, corner_down = rows[0][0], rows[-1][2]  # entries (first, last) and (last, first)
     shift = -rows[0][1]
-    kept = [list(row) for row in rows]
-    kept[0][1] -= shift
-    kept[-1][1] -= corner_up * corner_down / shift
-    correction = _solve_tridiagonal(kept)
-    for row in kept:
+    modified_rows = [list(row) for row in rows]
+    modified_rows[0][1] -= shift
+    modified_rows[-1][1] -= corner_up * corner_down / shift
+    correction = _solve_tridiagonal(modified_rows)
+    for row in modified_rows:
         row[3] = 0.0
-    kept[0][3], kept[-1][3] = shift, corner_down
-    other = _solve_tridiagonal(kept)
+    modified_rows[0][3], modified_rows[-1][3] = shift, corner_down
+    correction_by_corner = _solve_tridiagonal(modified_rows)
     fraction = corner_up / shift
-    factor = (correction[0] + fraction * correction[-1]) / (1.0 + other[0] + fraction * other[-1])
-    slopes = [a - factor * b for a, b in zip(correction, other, strict=True)]
+    factor = (correction[0] + fraction * correction[-1]) / (
+        1.0 + correction_by_corner[0] + fraction * correction_by_corner[-1]
+    )
+    slopes = [a - factor * b for a, b in zip(correction, correction_by_corner, strict=True)]
     return [*slopes, slopes[0]]
 
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Deprecation:
-    """Describe a call, a key or a command that still works but will be removed. `what`: its name for users."""
+    """A call, a key or a command that works but will be removed. `what`: its name for users."""
 
     what: str
     since: str  # version
@@ -19,7 +19,7 @@ class Deprecation:
     def __str__(self) -> str:
         """Return the warning: what is deprecated since when, until when it works, and what replaces it."""
         return (
-            f"{self.what} is deprecated since gudgeon {self.since} ({self.date}) and gone from {self.gone} on: "
+            f"{self.what} is deprecated since gudgeon {self.since} ({self.date}) and will be removed in {self.gone}: "
             f"use {self.instead}"
         )
 

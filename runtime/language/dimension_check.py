@@ -23,7 +23,7 @@ _MAX_EXPONENT = 24  # largest exponent of a dimension: mechanics needs no larger
 
 @dataclass(frozen=True)
 class _Flexible:
-    """Mark a value without a dimension of its own: a bare number (`pure`), or a product with a unitless parameter."""
+    """Dimension of a value that fits any dimension: a bare number (`pure`), or a product with a unitless parameter."""
 
     pure: bool
 
@@ -49,13 +49,13 @@ def check_dimension(
     except UnitError as error:
         if not (shadowed := dict.fromkeys(find_unit_shadowing_names(expr))):
             raise
-        are = [f"{name} is a name of this file here: the unit is written {name}^1" for name in shadowed]
+        are = [f"{name} is a name of this file: the unit is written {name}^1" for name in shadowed]
         raise UnitError(error.message, error.where, "; ".join([error.hint, *are] if error.hint else are)) from None
     return expected if isinstance(dimension, _Flexible) else dimension
 
 
 def find_unit_shadowing_names(expr: Expr) -> Iterator[str]:
-    """Yield names that are also symbols of units and are factors after a number with a unit: `m` in `3 N/m`."""
+    """Yield names of the file that may be meant as units: factors after a number with a unit, as `m` in `3 N/m`."""
     match expr:
         case Unary(operand=operand):
             yield from find_unit_shadowing_names(operand)
@@ -205,7 +205,7 @@ class _DimensionChecker:
         """
         base, exponent = self.find_dimension(expr.left), self.find_dimension(expr.right)
         if isinstance(exponent, Dimension) and exponent != DIMENSIONLESS:
-            message = f"an exponent is a pure number, got {describe_dimension(exponent)}"
+            message = f"an exponent must be a pure number, got {describe_dimension(exponent)}"
             raise UnitError(message, self._find_location(expr.right))
         if isinstance(base, _Flexible) or base == DIMENSIONLESS:
             return base
@@ -219,7 +219,7 @@ class _DimensionChecker:
             or (power := Fraction(value).limit_denominator(12)) != value
             and abs(power - value) > 1e-12
         ):
-            message = f"the exponent of {describe_dimension(base)} is a plain number such as 2 or 1/2"
+            message = f"the exponent of {describe_dimension(base)} must be a number such as 2 or 1/2"
             raise UnitError(message, self._find_location(expr.right))
         return self._check_exponent_bounds(base**power, expr)
 

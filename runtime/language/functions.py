@@ -8,8 +8,8 @@
 | sympy, derivative, far_derivative | SymPy, Taylor series, slopes (`generator/symbols`, `generator/ir`) |
 | c, has_vector_code, bounds, domain | C for numbers, vectors and ranges (`engine/scene/function_table.h`) |
 | latex, text | documents of equations |
-| jump_order, divides, hides_corners, is_total, saturates, is_exponential, has_pole | tests of what may jump, overflow \
-or be undefined |
+| jump_order, divides, hides_switching_points, is_total, saturates, is_exponential, has_pole | tests whether an \
+expression may jump, overflow or be undefined |
 | meaning | docs/format.md |
 
 `make tables` writes the header of the engine and the table of docs/format.md. `tests/functions` evaluates
@@ -40,7 +40,7 @@ class Units(Enum):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Rising:
-    """Hold bounds of a function that increases in its domain, for interval arithmetic.
+    """Bounds of a monotonically increasing function, for interval arithmetic.
 
     Its slope increases or decreases on each side of at most one point. slope: C code of the derivative in x, where the
     derivative as written cancels digits.
@@ -52,7 +52,7 @@ class Rising:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Function:
-    """Describe a function by the name that files use.
+    """Declaration of a function of expressions.
 
     sympy, c, numpy, text: its name there if it differs; latex: where SymPy's own LaTeX is not used. sympy None: SymPy
     has no such class; generator/symbols/from_expressions.py composes it of powers and functions. compute: values by
@@ -62,9 +62,9 @@ class Function:
     engine/watch/ranges.h has `interval_` and the C name. has_vector_code: engine/batch/lane_functions.h has `lanes_`
     and the C name; else lane after lane calls the library. jump_order: order of the lowest derivative that jumps at a
     switching point; None: smooth in its domain. is_total: defined and finite for all numbers. saturates: finite where
-    its argument is infinite. divides: by its last argument. hides_corners: a smooth argument may give a value whose
-    slope jumps, as acos(cos t) does. copies: how many times the formula of generator/symbols holds the arguments.
-    usage: the hint after a wrong call.
+    its argument is infinite. divides: by its last argument. hides_switching_points: a smooth argument may
+    give a value whose slope jumps, as acos(cos t) does. copies: number of occurrences of each argument in the formula
+    of generator/symbols. usage: the hint after a wrong call.
     """
 
     name: str
@@ -88,15 +88,13 @@ class Function:
     saturates: bool = False
     is_exponential: bool = False
     has_pole: bool = False
-    hides_corners: bool = False
+    hides_switching_points: bool = False
     divides: bool = False
     copies: int = 1
     usage: str = ""
 
     def format_call(self, *arguments: str) -> str:
-        """Return the call of the function with these argument texts as files write it; `where` has a `<` between the
-        first two.
-        """
+        """Return a call of the function as text: "hypot(a, b)"; of `where` with "<" between the first two arguments."""
         if self.units is Units.CHOICE:
             arguments = (" < ".join(arguments[:2]), *arguments[2:])
         return f"{self.name}({', '.join(arguments)})"
@@ -150,12 +148,12 @@ def mod(a: Any, b: Any) -> Any:
 
 
 _HALF_LINE, _UNIT = (0.0, math.inf), (-1.0, 1.0)
-_STEP = "smooth_step(t, start, duration) goes from 0 to 1"
+_STEP = "smooth_step(t, start, duration) increases from 0 to 1"
 # all functions, in the order of docs/format.md
 _TABLE = (
     Function("sin", "sine", derivative="cos(x)", has_vector_code=True, is_total=True),
     Function("cos", "cosine", derivative="-sin(x)", has_vector_code=True, is_total=True),
-    Function("tan", "tangent", derivative="1 + f**2", has_pole=True, hides_corners=True),
+    Function("tan", "tangent", derivative="1 + f**2", has_pole=True, hides_switching_points=True),
     Function(
         "asin",
         "arc sine, from −π/2 to π/2",
@@ -164,7 +162,7 @@ _TABLE = (
         domain=_UNIT,
         bounds=Rising(0.0),
         is_angle=True,
-        hides_corners=True,
+        hides_switching_points=True,
     ),
     Function(
         "acos",
@@ -173,7 +171,7 @@ _TABLE = (
         derivative="-1/sqrt(1 - x**2)",
         domain=_UNIT,
         is_angle=True,
-        hides_corners=True,
+        hides_switching_points=True,
     ),
     Function(
         "atan",
@@ -184,7 +182,7 @@ _TABLE = (
         is_total=True,
         is_angle=True,
         saturates=True,
-        hides_corners=True,
+        hides_switching_points=True,
     ),
     Function(
         "atan2",
@@ -195,7 +193,7 @@ _TABLE = (
         latex=r"\mathrm{atan2}",
         is_angle=True,
         saturates=True,
-        hides_corners=True,
+        hides_switching_points=True,
     ),
     Function("sinh", "hyperbolic sine", derivative="cosh(x)", bounds=Rising(0.0), is_total=True, is_exponential=True),
     Function("cosh", "hyperbolic cosine", derivative="sinh(x)", is_total=True, is_exponential=True),
@@ -225,7 +223,7 @@ _TABLE = (
         domain=(1.0, math.inf),
         bounds=Rising(),
         text="arcosh",
-        hides_corners=True,
+        hides_switching_points=True,
     ),
     Function(
         "atanh",
@@ -236,7 +234,7 @@ _TABLE = (
         bounds=Rising(0.0),
         text="artanh",
         has_pole=True,
-        hides_corners=True,
+        hides_switching_points=True,
     ),
     Function("exp", "eˣ", derivative="f", has_vector_code=True, saturates=True, is_exponential=True),
     Function(
@@ -246,10 +244,10 @@ _TABLE = (
         domain=_HALF_LINE,
         has_vector_code=True,
         has_pole=True,
-        hides_corners=True,
+        hides_switching_points=True,
     ),
-    Function("sqrt", "square root", units=Units.ROOT, sympy=None, domain=_HALF_LINE, hides_corners=True),
-    Function("hypot", "length of the vector (a, b)", ("a", "b"), Units.SAME, sympy=None, hides_corners=True),
+    Function("sqrt", "square root", units=Units.ROOT, sympy=None, domain=_HALF_LINE, hides_switching_points=True),
+    Function("hypot", "length of the vector (a, b)", ("a", "b"), Units.SAME, sympy=None, hides_switching_points=True),
     Function(
         "abs",
         "absolute value",
@@ -324,13 +322,13 @@ _TABLE = (
     ),
     Function(
         "where",
-        "`then` as long as the comparison (`<`, `<=`, `>` or `>=`) holds",
+        "`then` while the comparison (`<`, `<=`, `>` or `>=`) is true",
         ("a", "b", "then", "otherwise"),
         Units.CHOICE,
         sympy=None,
         compute=where,
         jump_order=0,
-        usage="where(t < 1 s, then, otherwise) is `then` as long as the comparison holds",
+        usage="where(t < 1 s, then, otherwise) is `then` while the comparison is true",
     ),
     Function(
         "mod",
@@ -342,7 +340,7 @@ _TABLE = (
         jump_order=0,
         divides=True,
         copies=2,
-        usage="mod(t, 1 s) begins anew each second",
+        usage="mod(t, 1 s) restarts at 0 each second",
     ),
 )
 # functions by the name that files use

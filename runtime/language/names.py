@@ -20,8 +20,8 @@ RESERVED: dict[str, str] = {
     "t": "it is time in expressions",
     "pi": "it is a number in expressions",
     "ground": "it is the frame",
-    "energy": "it heads names of results",
-    "work": "it heads names of results",
+    "energy": "names of results begin with it",
+    "work": "names of results begin with it",
 }
 # Words of YAML and Python that look like values or operators: not names in expressions.
 WORDS = frozenset(
@@ -40,7 +40,7 @@ def check_name(name: str, item_kind: str, location: Location | None) -> None:
     reason = RESERVED.get(name) if item_kind not in ("point", "mechanism") else None  # no expression has these alone
     if item_kind in ("parameter", "output", "curve", "expression"):  # the others stand in expressions with a dot only
         reason = "it is a function of expressions" if name in FUNCTIONS else reason
-        reason = "an expression takes it for no name" if name in WORDS else reason
+        reason = "it is not a name in expressions" if name in WORDS else reason
     if item_kind == "output" and name == "time":
         reason = "it is the axis of results"
     alternative = ""
@@ -72,7 +72,7 @@ def check_label(name: str, item_kind: str, location: Location | None) -> None:
     text.
 
     This is enough for items that no expression and no C identifier names alone: scenes, materials, bearings, contacts.
-    item_kind: of the item. location: for the error; None if there is no file.
+    item_kind: noun for the message, such as "scene". location: for the error; None if there is no file.
     """
     if not IDENTIFIER.fullmatch(name):
         hint = "expected a letter, then letters, digits or '_', in ASCII"
@@ -80,9 +80,10 @@ def check_label(name: str, item_kind: str, location: Location | None) -> None:
         if IDENTIFIER.fullmatch(plain) and len(plain) <= MAX_LENGTH:
             hint += f", such as {plain}"
         if "=" in name and IDENTIFIER.fullmatch(plain := name.partition("=")[0].strip()):
-            hint = f"a value stands behind a colon: {plain}:{name.partition('=')[2].partition('=')[0].rstrip()}"
+            hint = f"a value follows a colon: {plain}:{name.partition('=')[2].partition('=')[0].rstrip()}"
         hint = describe_lookalike(name) + hint
-        raise BadNameError(f"{name[:MAX_LENGTH]!r} cannot name this {item_kind}: it is no identifier", location, hint)
+        message = f"{name[:MAX_LENGTH]!r} cannot name this {item_kind}: it is not an identifier"
+        raise BadNameError(message, location, hint)
     check_not_null(name, f"this {item_kind}", location)
     if len(name) > MAX_LENGTH:
         raise BadNameError(
@@ -125,7 +126,7 @@ def describe_lookalike(name: str) -> str:
 def find_near_names(name: str, known_names: Iterable[str], max_names: int = 3, cutoff: float = 0.6) -> list[str]:
     """Return at most `max_names` known names that a mistyped `name` may stand for, the most similar first.
 
-    The beginning of a dotted address may be missing. cutoff: least similarity, 0 to 1.
+    The beginning of a dotted address may be missing. cutoff: smallest similarity, 0 to 1.
     """
     names_by_ending: dict[str, list[str]] = {}
     for candidate in sorted(known_names, key=lambda name: (name.count("."), name)):
@@ -175,5 +176,5 @@ def make_missing_name_error(message: str, name: str, known_names: tuple[str, ...
     if len(known_names) <= 12:
         return UnknownNameError(message, hint=f"there are: {', '.join(known_names)}")
     short, addresses = [n for n in known_names if "." not in n], [n for n in known_names if "." in n]
-    there = [*short[:20], "and addresses such as " * bool(short) + ", ".join(addresses[: 1 if short else 6])]
-    return UnknownNameError(message, hint=f"there are: {', '.join(there)}{'' if short else ' and more'}")
+    shown_names = [*short[:20], "and addresses such as " * bool(short) + ", ".join(addresses[: 1 if short else 6])]
+    return UnknownNameError(message, hint=f"there are: {', '.join(shown_names)}{'' if short else ' and more'}")

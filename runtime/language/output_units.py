@@ -96,7 +96,7 @@ def _derive_call_exponents(function: Function, arguments: list[Exponents | None]
 
 
 def _merge_exponents(a: Exponents | None, b: Exponents | None) -> Exponents | None:
-    """Return the exponents of a sum: those of a, or those of b if a is a bare number or without unit."""
+    """Return the exponents of a sum: those of a, or those of b if a is a bare number or dimensionless."""
     return b if a is None or (a == _PLAIN and b is not None) else a
 
 
@@ -131,9 +131,7 @@ def _format_exponents(exponents: Exponents) -> str:
 
 
 def find_angle_power(expression: Expr) -> int:
-    """Return the power of an angle unit in which a file's number is written: 1 for pi/6, 20 deg, 90 rpm; −1 per angle;
-    else 0.
-    """
+    """Return the power of angle units in an expression of a file: 1 for pi/6, 20 deg or 90 rpm, −1 for N*m/deg."""
     match expression:
         case Number(text=text, has_unit=has_unit):
             above, *below = text.removeprefix("pi").split("/") if has_unit else [""]

@@ -1,4 +1,4 @@
-"""Parse the expressions of a mechanism file into trees by operator precedence; they are never run as Python.
+"""Parse the expressions of a mechanism file into syntax trees by recursive descent; they are never run as Python.
 
     sum     = product {("+" | "-") product}
     product = signed {("*" | "/") signed}
@@ -7,8 +7,8 @@
     atom    = number [[" "] unit] | "pi" [" " unit] | name | function "(" sum {"," sum} ")" | curve "(" sum ")"
             | "where(" sum ("<" | "<=" | ">" | ">=") sum "," sum "," sum ")" | "(" sum ")"
 
-A unit follows a numeric literal after one space or none, `pi` after one (units.py). The tree holds SI numbers;
-`check_dimension` (dimension_check.py) says whether they fit together.
+A unit follows a numeric literal after one space or none, `pi` after one (units.py). The tree contains SI numbers;
+`check_dimension` (dimension_check.py) checks their dimensions.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from gudgeon.language.curves import Curve
 from gudgeon.language.dimension_check import check_dimension
 from gudgeon.language.functions import FUNCTIONS
 from gudgeon.language.names import find_nearest_name
-from gudgeon.language.tokens import COMPARED, NESTED, Token, Tokenizer, offset_location
+from gudgeon.language.tokens import COMPARISON_HINT, NESTED_WHERE_HINT, Token, Tokenizer, offset_location
 from gudgeon.language.tree import Binary, Call, CurveCall, Expr, Name, Unary
 from gudgeon.language.units import DIMENSIONLESS, find_unit
 
@@ -32,8 +32,8 @@ MAX_LENGTH = 50_000  # characters
 MAX_DEPTH = 50  # levels of brackets, calls, powers and signs
 MAX_TREE = 100  # levels of the tree, after long sums and products are balanced
 MAX_NODES = 10_000
-MAX_WRITTEN_OUT = 1000  # nodes more once functions are written out: nested smooth steps grow by powers
-COPIES = {function.name: function.copies for function in FUNCTIONS.values()}  # of its arguments in the formula
+MAX_EXPANDED_NODES = 1000  # additional nodes after expansion of functions: nested smooth steps grow exponentially
+ARGUMENT_COPIES = {function.name: function.copies for function in FUNCTIONS.values()}  # of its arguments in the formula
 Operand: TypeAlias = tuple[str, int, Expr]  # operator before it, its offset, the operand
 _COMPARISONS = ("<", "<=", ">", ">=")
 
@@ -57,7 +57,7 @@ def parse(
 
 
 class _Parser:
-    """Parse an expression by precedence climbing over its tokens, and count depth and nodes."""
+    """Recursive-descent parser of the tokens of an expression, which limits depth and number of nodes."""
 
     def __init__(self, tokens: Tokenizer, first: Token, curves: Mapping[str, Curve]) -> None:
         """Begin at the token `first`, which has been read from `tokens`; `curves` may be called by their names."""
@@ -80,7 +80,7 @@ class _Parser:
         return expr
 
     def suggest_decimal_point(self) -> str:
-        """Return a hint if the present token is the decimal comma of a number such as 0,3; else ""."""
+        """Return a hint if the current token is the decimal comma of a number such as 0,3; else ""."""
         text, at_comma = self.tokens.text, self.token.offset
         before, after = re.search(r"[0-9]+$", text[:at_comma]), re.match(r"[0-9]+", text[at_comma + 1 :])
         is_decimal = self.token.text == "," and before and after
@@ -91,7 +91,7 @@ class _Parser:
         raise ExpressionError(message, offset_location(self.where, offset), hint)
 
     def advance(self) -> Token:
-        """Return the present token and read the next one."""
+        """Return the current token and read the next one."""
         token, self.token = self.token, self.tokens.read_token()
         return token
 
@@ -102,25 +102,25 @@ class _Parser:
         """
         depth = 1 + max((self.depths[id(child)] for child in children), default=0)
         self.depths[id(expr)] = depth
-        node_count = 1 + sum(self.node_counts[id(child)] for child in children) * COPIES.get(
+        node_count = 1 + sum(self.node_counts[id(child)] for child in children) * ARGUMENT_COPIES.get(
             getattr(expr, "function", ""), 1
         )
         self.node_counts[id(expr)] = node_count
         self.registered.append(expr)
         self.check_depth(depth, expr.offset, MAX_TREE)
-        if len(self.registered) > MAX_NODES or node_count > len(self.registered) + MAX_WRITTEN_OUT:
-            hint = f"expected at most {MAX_NODES}; smooth steps count six more each, in each other by powers of three"
+        if len(self.registered) > MAX_NODES or node_count > len(self.registered) + MAX_EXPANDED_NODES:
+            hint = f"expected at most {MAX_NODES}; a smooth step counts six more, nested ones three times as many each"
             raise LimitError("an expression of too many parts", offset_location(self.where, expr.offset), hint)
         return expr
 
     def check_depth(self, depth: int, offset: int, max_depth: int = MAX_DEPTH) -> None:
         """Raise LimitError at an offset of the text if `depth` exceeds `max_depth` levels."""
         if depth > max_depth:
-            hint = f"expected at most {max_depth} levels; name a part of it, as a parameter or in expressions:"
+            hint = f"expected at most {max_depth} levels; define a part as a parameter or in expressions:"
             raise LimitError("an expression nested too deeply", offset_location(self.where, offset), hint)
 
     def parse_sum(self, level: int) -> Expr:
-        """Return the tree of a sum of products that begins at the present token; `level`: depth of nesting."""
+        """Return the tree of a sum of products that begins at the current token; `level`: depth of nesting."""
         return self.parse_operator_chain(("+", "-"), level)
 
     def parse_operator_chain(self, operators: tuple[str, str], level: int) -> Expr:
@@ -177,7 +177,7 @@ class _Parser:
         """Raise ExpressionError for a division by a number with an angle unit, such as `pi/4 deg`, which means pi/(4
         deg).
 
-        operator: the token before the present one. No dimension check could find that 45 deg was meant.
+        operator: the token before the current one. No dimension check could detect that 45 deg was meant.
         """
         number = self.token.number
         if operator.text != "/" or number is None or not number.has_unit:
@@ -189,7 +189,10 @@ class _Parser:
             self.raise_error(f"a division by {self.token.text} can mean two things", self.token.offset, hint)
 
     def parse_signed(self, level: int) -> Expr:
-        """Return the tree of an operand with its signs and an optional power, which binds tighter than a sign."""
+        """Return the tree of an operand with its signs and an optional power, which binds tighter than a sign.
+
+        level: depth of nesting, here and in the next methods.
+        """
         self.check_depth(level, self.token.offset)
         if self.token.kind == "operator" and self.token.text in ("-", "+"):
             sign = self.advance()
@@ -214,9 +217,11 @@ class _Parser:
             self.advance()
             return self.parse_name(token, level)
         if token.text != "(":
-            what = f"got {token}" if token.text or token.offset else "got nothing"
+            found_text = f"got {token}" if token.text or token.offset else "got nothing"
             self.raise_error(
-                f"expected a number, a name or '(', {what}", token.offset, "an expression such as 80 mm or 2*pi * t"
+                f"expected a number, a name or '(', {found_text}",
+                token.offset,
+                "an expression such as 80 mm or 2*pi * t",
             )
         self.advance()
         inner = self.parse_sum(level + 1)
@@ -231,8 +236,8 @@ class _Parser:
         self.advance()
 
     def suggest_comparison(self) -> str:
-        """Return a hint if the present token is a comparison operator, which only `where` allows; else ""."""
-        return COMPARED if self.token.text in _COMPARISONS else ""
+        """Return a hint if the current token is a comparison operator, which only `where` allows; else ""."""
+        return COMPARISON_HINT if self.token.text in _COMPARISONS else ""
 
     def parse_name(self, token: Token, level: int) -> Expr:
         """Return the tree of a name, or of the call of a function or curve; `token` is the name.
@@ -247,8 +252,8 @@ class _Parser:
                 self.raise_error(f"unknown function {token.text!r}", token.offset, hint)
             return self.register_node(Name(token.text, token.offset))
         if not is_call:
-            what = "curve" if token.text in self.curves else "function"
-            self.raise_error(f"{token.text!r} is a {what}", token.offset, f"expected {token.text}(…)")
+            kind = "curve" if token.text in self.curves else "function"
+            self.raise_error(f"{token.text!r} is a {kind}", token.offset, f"expected {token.text}(…)")
         arguments = self.parse_arguments(token, level + 1)
         call = Call(token.text, arguments, token.offset)
         if token.text in self.curves:
@@ -272,7 +277,7 @@ class _Parser:
             self.advance()
             others.append(self.parse_sum(level))
             if self.token.text in _COMPARISONS:
-                self.raise_error(f"expected ',', got {self.token}", self.token.offset, NESTED)
+                self.raise_error(f"expected ',', got {self.token}", self.token.offset, NESTED_WHERE_HINT)
         while self.token.text == ",":
             self.advance()
             others.append(self.parse_sum(level))
@@ -287,9 +292,9 @@ class _Parser:
 
 
 def _order_where_arguments(left: Expr, operator: str, right: Expr, then: Expr, otherwise: Expr) -> tuple[Expr, ...]:
-    """Return the arguments of `where` in the order that the operator `<` requires.
+    """Return the arguments of `where` as for the operator `<`: `a > b` becomes `b < a`, `a >= b` exchanges the values.
 
-    left, right: compared values. then, otherwise: values if the comparison holds or not.
+    left, right: compared values. then, otherwise: values if the comparison is true or not.
     """
-    suggest_comparison = (left, right) if operator in ("<", ">=") else (right, left)
-    return (*suggest_comparison, then, otherwise) if operator in ("<", ">") else (*suggest_comparison, otherwise, then)
+    compared_values = (left, right) if operator in ("<", ">=") else (right, left)
+    return (*compared_values, then, otherwise) if operator in ("<", ">") else (*compared_values, otherwise, then)

@@ -11,9 +11,9 @@ _SUPERSCRIPTS = str.maketrans("0123456789-./", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻·
 
 
 def choose_prefix(magnitude: float, unit: str) -> tuple[float, str]:
-    """Return factor and unit text with an SI prefix such that a number of this size times the factor is easy to read.
+    """Return factor and unit text with an SI prefix such that magnitude · factor is from 0.1 to 100: (1e3, "mm").
 
-    Between 0.1 and 3000 the unit stays as it is; also for zero, NaN, infinity and units without prefixes.
+    The factor is 1 from 0.1 to 3000, for zero, NaN and infinity, and for units that cannot have a prefix.
     """
     if not math.isfinite(magnitude) or magnitude == 0 or 0.1 <= abs(magnitude) < 3000 or not _PREFIXABLE.match(unit):
         return 1.0, format_unit(unit)
@@ -53,9 +53,7 @@ def format_quantity(value: float, unit: str, digits: int = 4) -> str:
 
 
 def format_distinct_numbers(value: float, other_value: float, digits: int = 4) -> tuple[str, str]:
-    """Return two numbers as texts with at least `digits` digits, and up to 17 so that different numbers have different
-    texts.
-    """
+    """Return two numbers as texts with the fewest digits, `digits` to 17, by which different numbers differ."""
     while digits < 17 and value != other_value and f"{value:.{digits}g}" == f"{other_value:.{digits}g}":
         digits += 1
     return f"{value:.{digits}g}", f"{other_value:.{digits}g}"

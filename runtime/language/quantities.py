@@ -27,15 +27,16 @@ def parse_quantity(text: str, address: str, exponents: Sequence[float]) -> float
         expr = parse(value, where)
         name = next(iterate_names(expr), None)
         if name is not None:
-            hint = "expected a number such as '0.5 mm'; what follows other parameters is written in the file"
-            raise UnknownNameError(f"{text!r} holds the name {name.path!r}", offset_location(where, name.offset), hint)
+            hint = "expected a number such as '0.5 mm'; expressions of other parameters are written in the file"
+            location = offset_location(where, name.offset)
+            raise UnknownNameError(f"{text!r} contains the name {name.path!r}", location, hint)
         check_dimension(expr, expected, lambda path: None, where)
         return float(evaluate(expr, lambda path: None))
 
     try:
         with add_unit_hints(text.strip(), where, parse_text, expected):
             return parse_text(text.strip())
-    except UnknownNameError as error:  # a number has no names: it is the value that is wrong
+    except UnknownNameError as error:  # a name makes the value invalid
         raise BadValueError(error.message, where, error.hint) from None
 
 

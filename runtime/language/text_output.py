@@ -13,9 +13,9 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from rich.console import Console
 
-LONGEST = 240  # largest number of characters of a title that is shown
-FORMULAS = ("=", "+", "-", "@")  # first characters for which a spreadsheet computes a cell
-JOINERS = "\u200c\u200d"  # joiners within letters and emoji: text, though invisible
+MAX_TITLE = 240  # characters of a title that are shown
+FORMULA_SIGNS = ("=", "+", "-", "@")  # first characters of cells that a spreadsheet evaluates
+JOINERS = "\u200c\u200d"  # invisible joiners within words and emoji, which are not escaped
 
 
 def escape_invisible(text: object) -> str:
@@ -41,12 +41,12 @@ def format_path(path: object) -> str:
 
 
 def format_one_line(text: str) -> str:
-    """Return a title as visible text on one line, shortened to LONGEST characters with "…"."""
+    """Return a title as visible text on one line, shortened to MAX_TITLE characters with "…"."""
     text = _escape_line(text)
-    return text if len(text) <= LONGEST else f"{text[: LONGEST - 1]}…"
+    return text if len(text) <= MAX_TITLE else f"{text[: MAX_TITLE - 1]}…"
 
 
-def format_figure_title(text: str, width: int = LONGEST) -> str:
+def format_figure_title(text: str, width: int = MAX_TITLE) -> str:
     """Return a title for matplotlib, wrapped to lines of `width` characters; $ is escaped, so that it begins no
     formula.
     """
@@ -54,14 +54,14 @@ def format_figure_title(text: str, width: int = LONGEST) -> str:
 
 
 def escape_for_spreadsheet(value: Any) -> Any:
-    """Return a value for a cell of a CSV file: a text that a spreadsheet would compute gets an apostrophe.
+    """Return a value for a cell of a CSV file: a text that a spreadsheet would evaluate gets an apostrophe before it.
 
-    Control characters of texts are escaped. Numbers, and texts that are numbers, stay as they are.
+    Control characters of texts are escaped. Numbers, and texts that are numbers, are returned unchanged.
     """
     if not isinstance(value, str):
         return value
     text = escape_invisible(value)
-    if not text.startswith(FORMULAS):
+    if not text.startswith(FORMULA_SIGNS):
         return text
     try:
         float(text)

@@ -32,36 +32,36 @@ _POWER = re.compile(  # the first power in a unit that is not as units.py reads 
 )
 _BRACKETED = re.compile(r"\(([^()]*)\) *\^")
 _NEGATIVE = re.compile(r"(-[1-9])(?:[*/ ][A-Za-z]+(?:\^?-?[1-9])?)*")  # after `3 s`: the power of `3 s-1`
-COMPARED = "two values are compared in where(a < b, then, otherwise) alone, by <, <=, > or >="
-NESTED = "one where has one comparison; a < b and c < d is where(a < b, where(c < d, x, y), y)"
-_EITHER = "one where has one comparison; a < b or c < d is where(a < b, x, where(c < d, x, y))"
-_PICKED = "one of two values is where(a < b, then, otherwise)"
+COMPARISON_HINT = "comparisons (<, <=, >, >=) are allowed only in where(a < b, then, otherwise)"
+NESTED_WHERE_HINT = "a where has one comparison; write a < b and c < d as where(a < b, where(c < d, x, y), y)"
+_EITHER_HINT = "a where has one comparison; write a < b or c < d as where(a < b, x, where(c < d, x, y))"
+_CHOICE_HINT = "a conditional value is written where(a < b, then, otherwise)"
 # hints by character or word that expressions do not allow
-_ADVICE = {
+_CHARACTER_HINTS = {
     "^": "a power is written with **",
-    "%": "a share is written as a number, 90 % as 0.9; a remainder as mod(a, b)",
-    "=": COMPARED,
-    "!": COMPARED,
-    "[": "there are no subscripts",
-    "]": "there are no subscripts",
-    "'": "there are no strings",
-    '"': "there are no strings",
+    "%": "a percentage is written as a number, 90 % as 0.9; a remainder as mod(a, b)",
+    "=": COMPARISON_HINT,
+    "!": COMPARISON_HINT,
+    "[": "expressions have no subscripts",
+    "]": "expressions have no subscripts",
+    "'": "expressions have no strings",
+    '"': "expressions have no strings",
     "\t": "write a space, not a tab",
     "\u00b7": "write '*'",
     "\u00d7": "write '*'",
     "\u00b0": "write deg after a space",
-    "{": "there are no braces",
-    ";": "one expression only",
-    ":": "there is no ':' in an expression",
-    ".": "a name continues with a letter after '.'; .nan and .inf are no numbers here",
-    "&": NESTED,
-    "|": _EITHER,
-    "and": NESTED,
-    "or": _EITHER,
-    "if": _PICKED,
-    "else": _PICKED,
-    "?": _PICKED,
-    "not": "the opposite of a < b is a >= b, or where with its two values exchanged",
+    "{": "expressions have no braces",
+    ";": "only one expression is allowed",
+    ":": "expressions have no ':'",
+    ".": "a name continues with a letter after '.'; .nan and .inf are not allowed",
+    "&": NESTED_WHERE_HINT,
+    "|": _EITHER_HINT,
+    "and": NESTED_WHERE_HINT,
+    "or": _EITHER_HINT,
+    "if": _CHOICE_HINT,
+    "else": _CHOICE_HINT,
+    "?": _CHOICE_HINT,
+    "not": "write a >= b for not a < b, or exchange the two values of where",
     "\u2264": "write '<='",
     "\u2265": "write '>='",
     "\u00b2": "a power is written with **: x**2",
@@ -76,7 +76,7 @@ def offset_location(location: Location, offset: int) -> Location:
 
 @dataclass(frozen=True)
 class Token:
-    """Hold a token with its position in the text."""
+    """A token of an expression with its position in the text."""
 
     kind: str  # "number", "name", "operator" or "end"
     text: str
@@ -118,7 +118,7 @@ class Tokenizer:
         match = _TOKEN.match(text, start)
         if match is None:
             character = text[start]
-            hint = _ADVICE.get(character) or suggest_replacement(character)
+            hint = _CHARACTER_HINTS.get(character) or suggest_replacement(character)
             self.raise_error(f"unexpected character {format_character(character)}", start, hint)
         self.position = match.end()
         kind = str(match.lastgroup)
@@ -129,7 +129,7 @@ class Tokenizer:
         return Token(kind, match[0], start)
 
     def is_at_end(self) -> bool:
-        """Return whether no token is left."""
+        """Return whether only spaces follow the last token that was read."""
         return not self.text[self.position :].strip(" ")
 
     def _check_name(self, name: str, start: int) -> None:
@@ -138,13 +138,13 @@ class Tokenizer:
         start: offset of the name in the text.
         """
         if name in WORDS:
-            hint = _ADVICE.get(name, "expected a number, a name or an expression")
-            self.raise_error(f"{name!r} is no number", start, hint)
+            hint = _CHARACTER_HINTS.get(name, "expected a number, a name or an expression")
+            self.raise_error(f"{name!r} is not a number", start, hint)
         offset = start
         for part in name.split("."):
             if part.startswith("_") or "__" in part:
                 self.raise_error(
-                    f"{part!r} is no name", offset, "attributes of Python objects cannot be reached from here"
+                    f"{part!r} is not a valid name", offset, "attributes of Python objects are not accessible"
                 )
             offset += len(part) + 1
 
@@ -194,7 +194,7 @@ class Tokenizer:
             hint = f"write {literal}*pi" if word and word[0] == "pi" else hint
             if sign := re.match(r"[eE]([^\x00-\x7f])[0-9]", self.text[self.position :]):
                 hint = f"{format_character(sign[1])} is not a sign of an exponent: {suggest_replacement(sign[1])}"
-            self.raise_error(f"{next_character!r} right behind the number {literal}", self.position, hint)
+            self.raise_error(f"{next_character!r} directly after the number {literal}", self.position, hint)
         _, _, exponent = literal.lower().partition("e")
         if exponent and (len(exponent) > 5 or abs(int(exponent)) > _MAX_EXPONENT):
             self.raise_error(f"{literal!r} is out of range", start, IN_RANGE)
@@ -219,7 +219,7 @@ class Tokenizer:
                 written, power = text[start:after], re.match(r" *\*\* *(\(-?[1-9]/2\)|-?[0-9.]+)", text[after:])
                 power_text = power[1] if power and find_unit(f"m^{power[1]}") else "2"
                 hint = f"a power of the unit is {written}^{power_text}, of the quantity ({written})**{power_text}"
-                self.raise_error(f"a power behind {written!r} can mean two things", after, hint)
+                self.raise_error(f"a power after {written!r} can mean two things", after, hint)
             if start == 0 and (power := _NEGATIVE.fullmatch(text, after)):
                 written = text[:after]
                 hint = f"write {written}^{power[1]} for the power, {written} - {power[1][1:]} for the difference"

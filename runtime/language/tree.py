@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Number:
-    """Hold a number in SI; `text` is as the user wrote it ("80 mm"), `has_unit` whether a unit was given."""
+    """A number in SI; `text` is that of the file ("80 mm"), `has_unit` whether a unit was given."""
 
     value: float
     text: str = ""
@@ -30,7 +30,7 @@ class Number:
 
 @dataclass(frozen=True)
 class Name:
-    """Hold a name: a parameter, `t`, or the dotted name of a result ("S9.y", "A.F")."""
+    """A name: a parameter, `t`, or the dotted name of a result ("S9.y", "A.F")."""
 
     path: str
     offset: int = 0
@@ -38,7 +38,7 @@ class Name:
 
 @dataclass(frozen=True)
 class Unary:
-    """Hold a negated expression."""
+    """A negated expression."""
 
     operator: str  # "-" (a leading "+" is dropped by the parser)
     operand: Expr
@@ -47,7 +47,7 @@ class Unary:
 
 @dataclass(frozen=True)
 class Binary:
-    """Hold two operands with the operator between them."""
+    """A binary operation: two operands with the operator between them."""
 
     operator: str  # + - * / **
     left: Expr
@@ -57,7 +57,7 @@ class Binary:
 
 @dataclass(frozen=True)
 class Call:
-    """Hold the call of a function."""
+    """The call of a function."""
 
     function: str
     arguments: tuple[Expr, ...]
@@ -66,7 +66,7 @@ class Call:
 
 @dataclass(frozen=True)
 class CurveCall(Call):
-    """Hold the call of a curve of the file at its one argument; `function` is the curve's name."""
+    """The call of a curve of the file with its one argument; `function` is the curve's name."""
 
     curve: Curve = field(kw_only=True)
 
@@ -96,7 +96,7 @@ def evaluate(expr: Expr, get_value: Callable[[str], Any]) -> Any:
 
 
 def _evaluate(expr: Expr, get_value: Callable[[str], Any]) -> Any:
-    """Return the value of an expression for `evaluate`; undefined operations warn as NumPy is set."""
+    """Return the value of an expression recursively for `evaluate`, with the current error state of NumPy."""
     match expr:
         case Number(value=value):
             return np.float64(value)
@@ -144,9 +144,9 @@ def iterate_units(expr: Expr) -> Iterator[str]:
 
 
 def replace_names(expr: Expr, replacements: Mapping[str, Expr]) -> Expr:
-    """Return a copy of an expression with trees in place of names; `replacements` has the tree of each name.
+    """Return a copy of an expression in which the names in `replacements` are replaced by their trees.
 
-    Names without a tree stay. The same object is used wherever a name occurs.
+    Other names remain. All occurrences of a name share one tree object.
     """
     match expr:
         case Name():
@@ -176,9 +176,9 @@ def iterate_calls(expr: Expr, function: str = "") -> Iterator[Call]:
 
 
 def iterate_active_calls(expr: Expr, function: str, get_value: Callable[[str], Any]) -> Iterator[Call]:
-    """Yield the calls of one function on which the present value of an expression depends.
+    """Yield the calls of one function on which the current value of an expression depends.
 
-    Only active branches of `where` are searched, both at equality. get_value(path): value of a name.
+    Only the active branch of each `where` is searched, both at equality. get_value(path): value of a name.
     """
     match expr:
         case Unary(operand=operand):
@@ -218,7 +218,10 @@ def list_functions(expr: Expr) -> set[str]:
 
 
 def to_json(expr: Expr) -> Any:
-    """Return an expression as nested lists, texts and numbers, which `from_json` reads."""
+    """Return an expression as nested lists for JSON, which `from_json` reads: ["+", "c", ["sin", "t"]] for c + sin(t).
+
+    Units and texts of numbers are dropped.
+    """
     match expr:
         case Number(value=value):
             return float(value)

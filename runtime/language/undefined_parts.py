@@ -19,7 +19,7 @@ DIVIDING = select_function_names(lambda f: f.divides)  # functions that divide b
 
 
 def is_total_expression(expr: Expr) -> bool:
-    """Return whether no part of an expression can be undefined: only sums, products, and functions of every number."""
+    """Return whether no part of an expression can be undefined: it has only sums, products and total functions."""
     match expr:
         case Unary(operand=operand):
             return is_total_expression(operand)
@@ -31,9 +31,10 @@ def is_total_expression(expr: Expr) -> bool:
 
 
 def find_undefined_part(expr: Expr, known_values: Mapping[str, float]) -> float | None:
-    """Return the value (NaN or infinite) of the first undefined part of an expression that needs only known names.
+    """Return the value (NaN or infinite) of the first non-finite part of an expression that needs only known names.
 
-    None if all such parts are finite. known_values: values by name.
+    None if all such parts are finite. Parts of inactive branches of `where` with parameters are not checked.
+    known_values: values by name.
     """
     parts = (
         inner
@@ -45,11 +46,10 @@ def find_undefined_part(expr: Expr, known_values: Mapping[str, float]) -> float 
 
 
 def _iterate_masked_parts(expr: Expr, known_values: Mapping[str, float]) -> Iterator[Expr]:
-    """Yield the parts of a constant expression whose infinity or NaN its value may hide: arguments, divisors,
-    exponents.
+    """Yield the parts of a constant expression whose infinity or NaN may not show in its value.
 
-    A divisor within a function is yielded as 1 over it. Of the inactive branch of a `where`, only parts without any
-    parameter are included.
+    They are divisors, bases, exponents and arguments; the divisor of a function is yielded as 1 over it. Of the
+    inactive branch of a `where`, only parts without any parameter are included.
     """
     match expr:
         case Unary(operand=operand):
@@ -60,10 +60,10 @@ def _iterate_masked_parts(expr: Expr, known_values: Mapping[str, float]) -> Iter
             yield from _iterate_masked_parts(right, known_values)
         case Call(function=function, arguments=arguments):
             if function == "where":
-                less, more, then, otherwise = arguments
-                is_less = evaluate(less, known_values.__getitem__) < evaluate(more, known_values.__getitem__)
+                lower, greater, then, otherwise = arguments
+                is_less = evaluate(lower, known_values.__getitem__) < evaluate(greater, known_values.__getitem__)
                 selected, other = (then, otherwise) if is_less else (otherwise, then)
-                arguments = (less, more, selected, *_iterate_constant_parts(other, {}))
+                arguments = (lower, greater, selected, *_iterate_constant_parts(other, {}))
             yield from arguments
             if function in DIVIDING:
                 yield Binary("/", Number(1.0), arguments[-1])
@@ -72,7 +72,7 @@ def _iterate_masked_parts(expr: Expr, known_values: Mapping[str, float]) -> Iter
 
 
 def _iterate_constant_parts(expr: Expr, known_names: Container[str]) -> Iterator[Expr]:
-    """Yield the largest parts of an expression that depend on `known_names` names alone; a divisor as 1 over it."""
+    """Yield the maximal parts of an expression that depend only on `known_names`; a divisor as 1 over it."""
     if all(name.path in known_names for name in iterate_names(expr)):
         yield expr
         return
@@ -91,10 +91,10 @@ def _iterate_constant_parts(expr: Expr, known_names: Container[str]) -> Iterator
 
 
 def find_possibly_undefined_cases(expr: Expr, known_values: Mapping[str, NDArray[np.float64]]) -> NDArray[np.bool_]:
-    """Return for each of n cases whether a part of the expression may not be finite, (n,).
+    """Return for each of n cases whether a part of the expression may be NaN or infinite, (n,).
 
-    known_values: values (n,) by name. The inactive branch of a `where` is included, so that `find_undefined_part` must
-    decide.
+    known_values: values (n,) by name. It is a fast necessary condition: inactive branches of `where` are included, so
+    that `find_undefined_part` must decide.
     """
     parts = (inner for part in _iterate_constant_parts(expr, known_values) for inner in (part, *_iterate_parts(part)))
     undefined = np.zeros(next(iter(known_values.values())).shape, dtype=bool)

@@ -1,7 +1,7 @@
-"""Propose what to write in place of a unit that the format lacks: `3 km/(60 min)` for `3 km/h`, `2*pi` for `2pi`.
+"""Suggest corrections of invalid units: `3 km/(60 min)` for `3 km/h`, `2*pi` for `2pi`.
 
-The text after a number is read as factors, each a symbol with a power. Symbols of other unit systems are replaced by
-units of the list (units.py). Each proposal is tried before it is made: the resulting value must be accepted there.
+The text after a number is parsed as factors, each a symbol with a power. Symbols of other unit systems are replaced by
+units of the list (units.py). A correction is suggested only if the resulting value is accepted.
 """
 
 from __future__ import annotations
@@ -104,7 +104,7 @@ _POWERS = tuple(Fraction(n, 2) for n in (4, 6, 2, 8, 3, 1, -2, -4, *range(10, 19
 
 @dataclass(frozen=True)
 class _Factor:
-    """Hold a unit symbol with its power, None if that is not a number.
+    """A unit symbol with its power, None if that is not a number.
 
     `either`: the power may have the other sign, as m in `N/s m`.
     """
@@ -116,7 +116,7 @@ class _Factor:
 
 @dataclass(frozen=True)
 class _Quantity:
-    """Hold a number and the text that is meant as its unit: text[begin:end], the unit from `unit_at` on."""
+    """A number and the text of its (invalid) unit: text[begin:end], the unit from `unit_at` on."""
 
     begin: int
     unit_at: int
@@ -133,16 +133,16 @@ def add_unit_hints(
     expected: Dimension | None,
     names: Container[str] = (),
 ) -> Iterator[None]:
-    """Add a hint to errors raised inside the context: what to write in place of a wrong unit.
+    """Add to errors raised inside the context a hint with the correction of an invalid unit.
 
     text: the whole value, whose first character is at `location`. check_value(other): raises InputError unless the text
-    `other` may replace it. expected: dimension of the value, None if any. names: parameters and expressions of the
-    file. Errors that are not about a unit stay as they are.
+    `other` is a valid value. expected: dimension of the value, None if any. names: parameters and expressions of the
+    file. Errors without a correction are raised unchanged; errors with equal hints are combined into one.
     """
     try:
         yield
     except (UnitError, ExpressionError, UnknownNameError, InputErrors) as caught:
-        mended = dict[str, InputError]()  # by the hint, which may be one for several names
+        mended = dict[str, InputError]()  # by hint: several errors may have the same correction
         for error in caught.errors if isinstance(caught, InputErrors) else [caught]:
             hint = _find_remedy(error, text, location, check_value, expected, names)
             mended.setdefault(hint or str(error), type(error)(error.message, error.where, hint) if hint else error)
@@ -157,10 +157,10 @@ def _find_remedy(
     expected: Dimension | None,
     names: Container[str],
 ) -> str:
-    """Return the hint for one error; "" if there is no unit at its location, or no proposal is accepted.
+    """Return the hint for one error: an accepted correction, a similar unit, or units of the expected dimension.
 
-    Other arguments are those of `add_unit_hints`. Without a proposal, the hint may list units that fit the expected
-    dimension.
+    "" if there is no quantity at its location, or if the text is longer than _MAX_LENGTH. Other arguments are those of
+    `add_unit_hints`.
     """
     error_location = error.where
     if (
@@ -169,13 +169,13 @@ def _find_remedy(
         or len(text) > _MAX_LENGTH
     ):
         return ""
-    found = _find_quantity(text, error_location.column - location.column, names)
-    if found is None:
+    quantity = _find_quantity(text, error_location.column - location.column, names)
+    if quantity is None:
         return ""
 
     def list_accepted_proposals(proposals: Iterable[str], max_count: int) -> list[str]:
-        """Return the first `max_count` proposals that are accepted in place of the quantity, without repetitions."""
-        before, after = text[: found.begin], text[found.end :]
+        """Return the first `max_count` proposals that give a valid value in place of the quantity, each once."""
+        before, after = text[: quantity.begin], text[quantity.end :]
         divides = before.rstrip().endswith(("/", "**"))
         bracketed = (
             f"({proposal})" if divides and re.search(r"[*(]", proposal) else proposal for proposal in proposals
@@ -187,17 +187,17 @@ def _find_remedy(
         )
         return list(itertools.islice(dict.fromkeys(fitting), max_count))
 
-    written = text[found.begin : found.end]
-    for proposals, most in _iterate_proposals(text, found, names, expected):
-        if shown := list_accepted_proposals(proposals, most):
+    written = text[quantity.begin : quantity.end]
+    for proposals, max_shown in _iterate_proposals(text, quantity, names, expected):
+        if shown := list_accepted_proposals(proposals, max_shown):
             differ = ": they differ by 2*pi" if any("rev" in proposal for proposal in shown) and shown[1:] else ""
             return f"write {' or '.join(shown)}{differ}"
-    guess = find_nearest_name(text[found.unit_at : found.end], UNITS, 0.6) if not found.factors else None
-    if guess and list_accepted_proposals([f"{found.number} {guess}"], 1):
-        return f"did you mean {guess if text[: found.unit_at].endswith(' ') else f'{found.number} {guess}'!r}?"
+    guess = find_nearest_name(text[quantity.unit_at : quantity.end], UNITS, 0.6) if not quantity.factors else None
+    if guess and list_accepted_proposals([f"{quantity.number} {guess}"], 1):
+        return f"did you mean {guess if text[: quantity.unit_at].endswith(' ') else f'{quantity.number} {guess}'!r}?"
     if expected is not None:
-        listed = list_accepted_proposals((f"{found.number} {proposal}" for proposal in UNITS), _MAX_LISTED)
-        if units := ", ".join(proposal.removeprefix(f"{found.number} ") for proposal in listed):
+        listed = list_accepted_proposals((f"{quantity.number} {proposal}" for proposal in UNITS), _MAX_LISTED)
+        if units := ", ".join(proposal.removeprefix(f"{quantity.number} ") for proposal in listed):
             return f"units that fit here: {units}"
     if re.match("did you mean|write|.* is written|a power of", error.hint):  # it was not tried, and does not fit
         return f"expected {describe_dimension(expected)}" if expected else f"units are {', '.join([*UNITS][:12])}, …"
@@ -207,7 +207,7 @@ def _find_remedy(
 def _is_accepted(
     check_value: Callable[[str], object], text_before: str, proposal: str, text_after: str, location: Location
 ) -> bool:
-    """Return whether the value with this proposal is accepted, or is wrong only in the unit of a later number.
+    """Return whether the value with this proposal is valid, or invalid only in the unit of a later number.
 
     text_before, text_after: text around the proposal. location: of the value.
     """
@@ -243,9 +243,9 @@ def _find_quantity(text: str, offset: int, names: Container[str]) -> _Quantity |
 def _parse_factors(text: str, position: int, is_divided: bool, names: Container[str]) -> tuple[list[_Factor], int]:
     """Return the factors of a unit text from `position` on, such as `kg*m/s^2`, and the offset where they end.
 
-    is_divided: whether a division precedes the first. names: of the file, which end the unit after an operator. Reading
-    stops at the first symbol without a meaning. Powers include the sign of divisions and the power of parentheses;
-    None: a power that cannot be read. A speed such as km/h written as one symbol gives two factors.
+    is_divided: whether a division precedes the first. names: of the file, which end the unit after an operator. Parsing
+    stops at the first unknown symbol. Powers include the sign of divisions and the power of parentheses; None: an
+    invalid power. The symbols kph and kmh give two factors.
     """
     factors, end, below, between = list[_Factor](), position, is_divided, ""
     while True:
@@ -296,38 +296,40 @@ def _parse_power(text: str | None) -> Fraction | None:
 
 
 def _list_unit_meanings(symbol: str) -> list[tuple[Decimal, str]]:
-    """Return the possible meanings of a unit symbol, each a number and a unit of the list; empty for an unknown one.
+    """Return the possible meanings of a unit symbol, each a number and a unit of the list; [] for an unknown one.
 
-    Tried in turn: the list, other unit systems, SI prefixes, and other capitals.
+    The first of these that knows the symbol decides: the list, other unit systems, SI prefixes, other capitals. For
+    example "hour" gives [(60, "min")].
     """
     if find_symbol_dimension(symbol):
         return [(Decimal(1), symbol)]
     if symbol in _OTHER_UNITS:
         return [(Decimal(candidate.split()[0]), candidate.split()[1]) for candidate in _OTHER_UNITS[symbol]]
     for prefix in ("da", symbol[:1]):
-        rest = symbol.removeprefix(prefix)
-        if prefix in _PREFIXES and rest != symbol and rest in _PREFIXED:
-            if find_symbol_dimension(plain := prefix.translate(_PLAIN) + rest):
-                return [(Decimal(1), plain)]
-            return [(Decimal(_PREFIXES[prefix]) * number, unit) for number, unit in _list_unit_meanings(rest)]
+        base_symbol = symbol.removeprefix(prefix)
+        if prefix in _PREFIXES and base_symbol != symbol and base_symbol in _PREFIXED:
+            if find_symbol_dimension(listed_symbol := prefix.translate(_PLAIN) + base_symbol):
+                return [(Decimal(1), listed_symbol)]
+            return [(Decimal(_PREFIXES[prefix]) * number, unit) for number, unit in _list_unit_meanings(base_symbol)]
     candidates = [
         candidate for candidate in (*UNITS, *_OTHER_UNITS) if candidate.lower() == symbol.lower() and len(symbol) > 1
     ]
     differences = {candidate: sum(a != b for a, b in zip(candidate, symbol, strict=True)) for candidate in candidates}
     return [
-        meant
+        meaning
         for candidate in candidates
         if differences[candidate] == min(differences.values())
-        for meant in _list_unit_meanings(candidate)
+        for meaning in _list_unit_meanings(candidate)
     ]
 
 
 def _iterate_proposals(
     text: str, quantity: _Quantity, names: Container[str], expected: Dimension | None
 ) -> Iterator[tuple[Iterator[str], int]]:
-    """Yield groups of proposals for a quantity, the likeliest first, each with the number of its proposals to show.
+    """Yield groups of corrections for a quantity, the likeliest first, each with the number of corrections to show.
 
-    text: the value that contains the quantity. names: of the file. expected: dimension of the value, None if any.
+    They are listed units and products, a difference (3 - 1 for 3-1), a product with a name, and other powers. text: the
+    value that contains the quantity. names: of the file. expected: dimension of the value, None if any.
     """
     word, written = _WORD.match(text, quantity.unit_at), text[quantity.begin : quantity.end]
     product = f"{quantity.number}*{text[quantity.unit_at : quantity.end]}"
@@ -377,7 +379,7 @@ def _iterate_powers(quantity: _Quantity, factor_index: int) -> Iterator[str]:
 
 
 def _is_power(power: Fraction) -> bool:
-    """Return whether a listed unit may have this power: a whole number up to 9 or a half below 10, but not 0."""
+    """Return whether a listed unit may have this power: ±1 to ±9, or an odd multiple of a half below 10."""
     return power != 0 and (abs(power) <= 9 and power.denominator == 1 or abs(power) < 10 and power.denominator == 2)
 
 
@@ -386,31 +388,31 @@ def _format_quantity(number: str, factors: Sequence[tuple[tuple[Decimal, str], F
 
     factors: pairs of a meaning (number, listed unit) and its power.
     """
-    scale, above, below, rest = Decimal(1), list[str](), list[str](), ""
+    scale, above, below, suffix = Decimal(1), list[str](), list[str](), ""
     for (times, symbol), power in factors:
         if times != 1 and power != 1:
             base, operator = f"({times} {symbol})", "/" if power < 0 else " * "
-            rest += operator + base + (f"**{_format_power(abs(power))}" if abs(power) != 1 else "")
+            suffix += operator + base + (f"**{_format_power(abs(power))}" if abs(power) != 1 else "")
             continue
         scale *= times
-        for sign, unit, own in re.findall(rf"(^|[*/])(?:1/)?({_SYMBOL})(?:\^(\d))?", symbol):
-            exponent = power * int(own or 1) * (-1 if sign == "/" or symbol.startswith("1/") else 1)
+        for sign, unit, unit_power in re.findall(rf"(^|[*/])(?:1/)?({_SYMBOL})(?:\^(\d))?", symbol):
+            exponent = power * int(unit_power or 1) * (-1 if sign == "/" or symbol.startswith("1/") else 1)
             if (
                 not _is_power(exponent)
                 or exponent.denominator == 2
                 and not find_unit(f"{unit}^{_format_power(abs(exponent))}")
             ):
-                rest += f" * (1 {unit})**{_format_power(exponent)}"
+                suffix += f" * (1 {unit})**{_format_power(exponent)}"
             else:
-                raised = unit + (f"^{_format_power(abs(exponent))}" if abs(exponent) != 1 else "")
-                (above if exponent > 0 else below).append(raised)
+                unit_text = unit + (f"^{_format_power(abs(exponent))}" if abs(exponent) != 1 else "")
+                (above if exponent > 0 else below).append(unit_text)
     value = number
     if scale != 1:
         scale *= 1 if number == "pi" else Decimal(number)
         scaled = f"{scale.normalize():{'f' if Decimal('1e-5') < scale < Decimal('1e7') else 'e'}}"
         value = f"pi * {scaled}" if number == "pi" else scaled
     written = "*".join(above) or ("1" if below else "")
-    return " ".join(filter(None, (value, "/".join([written, *below])))) + rest
+    return " ".join(filter(None, (value, "/".join([written, *below])))) + suffix
 
 
 def _format_power(power: Fraction) -> str:

@@ -17,7 +17,7 @@ from functools import lru_cache
 
 @dataclass(frozen=True)
 class Dimension:
-    """Hold the exponents of metre, kilogram and second; an angle has none (rad = 1)."""
+    """Exponents of metre, kilogram and second of a physical dimension; an angle has none (rad = 1)."""
 
     length: Fraction = Fraction(0)
     mass: Fraction = Fraction(0)
@@ -42,7 +42,7 @@ class Dimension:
 
     @property
     def has_halves_at_most(self) -> bool:
-        """Return whether all exponents are integers or halves, as numbers of a run may have (N/m^1.5)."""
+        """Return whether all exponents are integers or halves, as parameters of a run may have (N/m^1.5)."""
         return (self**2).is_whole
 
 
@@ -123,7 +123,7 @@ def describe_dimension(dimension_: Dimension) -> str:
 
 @dataclass(frozen=True)
 class Unit:
-    """Hold a unit in SI: `factor` · π^`pi_power` of the SI unit of `dimension`."""
+    """A unit in SI: `factor` · π^`pi_power` of the SI unit of `dimension`."""
 
     factor: Fraction
     pi_power: int
@@ -139,7 +139,7 @@ def _make_unit(factor: str, dimension_: Dimension, pi_power: int = 0) -> Unit:
     return Unit(Fraction(factor), pi_power, dimension_)
 
 
-# Hz is left out on purpose: read as 1/s it is 2π wrong for an angular velocity; rev/s and 1/s say which is meant.
+# Hz is left out: read as 1/s it would be wrong by 2π for an angular velocity; rev/s and 1/s are unambiguous.
 _SYMBOLS: Mapping[str, Unit] = {
     "m": _make_unit("1", LENGTH),
     "km": _make_unit("1000", LENGTH),
@@ -226,22 +226,22 @@ _FACTOR = re.compile(
 _RAISED = {"\u00b2": "2", "\u00b3": "3"}
 _BETWEEN = re.compile(r" *[*/\u00b7\u22c5] *| ")
 _CALLED = re.compile(r" *\(")
-_MOST_FACTORS = 8
+_MAX_FACTORS = 8
 
 
 def parse_unit(text: str, start: int = 0, names: Container[str] = ()) -> tuple[Unit, int] | None:
     """Return the longest unit that begins at text[start], and the offset where it ends; None if none begins there.
 
-    A unit is a listed symbol, or a product and quotient of such with powers from −9 to 9, halves too (`kg*m^2`, `kg
-    m²`, `N*s/m`, `1/s`, `N/m^1.5`). After a `*` or `/`, unlisted symbols and functions belong to the expression: in `3
-    mm*c` the unit is mm. So do the last factors that are `names`: a name of the file takes precedence over a unit in a
-    product. `m^1` is always a unit, `s.vx` never is. A space multiplies above the `/` only, because `N/m s` would be
-    ambiguous.
+    A unit is a listed symbol, or a product and quotient of at most _MAX_FACTORS with powers from −9 to 9, halves too
+    (`kg*m^2`, `kg m²`, `N*s/m`, `1/s`, `N/m^1.5`). After a `*` or `/`, unlisted symbols and functions belong to the
+    expression: in `3 mm*c` the unit is mm. So do the last factors that are `names` of the file, which precede units in
+    a product. `m^1` is always a unit, `s.vx` never is. A space multiplies only before the first `/`, because `N/m s`
+    would be ambiguous.
     """
     divide = divided = text.startswith("1/", start)
     position = start + 2 if divide else start
     total, unit, between = Unit(Fraction(1), 0, DIMENSIONLESS), None, ""
-    for _ in range(_MOST_FACTORS):
+    for _ in range(_MAX_FACTORS):
         match = _FACTOR.match(text, position)
         if not match or match[1] not in _SYMBOLS or unit and _CALLED.match(text, match.end()):
             break
@@ -273,7 +273,7 @@ def _compute_unit_power(base: Unit, power: Fraction) -> Unit | None:
 
 
 def list_factors(token: str) -> list[tuple[str, str]]:
-    """Return pairs (operator before it, symbol) for the symbols without a power in a unit text; the first has ""."""
+    """Return (operator before it, symbol) of the symbols without a power: "N m/s" → [("", "N"), (" ", "m"), …]."""
     return re.findall(r"([*/ \u00b7\u22c5]|^)(?:1/)?([A-Za-z\u00b5\u03bc]+)(?![\w^])", token)
 
 

@@ -22,7 +22,7 @@ from functools import cache
 from hashlib import sha256
 from pathlib import Path
 
-from gudgeon.errors import LIMITED, BadValueError, CacheError
+from gudgeon.errors import FILE_SIZE_LIMIT_HINT, BadValueError, CacheError
 from gudgeon.files.trust import UntrustedPathError, check_trusted_folder, check_trusted_path, read_trusted_file
 from gudgeon.waiting.ctrl_c import DelayedCtrlC
 
@@ -68,7 +68,7 @@ class Cache:
             if self.private:
                 message = f"the temporary folder {self.root} cannot be used: {error}"
                 is_limit = getattr(error, "errno", 0) == errno.EFBIG and "ulimit" not in message
-                raise CacheError(f"{message}\n  {LIMITED}" if is_limit else message) from error
+                raise CacheError(f"{message}\n  {FILE_SIZE_LIMIT_HINT}" if is_limit else message) from error
             self._warn_unusable(error)
         return get_private_cache().fetch(kind, key, write_files, renew=renew)
 

@@ -38,8 +38,9 @@ if TYPE_CHECKING:
     from gudgeon.results.wear import SlidingLoads
 
 STATES = "states"
-BLOCK, AHEAD = 8, 4  # runs of a block, which one thread evaluates; blocks per thread that are evaluated in advance
-Row: TypeAlias = tuple[int, Array, dict[str, Array]]
+RUNS_PER_BLOCK = 8  # runs that one thread evaluates at once
+BLOCKS_IN_ADVANCE = 4  # blocks per thread that are evaluated before the caller reads them
+RunSeries: TypeAlias = tuple[int, Array, dict[str, Array]]
 
 
 @dataclass(frozen=True, eq=False)
@@ -109,7 +110,7 @@ class Batch:
 
     source: KernelSource
     t: Array  # (N,) s, or (n, N)
-    states: States | None  # None: only some series were kept
+    states: States | None  # None: only some series were stored
     samples: Array  # (n,) number of samples; the last is the end of a run that an event or Ctrl-C ended
     t_last: Array  # (n,) s, where each run ended
     parameters: Mapping[str, Array]  # address -> (n,) values, or names, of parameters that any run was given
@@ -137,7 +138,7 @@ class Batch:
         failed = f", {len(self.failures)} failed" if self.failures else ""
         samples = f"{format_count(len(self), 'run')} of {format_count(self.t.shape[-1], 'sample')}"
         stored_text = (
-            "" if self.states else f", {', '.join(name for name in self.kept if name != 't') or 'no series kept'}"
+            "" if self.states else f", {', '.join(name for name in self.kept if name != 't') or 'no series stored'}"
         )
         return f"<Batch {self.source.mechanism}/{self.source.scene}: {samples}{failed}{stored_text}>"
 
@@ -173,7 +174,7 @@ class Batch:
         Raises GudgeonError if only series were stored.
         """
         if self.states is None:
-            raise GudgeonError(f"the states of these runs were not kept: {describe_stored_series(self)}")
+            raise GudgeonError(f"the states of these runs were not stored: {describe_stored_series(self)}")
         return self.states
 
     @overload
@@ -314,7 +315,7 @@ def collect_given_values(source: KernelSource, p: Array, is_given: NDArray[np.bo
 
 
 def make_failures(errors: Mapping[int, GudgeonError]) -> tuple[Failure, ...]:
-    """Return errors by run number as Failures, sorted by run number."""
+    """Return the Failures of a batch, sorted by run number, from errors by run number."""
     return tuple(Failure(i, errors[i]) for i in sorted(errors))
 
 
@@ -361,18 +362,21 @@ def check_series_stored(batch: Batch, names: Iterable[str]) -> None:
     A batch with states can evaluate every series, so that nothing is raised.
     """
     if batch.states is None and (missing_names := [name for name in names if name not in batch.kept]):
-        raise GudgeonError(f"{missing_names[0]!r} was not kept in this batch: {describe_stored_series(batch)}")
+        raise GudgeonError(f"{missing_names[0]!r} was not stored in this batch: {describe_stored_series(batch)}")
 
 
 def describe_stored_series(batch: Batch) -> str:
     """Return a text for errors of a batch without states: the stored series, and how to store others."""
     names = [name for name in batch.kept if name != "t"]
-    hint = 'simulate_many(…, keep=[…]) names what is kept; keep="states" keeps everything'
+    hint = 'simulate_many(…, keep=[…]) stores the named series; keep="states" stores all'
     return f"it has {', '.join(names) or 'no series'}\n  {hint}"
 
 
 def name_series_column(name: str) -> str:
-    """Return the column of a series in tables of a batch, in which `run` is the number of the run."""
+    """Return the column name of a series in tables of a batch: the name itself, but "output.run" for "run".
+
+    The column `run` is the number of the run.
+    """
     return f"output.{name}" if name == "run" else name
 
 
@@ -405,9 +409,10 @@ def collect_series(batch: Batch, names: Sequence[str]) -> dict[str, Array]:
 
 
 def _find_stored_series(batch: Batch, name: str) -> Array | None:
-    """Return a stored series (n, N), or a copy of a column of stored states; None if it must be evaluated.
+    """Return a stored series (n, N), or a copy of a column of the stored q, v, work or state.
 
-    Contact states are NaN after the last sample of a run.
+    Contact states are NaN after the last sample of a run. Returns None for any other series, and for "t" in a batch
+    with states.
     """
     if name in batch.kept:
         return batch.kept[name]
@@ -421,42 +426,43 @@ def _find_stored_series(batch: Batch, name: str) -> Array | None:
     return values
 
 
-def iterate_run_series(batch: Batch, names: Sequence[str]) -> Iterator[Row]:
+def iterate_run_series(batch: Batch, names: Sequence[str]) -> Iterator[RunSeries]:
     """Yield (run number, sample times, {name: values}) for each run that has samples, in order of the runs.
 
     Series are evaluated by threads, a few blocks of runs in advance. Raises GudgeonError for a series that was not
     stored.
     """
     check_series_stored(batch, names)
-    make_row = _read_stored_row if batch.states is None else _evaluate_row
+    get_run_series = _read_stored_run_series if batch.states is None else _evaluate_run_series
     evaluation_parts = find_evaluation_parts(batch.source, names)
 
-    def make_block(first_run: int) -> list[Row]:
-        """Return the rows of BLOCK runs from `first_run` on."""
+    def make_block(first_run: int) -> list[RunSeries]:
+        """Return the rows of RUNS_PER_BLOCK runs from `first_run` on."""
         rows = (
-            make_row(batch, i, names, evaluation_parts) for i in range(first_run, min(first_run + BLOCK, len(batch)))
+            get_run_series(batch, i, names, evaluation_parts)
+            for i in range(first_run, min(first_run + RUNS_PER_BLOCK, len(batch)))
         )
         return [row for row in rows if row is not None]
 
     yield from _evaluate_blocks_in_order(
-        make_block, range(0, len(batch), BLOCK), min(batch.threads, count_available_threads())
+        make_block, range(0, len(batch), RUNS_PER_BLOCK), min(batch.threads, count_available_threads())
     )
 
 
 def _evaluate_blocks_in_order(
-    evaluate_block: Callable[[int], list[Row]], first_runs: range, n_threads: int
-) -> Iterator[Row]:
+    evaluate_block: Callable[[int], list[RunSeries]], first_runs: range, n_threads: int
+) -> Iterator[RunSeries]:
     """Yield the rows of all blocks of runs in their order, evaluated in `n_threads` threads.
 
-    `evaluate_block` returns the rows of the block that begins at a run. At most AHEAD blocks a thread are evaluated in
-    advance; those not begun are cancelled if the caller stops.
+    `evaluate_block` returns the rows of the block that begins at a run. At most BLOCKS_IN_ADVANCE blocks a thread are
+    evaluated in advance; those not begun are cancelled if the caller stops.
     """
-    futures: deque[Future[list[Row]]] = deque()
+    futures: deque[Future[list[RunSeries]]] = deque()
     remaining_runs = iter(first_runs)
     with ThreadPoolExecutor(max(1, min(n_threads, len(first_runs))), thread_name_prefix="gudgeon") as executor:
         try:
             while True:
-                next_runs = islice(remaining_runs, AHEAD * max(1, n_threads) - len(futures))
+                next_runs = islice(remaining_runs, BLOCKS_IN_ADVANCE * max(1, n_threads) - len(futures))
                 futures.extend(executor.submit(evaluate_block, first_run) for first_run in next_runs)
                 if not futures:
                     return
@@ -465,7 +471,9 @@ def _evaluate_blocks_in_order(
             executor.shutdown(cancel_futures=True)
 
 
-def _evaluate_row(batch: Batch, i: int, names: Sequence[str], evaluation_parts: frozenset[str]) -> Row | None:
+def _evaluate_run_series(
+    batch: Batch, i: int, names: Sequence[str], evaluation_parts: frozenset[str]
+) -> RunSeries | None:
     """Return run number, sample times and {name: values} of run i, evaluated from its states; None if it has no
     samples.
     """
@@ -473,10 +481,10 @@ def _evaluate_row(batch: Batch, i: int, names: Sequence[str], evaluation_parts: 
     return None if run is None else (i, run.t, {name: run[name] for name in names})
 
 
-def _read_stored_row(batch: Batch, i: int, names: Sequence[str], _: frozenset[str]) -> Row | None:
+def _read_stored_run_series(batch: Batch, i: int, names: Sequence[str], _: frozenset[str]) -> RunSeries | None:
     """Return run number, sample times and {name: values} of run i from the stored series; None if it has no samples.
 
-    The last argument is not used; it makes the signature that of `_evaluate_row`.
+    The last argument is not used; it makes the signature that of `_evaluate_run_series`.
     """
     n_samples = int(batch.samples[i])
     return (

@@ -24,12 +24,12 @@ from gudgeon.model.contours import compute_corner_approach, find_contour, interp
 if TYPE_CHECKING:
     from gudgeon.results.results import Result
 
-DEPTH_TOL = 1e-9  # of the clearance, that a penetration outside a contact is rounding; 1e-13 m at least
-FORCE_TOL = 1e-12  # of a joint's largest force, that a force outside a contact is rounding
-TIME_TOL = 1e-11  # of the span of a run, by which a sample may miss the end of a contact
-PULL_TOL = 1e-6  # of the largest force, by which a rigid contact may seem to pull
-PEAK_TOL = 1e-3  # relative, by which a peak may exceed the largest force of the contacts
-PEAK_TOL_FIXED = 0.1  # the same of rk4, whose contacts have the largest force at the ends of steps alone
+DEPTH_TOL = 1e-9  # penetration outside a contact that counts as rounding, over the clearance; at least SHALLOW (m)
+FORCE_TOL = 1e-12  # force outside a contact that counts as rounding, over the joint's largest force
+TIME_TOL = 1e-11  # widening of the interval of a contact, over the duration of the run
+PULL_TOL = 1e-6  # tensile force of a rigid contact that counts as rounding, over the largest force
+PEAK_TOL = 1e-3  # relative excess of a peak over the largest force of the contacts
+PEAK_TOL_FIXED = 0.1  # the same for rk4, which evaluates the forces of contacts at the ends of steps only
 
 
 @dataclass(frozen=True)
@@ -82,10 +82,9 @@ class ContactCheck:
 
 
 def compute_penetrations(run: Result) -> Array:
-    """Return the penetration of each joint with play at all samples, (N, n_clearances), in m, from positions of the
-    bodies.
+    """Return the penetration of each joint with play at all samples, (N, n_clearances), m, from positions of bodies.
 
-    Negative values mean that the surfaces are apart. Nothing of the engine is used.
+    Negative values are gaps. NumPy computes it without the engine; (N, 0) without joints with play.
     """
     columns = [
         _compute_wall_penetration(run, joint) if joint.is_corner else _compute_bearing_penetration(run, joint)
@@ -97,8 +96,8 @@ def compute_penetrations(run: Result) -> Array:
 def check_contact_samples(run: Result, run_with_peaks: Result | None = None) -> ContactCheck:
     """Compare the samples of a run with its list of contacts and return a ContactCheck with the faults, by time.
 
-    `run_with_peaks` is the run whose diagnostics have the peaks over all steps; None: the same run. Joints with a film
-    only are skipped. Forces are checked only if they can be evaluated.
+    `run_with_peaks` is the run whose diagnostics have the peaks over all steps; None: the same run. Joints without dry
+    contact are skipped. Forces are checked only with a compiled library and in joints without a film.
     """
     faults: list[Fault] = []
     penetration = compute_penetrations(run)
@@ -161,13 +160,13 @@ def _find_sample_faults(
 def _find_peak_faults(run: Result, k: int, joint: ClearanceInfo, max_touching_force: float) -> Iterator[Fault]:
     """Yield a fault for each peak over all steps that exceeds the force of every listed contact of joint k.
 
-    Joints with a film and rigid guides are skipped. `max_touching_force` (N) is the largest force of samples that only
-    touch.
+    The excess must be above PEAK_TOL, or PEAK_TOL_FIXED for a fixed step. Joints with a film and rigid guides are
+    skipped. `max_touching_force` (N) is the largest force of samples with |penetration| up to SHALLOW.
     """
     if joint.film or (joint.is_corner and joint.joint in run.source.rigid):
         return
     impacts = run.impacts[run.impacts["joint"] == k]
-    if joint.name in run.source.rigid:  # those without a duration have impulses
+    if joint.name in run.source.rigid:  # F_peak of a rigid impact is an impulse
         impacts = impacts[impacts["t_off"] != impacts["t_on"]]
     max_contact_force = float(impacts["F_peak"].max(initial=0.0))
     force_extremes = [
@@ -199,8 +198,8 @@ def _compute_bearing_penetration(run: Result, joint: ClearanceInfo) -> Array:
 def _compute_wall_penetration(run: Result, joint: ClearanceInfo) -> Array:
     """Return the penetration of a slider's corner into its wall at all samples, (N,), in m.
 
-    It is the displacement of the corner towards its wall from the middle of the guide, less the gap. The mounting angle
-    is `angle` of the joint, or else the direction of `axis`.
+    It is the displacement of the corner towards its wall from the middle of the guide, less the gap. The relative angle
+    of the bodies in the middle is `angle` of the joint, or else the direction of `axis`.
     """
     first, second = _find_end_point_names(run, joint)
     parameter_indices = run.source.slot_index

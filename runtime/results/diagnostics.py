@@ -237,7 +237,7 @@ def _read_examination_json(data: dict[str, Any]) -> Examination:
 
 
 def _convert_to_json_values(value: Any) -> Any:
-    """Return a value with NaN and infinities replaced by words, at any depth of lists and dicts.
+    """Return a value with NaN and infinities replaced by "nan", "inf", "-inf", at any depth of lists and dicts.
 
     Tuples become lists, NumPy scalars Python numbers; other values are returned as they are.
     """
@@ -262,10 +262,7 @@ def _convert_to_floats(data: dict[str, Any], cls: type) -> dict[str, Any]:
 def collect_provenance(compiled: CompiledModel, seconds: float) -> dict[str, str]:
     """Return version, platform, compiler, date and mechanism text of a run, by the keys of PROVENANCE.
 
-    `seconds`: its date, as of `find_date`.
-
-    Nothing is computed from it, and no comparison reads it. `SOURCE_DATE_EPOCH` (s since 1970) in the environment
-    replaces the date of a run, so that runs repeat byte for byte.
+    `seconds` is the date of the run from `get_run_date`, in s since 1970. Nothing is computed from the provenance.
     """
     from gudgeon import __version__
 
@@ -281,18 +278,21 @@ def collect_provenance(compiled: CompiledModel, seconds: float) -> dict[str, str
 
 @cache
 def _format_platform() -> str:
-    """Return name, release and processor of the operating system, and Python's version; the same for all runs."""
+    """Return operating system, release, processor and Python version: "Linux 6.1 x86_64, Python 3.12.3"; cached."""
     system = platform.uname()
     return f"{system.system} {system.release} {system.machine}, Python {platform.python_version()}"
 
 
-def find_date() -> float:
-    """Return the present date, or that of SOURCE_DATE_EPOCH in the environment, in s since 1970."""
+def get_run_date() -> float:
+    """Return the current time, or that of SOURCE_DATE_EPOCH in the environment, in s since 1970.
+
+    With SOURCE_DATE_EPOCH, files of the same run are equal byte for byte.
+    """
     epoch_text = os.environ.get("SOURCE_DATE_EPOCH", "")
     return float(epoch_text) if epoch_text.isdecimal() else time()
 
 
 @lru_cache(maxsize=1)
 def _format_seconds(seconds: int) -> str:
-    """Return the date and time in UTC of so many seconds since 1970 in ISO format."""
+    """Return the date and time in UTC, ISO 8601, of a time in seconds since 1970."""
     return datetime.fromtimestamp(seconds, UTC).isoformat(timespec="seconds")

@@ -21,8 +21,8 @@ from gudgeon.results.motion import Motion, classify_motion
 if TYPE_CHECKING:
     from gudgeon.results.state import Array, State
 
-SETTLED = 0.1  # fraction of the time in which the difference turns to the direction of largest growth
-BLOCKS = 10  # blocks of time, from whose means the uncertainty is estimated
+TRANSIENT_FRACTION = 0.1  # fraction of the time in which the difference turns to the direction of largest growth
+N_BLOCKS = 10  # blocks of time, from whose means the uncertainty is estimated
 APART = 0.25  # fraction of the clearance (or size, or 1 rad) at which runs disagree, as in simulate(..., horizon=True)
 
 
@@ -41,7 +41,8 @@ class Lyapunov:
     """The largest Lyapunov exponent, `exponent` ± `uncertainty` in 1/s: positive where small differences grow, that is,
     in chaos.
 
-    The uncertainty is one standard error, from the means of ten blocks of time and from the mesh of the tangent.
+    The uncertainty is one standard error, from the slopes in ten blocks of time and the time discretization of the
+    tangent map.
     `believable` returns the predictability horizon.
     """
 
@@ -49,7 +50,7 @@ class Lyapunov:
     why: str  # why the tangent was not used; "" where it was, or where "twin" was requested
     t: Array  # (k + 1,) s: begin, and the end of each interval
     growth: Array  # (k,) ln of the growth of the difference in each interval
-    unresolved: float  # 1/s: change of the tangent's growth with the last halving of its mesh
+    unresolved: float  # 1/s: change of the tangent's growth rate with the last halving of its step
     merged: int  # times at which both trajectories merged, as in stick; λ is then an upper bound
     transverse: bool  # whether differences along the motion were removed, as for a section at an event
     section: Section | None
@@ -108,7 +109,7 @@ class Lyapunov:
         """
         error, apart = check_positive(error, "error"), check_positive(apart, "apart")
         if error >= apart:
-            raise BadValueError(f"error {error:g} is not below {apart:g}, where runs are apart")
+            raise BadValueError(f"error: {error:g}: expected less than apart, {apart:g}")
         if not math.isfinite(self.exponent):
             return math.nan
         return math.log(apart / error) / self.exponent if self.exponent > 0.0 else math.inf
@@ -120,7 +121,7 @@ class Lyapunov:
         Raises BadValueError without a section.
         """
         if self.section is None:
-            raise BadValueError("no section was asked for", hint='lyapunov(..., section="an event", or a period in s)')
+            raise BadValueError("no section was requested", hint='lyapunov(..., section="an event", or a period in s)')
         is_settled = self.section.t >= self.t[self._first]
         points = self.section.points[is_settled]
         return classify_motion(points, self.section.extent, self.per_return, self.per_return_uncertainty)
@@ -128,7 +129,7 @@ class Lyapunov:
     @property
     def _first(self) -> int:
         """Index of the first interval after the difference has turned to the direction of largest growth."""
-        return int(np.searchsorted(self.t, self.t[0] + SETTLED * (self.t[-1] - self.t[0]), side="left"))
+        return int(np.searchsorted(self.t, self.t[0] + TRANSIENT_FRACTION * (self.t[-1] - self.t[0]), side="left"))
 
     @cached_property
     def _logs(self) -> Array:
@@ -156,10 +157,10 @@ class Lyapunov:
 
 
 def _compute_regression_slopes(x: Array, growth_logs: Array) -> Array:
-    """Return the slopes (k,) of the least-squares lines through the first 2, 3, … k + 1 of the points (x, logs).
+    """Return the slopes (k,) of the least-squares lines through the first 2, 3, … k + 1 points (x, growth_logs).
 
-    Each point is weighted by the interval before it. Where x hardly spreads, the slope is that from the first point to
-    the last.
+    Each point is weighted by the interval before it. If the normal equations are singular (determinant below 1e-9 of
+    its scale), the slope is that from the first point to the last.
     """
     weights = np.diff(x)
     x_shifted, y_shifted = x[1:] - x[0], growth_logs[1:] - growth_logs[0]
@@ -179,16 +180,16 @@ def _compute_regression_slopes(x: Array, growth_logs: Array) -> Array:
 
 
 def _compute_slope_error(x: Array, growth_logs: Array) -> float:
-    """Return the standard error of the slope of `growth_logs` over x, from the slopes in BLOCKS blocks of equal length.
+    """Return the standard error of the slope of `growth_logs` over x, from the slopes in N_BLOCKS equal blocks of x.
 
-    Returns NaN with fewer than three intervals a block.
+    Values at block ends are interpolated. Returns NaN with fewer than three intervals a block.
     """
-    if len(x) < 3 * BLOCKS + 1:
+    if len(x) < 3 * N_BLOCKS + 1:
         return math.nan
-    edges = np.linspace(x[0], x[-1], BLOCKS + 1)
+    edges = np.linspace(x[0], x[-1], N_BLOCKS + 1)
     slopes = []
     for begin, end in zip(edges, edges[1:], strict=False):
         inside = x[(x > begin) & (x < end)]
         block_x = np.concatenate([[begin], inside, [end]])
         slopes.append(_compute_regression_slopes(block_x, np.interp(block_x, x, growth_logs))[-1])
-    return float(np.std(slopes, ddof=1) / math.sqrt(BLOCKS))
+    return float(np.std(slopes, ddof=1) / math.sqrt(N_BLOCKS))

@@ -20,13 +20,13 @@ import numpy as np
 if TYPE_CHECKING:
     from gudgeon.results.state import Array
 
-NEAR = 1e-3  # of the motion's extent: how near a point recurs
-MOST_PERIOD = 32
-FEWEST = 40  # smallest number of points; a period must occur REPEATED times
-REPEATED = 4
-ENOUGH = 0.8  # confidence below which the kind is "undecided"
-POWERS = 6.0  # over so many returns: an exponent of differences that grow by a power of time
-DRAWS = 100  # frequencies of the 0-1 test
+RECURRENCE_TOL = 1e-3  # of the motion's extent: distance within which a point recurs
+MAX_PERIOD = 32  # returns
+MIN_POINTS = 40  # points of a section below which the motion is undecided
+MIN_REPETITIONS = 4  # of a period among the points
+MIN_CONFIDENCE = 0.8  # confidence below which the kind is "undecided"
+MAX_POWER_LAW_SLOPE = 6.0  # divided by the number of returns: largest apparent exponent of growth by a power of time
+N_FREQUENCIES = 100  # frequencies of the 0-1 test
 PERIODIC, QUASI, CHAOTIC, UNDECIDED = "periodic", "quasi-periodic", "chaotic", "undecided"
 
 
@@ -65,13 +65,13 @@ def classify_motion(
     extent: float,
     per_return: float = math.nan,
     exponent_error: float = math.nan,
-    tolerance: float = NEAR,
+    tolerance: float = RECURRENCE_TOL,
 ) -> Motion:
     """Return the kind of motion of the points (k, d) of a section in the order of time, with its confidence.
 
     `extent` is the rms size of the whole motion in the same measure; `tolerance` is the distance of recurrence as a
-    fraction of it. `per_return` ± `exponent_error` is the exponent per return. With few points or too little support
-    the kind is "undecided".
+    fraction of it. `per_return` ± `exponent_error` is the Lyapunov exponent per return; NaN: not known. With fewer than
+    MIN_POINTS points or support below MIN_CONFIDENCE the kind is "undecided".
     """
     period, fraction, distance = _find_recurrence(points, tolerance * extent)
     chaos_measure = (
@@ -87,7 +87,7 @@ def classify_motion(
         CHAOTIC: _find_min_support(1.0 - fraction, growing_support, chaos_measure),
     }
     kind = max(supports, key=lambda name: supports[name])
-    if len(points) < FEWEST or supports[kind] < ENOUGH:
+    if len(points) < MIN_POINTS or supports[kind] < MIN_CONFIDENCE:
         kind = UNDECIDED
     confidence = max(supports.values()) if kind != UNDECIDED else 1.0 - max(supports.values())
     return Motion(
@@ -114,11 +114,11 @@ def _find_min_support(*supports: float) -> float:
 def _find_recurrence(points: Array, tolerance: float) -> tuple[int, float, float]:
     """Return the smallest n after which the largest fraction of points recurs, that fraction, and the median distance.
 
-    A point recurs if the point n returns later lies within `tolerance`. n is at most MOST_PERIOD; (0, 0, inf) for too
-    few points.
+    A point recurs if the point n returns later lies within `tolerance`. n is at most MAX_PERIOD and
+    len(points)/MIN_REPETITIONS. Returns (0, 0, inf) for fewer than MIN_REPETITIONS points.
     """
     best = (0, 0.0, math.inf)
-    for n in range(1, min(MOST_PERIOD, len(points) // REPEATED) + 1):
+    for n in range(1, min(MAX_PERIOD, len(points) // MIN_REPETITIONS) + 1):
         distances = np.linalg.norm(points[n:] - points[:-n], axis=1)
         fraction = float(np.mean(distances <= tolerance))
         if fraction > best[1] + 1e-12 or best[0] == 0:
@@ -127,12 +127,12 @@ def _find_recurrence(points: Array, tolerance: float) -> tuple[int, float, float
 
 
 def _compute_max_deviation(points: Array) -> float:
-    """Return the largest distance of a point (k, d) from the mean."""
+    """Return the largest distance of the points (k, d) from their mean; 0 without points."""
     return float(np.linalg.norm(points - points.mean(axis=0), axis=1).max(initial=0.0)) if len(points) else 0.0
 
 
 def _compute_principal_coordinates(points: Array) -> Array:
-    """Return the coordinates (k,) of the points along the direction of their largest spread."""
+    """Return the coordinates (k,) of the points (k, d) along their first principal component, about the mean."""
     centred = points - points.mean(axis=0)
     return np.asarray(centred @ np.linalg.svd(centred, full_matrices=False)[2][0])
 
@@ -140,16 +140,16 @@ def _compute_principal_coordinates(points: Array) -> Array:
 def _compute_growth_supports(exponent: float, exponent_error: float, n_returns: int) -> tuple[float, float]:
     """Return the probabilities that differences grow exponentially, and that they neither grow nor decay.
 
-    Both are NaN without an exponent or with fewer than two returns. In regular motion differences grow by powers of
-    time. For t³, followed from a tenth of the time on, the slope of the straight line through ln of the growth is 5.9/k
-    over the k remaining returns. Rates below that are not exponential growth.
+    The exponent is normally distributed with the standard error `exponent_error`; both results are NaN if either is
+    not finite, or with fewer than two returns. Rates within ±MAX_POWER_LAW_SLOPE/n_returns count as neither: in regular
+    motion differences grow by powers of time, and t³ has the apparent rate 5.9/k over k returns.
     """
     if not (math.isfinite(exponent) and math.isfinite(exponent_error)) or n_returns < 2:
         return math.nan, math.nan
-    max_regular_rate = POWERS / n_returns
+    max_regular_rate = MAX_POWER_LAW_SLOPE / n_returns
 
     def compute_probability_above(bound: float) -> float:
-        """Return the probability that the rate exceeds `bound`, from a normal distribution."""
+        """Return the probability that the normally distributed exponent exceeds `bound`."""
         return 0.5 * math.erfc((bound - exponent) / (math.sqrt(2.0) * max(exponent_error, 1e-300)))
 
     return compute_probability_above(max_regular_rate), compute_probability_above(
@@ -161,15 +161,15 @@ def compute_zero_one_test(values: Array, seed: int = 1) -> float:
     """Return K of the 0-1 test for chaos of a series (k,): near 1 in chaos, near 0 in regular motion.
 
     K is the median over random frequencies of the correlation of lag n and displacement D(n), n up to k/10. Returns NaN
-    for fewer than FEWEST values.
+    for fewer than MIN_POINTS values.
     """
     n_values = len(values)
-    if n_values < FEWEST:
+    if n_values < MIN_POINTS:
         return math.nan
     max_lag, indices = n_values // 10, np.arange(1, n_values + 1)
     lags = np.arange(1, max_lag + 1)
     correlations = []
-    for frequency in np.random.default_rng(seed).uniform(math.pi / 5, 4 * math.pi / 5, DRAWS):
+    for frequency in np.random.default_rng(seed).uniform(math.pi / 5, 4 * math.pi / 5, N_FREQUENCIES):
         p, q = np.cumsum(values * np.cos(indices * frequency)), np.cumsum(values * np.sin(indices * frequency))
         mean_squares = [
             np.mean(

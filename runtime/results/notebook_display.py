@@ -49,9 +49,9 @@ class NotebookDisplay:
 
 
 def build_table_rows(scene_or_run: Any) -> Rows:
-    """Return the rows of the table that a notebook shows, each a tuple of cells.
+    """Return the rows of the table that a notebook displays, each a tuple of cells.
 
-    They are ranges of the main series for a run, and the components for a scene.
+    For a run they are the ranges of its main series, for a scene its components.
     """
     return (
         [*_iterate_run_rows(scene_or_run)]
@@ -61,7 +61,10 @@ def build_table_rows(scene_or_run: Any) -> Rows:
 
 
 def _iterate_scene_rows(source: KernelSource) -> Iterator[tuple[str, ...]]:
-    """Yield a row for each kind of component of a scene: the kind, and its number with the first names."""
+    """Yield a row for each kind of component of a scene, such as ("bodies", "2: crank, rod").
+
+    The last rows are the numbers of coordinates and constraint equations, and the formulation.
+    """
     yield "bodies", _format_name_list([body.name for body in source.bodies])
     yield "joints", _format_name_list([joint.name for joint in source.joints])
     yield "joints with play", _format_name_list([joint.name for joint in source.clearances])
@@ -82,12 +85,12 @@ def _iterate_run_rows(run: Any) -> Iterator[tuple[str, ...]]:
     At most MAX_NAMES series are shown; series without a finite sample are left out. The last row is the number of
     impacts, if there are any.
     """
-    from gudgeon.results.series import choose_watched_series, list_drive_series
+    from gudgeon.results.series import choose_default_series, list_drive_series
 
     source = run.source
     joints = [f"{joint.name}.F" for joint in source.clearances or source.joints]
-    names = dict.fromkeys([*choose_watched_series(run), *source.outputs, *list_drive_series(source), *joints])
-    yield f"of {len(run.t)} samples", "least", "largest", "unit"
+    names = dict.fromkeys([*choose_default_series(run), *source.outputs, *list_drive_series(source), *joints])
+    yield f"of {len(run.t)} samples", "smallest", "largest", "unit"
     for name in list(names)[:MAX_NAMES]:
         if name in run.names and np.isfinite(run[name]).any():
             yield name, f"{np.nanmin(run[name]):.5g}", f"{np.nanmax(run[name]):.5g}", run.unit(name) or "1"
@@ -96,7 +99,7 @@ def _iterate_run_rows(run: Any) -> Iterator[tuple[str, ...]]:
 
 
 def _build_start_image(scene_or_run: Any) -> str:
-    """Return an HTML image element with the mechanism at its start; "" if it cannot be drawn."""
+    """Return an HTML image element (PNG) of the mechanism at its start; "" if it cannot be assembled or drawn."""
     try:
         from gudgeon.results.figures.mechanism_plots import draw_start_picture
 
@@ -109,5 +112,5 @@ def _build_start_image(scene_or_run: Any) -> str:
 
 def _format_latex_text(text: str) -> str:
     """Return a text as an upright word of a LaTeX formula, with blanks kept and special characters escaped."""
-    marked = _MARKS.sub(lambda found: r"\backslash " if found[1] == "\\" else f"\\{found[1]}", text)
-    return rf"\mathrm{{{marked}}}".replace(" ", r"\ ").replace("Φ", r"\Phi{}")
+    escaped_text = _MARKS.sub(lambda match: r"\backslash " if match[1] == "\\" else f"\\{match[1]}", text)
+    return rf"\mathrm{{{escaped_text}}}".replace(" ", r"\ ").replace("Φ", r"\Phi{}")

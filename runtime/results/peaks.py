@@ -26,7 +26,8 @@ if TYPE_CHECKING:
 
 PEAK_DTYPE = np.dtype([(name, "f8") for name in ("F", "t", "e_max", "first_contact", "first_peak")])
 ENDS = ("max", "t_max", "min", "t_min")
-FEW, MESSAGES = 3, 3  # smallest number of impacts of a Zeno point; Zeno points that are reported one by one
+MIN_ZENO_IMPACTS = 3  # impacts before a lasting contact from which on they count as a Zeno point
+MAX_ZENO_MESSAGES = 3  # Zeno points of a joint that are reported one by one
 
 
 @dataclass(frozen=True)
@@ -78,7 +79,7 @@ def _extend_by_samples(extremes: Extremes, run: Result) -> Extremes:
     """
     try:
         values = run[extremes.name]
-    except GudgeonError:  # a sample has none
+    except GudgeonError:  # a sample cannot be evaluated
         return extremes
     maximum_and_minimum = ((extremes.max, extremes.t_max), (extremes.min, extremes.t_min))
     (max_value, max_time), (min_value, min_time) = (
@@ -121,7 +122,7 @@ def _make_peak_not_requested_error(name: str, is_error: bool) -> BadValueError:
         return BadValueError(
             message, hint=f'simulate(…, peaks=["{name}"], against=ideal), where ideal is a loaded scene'
         )
-    message = f"the peak of {name} over all steps was not asked for, and samples do not know it"
+    message = f"the peak of {name} over all steps was not requested and cannot be found from samples"
     return BadValueError(message, hint=f'simulate(…, peaks=["{name}"]), or peaks: [{name}] in the scene of the file')
 
 
@@ -256,8 +257,8 @@ def build_extreme_columns(run_extremes_list: Sequence[Sequence[Extremes]]) -> It
 def build_peak_records(stored_peaks: Array, impacts: NDArray[Any], n_impacts: NDArray[np.int_]) -> NDArray[Any]:
     """Return the peak forces of all runs as PEAK_DTYPE (n, n_clearances), NaN where there is none.
 
-    `stored_peaks` (n, n_clearances, N_PEAK) holds F, t and e_max. `impacts` are those of all runs one after the other,
-    `n_impacts` (n,) how many each run has.
+    `stored_peaks` (n, n_clearances, N_PEAK) contains F, t and e_max. `impacts` are those of all runs one after the
+    other, `n_impacts` (n,) the number of each run. `first_peak` is NaN if the first contact is a rigid impact.
     """
     peaks = np.full(stored_peaks.shape[:2], np.nan, dtype=PEAK_DTYPE)
     for k, name in ((PEAK_F, "F"), (PEAK_t, "t"), (PEAK_e_max, "e_max")):
@@ -288,30 +289,32 @@ def find_first_contact_force(impacts: NDArray[Any]) -> float:
 
 
 def describe_zeno_points(joints: Sequence[str], impacts: NDArray[Any]) -> Iterator[str]:
-    """Yield a sentence for each Zeno point: impacts in ever shorter intervals until the contact closes.
+    """Yield a note for each Zeno point of a run: MIN_ZENO_IMPACTS or more ever slower impacts, then a lasting contact.
 
-    The first MESSAGES of each joint are reported one by one, and all by one more sentence if there are more.
+    `impacts` are those of all `joints`. The first MAX_ZENO_MESSAGES of a joint have a note each; if there are more, one
+    more note has their number.
     """
     for k, name in enumerate(joints):
         joint_impacts = impacts[impacts["joint"] == k]
         zeno_points = [
             (n_bounces, float(joint_impacts["t_on"][i]))
             for i in range(len(joint_impacts))
-            if (n_bounces := _count_bounces_before(joint_impacts, i)) >= FEW
+            if (n_bounces := _count_bounces_before(joint_impacts, i)) >= MIN_ZENO_IMPACTS
         ]
-        for count, t in zeno_points[:MESSAGES]:
+        for count, t in zeno_points[:MAX_ZENO_MESSAGES]:
             yield (
-                f"{name}: {count} bounces piled up until t = {t:.9g} s, where the contact is closed: they part slower"
-                " than the law's threshold there"
+                f"{name}: {count} bounces accumulated until t = {t:.9g} s, where the contact is closed: the rebound is"
+                " slower than the law's threshold"
             )
-        if len(zeno_points) > MESSAGES:
-            yield f"{name}: bounces piled up {len(zeno_points)} times, the last until t = {zeno_points[-1][1]:.9g} s"
+        if len(zeno_points) > MAX_ZENO_MESSAGES:
+            yield f"{name}: bounces accumulated {len(zeno_points)} times, the last at t = {zeno_points[-1][1]:.9g} s"
 
 
 def _count_bounces_before(impacts: NDArray[Any], i: int) -> int:
-    """Return how many impacts of a joint, each slower than the one before, end in its lasting contact i.
+    """Return the number of consecutive rigid impacts, each slower than the one before, that lead to lasting contact i.
 
-    Returns 0 if record i is itself an impact of zero duration. `impacts` are those of one joint, by time.
+    The last of them has the time of the onset of contact i. Returns 0 if record i is itself an impact of zero duration.
+    `impacts` are those of one joint, by time.
     """
     if bool(is_rigid_impact(impacts[i : i + 1])[0]):
         return 0

@@ -56,7 +56,7 @@ class Result(NotebookDisplay):
     compiled: CompiledModel | None  # None: read from a file, where every series is stored
     source: KernelSource
     p: Array  # (n_slots + n_derived,)
-    given: Array  # (n_slots,) values of the slots that were overridden
+    given: Array  # (n_slots,) values of the parameters that were overridden
     is_given: Array  # (n_slots,) bool, whether a parameter was overridden
     t: Array  # (N,) s
     q: Array  # (N, n)
@@ -75,7 +75,7 @@ class Result(NotebookDisplay):
     stored: dict[str, Array] = field(default_factory=dict, repr=False)  # series computed or read so far
     provenance: dict[str, str] = field(default_factory=dict, repr=False)  # version, platform, compiler, date, mechanism
     start_row: Result | None = field(default=None, repr=False)  # the start (N = 1), where it was not requested
-    begun: State | None = field(default=None, repr=False)  # given as `start`, which samples round; None: not known
+    begun: State | None = field(default=None, repr=False)  # the exact state given as `start`; None: not known
 
     def __getitem__(self, name: str) -> Array:
         """Return the series of that name, (N,), in SI, read-only. Raises UnknownNameError with the nearest name."""
@@ -381,7 +381,7 @@ class Result(NotebookDisplay):
 
     @property
     def sample_counts(self) -> tuple[int, ...]:
-        """Number of samples of each run whose samples follow each other: of one run."""
+        """Number of samples of each run in `t`: one entry here, several in EvaluatedSamples."""
         return (len(self.t),)
 
     def make_unknown_name_error(self, name: str) -> UnknownNameError:
@@ -410,7 +410,7 @@ class EvaluatedSamples(Result):
 
     @property
     def sample_counts(self) -> tuple[int, ...]:
-        """Number of samples of each run whose samples follow each other."""
+        """Number of samples of each run in `t`; one entry if `joined_counts` is empty."""
         return self.joined_counts or super().sample_counts
 
     @cached_property
@@ -420,7 +420,7 @@ class EvaluatedSamples(Result):
         Raises SingularError, and GudgeonError without a compiled library.
         """
         if self.compiled is None:
-            raise GudgeonError("there is no library to evaluate samples with")
+            raise GudgeonError("these samples cannot be evaluated: the scene has no compiled library")
         times = find_evaluation_times_of_result(self, self.compiled)
         return self.compiled.evaluate(times, self.q, self.v, self.memory, self.p, field_names=self.parts)
 
@@ -464,7 +464,7 @@ def make_evaluated_samples(
 def make_empty_result(source: KernelSource) -> EvaluatedSamples:
     """Return a result without samples, which has the names and units of a scene's series.
 
-    It checks names and units before there are results.
+    Used to check names and units before there are results.
     """
     n, n_clearances = len(source.coordinates), len(source.clearances)
     p = np.full(len(source.slots) + len(source.derived), np.nan)

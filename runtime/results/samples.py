@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 SAMPLE_ARRAYS = ("t", "q", "v", "accelerations", "state", "memory", "work")
 Run = TypeVar("Run", bound="Result")
 MAX_SHOWN_TIMES = 6  # times that repr shows
-OLDER = "the file was written before states at events were kept: run the scene again"
+NO_EVENT_STATES = "the file has no states at events, which older versions did not store: run the scene again"
 
 
 def split_off_start(run: Run) -> Run:
@@ -49,7 +49,7 @@ def split_off_start(run: Run) -> Run:
 def prepend_start(run: Run) -> Run:
     """Return the run with its start as the first sample; the run itself if its samples include the start.
 
-    Series computed so far are kept if they are known for the start too.
+    Cached series remain if they are cached for the start too.
     """
     start_row = run.start_row
     if start_row is None:
@@ -69,9 +69,9 @@ def _concatenate_arrays(*arrays: Array | None) -> Array | None:
 
 
 def select_samples(run: Run, select_rows: Callable[[Array], Array]) -> Run:
-    """Return a copy of the run with the samples that `select_rows` takes from each array.
+    """Return a copy of the run with some of its samples: `select_rows` is applied to each array with a row a sample.
 
-    Series computed so far are dropped. If the run's Evaluation exists, the same samples of it are selected.
+    Cached series are dropped. An Evaluation that exists or is deferred is evaluated, and its rows are selected too.
     """
     arrays = ((name, getattr(run, name)) for name in SAMPLE_ARRAYS)
     selected: dict[str, Any] = {name: None if values is None else select_rows(values) for name, values in arrays}
@@ -90,7 +90,7 @@ class AtEvents:
 
     event: str
     all: Result = field(repr=False)  # the start, then every event of the run
-    rows: Array = field(repr=False)  # (k,) of these, the ones of this event
+    rows: Array = field(repr=False)  # (k,) indices of the samples of `all` at this event
 
     @property
     def t(self) -> Array:
@@ -210,9 +210,9 @@ def _recompute_motion(run: Result) -> Trajectory:
     from gudgeon.integrators.trajectory import Problem
 
     if run.compiled is None:
-        raise GudgeonError(OLDER)
+        raise GudgeonError(NO_EVENT_STATES)
     if run.diagnostics.method != kinematic.NAME:
-        raise GudgeonError(f"method {run.diagnostics.method!r} keeps no states at events")
+        raise GudgeonError(f"no states at events: method {run.diagnostics.method!r} does not store them")
     times = np.union1d(run.t, run.events["t"])
     problem = Problem(run.compiled, run.p, times, run.q[0], run.v[0], np.zeros(0), np.inf, stop=False)
     trajectory = kinematic.integrate_kinematic(problem)

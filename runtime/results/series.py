@@ -1,18 +1,16 @@
-"""Own the catalogue of series: every name that a result has, its unit, its meaning and how it is computed.
+"""Own the catalogue of time series: every name that a result has, its unit, its meaning and how it is computed.
 
     S9.x .y .theta   .vx .vy .omega   .ax .ay .alpha       of a body's centre of mass
     L1.head.x .y     .vx .vy          .ax .ay              of a point
     A.Fx .Fy .F .M                                         of an ideal joint: on the second body, ground axes
     A.Fx .Fy .F .Fn .Ft .e .ex .ey .delta .eps .deltadot .vt .state .deltadot_minus      with play
-    way.front_upper.Fn …   way.Fx .Fy .F .M                the same of a slider's corner; of its guide their sum
+    way.front_upper.Fn …   way.Fx .Fy .F .M                the same at a slider's corner; sums over a guide's corners
     crank1.torque   lambda.A.x   energy.kinetic .potential .residual   work.drives .forces .clearances
     Phi.max   Phi_dot.max                                  how far the constraints are violated
     lift                                                   an output of the mechanism file
 
 If a body has no mass, series that depend on masses are left out: reactions, torques, multipliers, energies and works.
 The names depend on the scene alone; a series is computed on first access (`Series.compute`).
-
-Also the spectrum of a series at even times, and the low-pass filter of an accelerometer.
 """
 
 from __future__ import annotations
@@ -28,9 +26,9 @@ import numpy as np
 
 from gudgeon.contract.clearance_info import ClearanceInfo
 from gudgeon.contract.kernel_source import JointInfo, KernelSource
-from gudgeon.errors import BadValueError, GudgeonError, UnknownNameError
+from gudgeon.errors import GudgeonError, UnknownNameError
 from gudgeon.language import tree as expression_tree
-from gudgeon.language.argument_checks import check_integer, check_text, raise_bad_value, shorten_value
+from gudgeon.language.argument_checks import shorten_value
 from gudgeon.language.names import find_near_names
 from gudgeon.language.output_units import derive_unit
 from gudgeon.model.evaluation import MotionSeries
@@ -69,12 +67,9 @@ AT_WALL = {
     "ey": "e n, y in ground axes",
     "vt": "slip on its wall",
     "eps": "e by the gap",
-    "e": "how far it is nearer to its wall than in the middle of the guide",
+    "e": "displacement towards its wall from the middle of the guide",
     "delta": "penetration: e less the gap",
 }
-EVEN = 1e-6  # of an interval: samples that far from even are not
-WINDOWS = ("boxcar", "hann", "hamming", "blackman", "blackmanharris", "flattop")
-MAX_FILTER_ORDER = 16
 
 
 @dataclass(frozen=True)
@@ -84,11 +79,11 @@ class Series:
     unit: str
     meaning: str
     compute: Callable[[Result], Array]
-    parts: frozenset[str] = frozenset()  # of an Evaluation, all that it needs
-    stored: tuple[str, int] | None = None  # the array of a run, and its column, that it is
-    evaluated: tuple[str, tuple[int, ...]] | None = None  # the part of an Evaluation, and its column
+    parts: frozenset[str] = frozenset()  # fields of an Evaluation that it needs
+    stored: tuple[str, int] | None = None  # (array of a Result, column) if the series is a column of it
+    evaluated: tuple[str, tuple[int, ...]] | None = None  # (field of an Evaluation, column) if it is a column of it
     is_by_sample: bool = False  # computed sample by sample, so that samples of several runs may follow each other
-    motion: MotionSeries | None = None  # what it is of the motion
+    motion: MotionSeries | None = None  # body, axis and order of the derivative of a coordinate or a point
 
 
 _catalogues: dict[int, tuple[Any, Mapping[str, Series]]] = {}  # by the id of a source; a callback would lose a Ctrl-C
@@ -104,8 +99,10 @@ def get_catalogue(source: KernelSource) -> Mapping[str, Series]:
 
 
 def _build_catalogue(source: KernelSource) -> dict[str, Series]:
-    """Return all series of a scene by name: motion of bodies and points, then forces and energies, then outputs. Series
-    that need masses are left out if a body has none, and outputs if a name in their expression is missing.
+    """Return all series of a scene by name: motion of bodies and points, then forces and energies, then outputs.
+
+    If a body has no mass, only motion, results of force elements and constraint drift remain. Outputs are left out if
+    a name in their expression is missing.
     """
     series_by_name: dict[str, Series] = {}
     for series_of in (_iterate_body_series, _iterate_point_series, *(_MOTION_ALONE if source.massless else _PARTS)):
@@ -158,7 +155,10 @@ _AXES = ("x", "y", "angle")
 
 
 def _make_stored_series(unit: str, meaning: str, array: str, column: int) -> Series:
-    """Return the series that is a column of a stored or, for accelerations, evaluated array, such as q or a."""
+    """Return the series that is a column of an array of a Result: q, v, a, state, memory or work.
+
+    Accelerations "a" may have to be evaluated. A column of q, v or a also gets `motion`, its body, axis and order.
+    """
     parts = frozenset({"a"} if array == "a" else ())
     compute, is_motion = partial(_get_stored_column, array=array, column=column), array in ("q", "v", "a")
     motion = MotionSeries("qva".index(array), column % 3, column - column % 3) if is_motion else None
@@ -166,7 +166,10 @@ def _make_stored_series(unit: str, meaning: str, array: str, column: int) -> Ser
 
 
 def _make_evaluated_series(unit: str, meaning: str, part: str, *index: int) -> Series:
-    """Return the series that is a column of a part of the Evaluation; `index` follows the index of the sample."""
+    """Return the series that is a column of a field of the Evaluation: `part`[:, *index].
+
+    For example part "reactions", index (joint, component).
+    """
     compute = partial(_get_evaluated_column, part=part, index=index)
     return Series(unit, meaning, compute, frozenset({part}), None, (part, index))
 
@@ -191,9 +194,9 @@ def _iterate_point_series(source: KernelSource) -> Iterator[tuple[str, Series]]:
 
 
 def _compute_point_motion(run: Result, motion: MotionSeries) -> Array:
-    """Return a coordinate of a point, or its first or second time derivative, (N,), SI. C computes it.
+    """Return a coordinate of a point, or its first or second time derivative, (N,), SI; evaluated in C.
 
-    Raises GudgeonError for a result that was read from a file.
+    Empty for a run without samples. Raises GudgeonError for a result that was read from a file.
     """
     if not len(run.t):
         return np.zeros(0)
@@ -205,7 +208,10 @@ def _compute_point_motion(run: Result, motion: MotionSeries) -> Array:
 
 
 def _iterate_joint_series(source: KernelSource) -> Iterator[tuple[str, Series]]:
-    """Yield (name, series) of the reactions Fx, Fy, M and F at joints without play."""
+    """Yield (name, series) of the reactions Fx, Fy, M and F at joints without play, on the second body in ground axes.
+
+    The meaning names the point where they act: the second body's own point, or else the pin.
+    """
     for k, joint in enumerate(source.joints):
         is_own_point = joint.point.startswith(f"{source.bodies[joint.second].name if joint.second >= 0 else 'ground'}.")
         location = f"{_get_body_name(source, joint.second)} at {'its point' if is_own_point else 'the pin'}"
@@ -214,7 +220,11 @@ def _iterate_joint_series(source: KernelSource) -> Iterator[tuple[str, Series]]:
 
 
 def _iterate_guide_series(source: KernelSource) -> Iterator[tuple[str, Series]]:
-    """Yield (name, series) of the summed corner forces of each guide with play, named like an ideal reaction."""
+    """Yield (name, series) of the resultant of the corner forces of each guide with play: Fx, Fy, M and F.
+
+    They act on the second body at its point, in ground axes. The names are those of the reaction of a guide without
+    play, such as "way.Fx".
+    """
     second_body = {joint.joint: _get_body_name(source, joint.second) for joint in source.clearances}
     for k, name in enumerate(source.guides, len(source.joints)):
         yield from _iterate_reaction_series(
@@ -251,7 +261,9 @@ def _compute_magnitude(run: Result, name: str) -> Array:
 
 
 def _iterate_clearance_series(source: KernelSource) -> Iterator[tuple[str, Series]]:
-    """Yield (name, series) of each joint with play or slider's corner: forces, eccentricity, contact state."""
+    """Yield (name, series) of each joint with play or slider's corner: the columns of CLEARANCE, then F, eps, state
+    and deltadot_minus.
+    """
     for k, joint in enumerate(source.clearances):
         suffix, parts = f": {'corner' if joint.is_corner else 'joint'} {joint.name} with play", frozenset({"clearance"})
         meanings = (
@@ -271,11 +283,14 @@ def _iterate_clearance_series(source: KernelSource) -> Iterator[tuple[str, Serie
 
 
 def _iterate_state_series(source: KernelSource) -> Iterator[tuple[str, Series]]:
-    """Yield (name, series) of state variables of friction laws, such as bristle deflections, without unnamed ones."""
+    """Yield (name, series) of state variables of friction laws, such as bristle deflections.
+
+    State variables without a name have no series.
+    """
     first_index = len(source.clearances) + len(source.frictions)
     for k, name in enumerate(source.states):
         if name:
-            meaning = "internal state of the joint's law of friction"
+            meaning = "internal state of the joint's friction law"
             yield name, _make_stored_series("m", meaning, "memory", first_index + k)
 
 
@@ -293,7 +308,7 @@ def _iterate_drive_series(source: KernelSource) -> Iterator[tuple[str, Series]]:
 
 
 def list_drive_series(source: KernelSource) -> list[str]:
-    """Return the names of the series of the drives' torques and forces."""
+    """Return the names of the series of the drives' torques and forces, such as ["crank1.torque"]."""
     return [name for name, _ in _iterate_drive_series(source)]
 
 
@@ -303,12 +318,12 @@ def _iterate_friction_series(source: KernelSource) -> Iterator[tuple[str, Series
     for k, name in enumerate(source.frictions):
         yield f"{name}.F", _make_evaluated_series("N", "friction on the second body", "friction", k, 0)
         yield f"{name}.v", _make_evaluated_series("m/s", "slip", "friction", k, 1)
-        modes = "0 stick, 2 at rest by other rows, else the sign of the slip"
+        modes = "0 stick, 2 held at rest by other constraints, else the sign of the slip"
         yield f"{name}.mode", _make_stored_series("", modes, "memory", first_index + k)
 
 
 def _iterate_element_series(source: KernelSource) -> Iterator[tuple[str, Series]]:
-    """Yield the series of results of force elements."""
+    """Yield (name, series) of each result that a force element declares, such as the length of a spring."""
     for k, series in enumerate(source.series):
         yield series.name, _make_evaluated_series(series.unit, "result of a force element", "series", k)
 
@@ -324,7 +339,7 @@ def _iterate_multiplier_series(source: KernelSource) -> Iterator[tuple[str, Seri
 
 
 def _iterate_energy_series(source: KernelSource) -> Iterator[tuple[str, Series]]:
-    """Yield (name, series) of kinetic and potential energy, the energy residual and the works."""
+    """Yield (name, series) of kinetic and potential energy, the residual of the energy balance, and the works."""
     for k, name in enumerate(("kinetic", "potential")):
         yield f"energy.{name}", _make_evaluated_series("J", f"{name} energy", "energy", k)
     meaning_of_residual = "kinetic + potential energy less their start less all work"
@@ -338,8 +353,8 @@ DRIFT = ("Phi.max", "Phi_dot.max")
 
 
 def _iterate_drift_series(source: KernelSource) -> Iterator[tuple[str, Series]]:
-    """Yield (name, series) of the constraint drift, the largest |Φ| and |Φ̇|; lengths and angles count as numbers."""
-    units = ("|Φ|: m of rows of lengths, rad of rows of angles", "|Φ̇|: m/s of rows of lengths, rad/s of rows of angles")
+    """Yield (name, series) of the constraint drift: the largest |Φ| and |Φ̇| over all equations, m and rad alike."""
+    units = ("|Φ|: m for lengths, rad for angles", "|Φ̇|: m/s for lengths, rad/s for angles")
     for k, name in enumerate(DRIFT):
         yield name, _make_evaluated_series("", f"drift, the largest {units[k]}", "drift", k)
 
@@ -361,7 +376,10 @@ _MOTION_ALONE = (_iterate_element_series, _iterate_drift_series)
 
 
 def _compute_energy_residual(run: Result) -> Array:
-    """Return the energy residual (N,), J: kinetic plus potential energy, less their start, less all work."""
+    """Return the energy residual (N,), J: the change of kinetic plus potential energy since the start, less all work.
+
+    The start is `start_row` if that is not among the samples.
+    """
     energy, initial = (x["energy.kinetic"] + x["energy.potential"] for x in (run, run.start_row or run))
     return energy - initial[0] - (run["work.drives"] + run["work.forces"] + run["work.clearances"])
 
@@ -369,7 +387,10 @@ def _compute_energy_residual(run: Result) -> Array:
 def _make_output_series(
     source: KernelSource, name: str, expression_json: Any, series_by_name: Mapping[str, Series]
 ) -> Series:
-    """Return the series of an output of the mechanism file, from its expression and the series defined before it."""
+    """Return the series of an output of the mechanism file, with the unit that follows from its expression.
+
+    `series_by_name` has the series that the expression may name.
+    """
     expression = expression_tree.from_json(expression_json)
     used_names = {name_node.path for name_node in expression_tree.iterate_names(expression)}
     units = {"t": "s"} | {path: series_by_name[path].unit for path in used_names if path in series_by_name}
@@ -388,15 +409,18 @@ def _make_output_series(
 def make_unknown_series_error(
     source: KernelSource, available_series: Mapping[str, Series], name: Any, parameter_names: Iterable[str]
 ) -> UnknownNameError:
-    """Return, without raising it, the error for a name that is not in `available_series`, with nearest names and why.
-    The reason may be: not a text, a parameter, an output that needs other names, a body without masses.
+    """Return, without raising it, the error for a name that is not in `available_series`.
+
+    The message gives the reason: no text, a parameter, an output with missing names, or a body without mass. Otherwise
+    it suggests similar names.
     """
     if not isinstance(name, str):
-        return UnknownNameError(f"nothing is named {shorten_value(name)}", hint="a name is a text: run.names lists all")
+        message = f"no series {shorten_value(name)}: the name must be a text"
+        return UnknownNameError(message, hint="run.names lists all names")
     if name in parameter_names:
         similar_series = ", ".join(path for path in available_series if path.rpartition(".")[2] == name)
         hint = f'its value is run.parameters["{name}"]' + (f"; series: {similar_series}" if similar_series else "")
-        return UnknownNameError(f"{name!r} is a parameter, no series", hint=hint)
+        return UnknownNameError(f"{name!r} is a parameter, not a series", hint=hint)
     if name in source.outputs:
         missing = ", ".join(find_missing_names(source, source.outputs[name], available_series))
         hint = "a joint's play, contact and reaction have results only in the scenes that have them"
@@ -424,9 +448,11 @@ def list_parameter_names(source: KernelSource) -> set[str]:
     return addresses | {address.removeprefix("parameters.") for address in addresses}
 
 
-def choose_watched_series(reference: Result) -> tuple[str, ...]:
-    """Return the names of the series to show by default. For each slider on the ground it is the coordinate x or y that
-    moves further in `reference`. Without sliders they are the outputs, or else the angle of the last body.
+def choose_default_series(reference: Result) -> tuple[str, ...]:
+    """Return the names of the series to show by default.
+
+    Each slider on the ground has its x or y, whichever has the larger range in the run `reference`. Without such
+    sliders they are the outputs, or else the angle of the last body.
     """
     slider_series, source = [], reference.source
     guided_bodies = [joint.second for joint in source.clearances if joint.is_corner and joint.first < 0]
@@ -438,63 +464,8 @@ def choose_watched_series(reference: Result) -> tuple[str, ...]:
 
 
 def find_rigid_guides(source: KernelSource) -> list[JointInfo]:
-    """Return the joints without play of the kind whose play is that of a guide. The kind is named here, since a warm
-    run does not import the generator, which has the joints' declarations.
+    """Return the translational joints without play.
+
+    The kind is a literal here, since a run from the cache does not import the joints' declarations of the generator.
     """
     return [joint for joint in source.joints if joint.kind == "translational"]
-
-
-def compute_sampling_rate(t: Array) -> float:
-    """Return the sampling rate, Hz, of times (N,). Raises BadValueError for fewer than nine or uneven times."""
-    intervals = np.diff(t)
-    if len(intervals) < 8 or not np.all(np.abs(intervals - intervals.mean()) <= EVEN * intervals.mean()):
-        message = "a spectrum or a filter takes nine samples at even times or more"
-        hint = "simulate(…, output=N) has equal intervals; an event that ends a run adds one"
-        raise BadValueError(message, hint=hint)
-    return float(1.0 / intervals.mean())
-
-
-def compute_spectrum(t: Array, values: Array, window: str = "hann") -> tuple[Array, Array]:
-    """Return frequencies (Hz) and amplitudes (M,) of a series; a sine of amplitude A on a line has the amplitude A. The
-    spectrum is one-sided, of the values less their mean, under a window of scipy.signal.windows divided by its mean.
-    Raises BadValueError for another window, uneven times or values that are not finite.
-    """
-    from scipy.signal import get_window
-
-    if check_text(window, "window") not in WINDOWS:
-        raise_bad_value("window", window, f"one of {', '.join(WINDOWS)}")
-    sampling_rate, window_values = compute_sampling_rate(t), get_window(window, len(t))
-    check_finite(values)
-    amplitudes = np.abs(np.fft.rfft((values - values.mean()) * window_values)) / window_values.sum()
-    amplitudes[1 : (len(t) + 1) // 2] *= 2.0  # what is at −f, but for that at half the rate
-    return np.fft.rfftfreq(len(t), 1.0 / sampling_rate), amplitudes
-
-
-def apply_low_pass(t: Array, values: Array, cutoff: float, order: int = 2, causal: bool = True) -> Array:
-    """Return a series (N,) after a Butterworth low-pass with −3 dB at `cutoff` (Hz). `causal`: one pass forwards, as in
-    an amplifier, with its phase lag, from rest at the first value. Otherwise forwards and backwards without phase, with
-    a cutoff such that both passes together have −3 dB there. Raises BadValueError for a cutoff above half the sampling
-    rate.
-    """
-    from scipy.signal import butter, sosfilt, sosfilt_zi, sosfiltfilt
-
-    sampling_rate, order = compute_sampling_rate(t), check_integer(order, "order", 1, MAX_FILTER_ORDER)
-    check_finite(values)
-    if not 0.0 < cutoff < 0.499 * sampling_rate:
-        message = f"cutoff: {cutoff:g} Hz with {sampling_rate:g} samples a second: expected one below half of that"
-        raise BadValueError(message, hint="simulate with a larger output")
-    warped_frequency = np.tan(np.pi * cutoff / sampling_rate)  # of the bilinear transform
-    if not causal:
-        warped_frequency *= (2.0**0.5 - 1.0) ** (-1.0 / (2.0 * order))
-    design_frequency = float(np.arctan(warped_frequency)) / np.pi * sampling_rate
-    sections = butter(order, design_frequency, fs=sampling_rate, output="sos")
-    if causal:
-        return np.asarray(sosfilt(sections, values, zi=sosfilt_zi(sections) * values[0])[0])
-    filtered_both_ways: Array = sosfiltfilt(sections, values)
-    return filtered_both_ways
-
-
-def check_finite(values: Array) -> None:
-    """Raise BadValueError unless all values are finite."""
-    if not np.isfinite(values).all():
-        raise BadValueError("a series with values that are no numbers has no spectrum")

@@ -29,7 +29,7 @@ class State:
     state: Array  # (n_clearances,) 0 free, 1 impact, 2 contact
     memory: Array  # (n_clearances,) δ̇⁻ in m/s, NaN while free
     parameters: Mapping[str, float | str]  # address -> overridden value; a further run uses it unless given another
-    sha256: str = ""  # of the mechanism's file; "": made by hand
+    sha256: str = ""  # of the mechanism's file; "": the state was constructed by the user
     overrides: tuple[tuple[str, str | float | bool], ...] = ()  # (address, value) with which the file was loaded
     formulation: str = ""  # "reduced" or "full"; each restarts from a state of the other
     beside: tuple[tuple[str, str], ...] = ()  # files of tables and user-defined laws, and their SHA-256

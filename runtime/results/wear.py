@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from gudgeon.contract.kernel_source import KernelSource
     from gudgeon.results.state import Array
 
-POINTS = 3600  # cells of a circumference
+POINTS = 3600  # default number of cells of a circumference
 WORN_FRACTION = 0.9  # fraction of the volume that lies in the worn arc
 HOUR = 3600.0  # s
 LAWS = ("archard", "reye")
@@ -31,7 +31,7 @@ LAWS = ("archard", "reye")
 
 @dataclass(frozen=True)
 class SlidingRequest:
-    """A request to accumulate the sliding loads of a joint with play over the interval from `begin` to `end` (s)."""
+    """Request to accumulate the sliding loads of a joint with play over the interval from `begin` to `end` (s)."""
 
     joint: str
     points: int = POINTS
@@ -145,7 +145,7 @@ class Wear:
             )
         }
         columns = {
-            name: ("angle", surface.depth, {"units": "m", "long_name": f"wear's depth, {name}'s frame"})
+            name: ("angle", surface.depth, {"units": "m", "long_name": f"wear depth, {name}'s frame"})
             for name, surface in surfaces.items()
         }
         attributes = {"joint": self.joint, "law": self.law, "t_begin": self.t[0], "t_end": self.t[1], "slip": self.slip}
@@ -183,13 +183,13 @@ class Wear:
 class WornJoint:
     """Wear of one joint over r rounds of n runs; NaN from the round on in which a run failed."""
 
-    contour: Array  # (r + 1, n, slots) m: before each round, and what the last one leaves
-    depth: Array  # (r, n, points) m that a round wears, times `scale`, over the middles of the cells
-    work: Array  # (r, n) N m: ∫ F_n ds of Archard's law, or of Reye's what friction took, of the runs themselves
+    contour: Array  # (r + 1, n, slots) m: depths of the contour's points before each round and after the last one
+    depth: Array  # (r, n, points) m, wear depth of a round, times `scale`, at the middles of the cells
+    work: Array  # (r, n) N m: ∫ F_n ds of Archard's law, or the dissipation by friction of Reye's, without `scale`
     peak: Array  # (r, n) N, largest force
     radius: Array  # (n,) m
     length: Array  # (n,) m
-    journal: Array  # (r, n, points) m that a round wears off the journal, times `scale`, in the journal's own frame
+    journal: Array  # (r, n, points) m, wear depth of the journal in a round, times `scale`, in the journal's own frame
     journal_radius: Array  # (n,) m
 
     @property
@@ -215,7 +215,7 @@ class Worn:
     joints: Mapping[str, WornJoint]
     law: str
     rate: float  # k/H, 1/Pa
-    scale: float  # runs that each run stands for
+    scale: float  # number of runs that each run represents
     failures: Mapping[int, str]  # run -> why, in the round in which it failed
     title: str
 
@@ -228,7 +228,7 @@ class Worn:
         """Return a Dataset of contours over round, joint, run and slot, of depths over the cells, and of volumes, works
         and peak forces.
 
-        Contours with fewer slots than the longest are filled with NaN.
+        The dimension "slot" counts the points of a contour; contours with fewer points are filled with NaN.
         """
         import xarray
 
@@ -285,7 +285,7 @@ def compute_shortest_arc(depths: Array, fraction: float = WORN_FRACTION) -> floa
 
 
 def find_bearing_parameters(source: KernelSource, joint: str) -> tuple[int, int, int]:
-    """Return the indices in p of the radii of bearing and journal, and of the pin's length, for a joint with play.
+    """Return the indices in p of bearing radius, journal radius and bearing length of a joint with play.
 
     Raises StopIteration for another name.
     """
@@ -299,12 +299,11 @@ def find_bearing_parameters(source: KernelSource, joint: str) -> tuple[int, int,
 def distribute_loads(
     n_cells: int, begin_angles: Array, end_angles: Array, loads: Array, half_widths: Array | None = None
 ) -> Array:
-    """Return loads (r, K), distributed evenly over arcs of a circumference, as sums by cell, (r, n_cells).
+    """Return the sums by cell, (r, n_cells), of loads (r, K) that are distributed over arcs of a circumference.
 
-    The arcs are from `begin_angles` to `end_angles` (K,), rad. With `half_widths` (K,), rad, the load of each point of
-    an arc is a parabola that vanishes at that distance on both sides. Angles may be of any turn. A cell receives the
-    integral over it, so that sums of loads are preserved. `half_widths` None: the load of each point acts at that
-    point.
+    Load k of each row is spread evenly from `begin_angles[k]` to `end_angles[k]` (K,), rad, of any turn. With
+    `half_widths` (K,), rad, it is also convolved with a parabola of that half width (Hertzian pressure). A cell
+    receives the integral over it, so that sums of loads are preserved.
     """
     per_cell = 2.0 * np.pi / n_cells
     half_width_cells = np.zeros(len(begin_angles)) if half_widths is None else half_widths / per_cell
@@ -335,8 +334,7 @@ def distribute_loads(
 def _compute_fraction_below(x: Array, begin: Array, end: Array, half_width: Array | None) -> Array:
     """Return the fraction of the load of an arc from `begin` to `end` that lies below x, element by element.
 
-    With `half_width`, each point of the arc carries a parabola of that half width instead of a point load. None: point
-    loads.
+    With `half_width` the uniform load is convolved with a parabola of that half width. None: uniform load.
     """
     if half_width is None:
         return np.asarray(np.clip((x - begin) / (end - begin), 0.0, 1.0))
@@ -349,6 +347,6 @@ def _compute_fraction_below(x: Array, begin: Array, end: Array, half_width: Arra
 
 
 def _integrate_parabola(s: Array) -> Array:
-    """Return twice the integral of 3/4 (1 − s²) from −1 to s; the parabola has unit area within ±1."""
+    """Return the second antiderivative of 3/4 (1 − s²) within ±1 (0 outside), from −1; it is s for s ≥ 1."""
     inside = np.clip(s, -1.0, 1.0)
     return np.asarray((0.75 + inside * (2.0 + inside * (1.5 - 0.25 * inside**2))) / 4.0 + np.maximum(s - 1.0, 0.0))

@@ -43,8 +43,8 @@ class Bearing:
         for field in fields(self):
             object.__setattr__(self, field.name, check_positive(getattr(self, field.name), field.name))
         if self.clearance >= 0.1 * self.radius:
-            given = f"clearance is {self.clearance:g} m, radius {self.radius:g} m"
-            raise BadValueError(f"{given}: expected a clearance below a tenth of the radius")
+            values_text = f"clearance is {self.clearance:g} m, radius {self.radius:g} m"
+            raise BadValueError(f"{values_text}: expected a clearance below a tenth of the radius")
         if not 1e-6 <= self.l_over_d <= 1e6:
             raise BadValueError(f"length over diameter is {self.l_over_d:g}: expected 1e-6 to 1e6")
 
@@ -66,10 +66,10 @@ def check_vector(vector: ArrayLike, name: str) -> tuple[float, float]:
 
 
 def check_eccentricity(ratio: float) -> None:
-    """Raise BadValueError unless the eccentricity over the clearance is below 1, since beyond it there is no film."""
+    """Raise BadValueError unless the eccentricity ratio |e|/c is below 1, where the film thickness is positive."""
     if ratio >= 1.0:
-        given = f"the eccentricity is {ratio:.6g} times the clearance: expected less than 1"
-        raise BadValueError(given, hint="beyond it there is no film")
+        message = f"the eccentricity is {ratio:.6g} times the clearance: expected less than 1"
+        raise BadValueError(message, hint="at 1 the film thickness is 0")
 
 
 def check_choice(value: object, name: str, allowed_values: Sequence[str]) -> str:
@@ -93,7 +93,7 @@ def check_cells(cells: object, sealed: bool) -> tuple[int, int]:
         )
     around, axial = map(int, cells)
     if around < 32 or axial < 4 or around % 4 or axial % 4 or around * axial > MAX_CELLS:
-        expected = f"expected multiples of 4, at least (32, 4), of {MAX_CELLS} cells at most"
+        expected = f"expected multiples of 4, at least (32, 4), and at most {MAX_CELLS} cells"
         raise BadValueError(f"cells is ({around}, {axial}): {expected}")
     return around, (0 if sealed else axial)
 
@@ -111,15 +111,15 @@ class Film:
     radial, tangential: its parts along e and along ẑ × e, N.
     error: N, between these forces and those of half as many cells either way: Roache's index of two grids of a second
     order with the safety factor 3 (P. J. Roache, ASME J. Fluids Eng. 116 (1994) 405–413); errors of the model are not
-    included. With elrod_adams and reformation of the film the order is 1, and no safety factor is left.
+    included. With elrod_adams and reformation of the film the order is 1, and the safety factor is 1.
     attitude: rad, from the line of centres to the load, atan2(F_t, −F_r); with ω_s < 0 it is negative.
     torque_journal, torque_bearing: of the film's shear on each, N·m, about its own centre: ∓T0 − ½ e F_t with
-    T0 = μ R³ (ω_j − ω_i) ∬ θ/h dφ dz: where the film is ruptured the gap drags as if it were full, unless
-    elrod_adams knows θ. At ends and grooves p = 0.
-    leakage: oil that leaves over both ends, m³/s. supply: oil that comes in, net, m³/s: with elrod_adams from the
-    groove, with half_sommerfeld over the ends where p < 0 (and from a groove), with reynolds what the film takes up
-    where it forms, for outside of the film that condition asks nothing. taken_up: what the gap holds more each second,
-    m³/s (elrod_adams with ė·e ≠ 0). balance: supply − leakage − taken_up, m³/s: rounding.
+    T0 = μ R³ (ω_j − ω_i) ∬ θ/h dφ dz: the ruptured film has the drag of a full gap, except with elrod_adams, which
+    computes θ. At ends and grooves p = 0.
+    leakage: outflow of oil over both ends, m³/s. supply: net inflow of oil, m³/s: with elrod_adams from the groove,
+    with half_sommerfeld over the ends where p < 0 (and from a groove), with reynolds at the reformation of the film,
+    where this condition does not conserve oil. taken_up: rate of the oil stored in the gap, m³/s
+    (elrod_adams with ė·e ≠ 0). balance: supply − leakage − taken_up, m³/s: rounding error.
     extent: rising directions between which there is pressure in the middle plane, rad, within one cell; None: nowhere,
     or everywhere.
     """
@@ -174,4 +174,6 @@ class Film:
 def check_finite(*arrays: Array) -> None:
     """Raise BadValueError if any value of the arrays is NaN or infinite."""
     if not all(np.isfinite(array).all() for array in arrays):
-        raise BadValueError("the film's forces are no numbers: bearing and motion are too far from 1 for doubles")
+        raise BadValueError(
+            "the film's forces are not finite: values of bearing or motion are out of range for doubles"
+        )

@@ -1,8 +1,8 @@
 """Solve the discrete film equation under one of three cavitation conditions.
 
-half_sommerfeld: p of the whole film, of which only p > 0 carries (L. Gümbel). It does not conserve oil.
+half_sommerfeld: p of the whole film, of which only p > 0 contributes to forces (L. Gümbel). It does not conserve oil.
 
-reynolds: p ≥ 0, outflow ≥ closing, and equality in one of both at every node: ∂p/∂φ = 0 where the film ends. Oil is
+reynolds: p ≥ 0, outflow ≥ squeeze flow, with equality in one of both at every node: ∂p/∂φ = 0 at the film's end. Oil is
 conserved at the rupture, not at the reformation (H. W. Swift, W. Stieber). The complementarity problem has an M-matrix:
 its active set is found in finitely many steps (M. Hintermüller, K. Ito, K. Kunisch, SIAM J. Optim. 13 (2003) 865–888).
 
@@ -27,9 +27,7 @@ from gudgeon.waiting.cancellation import run_interruptible
 Flags = NDArray[np.bool_]
 MAX_MONOTONE_STEPS = 1000  # iterations of a monotone active set: at most one cell each; from a coarser grid a few
 MAX_STEPS = 100  # iterations of an active set that may cycle
-MIN_THREADED_UNKNOWNS = (
-    20_000  # unknowns from which on the factorization (0.1 s) runs in a thread, so that Ctrl-C is immediate
-)
+MIN_THREADED_UNKNOWNS = 20_000  # above it the factorization (0.1 s) runs in a thread, so that Ctrl-C is immediate
 
 
 @dataclass(frozen=True)
@@ -90,7 +88,7 @@ def _solve_subsystem(matrix: sparse.csr_matrix, right_side: Array, selected_node
 
 
 def _factorize_m_matrix(matrix: sparse.csr_matrix) -> Any:
-    """Return the LU factors of an M-matrix with symmetric pattern, without pivoting; `solve` of the result solves."""
+    """Return the LU factors of an M-matrix with symmetric pattern, without pivoting, an object with `solve`."""
     options = {"SymmetricMode": True}
     return _factorize(matrix, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options=options)
 
@@ -107,7 +105,7 @@ def _factorize(matrix: sparse.csr_matrix, **options: Any) -> Any:
             return splu(columns, **options)
         return run_interruptible(lambda: splu(columns, **options))
     except RuntimeError as error:  # SuperLU raises it for a pivot of 0
-        message = "reynolds: the gap is too thin for doubles: less eccentricity may do, or other cells"
+        message = "reynolds: the gap is too thin for doubles: try a smaller eccentricity or other cells"
         raise GudgeonError(message) from error
 
 
@@ -117,7 +115,7 @@ def _solve_complementarity_problem(
     """Return pressure and active set (nodes with p > 0) of the complementarity problem of the reynolds condition.
 
     free_nodes: all nodes but the groove. active_nodes: first guess of the active set.
-    Raises GudgeonError if the active set does not settle in MAX_MONOTONE_STEPS iterations.
+    Raises GudgeonError if the active set does not converge in MAX_MONOTONE_STEPS iterations.
     """
     for _ in range(MAX_MONOTONE_STEPS):
         p = _solve_subsystem(matrix, squeeze_flow, active_nodes)
@@ -125,7 +123,7 @@ def _solve_complementarity_problem(
         if np.array_equal(next_active, active_nodes):
             return p, active_nodes
         active_nodes = next_active
-    raise GudgeonError("reynolds: where the film ends is not found: another number of cells may do")
+    raise GudgeonError("reynolds: the boundary of the film was not found: try another number of cells")
 
 
 def _solve_elrod_adams(equation: Equation, motion: Motion, free_nodes: Flags, full_nodes: Flags) -> Pressure:
@@ -138,14 +136,14 @@ def _solve_elrod_adams(equation: Equation, motion: Motion, free_nodes: Flags, fu
     matrix, convection = equation.matrix, equation.build_convection_matrix(motion.half_speed, motion.w_n)
     if (convection.diagonal() <= 0.0).any():
         raise BadValueError(
-            "elrod_adams: the gap closes faster than oil is carried along",
-            hint="θ would hang on what was before; cavitation='reynolds' does not know θ",
+            "elrod_adams: the gap closes faster than oil is convected",
+            hint="θ would depend on the history; cavitation='reynolds' does not use θ",
         )
     pressure = _iterate_full_nodes(matrix, convection, free_nodes, full_nodes) or _iterate_full_nodes(
         matrix, convection, free_nodes, np.zeros_like(full_nodes)
     )
     if pressure is None:
-        raise GudgeonError("elrod_adams: where the film ends is not found: another number of cells may do")
+        raise GudgeonError("elrod_adams: the boundary of the film was not found: try another number of cells")
     return pressure
 
 
@@ -154,9 +152,8 @@ def _iterate_full_nodes(
 ) -> Pressure | None:
     """Iterate the active set of full nodes; return the solution, or None without convergence in MAX_STEPS iterations.
 
-    full_nodes: first guess.
-    matrix, convection: outflows by pressure and by filled fraction. free_nodes: all nodes but the groove. Without
-    supply of oil, a guess with a film may cycle; then the caller starts from an empty one.
+    matrix, convection: outflows by pressure and by filled fraction. free_nodes: all nodes except the groove.
+    full_nodes: initial guess. Without supply of oil the iteration may cycle; the caller then starts without full nodes.
     """
     groove = np.where(free_nodes, 0.0, 1.0)
     for _ in range(MAX_STEPS):

@@ -16,14 +16,14 @@ from gudgeon.language.names import make_unknown_name_error
 from gudgeon.model.arrays import as_c_array
 from gudgeon.reynolds.bearing import Bearing, check_finite
 from gudgeon.reynolds.equation import Array
-from gudgeon.reynolds.solver import CELLS
+from gudgeon.reynolds.solver import DEFAULT_CELLS
 from gudgeon.reynolds.tables import table
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-EPS = tuple(0.05 * k for k in range(1, 20))
-MOTIONS = tuple(math.pi / 12 * k for k in range(13))
+DEFAULT_EPS = tuple(0.05 * k for k in range(1, 20))
+DEFAULT_MOTIONS = tuple(math.pi / 12 * k for k in range(13))
 RADIUS, CLEARANCE, VISCOSITY = 0.01, 1e-5, 0.1  # m, m, Pa·s; the deviations do not depend on them
 LawForce = Callable[[Array, Array, Array], Array]
 
@@ -75,19 +75,19 @@ def deviation(
     law: str,
     l_over_d: float,
     *,
-    eps: ArrayLike = EPS,
-    motion: ArrayLike = MOTIONS,
+    eps: ArrayLike = DEFAULT_EPS,
+    motion: ArrayLike = DEFAULT_MOTIONS,
     cavitation: str = "reynolds",
     groove: str | None = None,
-    cells: tuple[int, int] = CELLS,
+    cells: tuple[int, int] = DEFAULT_CELLS,
     **keys: float | str | bool,
 ) -> Deviation:
     """Compare a film law (`gudgeon.generator.kinds.laws`, or a registered one) with the solver, and return the
     deviation.
 
     l_over_d: length over diameter. eps: (n,) in (0, 1). motion: (m,) rad, see Deviation. cavitation, groove, cells: as
-    `table` takes them. keys: the law's other keys, numbers in SI; the viscosity is given. Raises BadValueError and the
-    errors of `table` and of the law. groove None: without a groove.
+    for `table`. keys: the law's other keys, in SI, without the viscosity. Raises BadValueError, and the errors of
+    `table` and of the law.
     """
     ratio = check_positive(l_over_d, "l_over_d")
     bearing = _make_bearing(ratio)
@@ -96,7 +96,7 @@ def deviation(
         as_c_array(motion, "motion", (None,), require_finite=True),
     )
     if not ratios.size or not alpha.size or ratios.min() <= 0.0 or ratios.max() >= 1.0:
-        raise BadValueError("eps and motion: expected at least one each, eps above 0 and below 1")
+        raise BadValueError("eps and motion: expected at least one value each, eps above 0 and below 1")
     law_forces = _evaluate_law(law, ratio, ratios, alpha, keys)
     eps, closing, turning = _build_states(ratios, alpha)
     solver_table = table(bearing, eps, closing, 2.0 * turning / eps, cavitation=cavitation, groove=groove, cells=cells)
@@ -107,14 +107,12 @@ def deviation(
 
 
 def _make_bearing(l_over_d: float) -> Bearing:
-    """Return the bearing of this length over diameter in which forces are compared; relative forces do not depend on
-    its size.
-    """
+    """Return the bearing with this length over diameter, on which relative deviations depend only."""
     return Bearing(RADIUS, 2.0 * RADIUS * l_over_d, CLEARANCE, VISCOSITY)
 
 
 def _compute_force_unit(bearing: Bearing) -> float:
-    """Return the unit of the forces in N, μ R³ L/c² times 1/s."""
+    """Return the unit of the forces in N: μ R³ L/c² times 1/s."""
     return VISCOSITY * RADIUS**3 * bearing.length / CLEARANCE**2
 
 

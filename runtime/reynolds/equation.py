@@ -21,15 +21,15 @@ from scipy import sparse
 from scipy.optimize import brentq
 
 Array = NDArray[np.float64]
-TURN = 2.0 * math.pi
-UNIFORM = 0.5  # fraction of equidistant nodes; the others follow Sommerfeld's angle, dense where h is small
+FULL_TURN = 2.0 * math.pi
+UNIFORM_FRACTION = 0.5  # weight of φ in the variable of equidistant nodes; the rest is Sommerfeld's angle
 
 
 @dataclass(frozen=True)
 class Equation:
     """The flows of a grid. Unknowns are counted along the bearing first: node (i, j) is i·n_rows + j.
 
-    An open end's nodes are unknowns too: p = 0 there, and the unknown is what flows out over the end.
+    The nodes of an open end are unknowns too: there p = 0, and the unknown is the outflow over the end.
     """
 
     grid: Grid
@@ -45,7 +45,7 @@ class Equation:
     def matrix(self) -> sparse.csr_matrix:
         """Return the matrix (n·n_rows, n·n_rows) of the outflow of each cell by the unknowns.
 
-        It is an M-matrix; each column sums to 0, or to what leaves over the end.
+        It is an M-matrix; each column sums to 0, or to the outflow over the end.
         """
         grid, n, m = self.grid, len(self.grid.phi), len(self.grid.zeta)
         i = np.arange(n)
@@ -95,7 +95,7 @@ class Equation:
         grid, n = self.grid, len(self.grid.phi)
         flow = half_speed * (1.0 + grid.eps * np.cos(grid.right))  # through a cell's end, from i to i + 1
         i, zeros = np.arange(n), np.zeros(n)
-        forward, backward = (flow, zeros) if half_speed > 0.0 else (zeros, flow)  # what leaves i by θ_i, by θ_{i+1}
+        forward, backward = (flow, zeros) if half_speed > 0.0 else (zeros, flow)  # outflow of i by θ_i, by θ_{i+1}
         squeeze = w_n * (np.sin(grid.right) - np.sin(grid.left))
         values = np.concatenate([forward - np.roll(backward, 1) + squeeze, backward, -np.roll(forward, 1)])
         indices = (np.concatenate([i, i, i]), np.concatenate([i, (i + 1) % n, (i - 1) % n]))
@@ -108,7 +108,7 @@ class Equation:
 class Grid:
     """Nodes and the cells around them. φ counts from the widest gap, ζ = z/R from the middle to an end.
 
-    Along a sealed bearing nothing changes: it has one node, in a cell as long as the half.
+    A sealed bearing has no axial variation: it has one node along, in a cell as long as the half.
     """
 
     eps: float
@@ -116,8 +116,8 @@ class Grid:
     right: Array  # (n,) a cell's end towards larger φ
     left: Array  # (n,) and towards smaller
     node_spacing: Array  # (n,) from a node to the next
-    weight: Array  # (n,) of the trapezoidal rule in the variable in which nodes lie evenly: no error but that of p
-    zeta: Array  # (m,) nodes but that at the end, where p = 0
+    weight: Array  # (n,) of the trapezoidal rule in the variable in which nodes are equidistant
+    zeta: Array  # (m,) nodes, without that at the end, where p = 0
     height: Array  # (m,) lengths of cells; for an open end with the remaining length (m + 1,)
     gaps: Array  # (m,) from a node to the next, the last to the end; (0,) if sealed
     weight_along: Array  # (m,) Simpson's, of the half
@@ -134,17 +134,17 @@ class Grid:
 
 
 def make_grid(eps: float, l_over_d: float, n_around: int, n_along: int, first_angle: float = 0.0) -> Grid:
-    """Return a grid with a node at φ = start, dense where the film is thin and towards open ends.
+    """Return a grid with a node at φ = `first_angle` (rad), dense where the film is thin and towards open ends.
 
     eps: eccentricity ratio. n_around: number of cells around. n_along: cells from the middle to an end, 0 for a sealed
     bearing.
     """
-    spread = TURN / n_around
+    spread = FULL_TURN / n_around
     shift = float(_compute_uniform_angle(np.array([first_angle]), eps)[0])
     half_nodes = _invert_uniform_angle(shift + 0.5 * spread * np.arange(2 * n_around, dtype=float), eps)
     phi, right = half_nodes[::2], half_nodes[1::2]
-    left = np.concatenate([[right[-1] - TURN], right[:-1]])
-    node_spacing = np.concatenate([phi[1:], [phi[0] + TURN]]) - phi
+    left = np.concatenate([[right[-1] - FULL_TURN], right[:-1]])
+    node_spacing = np.concatenate([phi[1:], [phi[0] + FULL_TURN]]) - phi
     weight = spread / _compute_density(phi, eps)
     if not n_along:
         half_length = np.array([l_over_d])
@@ -160,7 +160,9 @@ def make_grid(eps: float, l_over_d: float, n_around: int, n_along: int, first_an
 
 def _compute_density(phi: Array, eps: float) -> Array:
     """Return the derivative of `_compute_uniform_angle` with respect to φ, the relative density of the nodes."""
-    return np.asarray(UNIFORM + (1.0 - UNIFORM) * math.sqrt(1.0 - eps * eps) / (1.0 + eps * np.cos(phi)))
+    return np.asarray(
+        UNIFORM_FRACTION + (1.0 - UNIFORM_FRACTION) * math.sqrt(1.0 - eps * eps) / (1.0 + eps * np.cos(phi))
+    )
 
 
 def _compute_uniform_angle(phi: Array, eps: float) -> Array:
@@ -168,27 +170,29 @@ def _compute_uniform_angle(phi: Array, eps: float) -> Array:
 
     It is the mean of φ and of Sommerfeld's angle γ: (1 + ε cos φ)(1 − ε cos γ) = 1 − ε², dγ = √(1 − ε²)/h dφ.
     """
-    turns = np.floor((phi + math.pi) / TURN)
-    half = 0.5 * (phi - TURN * turns)
-    gamma = 2.0 * np.arctan2(math.sqrt(1.0 - eps) * np.sin(half), math.sqrt(1.0 + eps) * np.cos(half)) + TURN * turns
-    return np.asarray(UNIFORM * phi + (1.0 - UNIFORM) * gamma)
+    turns = np.floor((phi + math.pi) / FULL_TURN)
+    half = 0.5 * (phi - FULL_TURN * turns)
+    gamma = (
+        2.0 * np.arctan2(math.sqrt(1.0 - eps) * np.sin(half), math.sqrt(1.0 + eps) * np.cos(half)) + FULL_TURN * turns
+    )
+    return np.asarray(UNIFORM_FRACTION * phi + (1.0 - UNIFORM_FRACTION) * gamma)
 
 
 def _invert_uniform_angle(values: Array, eps: float) -> Array:
     """Return the angles φ at which `_compute_uniform_angle` has these values.
 
-    Newton's method within bounds, which are bisected when a step is not half of the last one. Both variables differ by
-    at most π. At ε → 1 the slope jumps, so that Newton's method alone may cycle.
+    Safeguarded Newton's method: the bracket is bisected if a step leaves it or is more than half of the last one. Both
+    variables differ by at most π. For ε → 1 the slope nearly jumps, so that Newton's method alone may cycle.
     """
-    low, high, phi, last = values - math.pi, values + math.pi, values.copy(), np.full_like(values, TURN)
+    low, high, phi, last_step = values - math.pi, values + math.pi, values.copy(), np.full_like(values, FULL_TURN)
     for _ in range(200):
-        off = _compute_uniform_angle(phi, eps) - values
-        low, high = np.where(off < 0.0, phi, low), np.where(off > 0.0, phi, high)
-        step = -off / _compute_density(phi, eps)
-        halved = (phi + step <= low) | (phi + step >= high) | (abs(step) > 0.5 * abs(last))
-        last = np.where(halved & (off != 0.0), 0.5 * (low + high) - phi, step)
-        phi = phi + last
-        if float(np.max(abs(last))) <= 1e-14 * float(np.max(abs(values), initial=1.0)):
+        residual = _compute_uniform_angle(phi, eps) - values
+        low, high = np.where(residual < 0.0, phi, low), np.where(residual > 0.0, phi, high)
+        step = -residual / _compute_density(phi, eps)
+        must_bisect = (phi + step <= low) | (phi + step >= high) | (abs(step) > 0.5 * abs(last_step))
+        last_step = np.where(must_bisect & (residual != 0.0), 0.5 * (low + high) - phi, step)
+        phi = phi + last_step
+        if float(np.max(abs(last_step))) <= 1e-14 * float(np.max(abs(values), initial=1.0)):
             break
     return phi
 

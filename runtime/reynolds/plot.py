@@ -17,12 +17,13 @@ if TYPE_CHECKING:
 
     from gudgeon.reynolds.deviations import Deviation
 
-GAP, TALL = 0.25, 0.8  # clearance and largest pressure as drawn, over the radius of the bearing
+DRAWN_CLEARANCE, DRAWN_PRESSURE = 0.25, 0.8  # drawn clearance and largest pressure, over the bearing's radius
 
 
 def draw_film(film: Film) -> Figure:
-    """Return a figure: left p(φ, z), right the middle plane with journal, pressure and force; the gap is not to
-    scale.
+    """Return a figure of a film: left a map of p(φ, z), right the middle plane with journal, pressure and force.
+
+    In the middle plane the gap is not to scale.
     """
     import matplotlib
     from matplotlib.figure import Figure
@@ -88,12 +89,17 @@ def _draw_middle_plane(ax: Axes, film: Film) -> None:
     """
     turn = np.linspace(0.0, 2.0 * math.pi, 361)
     ax.plot(np.cos(turn), np.sin(turn), color="#777777", lw=1.2)
-    x, y = np.array(film.eccentricity) / film.bearing.clearance * GAP
-    ax.fill(x + (1.0 - GAP) * np.cos(turn), y + (1.0 - GAP) * np.sin(turn), facecolor="#e8e8e8", edgecolor="#777777")
+    x, y = np.array(film.eccentricity) / film.bearing.clearance * DRAWN_CLEARANCE
+    ax.fill(
+        x + (1.0 - DRAWN_CLEARANCE) * np.cos(turn),
+        y + (1.0 - DRAWN_CLEARANCE) * np.sin(turn),
+        facecolor="#e8e8e8",
+        edgecolor="#777777",
+    )
     p = film.pressure[:, film.pressure.shape[1] // 2]
     closed, angle = np.append(p, p[0]), np.append(film.angle, film.angle[0])
     if p.any():
-        out = 1.0 + TALL * closed / p.max()
+        out = 1.0 + DRAWN_PRESSURE * closed / p.max()
         around = np.concatenate([out * np.exp(1j * angle), np.exp(1j * angle[::-1])])
         ax.fill(around.real, around.imag, facecolor=COLOURS[1], alpha=0.35, lw=0)
         ax.plot(out * np.cos(angle), out * np.sin(angle), color=COLOURS[1], lw=1.0)
@@ -102,7 +108,7 @@ def _draw_middle_plane(ax: Axes, film: Film) -> None:
         ax.annotate("", (float(tip[0]), float(tip[1])), (x, y), arrowprops=style)
     ax.plot([0.0], [0.0], "+", color="#777777", ms=6)
     ax.plot([x], [y], "o", color=IDEAL, ms=3)
-    side = 1.05 + TALL
+    side = 1.05 + DRAWN_PRESSURE
     ax.set(xlim=(-side, side), ylim=(-side, side), aspect="equal", xticks=[], yticks=[])
     ax.set_title("pressure in the middle plane")
     ax.spines[:].set_visible(False)

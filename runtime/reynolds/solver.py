@@ -1,4 +1,4 @@
-"""Solve the film of one state: check arguments, refine the grid, return forces, flows and their error."""
+"""Solve Reynolds' equation for one state of a film: check arguments, refine the grid, return forces and their error."""
 
 from __future__ import annotations
 
@@ -23,11 +23,11 @@ from gudgeon.reynolds.bearing import (
     check_vector,
 )
 from gudgeon.reynolds.cavitation import Flags, Motion, Pressure, solve_pressure
-from gudgeon.reynolds.equation import TURN, Array, Equation, Grid, make_grid
+from gudgeon.reynolds.equation import FULL_TURN, Array, Equation, Grid, make_grid
 
-CELLS = (192, 24)  # around, from the middle to an end
-COARSEST = 64  # cells around, up to which the active set needs no start
-WIDEST = "widest"
+DEFAULT_CELLS = (192, 24)  # around, from the middle to an end
+MAX_COARSE_CELLS = 64  # cells around, up to which the active-set iteration needs no initial guess
+WIDEST_GAP = "widest"  # value of the argument groove
 Groove = float | str | None
 
 
@@ -41,7 +41,7 @@ def solve(
     cavitation: str = "reynolds",
     ends: str = "open",
     groove: Groove = None,
-    cells: tuple[int, int] = CELLS,
+    cells: tuple[int, int] = DEFAULT_CELLS,
 ) -> Film:
     """Solve the film between a journal and its bearing: pressure, forces, torques, leakage, error of the forces.
 
@@ -82,7 +82,7 @@ def solve(
 
 
 def _find_line_of_centres(eccentricity: Array, velocity: Array) -> Array:
-    """Return the unit vector (2,) of the line of centres, else that of the motion, else (1, 0)."""
+    """Return the unit vector (2,) of the line of centres; of the velocity if e = 0, else (1, 0)."""
     for vector in (eccentricity, velocity, np.array([1.0, 0.0])):
         if (size := math.hypot(*vector)) > 0.0:
             return np.asarray(vector / size)
@@ -92,16 +92,16 @@ def _find_line_of_centres(eccentricity: Array, velocity: Array) -> Array:
 def _find_groove_angle(groove: Groove, direction: Array, sealed: bool, cavitation: str) -> float | None:
     """Return the angle φ (rad) of the groove, counted from the widest gap; None without a groove.
 
-    direction: unit vector of the line of centres. A missing groove is at the widest gap if the bearing is sealed or
-    the condition is elrod_adams, which need a source of oil. Raises BadValueError.
+    direction: unit vector of the line of centres. A sealed bearing and elrod_adams need a source of oil: without
+    `groove` they have one at the widest gap. Raises BadValueError for an invalid `groove`.
     """
     if groove is None:
         return 0.0 if sealed or cavitation == "elrod_adams" else None
     if isinstance(groove, str):
-        check_choice(groove, "groove", ("a direction in rad", WIDEST))
+        check_choice(groove, "groove", ("a direction in rad", WIDEST_GAP))
         return 0.0
     phi = check_number(groove, "groove") - math.atan2(-direction[1], -direction[0])
-    return math.remainder(phi, TURN)
+    return math.remainder(phi, FULL_TURN)
 
 
 @dataclass(frozen=True)
@@ -119,8 +119,8 @@ class Problem:
         """Raise BadValueError for elrod_adams without rotation, since no oil is then convected."""
         if self.cavitation == "elrod_adams" and self.motion.half_speed == 0.0:
             raise BadValueError(
-                "elrod_adams: nothing carries the oil round, for omega_s = 0",
-                hint="θ would hang on what was before; cavitation='reynolds' does not know θ",
+                "elrod_adams: no oil is convected for omega_s = 0",
+                hint="θ would depend on the history; cavitation='reynolds' does not use θ",
             )
 
 
@@ -157,8 +157,8 @@ class Solution:
     def force(self) -> Array:
         """Return (F_r, F_t) on the journal of both halves, in units of 12 μ (R/c)² R².
 
-        The trapezoidal rule counts a half of the interval in which p changes its sign. The correction takes the part
-        with p > 0 instead.
+        Only p > 0 contributes. In an interval in which p changes its sign, the trapezoidal rule is corrected to the
+        part with p > 0.
         """
         p, grid = self.p, self.grid
         carrying_pressure = np.maximum(p, 0.0)
@@ -173,15 +173,15 @@ class Solution:
     def flows(self) -> tuple[float, float, float]:
         """Return leakage, supply and stored flow of both halves, in units of c R².
 
-        A sealed bearing has no leakage. The supply is the gain of the groove and of nodes with p = 0, and the inflow
-        over the ends.
+        A sealed bearing has no leakage. The supply is the inflow over the ends, and the outflow minus squeeze flow of
+        cells at nodes with p = 0 (elrod_adams: of the groove). Only elrod_adams has a stored flow.
         """
         end_flow, gain = self.end_flow, self._reshape_to_grid(self.pressure.gain)
         outflow, inflow = float(end_flow[end_flow > 0.0].sum()), -float(end_flow[end_flow < 0.0].sum())
         grid = self.grid
         closing = self.equation.compute_squeeze_flow(self.problem.motion.w_n, 0.0).reshape(gain.shape)
         stored = -float((closing * self.filled).sum()) if self.problem.cavitation == "elrod_adams" else 0.0
-        has_source = self.pressure.unknown.reshape(gain.shape) == 0.0  # where the equation holds the gain is rounding
+        has_source = self.pressure.unknown.reshape(gain.shape) == 0.0  # elsewhere the gain is rounding error
         if self.problem.cavitation == "elrod_adams":
             has_source = np.zeros_like(has_source)
             has_source[0] = True
@@ -200,12 +200,12 @@ def solve_on_two_grids(
 ) -> list[Solution]:
     """Return the solutions of a problem on half as many cells in both directions, and on all cells.
 
-    n_around: cells around. n_along: cells from the middle to an end, 0 for a sealed bearing. Each grid starts from the
-    active set of the coarser one. equations: cached equations of this eccentricity by number of cells around; new ones
-    are added.
+    n_around: cells around. n_along: cells from the middle to an end, 0 for a sealed bearing. The active set is
+    computed first on coarser grids, down to MAX_COARSE_CELLS, and interpolated. equations: cached equations of this
+    eccentricity by number of cells around; new ones are added.
     """
     levels = [(n_around, n_along), (n_around // 2, n_along // 2)]
-    while levels[-1][0] > COARSEST and not levels[-1][0] % 4 and not levels[-1][1] % 4:
+    while levels[-1][0] > MAX_COARSE_CELLS and not levels[-1][0] % 4 and not levels[-1][1] % 4:
         levels.append((levels[-1][0] // 2, levels[-1][1] // 2))
     equations_by_size = {} if equations is None else equations
     solutions: list[Solution] = []
@@ -223,13 +223,14 @@ def solve_on_two_grids(
 
 
 def _flatten_to_vector(flags: Flags) -> Flags:
-    """Return a flag for each unknown, (n·n_rows,), from an array (n, n_rows)."""
+    """Return flags (n, n_rows) as a vector (n·n_rows,), one for each unknown."""
     return np.asarray(flags.ravel())
 
 
 def _interpolate_unknowns(coarse_solution: Solution) -> Array:
-    """Return the unknowns of a coarse solution, interpolated linearly to twice as many cells; only their signs are
-    used.
+    """Return the unknowns of a coarse solution, interpolated linearly to twice as many cells in both directions.
+
+    Only their signs are used, as the initial active set of the fine grid.
     """
     p = coarse_solution.p
     if not coarse_solution.grid.sealed:
@@ -241,7 +242,7 @@ def _interpolate_unknowns(coarse_solution: Solution) -> Array:
         return rows.ravel()
     fine = np.empty((2 * n, 2 * m - 1))
     fine[:, ::2], fine[:, 1::2] = rows, 0.5 * (rows[:, :-1] + rows[:, 1:])
-    fine[:, -1] = fine[:, -2]  # oil leaves over the end where there is pressure next to it
+    fine[:, -1] = fine[:, -2]  # outflow over the end: positive where the neighbouring node has pressure
     return fine.ravel()
 
 
@@ -255,10 +256,10 @@ def _build_film(
     fine_solution: Solution,
     coarse_solution: Solution,
 ) -> Film:
-    """Return the film in SI units and the caller's frame from the solutions on both grids.
+    """Return the film of the fine solution in SI units and the caller's frame.
 
     e: eccentricity (2,) in m. direction: unit vector of the line of centres. omega_s, slip: ω_s and ω_i − ω_j in
-    rad/s. The error is the difference of the forces of both grids.
+    rad/s. Its error is the difference of the forces of both solutions.
     """
     grid, problem = fine_solution.grid, fine_solution.problem
     pressure_unit, c, widest = bearing.pressure_unit, bearing.clearance, math.atan2(-direction[1], -direction[0])
@@ -318,4 +319,4 @@ def _find_pressure_extent(p: Array, angle: Array) -> tuple[float, float] | None:
     first = next(k for k in range(n) if not has_pressure[peak - k - 1])
     last = next(k for k in range(n) if not has_pressure[(peak + k + 1) % n])
     begins, ends = float(angle[peak - first]), float(angle[(peak + last) % n])
-    return begins, ends + (TURN if ends < begins else 0.0)
+    return begins, ends + (FULL_TURN if ends < begins else 0.0)

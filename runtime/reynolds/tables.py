@@ -22,9 +22,9 @@ from gudgeon.reynolds.bearing import (
 )
 from gudgeon.reynolds.cavitation import Motion
 from gudgeon.reynolds.equation import Array, Equation
-from gudgeon.reynolds.solver import CELLS, WIDEST, Problem, solve_on_two_grids
+from gudgeon.reynolds.solver import DEFAULT_CELLS, WIDEST_GAP, Problem, solve_on_two_grids
 
-MAX_STATES = 1_000_000  # takes a day
+MAX_STATES = 1_000_000  # about a day of run time
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,7 +55,7 @@ def table(
     cavitation: str = "reynolds",
     ends: str = "open",
     groove: str | None = None,
-    cells: tuple[int, int] = CELLS,
+    cells: tuple[int, int] = DEFAULT_CELLS,
 ) -> Table:
     """Return the forces over eccentricity ratio ε in [0, 1), its rate ε̇ (1/s) and ω_s = ω_i + ω_j − 2ψ̇ (rad/s).
 
@@ -67,7 +67,7 @@ def table(
     sealed = check_choice(ends, "ends", ENDS) == "sealed"
     around, axial = check_cells(cells, sealed)
     if groove is not None:
-        check_choice(groove, "groove", ("None", WIDEST))
+        check_choice(groove, "groove", ("None", WIDEST_GAP))
     states = _broadcast_states(eps, eps_rate, omega_s)
     groove_angle = 0.0 if sealed or groove or cavitation == "elrod_adams" else None
     unique_states, inverse = np.unique(np.stack([x.ravel() for x in states], axis=1), axis=0, return_inverse=True)
@@ -87,9 +87,10 @@ def table(
 
 
 def _broadcast_states(eps: ArrayLike, eps_rate: ArrayLike, omega_s: ArrayLike) -> tuple[Array, ...]:
-    """Return the three arrays as views of one shape, checked before they are broadcast.
+    """Return the three arrays, broadcast to one shape (views).
 
-    Raises BadValueError for shapes that do not fit, more than MAX_STATES states, or ε outside [0, 1).
+    Raises BadValueError for values that are not finite, incompatible shapes, more than MAX_STATES states, or ε outside
+    [0, 1).
     """
     arguments = ((eps, "eps"), (eps_rate, "eps_rate"), (omega_s, "omega_s"))
     arrays = [as_c_array(x, name, require_finite=True, max_entries=MAX_STATES) for x, name in arguments]
@@ -97,11 +98,11 @@ def _broadcast_states(eps: ArrayLike, eps_rate: ArrayLike, omega_s: ArrayLike) -
         count = math.prod(np.broadcast_shapes(*(x.shape for x in arrays)))
     except ValueError:
         shapes = ", ".join(str(x.shape) for x in arrays)
-        raise BadValueError(f"eps, eps_rate and omega_s have the shapes {shapes}: they do not go together") from None
-    if count > MAX_STATES:  # before any array of that size is made
-        raise BadValueError(f"eps, eps_rate and omega_s are {count} states together: expected {MAX_STATES} at most")
+        raise BadValueError(f"eps, eps_rate and omega_s have the shapes {shapes}: they cannot be broadcast") from None
+    if count > MAX_STATES:  # before any array of that size is created
+        raise BadValueError(f"eps, eps_rate and omega_s are {count} states together: expected at most {MAX_STATES}")
     states = np.broadcast_arrays(*arrays)
     if (states[0] < 0.0).any():
-        raise BadValueError(f"eps is {states[0].min():g}: expected no less than 0")
+        raise BadValueError(f"eps is {states[0].min():g}: expected 0 or more")
     check_eccentricity(float(states[0].max(initial=0.0)))
     return tuple(states)

@@ -25,7 +25,7 @@ from gudgeon.model.contours import find_contour, interpolate_depth
 from gudgeon.results.contact_check import ContactCheck, check_contact_samples
 from gudgeon.results.diagnostics import Difference, Examination, IdealForce, JointContactStatistics
 from gudgeon.results.samples import prepend_start
-from gudgeon.results.series import MOTION, choose_watched_series, find_rate_names
+from gudgeon.results.series import MOTION, choose_default_series, find_rate_names
 from gudgeon.simulation.predictability_horizon import (
     build_repeat_settings,
     build_start_state,
@@ -382,7 +382,7 @@ def _estimate_errors(
     horizon = run.diagnostics.horizon
     until = min(horizon, float(run.t[-1])) if math.isfinite(horizon) else float(run.t[-1])
     is_compared = run.t <= until
-    names = [name for watched in choose_watched_series(run) for name in (watched, *find_rate_names(watched)) if name]
+    names = [name for watched in choose_default_series(run) for name in (watched, *find_rate_names(watched)) if name]
     results = []
     for name in dict.fromkeys([*names, *(f"{joint.name}.F" for joint in run.source.clearances)]):
         differences = np.abs(accurate_run[name] - run[name])[is_compared]

@@ -27,7 +27,7 @@ from gudgeon.model.cached_values import cache_by_values
 from gudgeon.model.compiled import Array
 from gudgeon.model.written import evaluate_at_times, find_undefined_value_at_switch, read_expression_trees
 
-_HIDING = select_function_names(lambda f: f.hides_corners)  # functions that may hide a switching point
+_HIDING = select_function_names(lambda f: f.hides_switching_points)  # functions that may hide a switching point
 # grid intervals, largest number of candidates of `_find_jumps`, and of `_find_first_discontinuity`
 GRID, MAX_JUMPS, MAX_BREAK_CANDIDATES = 4096, 16, 512
 END_MARGIN = 1e-12  # fraction of a run's time that is searched after its end

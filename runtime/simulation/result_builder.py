@@ -31,7 +31,7 @@ from gudgeon.model.evaluation import Evaluation
 from gudgeon.model.left_limit import find_evaluation_times
 from gudgeon.model.seams import iterate_seam_notes
 from gudgeon.model.written import find_unbounded_drive
-from gudgeon.results.diagnostics import Diagnostics, Peak, collect_provenance, find_date
+from gudgeon.results.diagnostics import Diagnostics, Peak, collect_provenance, get_run_date
 from gudgeon.results.peaks import describe_zeno_points, find_first_contact_force
 from gudgeon.results.results import Result
 from gudgeon.results.samples import split_off_start
@@ -39,7 +39,7 @@ from gudgeon.results.series import explain_missing_masses
 from gudgeon.simulation.audit import has_failed_finding
 from gudgeon.simulation.passing_audit import ShortRunSamples, is_short_run
 from gudgeon.simulation.sample_checks import CheckedSamples, check_samples
-from gudgeon.waiting.cancellation import EVERY
+from gudgeon.waiting.cancellation import POLL_INTERVAL_S
 from gudgeon.waiting.ctrl_c import DelayedCtrlC
 
 INTERRUPTED_NOTE = "interrupted: samples after the last one, and what is computed from all of them, are missing"
@@ -337,7 +337,7 @@ class _ResultParts:
         self, problem: Problem, trajectory: Trajectory, times: Array | None, passing: ShortRunSamples | None
     ) -> None:
         self.problem, self.trajectory, self.times, self.passing = problem, trajectory, times, passing
-        self.date = find_date()
+        self.date = get_run_date()
         if passing:
             self.fields = _FIELDS_OF_PASSING
 
@@ -402,7 +402,7 @@ def _make_poll_function(problem: Problem, is_interrupted: bool, is_time_limited:
         nonlocal last_report
         problem.poll_cancellation()
         now = monotonic()
-        if problem.progress and not is_interrupted and now - last_report > EVERY:
+        if problem.progress and not is_interrupted and now - last_report > POLL_INTERVAL_S:
             last_report = now
             problem.progress(1.0, "balancing energy")
         if is_interrupted and is_time_limited and now - time_at_begin > AFTER_CTRL_C:

@@ -21,16 +21,16 @@ if TYPE_CHECKING:
     from gudgeon.results.results import Result
     from gudgeon.simulation.simulation import Simulation
 
-SPREADS = (0.15, 0.15, 0.08, 0.03)  # largest relative change of parameters in each attempt
-MAX_CHANGED = 4  # number of changed parameters
-MEASURES = ("length", "mass", "inertia")
-DIGITS = 5  # digits of positions, relative to the size of the mechanism
-NOISE = 1e-9  # values below this fraction of the largest of their kind are rounding errors
+MAX_RELATIVE_CHANGES = (0.15, 0.15, 0.08, 0.03)  # of a parameter, in each attempt
+MAX_CHANGED_PARAMETERS = 4
+VARIED_FIELDS = ("length", "mass", "inertia")
+N_DIGITS = 5  # printed digits of positions, relative to the size of the mechanism
+ROUNDING_TOL = 1e-9  # values below this fraction of the largest of their kind are rounding errors
 
 
 @dataclass(frozen=True)
 class ExerciseData:
-    """Hold a scene with changed parameter values at the time t (s), with the data that an exercise sheet prints."""
+    """Parameter values and the state of a scene at the time t (s), rounded as an exercise sheet prints them."""
 
     parameters: dict[str, str]  # those that differ from the file's, by address, with their units
     t: float
@@ -41,10 +41,10 @@ class ExerciseData:
     units: Array  # (2n,) value of the last printed digit of q and v
 
     def estimate_uncertainty(self, function: Callable[[Array, Array], Array]) -> Array:
-        """Return how much function(q, v) may change by the rounding of the printed data, half a unit of each last
-        digit.
+        """Return a bound of the change of function(q, v) by the rounding of the printed state, by error propagation.
 
-        The result has the shape of the function's value.
+        Changes by half a unit of the last digit of each entry of q and v are added in magnitude. The result has the
+        shape of the function's value.
         """
         state, total = np.concatenate([self.q, self.v]), np.asarray(0.0)
         value, n = function(self.q, self.v), len(self.q)
@@ -58,17 +58,17 @@ class ExerciseData:
 def draw_parameters(
     simulation: Simulation, seed: int, time_text: str | None, units: Mapping[str, tuple[str, float]] | None = None
 ) -> ExerciseData:
-    """Draw parameter values from a seed with which the scene assembles and moves, and return them with their run.
+    """Draw random parameter values with which the scene assembles and runs, and return them with their run.
 
-    The file's own values are used if no others work. units: unit of the file and its value in SI by address ("rpm",
-    0.105); other values have SI units. time_text: the time as text, or None for a drawn one. The time is before an
-    event that ends the motion. Raises BadValueError for the time, AssemblyError or SolverError if the file's own values
+    If all attempts fail, the values of the file are used. units: unit of the file and its value in SI by address
+    ("rpm", 0.105); other values have SI units. time_text: the time as text, or None for a random one, before an event
+    that ends the motion. Raises BadValueError for the time, AssemblyError or SolverError if the values of the file
     fail.
     """
     rng = np.random.default_rng(seed)
     given_time = None if time_text is None else parse_quantity(insert_space_before_unit(time_text), "--at", (0, 0, 1))
     if given_time is not None and not 0.0 <= given_time < np.inf:
-        raise BadValueError(f"--at is {given_time:g} s: the motion starts at 0 s", hint="take a time of the motion")
+        raise BadValueError(f"--at is {given_time:g} s: expected 0 s or more", hint="choose a time of the motion")
     failure: Exception | None = None
     for values, time_fraction in _yield_parameter_changes(simulation.source, rng, units or {}):
         try:
@@ -92,17 +92,17 @@ def draw_parameters(
 def _yield_parameter_changes(
     source: KernelSource, rng: np.random.Generator, units: Mapping[str, tuple[str, float]]
 ) -> Iterator[tuple[dict[str, str], float]]:
-    """Yield changed values as texts by address, and the fraction of the scene's duration at which the sheet's time is.
+    """Yield for each attempt changed values as texts by address, and the sheet's time as a fraction of the duration.
 
-    The changes decrease from attempt to attempt. The last two attempts have the file's values ({}).
+    The changes decrease by MAX_RELATIVE_CHANGES. The last two attempts have the values of the file ({}).
     """
     candidates = [
         parameter
         for parameter in source.slots
         if not (parameter.follows or parameter.words) and parameter.default != 0.0 and _may_vary(parameter.address)
     ]
-    for spread in SPREADS:
-        changed_indices = rng.permutation(len(candidates))[:MAX_CHANGED]
+    for spread in MAX_RELATIVE_CHANGES:
+        changed_indices = rng.permutation(len(candidates))[:MAX_CHANGED_PARAMETERS]
         factors = 1.0 + spread * rng.uniform(-1.0, 1.0, len(changed_indices))
         time_fraction = float(rng.uniform(0.15, 0.85))
         changed = [(candidates[k], x) for k, x in zip(changed_indices, factors, strict=True)]
@@ -115,14 +115,12 @@ def _yield_parameter_changes(
 
 
 def _may_vary(address: str) -> bool:
-    """Return whether an address is that of a parameter, or of a length, mass or inertia of a body, which may be
-    varied.
-    """
+    """Return whether the value at an address may be varied: a parameter, or length, mass or inertia of a body."""
     match address.split("."):
         case ["parameters", _]:
             return True
         case ["bodies", _, field]:
-            return field in MEASURES
+            return field in VARIED_FIELDS
     return False
 
 
@@ -152,14 +150,13 @@ def _simulate_until(simulation: Simulation, values: dict[str, str], t: float) ->
 def _find_time_before_event(run: Result, given_time: float | None, fraction: float) -> float:
     """Return a time (s) before the event that ended the run, at the given `fraction` of its duration.
 
-    Raises BadValueError if the user gave the time (`given_time`), which is after the event. None: the user gave no
-    time.
+    Raises BadValueError if the user gave a time (`given_time` is not None): it is after the event.
     """
     end_time, last_event = float(run.t[-1]), run.source.events[run.events["event"][-1]]
     if given_time is None:
         return float(f"{fraction * end_time:.2g}")
     message = f"--at is {given_time:g} s: event {last_event.name} (action: stop) ends the motion at {end_time:.6g} s"
-    raise BadValueError(message, hint=f"take a time before that, such as {fraction * end_time:.2g} s")
+    raise BadValueError(message, hint=f"choose an earlier time, such as {fraction * end_time:.2g} s")
 
 
 def _make_rounded_data(values: dict[str, str], t: float, p: Array, run: Result) -> ExerciseData:
@@ -172,12 +169,12 @@ def _make_rounded_data(values: dict[str, str], t: float, p: Array, run: Result) 
     if not (np.isfinite(q).all() and np.isfinite(v).all()):
         raise SolverError(f"no position at {t:g} s", t)
     size = max(float(np.ptp(q.reshape(-1, 3)[:, :2])), 1e-12)
-    decimals = DIGITS - 1 - int(np.floor(np.log10(size)))
+    decimals = N_DIGITS - 1 - int(np.floor(np.log10(size)))
     units = np.zeros((2, len(q)))
     for k in range(len(q)):
-        n_decimals = DIGITS if k % 3 == 2 else decimals
+        n_decimals = N_DIGITS if k % 3 == 2 else decimals
         q[k], units[0, k] = round(q[k], n_decimals), 10.0**-n_decimals  # with whole turns, which drives and gears count
         rates_of_kind = v[2::3] if k % 3 == 2 else np.delete(v, np.s_[2::3])
-        v[k] = 0.0 if abs(v[k]) <= NOISE * np.abs(rates_of_kind).max() else float(f"{v[k]:.{DIGITS}g}")
-        units[1, k] = 10.0 ** (math.floor(math.log10(abs(v[k]))) + 1 - DIGITS) if v[k] else 0.0
+        v[k] = 0.0 if abs(v[k]) <= ROUNDING_TOL * np.abs(rates_of_kind).max() else float(f"{v[k]:.{N_DIGITS}g}")
+        units[1, k] = 10.0 ** (math.floor(math.log10(abs(v[k]))) + 1 - N_DIGITS) if v[k] else 0.0
     return ExerciseData(values, t, q, v, p, run, units.ravel())

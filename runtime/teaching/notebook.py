@@ -28,20 +28,20 @@ from gudgeon.teaching.sympy_text import assign_names, format_expression, format_
 
 Cell = tuple[str, str]  # "markdown" or "code", text
 MAX_LINE_WIDTH = 100
-DERIVED = """\
+DERIVATION_CODE = """\
 Phi_q = Phi.jacobian(q)
 nu = -Phi.diff(t)
 gamma = -(Phi_q * v).jacobian(q) * v - 2 * Phi_q.diff(t) * v - Phi.diff(t, 2)
 Phi_q"""
-_SIGNS = re.compile(r"([\\`*_{}\[\]<>#|$~])")
+_MARKDOWN_CHARACTERS = re.compile(r"([\\`*_{}\[\]<>#|$~])")
 
 
 def write_notebook(model: Model, mechanism: str) -> str:
     """Return the text (JSON) of a Jupyter notebook that derives a scene's equations with SymPy alone and runs the
     scene.
 
-    mechanism: name or file by which its last cells load the scene. Raises GudgeonError for expressions that plain SymPy
-    cannot represent.
+    mechanism: name or file from which its last cells load the scene. Raises GudgeonError for curves and functions that
+    SymPy does not have.
     """
     cells: list[dict[str, Any]] = [
         {"cell_type": kind, "id": f"cell-{k:02d}", "metadata": {}, "source": text.splitlines(keepends=True)}
@@ -82,21 +82,21 @@ def _yield_cells(model: Model, mechanism: str) -> Iterator[Cell]:
     yield "code", _write_coordinates_code(model, notation, names)
     used = _find_used_parameters(model)
     shown = (notation.format_expression(symbol) for symbol in (*model.q, *model.v, *(entry.symbol for entry in used)))
-    message = ["## Numbers", "Every number of the file that stands in an equation has a letter."]
-    yield "markdown", "\n\n".join((*message, *map(format_block, make_primed_symbols_table(notation, shown))))
+    paragraphs = ["## Numbers", "Every parameter of the file in an equation has a symbol."]
+    yield "markdown", "\n\n".join((*paragraphs, *map(format_block, make_primed_symbols_table(notation, shown))))
     yield "code", _write_parameters_code(used, notation, names)
     yield from _yield_constraint_cells(model, names)
     if not scene.mechanism.bodies or not model.rows:
-        yield "markdown", "Nothing holds the bodies: Φ has no row."
+        yield "markdown", "The bodies have no constraints: Φ has no row."
     else:
         yield (
             "markdown",
             (
-                "## What follows from Φ\n\n$$ \\Phi_q \\dot q = \\nu = -\\Phi_t, \\qquad \\Phi_q \\ddot q = \\gamma = "
+                "## Derivatives of Φ\n\n$$ \\Phi_q \\dot q = \\nu = -\\Phi_t, \\qquad \\Phi_q \\ddot q = \\gamma = "
                 "-(\\Phi_q \\dot q)_q \\dot q - 2\\Phi_{qt} \\dot q - \\Phi_{tt} $$"
             ),
         )
-        yield "code", DERIVED
+        yield "code", DERIVATION_CODE
     if not any(body.missing_keys for body in scene.mechanism.bodies.values()):
         yield from _yield_motion_cells(model, names)
     yield from _yield_run_cells(model, mechanism)
@@ -160,7 +160,7 @@ def _yield_constraint_cells(model: Model, names: dict[sp.Symbol, str]) -> Iterat
         rows, name = list(group), f"Phi_{owner}"
         parts.append(f"*{name}")
         if kind == "drive":
-            what, text = f"Drive {owner}", None
+            title, code = f"Drive {owner}", None
         else:
             joint = mechanism.joints[owner]
             joint_type = joint_types()[joint.kind]
@@ -168,16 +168,16 @@ def _yield_constraint_cells(model: Model, names: dict[sp.Symbol, str]) -> Iterat
                 f"{ref.body}.{ref.point}" if joint_type.joins == "points" else ref.body
                 for ref in (joint.first, joint.second)
             )
-            what, text = (
+            title, code = (
                 f"Joint {owner}, {joint_type.title}: {' and '.join(ends)}",
                 _write_revolute_code(model, owner, name, rows, names),
             )
         yield (
             "markdown",
-            f"{escape_markdown(what)}; {', '.join(f'{escape_markdown(row.name)} in {row.unit}' for row in rows)}.",
+            f"{escape_markdown(title)}; {', '.join(f'{escape_markdown(row.name)} in {row.unit}' for row in rows)}.",
         )
         explicit = [format_expression(row.phi, model, names) for row in rows]
-        yield "code", text or f"{name} = {_write_column_by_lines(explicit)}"
+        yield "code", code or f"{name} = {_write_column_by_lines(explicit)}"
     yield "code", f"Phi = {_write_column(parts)}\nPhi"
 
 
@@ -186,17 +186,17 @@ def _write_revolute_code(
 ) -> str | None:
     """Return Python code that assigns the equations of a revolute joint: the difference of two points in ground axes.
 
-    variable: the Python variable that receives the difference. rows: the joint's constraint equations. names: Python
-    names of symbols. Return None for other joint types, and for revolute joints of which an equation was dropped.
+    variable: Python variable of the difference. rows: the joint's constraint equations. names: Python names of symbols.
+    Returns None for other joint types, and for a revolute joint with a dropped redundant equation.
     """
     joint = model.scene.mechanism.joints[joint_name]
     if not joint_types()[joint.kind].is_pivot or len(rows) != 2:
         return None
     lines = []
-    for what, ref in (("first", joint.first), ("second", joint.second)):
+    for prefix, ref in (("first", joint.first), ("second", joint.second)):
         frame = model.geometry.find_point(ref)
         coordinates = [format_expression(component, model, names) for component in (frame.x, frame.y)]
-        lines.append(f"{what}_{joint_name} = {_write_column_by_lines(coordinates)}  # {ref.body}.{ref.point}")
+        lines.append(f"{prefix}_{joint_name} = {_write_column_by_lines(coordinates)}  # {ref.body}.{ref.point}")
     return "\n".join((*lines, f"{variable} = first_{joint_name} - second_{joint_name}"))
 
 
@@ -208,14 +208,14 @@ def _write_column_by_lines(entries: list[str]) -> str:
 
 def _yield_motion_cells(model: Model, names: dict[sp.Symbol, str]) -> Iterator[Cell]:
     """Yield the cells of the mass matrix M and the applied forces g; the system is solved numerically later."""
-    text = "The joints with play and friction that may stick add to g; the simulator has them."
+    text = "The forces of joints with play and of set-valued friction are added to g by the simulator."
     more = text if model.clearances or model.frictions else ""
     yield (
         "markdown",
         (
             "## The equation of motion\n\n$$ M \\ddot q + \\Phi_q^{\\mathsf T} \\lambda = g, \\qquad "
             "\\Phi_q \\ddot q = \\gamma $$\n\nM is diagonal, as the coordinates are those of the centres of mass; g "
-            f"holds gravity and the force elements. {more}".rstrip()
+            f"contains gravity and the force elements. {more}".rstrip()
         ),
     )
     masses = [format_expression(mass, model, names) for mass in model.masses]
@@ -233,7 +233,7 @@ def format_document(document: Document) -> str:
 
 
 def format_block(block: Block) -> str:
-    """Return a paragraph, equation, table or sketch as Markdown; "" for what only a page can show."""
+    """Return a paragraph, equation, table or sketch as Markdown; "" for embedded HTML."""
     if isinstance(block, Paragraph):
         return format_text(block.text)
     if isinstance(block, Equation):
@@ -252,7 +252,7 @@ def format_text(text: Text) -> str:
 
 def escape_markdown(text: str) -> str:
     """Return text with all Markdown characters escaped."""
-    return _SIGNS.sub(r"\\\1", text)
+    return _MARKDOWN_CHARACTERS.sub(r"\\\1", text)
 
 
 def _format_table(table: Table) -> str:
@@ -279,8 +279,8 @@ def _yield_run_cells(model: Model, mechanism: str) -> Iterator[Cell]:
     yield (
         "markdown",
         (
-            "## The same functions in NumPy\n\n`model.numpy()` is the plainest form of what the emitted C computes; "
-            "`model.numpy().source` is its text. At the start both say the same."
+            "## The same functions in NumPy\n\n`model.numpy()` has the functions of the emitted C in NumPy; "
+            "`model.numpy().source` is their text. At the start both must agree."
         ),
     )
     if model.rows:
@@ -302,8 +302,8 @@ def _write_functions_code(model: Model, massless: bool) -> str:
     parts = ["Phi", "Phi_q", "nu", "gamma"] if massless else ["Phi", "Phi_q", "nu", "gamma", "M", "g"]
     return (
         "def function(matrix):\n"
-        '    """In numbers, of t, q and q̇."""\n'
-        '    instants = {"DiracDelta": lambda *_: 0.0}  # a jump of a rate lasts for no time\n'
+        '    """Return a NumPy function of t, q and q̇ for a matrix."""\n'
+        '    instants = {"DiracDelta": lambda *_: 0.0}  # impulses at jumps of a rate are left out\n'
         '    compiled = sp.lambdify((t, [*q], [*v]), matrix.subs(numbers), [instants, "numpy"])\n'
         "    return lambda t, q, v: np.array(compiled(t, q, v), float)\n\n\n"
         f"derived = {{name: function(matrix) for name, matrix in dict({', '.join(f'{x}={x}' for x in parts)}).items()}}"
@@ -323,10 +323,11 @@ def _write_load_code(model: Model, mechanism: str) -> str:
 def _write_numpy_comparison(model: Model, mechanism: str) -> str:
     """Return the Python text of the cell that loads the scene and compares the derivation with `model.numpy()`.
 
-    NumPy's constraint equations are those of the closed linkage: with joints that have play here, and redundant ones.
+    The constraint equations of NumPy are those of the closed linkage, which include joints with play and redundant
+    equations; the cell selects those of the scene.
     """
-    kept = [row.name for row in model.rows]
-    rows = [k for k, row in enumerate(model.all_rows) if row.name in kept]
+    names_of_rows = {row.name for row in model.rows}
+    rows = [k for k, row in enumerate(model.all_rows) if row.name in names_of_rows]
     return (
         "import gudgeon\n\n"
         f"simulation = gudgeon.load({mechanism!r}, {model.scene.name!r})\n"
@@ -341,7 +342,7 @@ def _write_numpy_comparison(model: Model, mechanism: str) -> str:
         "):\n"
         "    ours = derived[name](0.0, start.q, start.v)\n"
         "    theirs = np.asarray(theirs)[rows].reshape(ours.shape)\n"
-        '    print(f"{name}: {np.abs(ours - theirs).max():.1e} apart at most")\n'
+        '    print(f"{name}: largest difference {np.abs(ours - theirs).max():.1e}")\n'
         "    assert np.allclose(ours, theirs, rtol=1e-9, atol=1e-9 * (1 + np.abs(theirs).max()))"
     )
 
@@ -349,8 +350,8 @@ def _write_numpy_comparison(model: Model, mechanism: str) -> str:
 def _write_run_comparison(model: Model, massless: bool, compares_accelerations: bool) -> str:
     """Return the Python text of the cell that compares the derivation with the end of a run of the compiled simulator.
 
-    Accelerations are compared, or the Jacobian alone (not `compares_accelerations`) if the scene has play or friction.
-    massless: drives alone determine the accelerations.
+    It compares the accelerations, or without `compares_accelerations` (play or friction) only the Jacobian. massless:
+    accelerations are computed from the drives only.
     """
     head = (
         "end = float(run.t[-1])\n"
@@ -358,21 +359,21 @@ def _write_run_comparison(model: Model, massless: bool, compares_accelerations: 
     )
     if massless:
         return head + (
-            "a = np.linalg.lstsq(entries, right[:, 0], rcond=None)[0]  # no masses: drives determine all\n"
-            'print(f"q̈ at {end:g} s: {np.abs(a - run.a[-1]).max():.1e} apart at most")\n'
+            "a = np.linalg.lstsq(entries, right[:, 0], rcond=None)[0]  # no masses: drives determine the motion\n"
+            'print(f"q̈ at {end:g} s: largest difference {np.abs(a - run.a[-1]).max():.1e}")\n'
             "assert np.allclose(a, run.a[-1], rtol=1e-6, atol=1e-6 * (1 + np.abs(a).max()))"
         )
     if not compares_accelerations:
         return head + (
             "theirs = simulation.phi_q(end, run.q[-1])\n"
-            'print(f"Φ_q at {end:g} s: {np.abs(entries - theirs).max():.1e} apart at most")\n'
+            'print(f"Φ_q at {end:g} s: largest difference {np.abs(entries - theirs).max():.1e}")\n'
             "assert np.allclose(entries, theirs, rtol=1e-9, atol=1e-9 * (1 + np.abs(theirs).max()))"
         )
     return head + (
         'mass, forces = derived["M"](end, run.q[-1], run.v[-1]), derived["g"](end, run.q[-1], run.v[-1])\n'
         "system = np.block([[mass, entries.T], [entries, np.zeros((len(entries), len(entries)))]])\n"
         "solved = np.linalg.solve(system, np.concatenate([forces[:, 0], right[:, 0]]))\n"
-        "a = solved[: len(mass)]  # behind them the multipliers λ\n"
-        'print(f"q̈ at {end:g} s: {np.abs(a - run.a[-1]).max():.1e} apart at most, of {np.abs(a).max():.3g}")\n'
+        "a = solved[: len(mass)]  # the other entries are the multipliers λ\n"
+        'print(f"q̈ at {end:g} s: largest difference {np.abs(a - run.a[-1]).max():.1e}, of {np.abs(a).max():.3g}")\n'
         "assert np.allclose(a, run.a[-1], rtol=1e-6, atol=1e-6 * (1 + np.abs(a).max()))"
     )

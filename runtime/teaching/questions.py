@@ -1,4 +1,4 @@
-"""Make the questions of a sheet: degrees of freedom, Φ, Φ_q at a position, γ, a joint's play, accelerations, forces.
+"""Make the questions of an exercise sheet: degrees of freedom, Φ, Φ_q, γ, a joint's play, accelerations, forces.
 
 Abbreviations in formulas are explained in the order of their use.
 """
@@ -18,8 +18,8 @@ from gudgeon.generator.targets.latex.document import Block, Equation, make_parag
 from gudgeon.generator.targets.latex.kinematics import format_gamma
 from gudgeon.generator.targets.latex.letters import Name, make_symbol_name
 from gudgeon.model.compiled import Array
-from gudgeon.teaching.draw_parameters import NOISE
-from gudgeon.teaching.sheet import LONGEST, Question, Subject
+from gudgeon.teaching.draw_parameters import ROUNDING_TOL
+from gudgeon.teaching.sheet import MAX_OPERATIONS, Question, Subject
 
 PHI, PHI_Q, NU = Name(r"\Phi", "Φ"), Name(r"\Phi_{q}", "Φ_q"), Name(r"\nu", "ν")
 GAMMA = Name(
@@ -59,30 +59,30 @@ def _make_mobility_question(subject: Subject) -> Question:
     rows, count, n = [], 0, 3 * len(mechanism.bodies)
     for name, kind in [*((j.name, j.kind) for j in mechanism.joints.values()), *((d, "") for d in mechanism.drives)]:
         n_equations = 0 if name in play else len(joint_types()[kind].row_names) if kind else 1
-        what = joint_types()[kind].title if kind else "drive"
-        rows.append(make_row(name, f"{what}, has play" if name in play else what, str(n_equations)))
+        title = joint_types()[kind].title if kind else "drive"
+        rows.append(make_row(name, f"{title}, has play" if name in play else title, str(n_equations)))
         count += n_equations
     total = Name(f"f = {n} - {count} = {n - count}", f"f = {n} - {count} = {n - count}")
     solved: list[Block] = [
-        make_paragraph(f"Each body has 3 coordinates, which makes {n}; what joins and drives them:"),
+        make_paragraph(f"Each body has 3 coordinates, together {n}. Joints and drives have these rows:"),
         *make_tables(make_row("joint or drive", "type", "rows"), rows),
         make_paragraph(total, "."),
     ]
     if dropped := model.redundancy.dropped:
-        text = f"{', '.join(dropped)} follow from the others: the rank is {len(model.rows)}, and {n - len(model.rows)}"
-        solved.append(make_paragraph(f"Counting is not enough here: {text} are free."))
+        text = f"{', '.join(dropped)} depend on the others: the rank is {len(model.rows)}, f = {n - len(model.rows)}"
+        solved.append(make_paragraph(f"Grübler's count does not hold here: {text}."))
     elif model.rows:
-        text = f" is {len(model.rows)}, as many as there are rows: none follows from the others, and f is what is free."
+        text = f" is {len(model.rows)}, the number of rows: none depends on the others, and the count is right."
         solved.append(make_paragraph("The rank of ", PHI_Q, text))
     requested = make_paragraph(
         "How many coordinates do the bodies have, how many rows does each joint and drive add to ",
         PHI,
-        ", and how many degrees of freedom f are left by Grübler's count? Does the rank of ",
+        ", and how many degrees of freedom f remain by Grübler's count? Does the rank of ",
         PHI_Q,
         " agree?",
     )
     numbers = {"coordinates": float(n), "rows": float(count), "freedoms": float(n - len(model.rows))}
-    return Question("Count the freedoms", (requested,), tuple(solved), numbers)
+    return Question("Count the degrees of freedom", (requested,), tuple(solved), numbers)
 
 
 def _format_owners(subject: Subject) -> str:
@@ -96,7 +96,7 @@ def _make_constraint_question(subject: Subject) -> Question:
         "Write the rows of ",
         PHI,
         f" of {_format_owners(subject)}, in the coordinates of the centres of mass, with the "
-        "letters given above. A joint's points are written from its first body to its second.",
+        "symbols given above. Differences of a joint's points go from its first body to its second.",
     )
     solved: list[Block] = [
         block
@@ -110,14 +110,14 @@ def _make_constraint_question(subject: Subject) -> Question:
 
 
 def _define_new_abbreviations(subject: Subject, quantity: str) -> list[Block]:
-    """Return the definitions of abbreviations in "phi", "phi_q" or "gamma" that no earlier solution explains."""
+    """Return the definitions of abbreviations in "phi", "phi_q" or "gamma" that no earlier solution has."""
     expressions_of = {
         "phi": [row.phi for _, row in subject.selected_rows],
         "phi_q": [entry for _, row in subject.selected_rows for entry in row.phi_q.values()],
         "gamma": [row.gamma for _, row in subject.selected_rows],
     }
     defined_symbols = set[sp.Symbol]()
-    for before in takewhile(lambda what: what != quantity, expressions_of):
+    for before in takewhile(lambda name: name != quantity, expressions_of):
         defined_symbols |= set(list_abbreviations(subject, expressions_of[before]))
     return define_abbreviations(
         subject, [s for s in list_abbreviations(subject, expressions_of[quantity]) if s not in defined_symbols]
@@ -125,9 +125,9 @@ def _define_new_abbreviations(subject: Subject, quantity: str) -> list[Block]:
 
 
 def _make_jacobian_question(subject: Subject) -> Question:
-    """Build the question for the entries of Φ_q in the chosen constraint equations at the sheet's position.
+    """Build the question for the entries of Φ_q in the selected constraint equations at the sheet's position.
 
-    Long formulas are shown below the table, very long ones not at all.
+    Formulas over MAX_CELL_WIDTH characters are below the table; those over MAX_OPERATIONS are left out.
     """
     model, drawn = subject.model, subject.drawn
     compiled = subject.simulation.compiled
@@ -142,7 +142,9 @@ def _make_jacobian_question(subject: Subject) -> Question:
             coordinate_text = subject.notation.format_expression(q)
             left = Name(rf"\partial \Phi_{{{k}}} / \partial {coordinate_text.latex}", f"∂Φ_{k}/∂{coordinate_text.text}")
             entry = subject.notation.expand_symbols(row.phi_q[q])
-            formula: str | Name = subject.notation.format_expression(entry) if sp.count_ops(entry) <= LONGEST else ""
+            formula: str | Name = (
+                subject.notation.format_expression(entry) if sp.count_ops(entry) <= MAX_OPERATIONS else ""
+            )
             if isinstance(formula, Name) and len(formula.text) > MAX_CELL_WIDTH:
                 below.append(subject.make_equation(left, entry))
                 formula = "below"
@@ -154,7 +156,7 @@ def _make_jacobian_question(subject: Subject) -> Question:
         make_paragraph(
             "What entries of ",
             PHI_Q,
-            f" do the rows of {_format_owners(subject)} have there? Check one by moving its coordinate by a little.",
+            f" do the rows of {_format_owners(subject)} have there? Check one entry by a finite difference.",
         ),
     ]
     solved = [
@@ -171,10 +173,7 @@ def _find_entry_unit(row_unit: str, axis: int) -> str:
 
 
 def _make_gamma_question(subject: Subject) -> Question:
-    """Build the question for γ, the right-hand side of the acceleration constraints, in the chosen equations.
-
-    Very long formulas are left out of the solution.
-    """
+    """Build the question for γ in the selected equations; the solution has no formulas over MAX_OPERATIONS."""
     drawn = subject.drawn
     compiled = subject.simulation.compiled
     values = compiled.gamma(drawn.t, drawn.q, drawn.v, drawn.p)
@@ -184,9 +183,9 @@ def _make_gamma_question(subject: Subject) -> Question:
     for k, row in subject.selected_rows:
         numbers[row.name] = float(values[k - 1])
         gamma = format_gamma(row, subject.model, subject.notation)
-        if gamma != 0 and sp.count_ops(gamma) <= LONGEST:
+        if gamma != 0 and sp.count_ops(gamma) <= MAX_OPERATIONS:
             formula = subject.make_equation(make_indexed_symbol("gamma", k), gamma)
-            # cases never break
+            # terms with cases cannot be broken into lines
             if all(len(term.text) <= MAX_CELL_WIDTH or "cases" not in term.latex for term in formula.terms):
                 solved.append(formula)
         unit = "m/s²" if row.unit == "m" else "rad/s²"
@@ -194,7 +193,7 @@ def _make_gamma_question(subject: Subject) -> Question:
             subject.make_value_equation(make_indexed_symbol("gamma", k), numbers[row.name], unit, scale, errors[k - 1])
         )
     requested = [
-        make_paragraph(f"At the same {drawn.t:g} s the rates are"),
+        make_paragraph(f"At the same time, {drawn.t:g} s, the rates are"),
         *tabulate_positions(subject, shows_rates=True),
         make_paragraph("Find ", GAMMA, f" in the rows of {_format_owners(subject)}: its formula, and its value."),
     ]
@@ -212,7 +211,7 @@ def _make_play_question(subject: Subject) -> Iterator[Question]:
     clearance = float(drawn.run.constants[f"{joint}.c"])
     e = float(np.hypot(ex, ey))
     requested = make_paragraph(
-        f"The journal of {joint} is off the middle of its bearing by (",
+        f"The centre of the journal of {joint} is displaced from that of its bearing by (",
         subject.format_number(ex),
         ", ",
         subject.format_number(ey),
@@ -257,12 +256,12 @@ def define_abbreviations(subject: Subject, symbols: list[sp.Symbol]) -> list[Blo
 
 
 def _define_symbol(subject: Subject, symbol: sp.Symbol) -> list[Block]:
-    """Return the definition of one abbreviation as blocks; for a drive with steps with the progress of its steps."""
+    """Return the definition of one abbreviation as blocks; that of a drive with smooth steps by their progress s."""
     value = subject.notation.expand_symbols(subject.model.symbols.definitions[symbol])
     for driven in subject.model.constraints.drive_angles.values():
         if symbol in driven:
-            message = _define_by_steps(subject, symbol, driven)
-            return message or [subject.make_equation(symbol, value)]
+            step_blocks = _define_by_steps(subject, symbol, driven)
+            return step_blocks or [subject.make_equation(symbol, value)]
     return [subject.make_equation(symbol, value)]
 
 
@@ -274,31 +273,33 @@ def _define_by_steps(subject: Subject, symbol: sp.Symbol, driven: tuple[sp.Symbo
     """
     notation, t = subject.notation, subject.model.t
     value = notation.expand_symbols(subject.model.symbols.definitions[driven[0]])
-    shares = {
+    progress_of = {
         clamp: progress for clamp in value.atoms(sp.Max) if (progress := _find_clamped_progress(clamp)) is not None
     }
     used = {name.text for name in notation.names.values()}
     base = next(sign for sign in ("s", "u", "w", "z") if not {sign, f"{sign}_1"} & used)
-    steps = {clamp: sp.Symbol(base if len(shares) == 1 else f"{base}_{k}") for k, clamp in enumerate(shares, 1)}
-    inside = value.xreplace(steps)
-    if not steps or inside.has(sp.Max, sp.Min, Select):
+    steps = {
+        clamp: sp.Symbol(base if len(progress_of) == 1 else f"{base}_{k}") for k, clamp in enumerate(progress_of, 1)
+    }
+    inner = value.xreplace(steps)
+    if not steps or inner.has(sp.Max, sp.Min, Select):
         return []
-    rates = {steps[clamp]: sp.diff(progress, t) for clamp, progress in shares.items()}
+    rates = {steps[clamp]: sp.diff(progress, t) for clamp, progress in progress_of.items()}
     for _ in range(driven.index(symbol)):
-        inside = sp.Add(*(_differentiate_in_time(term, rates, t) for term in sp.Add.make_args(inside)))
+        inner = sp.Add(*(_differentiate_in_time(term, rates, t) for term in sp.Add.make_args(inner)))
     names = {s: Name(s.name if "_" not in s.name else f"{base}_{{{s.name[2:]}}}", s.name) for s in rates}
     step_notation = notation.rename_symbols(names)
     shown = [
         Equation(step_notation.format_expression(steps[clamp]), step_notation.format_terms(progress))
-        for clamp, progress in shares.items()
+        for clamp, progress in progress_of.items()
     ]
-    still = ", and is still before and behind" if driven.index(symbol) else ", before it 0 and behind it 1"
+    outside_text = " and is constant before and after" if driven.index(symbol) else ", with 0 before and 1 after"
     terms = step_notation.format_terms(
-        sp.Add(*(_expand_progress(term, list(rates)) for term in sp.Add.make_args(inside)))
+        sp.Add(*(_expand_progress(term, list(rates)) for term in sp.Add.make_args(inner)))
     )
     return [
         *shown,
-        make_paragraph(f"which goes from 0 to 1{still}:"),
+        make_paragraph(f"which increases from 0 to 1{outside_text}:"),
         Equation(step_notation.format_expression(symbol), terms),
     ]
 
@@ -332,7 +333,7 @@ def make_indexed_symbol(quantity: str, index: int) -> Name:
 
 
 def tabulate_positions(subject: Subject, shows_rates: bool, of_other_bodies: bool = False) -> list[Block]:
-    """Return a table of positions (shows_rates: rates) of bodies in the chosen equations (of_other_bodies: others)."""
+    """Return a table of positions (shows_rates: rates) of the bodies in the selected equations, or of the others."""
     model, drawn = subject.model, subject.drawn
     selected_coordinates = {s for _, row in subject.selected_rows for s in row.phi_q}
     header = ("body", "x, m", "y, m", "angle, rad", "angle, degrees")
@@ -348,15 +349,15 @@ def tabulate_positions(subject: Subject, shows_rates: bool, of_other_bodies: boo
 
 
 def _make_acceleration_question(subject: Subject) -> Question:
-    """Build the question for the largest angular acceleration, or else the largest acceleration of a coordinate."""
+    """Build the question for the largest acceleration, preferably angular, of a coordinate that no drive prescribes."""
     model, drawn, compiled = subject.model, subject.drawn, subject.simulation.compiled
     a, driven = drawn.run.a[-1], {q for row in model.rows if len(row.phi_q) == 1 for q in row.phi_q}
-    turning = [k for k in range(2, len(a), 3) if model.q[k] not in driven]
-    if not turning or np.abs(a[turning]).max() <= NOISE * np.abs(a).max():
-        turning = [k for k in range(len(a)) if model.q[k] not in driven] or [*range(len(a))]
-    k = max(turning, key=lambda k: abs(a[k]))
+    candidates = [k for k in range(2, len(a), 3) if model.q[k] not in driven]
+    if not candidates or np.abs(a[candidates]).max() <= ROUNDING_TOL * np.abs(a).max():
+        candidates = [k for k in range(len(a)) if model.q[k] not in driven] or [*range(len(a))]
+    k = max(candidates, key=lambda k: abs(a[k]))
     name = model.bodies[k // 3].name
-    what = "angular acceleration of" if k % 3 == 2 else f"acceleration in {'xy'[k % 3]} of the centre of"
+    quantity = "angular acceleration of" if k % 3 == 2 else f"acceleration in {'xy'[k % 3]} of the centre of"
     others = tabulate_positions(subject, shows_rates=False, of_other_bodies=True)
     requested = [
         *([make_paragraph("The other bodies are at"), *others, make_paragraph("with the rates")] if others else []),
@@ -364,16 +365,14 @@ def _make_acceleration_question(subject: Subject) -> Question:
         make_paragraph(
             "Drives determine the whole motion. Write all rows of ",
             ACCELERATIONS,
-            f" at {drawn.t:g} s, by hand or by computer, and solve them: how large is the {what} {name}?",
+            f" at {drawn.t:g} s, by hand or by computer, and solve them: how large is the {quantity} {name}?",
         ),
     ]
     phi_q, gamma = compiled.phi_q(drawn.t, drawn.q, drawn.p), compiled.gamma(drawn.t, drawn.q, drawn.v, drawn.p)
     signs = [make_symbol_name(base, body.name, dots=2) for body in model.bodies for base in ("x", "y", "theta")]
     shown = range(len(gamma)) if len(gamma) <= MAX_SHOWN_ROWS else [r for r in range(len(gamma)) if phi_q[r, k]]
-    scale, errors = (
-        float(np.abs(gamma).max()),
-        drawn.estimate_uncertainty(lambda q, v: compiled.gamma(drawn.t, q, v, drawn.p)),
-    )
+    scale = float(np.abs(gamma).max())
+    errors = drawn.estimate_uncertainty(lambda q, v: compiled.gamma(drawn.t, q, v, drawn.p))
     solved = [
         make_paragraph("Row by row ", ACCELERATIONS, _format_omission(len(gamma)), " is, in m/s² and rad/s²,"),
         *(
@@ -392,7 +391,7 @@ def _make_acceleration_question(subject: Subject) -> Question:
 
 def _format_omission(n_rows: int) -> str:
     """Return a remark that only some of the `n_rows` equations are shown; "" if all are."""
-    return "" if n_rows <= MAX_SHOWN_ROWS else f", of whose {n_rows} rows those with what is asked stand here,"
+    return "" if n_rows <= MAX_SHOWN_ROWS else f", of whose {n_rows} rows those with the requested unknowns are shown,"
 
 
 def _make_linear_equation(subject: Subject, left: Name, factors: Array, symbols_of_terms: list[Name]) -> Equation:
@@ -404,7 +403,7 @@ def _make_linear_equation(subject: Subject, left: Name, factors: Array, symbols_
         order={symbol: k for k, symbol in enumerate(symbols)},
     )
     scale = float(np.abs(factors).max())
-    shown = [(float(f"{x:.4g}"), s) for x, s in zip(factors, symbols, strict=True) if abs(x) > NOISE * scale]
+    shown = [(float(f"{x:.4g}"), s) for x, s in zip(factors, symbols, strict=True) if abs(x) > ROUNDING_TOL * scale]
     return Equation(
         left, notation.format_terms(sp.Add(*(s * (sp.nsimplify(x) if abs(x) == 1.0 else x) for x, s in shown)))
     )
@@ -424,16 +423,16 @@ def _make_reaction_question(subject: Subject) -> Iterator[Question]:
     name = str(subject.rng.permutation(np.array(joint_names, object))[0])
     second = mechanism.joints[name].second
     F = [float(drawn.run[f"{name}.{what}"][-1]) for what in ("Fx", "Fy", "F")]
-    message: list[Block] = []
+    requested: list[Block] = []
     if subject.model.degrees_of_freedom:
-        message.append(make_paragraph(f"The accelerations at {drawn.t:g} s, of centres of mass and of angles, are"))
-        message += _tabulate_by_body(subject, drawn.run.a[-1], "x, m/s²", "y, m/s²", "angle, rad/s²")
+        requested.append(make_paragraph(f"The accelerations at {drawn.t:g} s, of centres of mass and of angles, are"))
+        requested += _tabulate_by_body(subject, drawn.run.a[-1], "x, m/s²", "y, m/s²", "angle, rad/s²")
     else:
-        message.append(make_paragraph("Take the accelerations of all bodies from the question before."))
+        requested.append(make_paragraph("Use the accelerations of all bodies from the previous question."))
     if source.clearances or source.frictions:
-        message.append(make_paragraph("Gravity, forces, friction and joints with play add up to the components of g"))
-        message += _tabulate_by_body(subject, _compute_applied_forces(subject), "x, N", "y, N", "angle, N m")
-    message.append(make_paragraph("By ", KKT, f": what force does {name} put on {second.body}, in ground axes?"))
+        requested.append(make_paragraph("Gravity, forces, friction and joints with play have the resultants g"))
+        requested += _tabulate_by_body(subject, _compute_applied_forces(subject), "x, N", "y, N", "angle, N m")
+    requested.append(make_paragraph("By ", KKT, f": what force does {name} exert on {second.body}, in ground axes?"))
     lambdas = [(k, row) for k, row in enumerate(subject.model.rows, 1) if row.owner == name]
     solved: list[Block] = [
         *_make_balance_blocks(subject, [k - 1 for k, _ in lambdas]),
@@ -446,18 +445,20 @@ def _make_reaction_question(subject: Subject) -> Iterator[Question]:
             )
             for k, row in lambdas
         ),
-        make_paragraph(f"The force on {second.body} is what these multipliers put on it, ", FORCE, ":"),
+        make_paragraph(f"The force on {second.body} is that of these multipliers, ", FORCE, ":"),
     ]
     solved += [
         subject.make_value_equation(make_symbol_name("F", axis, name), x, "N", F[2])
         for axis, x in zip("xy", F, strict=False)
     ]
     solved.append(subject.make_value_equation(make_symbol_name("F", name), F[2], "N", F[2]))
-    yield Question("The force in a joint", tuple(message), tuple(solved), dict(zip(("Fx", "Fy", "F"), F, strict=True)))
+    yield Question(
+        "The force in a joint", tuple(requested), tuple(solved), dict(zip(("Fx", "Fy", "F"), F, strict=True))
+    )
 
 
 def _make_balance_blocks(subject: Subject, requested: list[int]) -> list[Block]:
-    """Return the equations of motion as blocks; requested: indices of the multipliers that follow from them."""
+    """Return Φ_qᵀ λ = g − M q̈ as blocks; of more than MAX_SHOWN_ROWS rows those with `requested` multipliers."""
     model, drawn, compiled = subject.model, subject.drawn, subject.simulation.compiled
     phi_q = compiled.phi_q(drawn.t, drawn.q, drawn.p)
     left = _compute_applied_forces(subject) - np.asarray(compiled.mass(drawn.p)) * drawn.run.a[-1]
@@ -471,7 +472,7 @@ def _make_balance_blocks(subject: Subject, requested: list[int]) -> list[Block]:
         q, number = subject.notation.format_expression(model.q[k]), subject.format_number(float(left[k]), scale=scale)
         what = Name(rf"(g - M \ddot{{q}})_{{{q.latex}}} = {number.latex}", f"(g - M·q̈)_{q.text} = {number.text}")
         blocks.append(_make_linear_equation(subject, what, phi_q[:, k], signs))
-    return [*blocks, make_paragraph("and solved for the multipliers")]
+    return [*blocks, make_paragraph("and the multipliers are")]
 
 
 def _get_multiplier(subject: Subject, row: str) -> float:

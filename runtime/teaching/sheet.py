@@ -35,7 +35,7 @@ from gudgeon.generator.targets.latex.values import ValueFormatter, get_unit
 from gudgeon.generator.targets.latex.write import append_paper_section, prepend_symbols_section
 from gudgeon.language.text_output import format_one_line
 from gudgeon.language.tree import Number
-from gudgeon.teaching.draw_parameters import NOISE
+from gudgeon.teaching.draw_parameters import ROUNDING_TOL
 
 if TYPE_CHECKING:
     from gudgeon.generator.equations.constraints import Row
@@ -44,13 +44,13 @@ if TYPE_CHECKING:
     from gudgeon.simulation.simulation import Simulation
     from gudgeon.teaching.draw_parameters import ExerciseData
 
-GIVEN = ("Bodies", "Ground", "Curves", "Parameters")  # sections of the document that do not contain answers
-LONGEST = 60  # largest number of operations of an expression that a solution shows
+GIVEN_SECTIONS = ("Bodies", "Ground", "Curves", "Parameters")  # sections of the equations page without answers
+MAX_OPERATIONS = 60  # of an expression that a solution shows
 
 
 @dataclass(frozen=True)
 class Question:
-    """Hold a question and its solution; `numbers` are the answers in SI units by name."""
+    """A question and its solution; `numbers` are the answers in SI units by name."""
 
     title: str
     requested: tuple[Block, ...]
@@ -60,7 +60,7 @@ class Question:
 
 @dataclass(frozen=True)
 class Subject:
-    """Hold what questions refer to: a scene's equations and notation, parameter values, chosen constraint equations."""
+    """Data of all questions: a scene's equations, notation, drawn parameter values, selected constraint equations."""
 
     model: Model
     notation: Notation
@@ -71,16 +71,16 @@ class Subject:
 
     @property
     def selected_rows(self) -> list[tuple[int, Row]]:
-        """Return the chosen constraint equations with their numbers, from 1."""
+        """Return the constraint equations of the joints and drives in `owners`, with their numbers, from 1."""
         return [(k, row) for k, row in enumerate(self.model.rows, 1) if row.owner in self.owners]
 
     def format_number(self, x: float, digits: int = 4, scale: float = 0.0, uncertainty: float = 0.0) -> Name:
-        """Return a number as it is printed, rounded to significant digits.
+        """Return a number as text and LaTeX, rounded to significant digits.
 
-        scale: size of similar numbers; values below its rounding errors are 0. uncertainty: that from the rounding of
-        the data, which limits the printed digits.
+        It is 0 below ROUNDING_TOL times `scale`, the size of similar numbers, and below half the `uncertainty` from the
+        rounded data. The uncertainty also limits the printed digits.
         """
-        if abs(x) <= max(NOISE * scale, 0.5 * uncertainty):
+        if abs(x) <= max(ROUNDING_TOL * scale, 0.5 * uncertainty):
             return Name("0", "0")
         if uncertainty > 0.0:
             digits = min(digits, max(1, math.floor(math.log10(abs(x))) - math.ceil(math.log10(uncertainty)) + 1))
@@ -102,15 +102,17 @@ class Subject:
 
 
 def make_subject(model: Model, simulation: Simulation, data: ExerciseData, seed: int) -> Subject:
-    """Build the subject of a sheet, with at most two joints and one drive drawn from the seed."""
+    """Return the subject of a sheet; its questions treat at most two joints and one drive, drawn from the seed."""
     rng = np.random.default_rng([seed, 1])
     owners_by_kind = {
         kind: list(dict.fromkeys(r.owner for r in model.rows if r.kind == kind)) for kind in ("joint", "drive")
     }
     selected = [
         name
-        for kind, most in (("joint", 2), ("drive", 1))
-        for name in np.array(owners_by_kind[kind], object)[sorted(rng.permutation(len(owners_by_kind[kind]))[:most])]
+        for kind, max_count in (("joint", 2), ("drive", 1))
+        for name in np.array(owners_by_kind[kind], object)[
+            sorted(rng.permutation(len(owners_by_kind[kind]))[:max_count])
+        ]
     ]
     return Subject(model, make_notation(model), simulation, data, rng, tuple(selected))
 
@@ -129,16 +131,14 @@ def list_units(scene: Scene) -> dict[str, tuple[str, float]]:
 
 
 def make_sheets(subject: Subject, questions: Sequence[Question], seed: int) -> tuple[Document, Document]:
-    """Build two documents: the sheet of questions, and the same with solutions and the command that repeats its
-    numbers.
-    """
+    """Return two documents: the sheet of questions, and the same with solutions and the drawn parameter values."""
     mechanism, scene = subject.model.scene.mechanism, subject.model.scene.name
     facts = (("mechanism ", mechanism.name, f", scene {scene}, seed {seed}"),)
     title = format_one_line(mechanism.title or mechanism.name)
     given = tuple(_build_given_sections(subject))
     requested = tuple(Section(f"{k}. {x.title}", x.requested) for k, x in enumerate(questions, 1))
     solved = tuple(_build_solution_sections(k, question) for k, question in enumerate(questions, 1))
-    last = Section("These numbers again", tuple(_build_repetition_blocks(subject)))
+    last = Section("Parameter values", tuple(_build_repetition_blocks(subject)))
     notation = subject.notation
     sheet = Document(
         f"Exercise: {title}", facts, append_paper_section(prepend_symbols_section((*given, *requested), notation))
@@ -156,7 +156,9 @@ def _build_given_sections(subject: Subject) -> list[Section]:
     """Return the sections with bodies, points, joints, drives, forces and parameters, each with its symbol."""
     model, notation = subject.model, subject.notation
     sections = {
-        section.title: section for section in make_mechanism_sections(model, notation) if section.title in GIVEN
+        section.title: section
+        for section in make_mechanism_sections(model, notation)
+        if section.title in GIVEN_SECTIONS
     }
     joints = Section("Joints and drives", tuple(_build_joint_blocks(subject)))
     forces = [Section("Gravity and forces", blocks)] if (blocks := tuple(_build_force_blocks(subject))) else []
@@ -190,7 +192,7 @@ def _build_joint_blocks(subject: Subject) -> list[Block]:
 
 
 def _build_force_blocks(subject: Subject) -> list[Block]:
-    """Return gravity and tables of the force elements as blocks; [] without both."""
+    """Return gravity and tables of the force elements as blocks; [] if there are neither."""
     model, values = subject.model, ValueFormatter(subject.model, subject.notation)
     gravity, elements = model.scene.mechanism.gravity, [e.element for e in model.elements.values()]
     blocks = make_tables(make_row("gravity"), [make_row(values.format_vector(gravity))]) if gravity is not None else []
@@ -211,15 +213,15 @@ def _format_driven_quantity(drive: Drive) -> str:
     kind, points = drive.kind, drive.points
     if kind == "distance":
         return "distance of " + " and ".join(f"{p.body}.{p.point}" for p in points)
-    what = "angle" if kind == "angle" else drive.coordinate
-    against = drive.reference
-    return f"{what} of {drive.body}" + (f" against {against}" if against else "")
+    quantity = "angle" if kind == "angle" else drive.coordinate
+    reference = drive.reference
+    return f"{quantity} of {drive.body}" + (f" against {reference}" if reference else "")
 
 
 def _build_repetition_blocks(subject: Subject) -> list[Block]:
-    """Return a paragraph that lists the drawn values and the time of the sheet, to be used again."""
+    """Return a paragraph that lists the drawn parameter values and the time of the sheet, to repeat the run."""
     drawn = subject.drawn
     if not drawn.parameters:
-        return [make_paragraph(f"All numbers are the file's own; the moment is {drawn.t:g} s.")]
-    message = [f"{address} = {x}" for address, x in drawn.parameters.items()]
-    return [make_paragraph(f"Drawn: {', '.join(message)}; the moment is {drawn.t:g} s. All else is the file's.")]
+        return [make_paragraph(f"All values are those of the file; the time is {drawn.t:g} s.")]
+    value_texts = [f"{address} = {x}" for address, x in drawn.parameters.items()]
+    return [make_paragraph(f"Drawn: {', '.join(value_texts)}; the time is {drawn.t:g} s. Other values are the file's.")]

@@ -1,4 +1,4 @@
-"""Print expressions of a model as Python code for SymPy, with names that a notebook does not use otherwise."""
+"""Print expressions of a model as Python code for SymPy, with variable names that do not collide in a notebook."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ USED_NAMES = frozenset(
     + ("mass", "forces", "system", "solved", "Phi")
 )
 USED_PREFIXES = ("Phi_", "first_", "second_")
-_PLAIN = frozenset((*IN_SYMPY, "Heaviside"))
+_SYMPY_FUNCTIONS = frozenset((*IN_SYMPY, "Heaviside"))
 
 
 class Printer(StrPrinter):
@@ -81,8 +81,10 @@ class Printer(StrPrinter):
     def _print_Function(self, expr: sp.Expr) -> str:
         """Return a function call as Python text. Raise GudgeonError for functions that SymPy does not have."""
         name = type(expr).__name__
-        if name not in _PLAIN:
-            raise GudgeonError(f"a notebook has no word for {name}\n  write a .tex, .txt or .html")
+        if name not in _SYMPY_FUNCTIONS:
+            raise GudgeonError(
+                f"a notebook cannot contain {name}: SymPy has no such function\n  write a .tex, .txt or .html"
+            )
         return f"sp.{name}({self.stringify(expr.args, ', ')})"
 
     _print_ExpBase = _print_Max = _print_Min = _print_Abs = _print_sign = _print_Heaviside = _print_Function
@@ -99,13 +101,13 @@ class Printer(StrPrinter):
 
     def _print_Select(self, expr: sp.Expr) -> str:
         """Return a conditional value as `sp.Piecewise`."""
-        side, otherwise, below = expr.args
-        gap = self._print(side.args[0] if isinstance(side, sp.sign) else side)
-        return f"sp.Piecewise(({self._print(below)}, {gap} < 0), ({self._print(otherwise)}, True))"
+        branch, otherwise, below = expr.args
+        difference = self._print(branch.args[0] if isinstance(branch, sp.sign) else branch)
+        return f"sp.Piecewise(({self._print(below)}, {difference} < 0), ({self._print(otherwise)}, True))"
 
     def _print_CurveOf(self, expr: sp.Expr) -> Any:
-        """Raise GudgeonError: a notebook does not contain curves."""
-        message = f"a notebook holds no curves, and this scene has {expr.name}"
+        """Raise GudgeonError, since a notebook cannot contain curves."""
+        message = f"a notebook cannot contain curves, and this scene has {expr.name}"
         raise GudgeonError(f"{message}\n  write a .tex, .txt or .html")
 
 

@@ -1,10 +1,10 @@
 """Poll for cancellation and progress while a run is in C (engine/run/cancellation.c), and run long calls in
 threads.
 
-C calls Python every EVERY seconds, and stops its work if requested.
+C calls Python every POLL_INTERVAL_S seconds, and stops its work if requested.
 - `CancellationPoll`: the callback of C.
-- `run_interruptible` runs one long call of C in another thread, so that Ctrl-C need not wait for its end.
-- `report_work` reports that deriving or compiling is under way.
+- `run_interruptible` runs one long call of C in another thread, so that Ctrl-C takes effect before its end.
+- `report_work` shows a status text during derivation and compilation.
 """
 
 from __future__ import annotations
@@ -21,11 +21,11 @@ if TYPE_CHECKING:
 
     from gudgeon.model.compiled import CompiledModel
 
-EVERY = 0.05  # s between two polls
+POLL_INTERVAL_S = 0.05
 # callbacks by the id of cffi's interface, which is stored too, so that ids stay unique
 _functions: dict[int, tuple[Any, Any]] = {}
 Result = TypeVar("Result")
-Reporter = Callable[[str], AbstractContextManager[None]]  # what is done → context around it
+Reporter = Callable[[str], AbstractContextManager[None]]  # status text → context of the work
 
 _reporter: ContextVar[Reporter | None] = ContextVar("reporter", default=None)
 
@@ -47,7 +47,7 @@ class CancellationPoll:
     @property
     def c_arguments(self) -> tuple[Any, Any, float]:
         """Return the arguments for C: callback function, handle of this object, seconds between polls."""
-        return self.function, self.handle, EVERY
+        return self.function, self.handle, POLL_INTERVAL_S
 
     def poll_from_c(self) -> int:
         """Call `poll`; return 0, or 1 if it raised an exception, which is stored and makes C stop. C calls this."""
@@ -94,8 +94,8 @@ def _get_callback(compiled: CompiledModel) -> Any:
 def run_interruptible(function: Callable[[], Result]) -> Result:
     """Call `function` in another thread and return its result, or raise its exception; Ctrl-C is raised at once.
 
-    After Ctrl-C the thread ends on its own; a process that ends meanwhile waits for it. Thread.join is not used: if a
-    signal interrupts it, its lock may stay locked. `function` must hold no resources but memory.
+    After Ctrl-C the thread runs to its end, and the process waits for it at exit. Thread.join is not used: if a signal
+    interrupts it, its lock may stay locked. `function` must use no resources but memory.
     """
     results: list[Result] = []
     errors: list[BaseException] = []
@@ -119,14 +119,14 @@ def run_interruptible(function: Callable[[], Result]) -> Result:
 
 
 def report_work(text: str) -> AbstractContextManager[None]:
-    """Return a context for work that takes a while; it shows `text` by the reporter of this thread, if there is one."""
+    """Return a context for long work during which the reporter of this thread, if any, shows the status `text`."""
     reporter = _reporter.get()
     return reporter(text) if reporter else nullcontext()
 
 
 @contextmanager
 def set_reporter(reporter: Reporter) -> Iterator[None]:
-    """Set the reporter of this thread, which `report_work` calls with a text, within the with block."""
+    """Set the reporter that `report_work` calls in this thread, within the with block; then restore the former one."""
     token = _reporter.set(reporter)
     try:
         yield

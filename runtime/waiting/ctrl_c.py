@@ -18,14 +18,17 @@ from typing import Any
 ENDING = tuple(getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name))
 MIN_REPEAT_INTERVAL_S = 1.0  # s after a first Ctrl-C, after which another one is raised at once
 INTERRUPTED = 130  # exit code of an interrupted program
-_whole: list[bool] = []  # not empty if the process is the command `gudgeon` only
+_is_program: list[bool] = []  # not empty if the process is the command `gudgeon`, not a user's program
 
 
 class DelayedCtrlC:
-    """Delay SIGINT within a with block until `raise_delayed`, which calls the handler that was installed before."""
+    """Context that delays SIGINT until `raise_delayed`, which calls the handler that was installed before.
+
+    A second Ctrl-C after MIN_REPEAT_INTERVAL_S is not delayed. A delayed one is lost without a call of `raise_delayed`.
+    """
 
     def __init__(self) -> None:
-        self.since, self.frame = 0.0, None  # s, when Ctrl-C came; 0: none waits
+        self.since, self.frame = 0.0, None  # time of a delayed Ctrl-C (s); 0: none
         self._handler: Callable[[int, FrameType | None], Any] | None = None
 
     def __enter__(self) -> DelayedCtrlC:
@@ -60,10 +63,10 @@ class DelayedCtrlC:
 
 
 class EndingSignals:
-    """Treat SIGTERM and SIGHUP as Ctrl-C within a with block, and end the process when it closes.
+    """Context that treats SIGTERM and SIGHUP as Ctrl-C, and at its end raises the signal again, which ends the process.
 
-    So no compiler and no temporary folder outlives a program that is ended while it loads a scene. Programs that handle
-    these signals or Ctrl-C themselves are left alone; so are other threads than the main one.
+    Thus compilers and temporary folders are cleaned up if a program is ended while it loads a scene. Nothing is done in
+    programs with their own handlers of these signals or of Ctrl-C, and outside the main thread.
     """
 
     def __enter__(self) -> None:
@@ -97,16 +100,16 @@ class EndingSignals:
 
 def declare_program() -> None:
     """Declare that the process is the command `gudgeon` only, so that it may ignore Ctrl-C at its end."""
-    _whole.append(True)
+    _is_program.append(True)
 
 
 def ignore_ctrl_c() -> None:
     """Ignore Ctrl-C from now on, if the process was declared to be the command `gudgeon` only; else do nothing."""
-    if _whole:
+    if _is_program:
         signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
 def print_interrupted() -> None:
-    """Print that the program was interrupted."""
+    """Print "interrupted" to stderr, and ignore further Ctrl-C if the process is the command `gudgeon`."""
     ignore_ctrl_c()
     print("interrupted", file=sys.stderr)

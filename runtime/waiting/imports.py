@@ -1,7 +1,7 @@
-"""Import large packages late and completely: a module that Ctrl-C left half imported could not be imported again.
+"""Import large packages on demand (lazy import) in a thread, so that Ctrl-C leaves no module partially imported.
 
-They take a second or more, and are imported in a thread of their own. Ctrl-C is raised at once in the main thread,
-while the import is completed. `pause_garbage_collector` stops the garbage collector meanwhile.
+A partially imported module could not be imported again. Ctrl-C is raised at once in the main thread, while the thread
+completes the import. `pause_garbage_collector` stops the garbage collector meanwhile.
 """
 
 from __future__ import annotations
@@ -20,14 +20,14 @@ GENERATOR = ("numpy", "mpmath", "sympy", "jinja2", "ruamel.yaml", "gudgeon.gener
 CFFI = ("cffi", "pycparser", "cffi.cparser")
 CHECK_INTERVAL_S = 0.05  # s between two checks for signals
 SPARSE = ("numpy", "scipy.sparse", "scipy.sparse.linalg")
-SYMPY_CACHE_SIZE = "20000"  # of 1,000 that are the default, few are still there when a large scene needs them again
-_frozen = False  # whether other code froze objects; counting them takes ten milliseconds
+SYMPY_CACHE_SIZE = "20000"  # entries; with the default, 1,000, a large scene rarely finds its earlier results
+_frozen = False  # whether other code has called gc.freeze; counting the frozen objects takes 10 ms
 
 
 def import_modules_completely(*module_names: str) -> None:
-    """Import modules completely in another thread; return at once if they are imported already.
+    """Import modules in another thread and wait for it; return at once if they are imported already.
 
-    Ctrl-C is raised meanwhile, but leaves no module half imported. An error of the import is raised here.
+    Ctrl-C is raised while waiting, and the thread completes the import. An error of the import is raised here.
     """
     if all(map(_is_imported, module_names)):
         return
@@ -43,7 +43,7 @@ def import_modules_completely(*module_names: str) -> None:
 def _import_modules(names: tuple[str, ...], errors: list[BaseException], finished_event: threading.Event) -> None:
     """Import modules in this thread; append an exception to `errors`, and set `finished_event` at the end."""
     try:
-        # what modules make stays: to look through it again and again takes a tenth of their time
+        # objects of modules are permanent: without the pause, collections take a tenth of the import time
         with pause_garbage_collector(), _enlarge_sympy_cache():
             for name in names:
                 import_module(name)
@@ -55,9 +55,9 @@ def _import_modules(names: tuple[str, ...], errors: list[BaseException], finishe
 
 @contextmanager
 def _enlarge_sympy_cache() -> Iterator[None]:
-    """Let SymPy, if it is imported within a with block, cache SYMPY_CACHE_SIZE results of each function.
+    """Set the environment variable SYMPY_CACHE_SIZE within a with block, in which SymPy may be imported.
 
-    SymPy reads the size from the environment, once. A size that the user has set is kept.
+    SymPy reads the size of its function caches at its import. A size that the user has set is not changed.
     """
     if "SYMPY_CACHE_SIZE" in os.environ:
         yield
@@ -77,9 +77,10 @@ def _is_imported(name: str) -> bool:
 
 @contextmanager
 def pause_garbage_collector() -> Iterator[None]:
-    """Disable the garbage collector within a with block, and count the objects made there as old ones afterwards.
+    """Disable the garbage collector within a with block, then move all objects to its oldest generation (gc.freeze).
 
-    As new objects they would be searched at once. Nothing is frozen if other code has frozen objects.
+    As young objects they would be searched at once. Nothing is moved if other code has frozen objects, or if the
+    collector was disabled before.
     """
     global _frozen
     collects = gc.isenabled()

@@ -1,4 +1,4 @@
-"""Run other programs, each in its own process group, so that all its processes end when it is no longer needed."""
+"""Run other programs (subprocesses), each in its own process group, so that it is killed with all its children."""
 
 from __future__ import annotations
 
@@ -10,13 +10,13 @@ from contextvars import ContextVar
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from gudgeon.waiting.cancellation import EVERY
+from gudgeon.waiting.cancellation import POLL_INTERVAL_S
 from gudgeon.waiting.ctrl_c import DelayedCtrlC
 
 if TYPE_CHECKING:
     import subprocess
 
-# function that returns whether waiting shall end
+# function that returns whether waiting is cancelled
 _is_cancelled: ContextVar[Callable[[], bool] | None] = ContextVar("whether waiting is cancelled", default=None)
 
 
@@ -34,7 +34,7 @@ def set_cancellation_check(is_cancelled: Callable[[], bool]) -> Iterator[None]:
 
 
 class Programs:
-    """Run programs within a with block; those still running at its end are killed."""
+    """Context in which programs run; those still running at its end are killed."""
 
     def __init__(self) -> None:
         self._processes: list[subprocess.Popen[str]] = []
@@ -51,7 +51,7 @@ class Programs:
         """
         import subprocess
 
-        with DelayedCtrlC() as ctrl_c:  # not between the start of a process and the note of it
+        with DelayedCtrlC() as ctrl_c:  # no Ctrl-C between the start of a process and its registration
             process = subprocess.Popen(
                 command,
                 cwd=folder,
@@ -74,28 +74,28 @@ class Programs:
         """
         import subprocess
 
-        message: tuple[str, str] | None = None
+        output: tuple[str, str] | None = None
         is_cancelled = _is_cancelled.get()
         with DelayedCtrlC() as ctrl_c:
-            while message is None:
+            while output is None:
                 try:
-                    message = process.communicate(timeout=EVERY)
+                    output = process.communicate(timeout=POLL_INTERVAL_S)
                 except subprocess.TimeoutExpired:
                     ctrl_c.raise_delayed()
                     if is_cancelled and is_cancelled():
                         raise KeyboardInterrupt from None
-        ctrl_c.raise_delayed()  # one that came as the program ended
-        return message
+        ctrl_c.raise_delayed()  # a Ctrl-C during the end of the program
+        return output
 
     def stop(self, *processes: subprocess.Popen[str]) -> None:
         """Kill those of these programs that are still running, with their child processes, and wait for their ends."""
-        left = [process for process in processes if process.returncode is None]
-        for process in left:
+        running_processes = [process for process in processes if process.returncode is None]
+        for process in running_processes:
             try:
                 os.killpg(process.pid, signal.SIGKILL)
-            except OSError:  # it is over
+            except OSError:  # the program has ended
                 continue
-        for process in left:
+        for process in running_processes:
             process.communicate()
 
     def __exit__(self, *_: object) -> None:

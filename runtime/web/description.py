@@ -36,13 +36,14 @@ from gudgeon.simulation.arguments import DEFAULT_OUTPUT
 from gudgeon.simulation.hidden_jumps import may_jump
 
 DRIFT_STEP_FRACTION = 1.0 / 60.0  # step of rk4 at which constraints drift visibly, over the length of the run
-HIDDEN_JUMPS_NOTE = "jumps of drives that their expressions do not show are searched in Python only"
+HIDDEN_JUMPS_NOTE = "jumps that a drive's expression does not show are located in Python only"
 
 
 def build_description(compiled: CompiledModel, drift_step: float | None = None) -> str:
-    """Return the JSON of a scene, with the start at the file's values if a page cannot find it.
+    """Return the JSON of a scene for simulator.js, with the start at the file's values if a page cannot assemble it.
 
-    drift_step (s): step of rk4 for scenes without degrees of freedom, at which constraints drift visibly.
+    drift_step (s): step of rk4 for scenes without degrees of freedom, at which constraints drift visibly. None: such a
+    scene has no default step.
     """
     source = compiled.source
     parameter_indices = {parameter.address: k for k, parameter in enumerate(source.slots)}
@@ -150,9 +151,9 @@ def _list_indeterminate_series(source: KernelSource) -> list[str]:
 
 
 def _iterate_series_columns(source: KernelSource) -> Iterator[tuple[str, list[Any]]]:
-    """Yield the name of each series that is a column of an array, and [unit, array, column].
+    """Yield the name of each series that is a column of an array, and [unit, array, column]: ["m", "q", 4].
 
-    simulator.js derives the other series.
+    simulator.js computes the other series.
     """
     widths = {"reactions": 3, "clearance": 10, "friction": 2}
     for name, series in get_catalogue(source).items():
@@ -183,7 +184,7 @@ def _collect_default_options(source: KernelSource) -> dict[str, Any]:
 
 
 def _compute_default_step(compiled: CompiledModel, drift_step: float | None) -> list[float] | None:
-    """Return the default step of rk4: fraction of the run's length, and its bound (s) at the file's values.
+    """Return the default step of rk4 as [fraction of the run's duration, upper bound in s at the file's values].
 
     For a scene that rk4 does not integrate in Python, the bound is `drift_step`; None without it.
     """
@@ -193,16 +194,16 @@ def _compute_default_step(compiled: CompiledModel, drift_step: float | None) -> 
 
 
 def _compute_stored_start(compiled: CompiledModel) -> dict[str, Any] | None:
-    """Return q, q̇ and array sizes at the file's values as JSON if C alone does not find the start; otherwise None.
+    """Return q, q̇ and array sizes of the start at the file's values as JSON; None if C finds the start in a page.
 
-    Large mechanisms are always stored, since a page cannot solve them.
+    For mechanisms of LARGE or more coordinates it is always returned, since C cannot assemble them.
     """
     p = prepare_values(compiled, {})[0]
     if compiled.n < LARGE:
         start_position = compiled.close_linkage(0.0, p, compute_mechanism_size(compiled, p))
         if start_position is not None and np.isfinite(start_position[1]).all():
             return None
-    start, is_large = assemble_start(compiled, p), compiled.n >= LARGE  # neither a page nor Python calls C then
+    start, is_large = assemble_start(compiled, p), compiled.n >= LARGE
     array_sizes = [max(len(array), 1) for array in compiled.start_values(p)]
     start_json = {
         "q": start.q.tolist(),

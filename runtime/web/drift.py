@@ -12,7 +12,7 @@ from gudgeon.loading.shipped import find_shipped_file, list_shipped_mechanisms
 from gudgeon.results.results import Result
 from gudgeon.simulation.simulation import Simulation
 
-STEPS_PER_TURN = 60  # steps of rk4, so that the drift is visible
+STEPS_PER_TURN = 60  # steps of rk4 per period at which the drift is visible
 KINEMATIC_NOTE = "The scene has no degrees of freedom: Φ = 0 is solved at each sample, so that no constraint drifts."
 RK4_NOTE = (
     " The method rk4 integrates a = Φ_q⁻¹ (γ − 2α Φ̇ − β² Φ) instead: Φ drifts (series Phi.max), unless Baumgarte’s"
@@ -59,10 +59,10 @@ print(sim.simulate()["Phi.max"].max())  # projected onto Phi = 0 after each step
 
 
 def compute_drift_step(run: Result) -> float:
-    """Return the step (s) of rk4 at which the drift of a driven mechanism is visible: a sixtieth of a period.
+    """Return the step (s) of rk4 at which constraint drift of a driven mechanism is visible: a sixtieth of a period.
 
-    The period is that of the fastest body, or the length of a shorter run. Gains of about 0.1/step hold the constraints
-    then.
+    The period is 2π over the largest angular velocity of the run, at most its duration. Baumgarte gains of about
+    0.1/step then limit the drift.
     """
     max_rates = [float(np.abs(run.v[:, body.index + 2]).max()) for body in run.source.bodies]
     period = 2.0 * np.pi / max([*max_rates, 1e-300])
@@ -72,10 +72,10 @@ def compute_drift_step(run: Result) -> float:
 def explain_missing_drift(
     simulation: Simulation, run: Result, module_size: int, max_module_size: int
 ) -> dict[str, str] | None:
-    """Return {note, code} of a scene, which explain why constraints do not drift on its page.
+    """Return {"note", "code"}: why constraints do not drift on the page of a scene, and Python code in which they do.
 
     None if the page has a formulation in which they drift. run: at the file's values. module_size: bytes of the
-    scene's module. max_module_size: bytes of a module next to which a second one fits.
+    scene's module. max_module_size: above it, the page has no second module with the full formulation.
     """
     replacements = dict[str, str]()
     if simulation.source.methods == (KINEMATIC,):
@@ -96,9 +96,7 @@ def explain_missing_drift(
 
 
 def _format_step_and_gains(run: Result) -> dict[str, str]:
-    """Return texts for the code: the number of steps, and two gains, one that holds the constraints and one that is too
-    large.
-    """
+    """Return the substitutions of RK4_CODE: the number of steps, and two Baumgarte gains, 0.1/h and an unstable 1/h."""
     period_step, duration = compute_drift_step(run), float(run.t[-1] - run.t[0])
     n_steps = max(1, round(duration / period_step))
     return {"steps": str(n_steps), "gains": f"{0.1 * n_steps / duration:.1g}, {n_steps / duration:.3g}"}

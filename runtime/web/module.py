@@ -54,9 +54,9 @@ CALLED = (
     "kinematic_events",
 )
 DRIVEN = ("rhs",)  # further functions for scenes without degrees of freedom
-# No contraction to fused multiply-adds and no fast math, as of a library (loading/compiler.py). Loops stay loops: a
-# module is a tenth shorter. The stack is as large as programs have it; zig puts it first, so that what overflows it
-# traps instead of writing over numbers.
+# No contraction to fused multiply-adds and no fast math, as for libraries (loading/compiler.py). Without unrolled loops
+# a module is a tenth shorter. The stack has the usual size of programs; zig places it first in memory, so that an
+# overflow traps instead of overwriting data.
 FLAGS = (
     "-target",
     "wasm32-wasi",
@@ -80,13 +80,13 @@ FLAGS = (
 
 
 def compile_simulator(source: KernelSource, *, cache: Cache | None = None) -> bytes:
-    """Return the WebAssembly module of a scene from the cache, or compile it (the first time with the C library: a
-    minute).
+    """Return the WebAssembly module of a scene from the cache, or compile it; the first compilation takes a minute.
 
-    Raises BuildError if the compiler is missing or the C does not compile, BadValueError for sources without engine.
+    Raises BuildError if the compiler is missing or the C does not compile, BadValueError for scenes that the engine
+    does not run.
     """
     if source.cdef:
-        raise BadValueError(f"{source.mechanism}/{source.scene} is no scene that the engine runs: it has no simulator")
+        raise BadValueError(f"{source.mechanism}/{source.scene} has no simulator: the engine does not run this scene")
     compiler, cache = _find_zig(), cache or get_default_cache()
     command = [
         str(compiler),
@@ -119,13 +119,13 @@ def _find_zig() -> Path:
         return find_zig()
     except ImportError as error:
         raise BuildError(
-            "a simulator for pages is compiled by zig, which is not installed\n"
+            "the compiler zig for simulators in pages is not installed\n"
             "  install it, a wheel of 100 MB: pip install 'gudgeon[web]'"
         ) from error
 
 
 def _list_export_options(source: KernelSource) -> list[str]:
-    """Return the linker options that export those functions which simulator.js calls and the scene has."""
+    """Return the linker options that export the functions that simulator.js calls, if the scene declares them."""
     declared_functions = set(re.findall(r"\bgudgeon_(\w+)\(", select_declarations(source)))
     needed_functions = CALLED + (DRIVEN if source.methods == (KINEMATIC,) else ())
     return [f"-Wl,--export=gudgeon_{name}" for name in needed_functions if name in declared_functions]
@@ -148,7 +148,7 @@ def _compile_module(source: KernelSource, command: list[str], folder: Path) -> N
         try:
             process = programs.start(command, folder, {**build_environment(), **cache_folders})
         except OSError as error:
-            raise BuildError(f"zig cannot be run: {error}\n  install it anew: pip install 'gudgeon[web]'") from error
+            raise BuildError(f"zig cannot be run: {error}\n  reinstall it: pip install 'gudgeon[web]'") from error
         if build_error := wait_for_compiler(programs, process, folder / MODULE):
             raise build_error
     shutil.rmtree(folder / "zig", ignore_errors=True)

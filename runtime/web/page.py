@@ -30,9 +30,9 @@ class Parts(NamedTuple):
 
 
 def build_page(simulation: Simulation, scenes: Mapping[str, str] | None = None) -> str:
-    """Return the HTML of a scene's page.
+    """Return the HTML of a scene's page: equations, drawing, simulator.
 
-    scenes: pages of other scenes by name, itself included, to which it links with its parameter values. Raises
+    scenes: file names of the pages of all scenes by name, to which it links with its parameter values. Raises
     InputError if the file was edited since, GudgeonError without the extras `docs` and `plot`, BuildError if the C does
     not compile, SolverError if no start is found.
     """
@@ -46,11 +46,11 @@ def build_page(simulation: Simulation, scenes: Mapping[str, str] | None = None) 
 def build_page_parts(simulation: Simulation, scenes: Mapping[str, str] | None = None) -> Parts:
     """Return the HTML parts that make the equations' page of a scene interactive.
 
-    Without the compiler (extra `web`) they have one recorded run at the file's values. A small simulator is accompanied
-    by the full formulation, in which constraints drift. Raises as `build_page`. `scenes`: as in `build_page`; None:
-    none.
+    Without the compiler (extra `web`) they contain one recorded run at the file's values instead of a simulator. With a
+    small simulator the full formulation, in which constraints drift, is included. Arguments and errors as for
+    `build_page`.
     """
-    import gudgeon.results.figures.plots  # noqa: F401 (without matplotlib it says what to install)
+    import gudgeon.results.figures.plots  # noqa: F401 (raises GudgeonError without matplotlib)
     from gudgeon.web.page_parts import build_simulator_parts
 
     return build_simulator_parts(simulation, scenes or {})
@@ -108,7 +108,7 @@ def build_json_element(name: str, json_text: str) -> str:
 
 @cache
 def read_script(name: str) -> str:
-    """Return a JavaScript file of this folder in the form for pages."""
+    """Return a JavaScript file of this folder, compressed for pages; cached."""
     from gudgeon.generator.targets.javascript.compression import compress_script
 
     return compress_script(read_file(name))

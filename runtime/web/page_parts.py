@@ -12,7 +12,7 @@ from warnings import warn
 
 from gudgeon.assembly.guess_warnings import find_user_stack_level
 from gudgeon.contract.methods import KINEMATIC
-from gudgeon.drawing.page import PIXELS
+from gudgeon.drawing.page import PIXELS_PER_INCH
 from gudgeon.drawing.picture import compute_figure_size
 from gudgeon.drawing.rig import Rig
 from gudgeon.errors import BuildError, SolverError
@@ -67,7 +67,10 @@ def build_simulator_parts(simulation: Simulation, scenes: Mapping[str, str]) -> 
 
 
 def _pack_modules(simulation: Simulation, module_element: str) -> str:
-    """Return the hidden HTML element of the module; for a small reduced formulation also those of the full one."""
+    """Return the hidden HTML element of the module, with those of the full formulation if the reduced one is small.
+
+    Small: an element of up to MAX_MODULE_BYTES characters, of a scene with degrees of freedom.
+    """
     is_reduced = simulation.source.formulation == "reduced" and simulation.source.methods != (KINEMATIC,)
     if not is_reduced or len(module_element) > MAX_MODULE_BYTES:
         return module_element
@@ -82,15 +85,15 @@ def _pack_modules(simulation: Simulation, module_element: str) -> str:
 def _run_scene(simulation: Simulation) -> Result:
     """Return a run of the scene at the file's values.
 
-    If it fails after the start, the part before the failure is returned with a warning; otherwise SolverError is
-    raised.
+    If it fails after the start, a warning is issued and the part before the failure is returned. SolverError is raised
+    if there is no such part.
     """
     try:
         return simulation.simulate()
     except SolverError as error:
         if error.partial is None or len(error.partial.t) < 2:
             raise
-        warn(f"the page shows a run up to where it fails: {error}", stacklevel=find_user_stack_level())
+        warn(f"the page shows the run up to its failure: {error}", stacklevel=find_user_stack_level())
         return error.partial
 
 
@@ -103,14 +106,14 @@ def _describe_drawing(rig: Rig) -> dict[str, Any]:
     for inches in (WIDE_INCHES, NARROW_INCHES):
         figure_size, sketch = compute_figure_size(rig.sketch, inches), replace(rig.sketch, labels=())
         pixels_per_metre.append(
-            PIXELS
+            PIXELS_PER_INCH
             * min(
                 length_in_inches / length_in_metres
                 for length_in_inches, length_in_metres in zip(figure_size, sketch.high - sketch.low, strict=True)
             )
         )
     return {
-        "looks": [make_css_class(carried.shape.role, carried.shape.tint) for carried in rig.shapes],
+        "looks": [make_css_class(moving_shape.shape.role, moving_shape.shape.tint) for moving_shape in rig.shapes],
         "pixels": pixels_per_metre,
     }
 

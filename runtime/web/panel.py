@@ -1,4 +1,4 @@
-"""Prepare the initial contents of a simulator page as JSON: drawing, parameters with ranges, curves, one run."""
+"""Build the initial contents of a simulator page as JSON: drawing, parameters with ranges, curves, one run."""
 
 from __future__ import annotations
 
@@ -12,15 +12,15 @@ import numpy as np
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.drawing.labels import NameLabels
 from gudgeon.drawing.layout import make_layout
-from gudgeon.drawing.page import PIXELS
+from gudgeon.drawing.page import PIXELS_PER_INCH
 from gudgeon.drawing.picture import compute_figure_size, draw_sketch
 from gudgeon.drawing.rig import Rig, make_rig
 from gudgeon.drawing.shapes import Sketch
-from gudgeon.results.figures.animation import QUICK, SHOWN, SLOW
+from gudgeon.results.figures.animation import DEFAULT_DURATION, MAX_REAL_TIME, MIN_REAL_TIME
 from gudgeon.results.figures.configurations import select_configurations
 from gudgeon.results.reports.comparison import ROUNDING_TOL
 from gudgeon.results.results import Result
-from gudgeon.results.series import choose_watched_series, find_rate_names
+from gudgeon.results.series import choose_default_series, find_rate_names
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.web.parameter_panel import build_parameter_sections, list_units
 from gudgeon.web.style_sheet import make_css_class
@@ -53,26 +53,26 @@ def build_panel(simulation: Simulation, run: Result, rig: Rig) -> dict[str, Any]
         "joints": [[name, point] for name, point in points_by_joint.items() if f"{name}.Fx" in run.names],
         "traces": _choose_first_traces(run),
         "values": _choose_first_values(run),
-        "seconds": duration if SLOW <= duration <= QUICK else SHOWN,
+        "seconds": duration if MIN_REAL_TIME <= duration <= MAX_REAL_TIME else DEFAULT_DURATION,
         "path": _choose_first_path(rig),
     }
 
 
 def _list_journals(source: KernelSource) -> list[tuple[str, str]]:
-    """Return (joint, point) for all joints, those with play first; the force acts on the point."""
+    """Return (joint, point on which its force acts) for all joints, those with play first."""
     joints_with_play = [(joint.name, joint.point) for joint in source.clearances]
     return [*joints_with_play, *((joint.name, joint.point) for joint in source.joints)]
 
 
 def _choose_first_traces(run: Result) -> list[str]:
-    """Return the names of the traces shown at first: watched series or drives (two), a force, and Phi.max.
+    """Return the names of the series in the initial charts: two default series, peaks or drives, a force, Phi.max.
 
     A force without finite sample is left out.
     """
     source = run.source
     drive_series = [name for drive in source.drives for name in (f"{drive.name}.torque", f"{drive.name}.force")]
     force_series = [f"{name}.F" for name, _ in _list_journals(source)]
-    names = [*choose_watched_series(run)[:1], *source.peaks[:1], *(name for name in drive_series if name in run.names)][
+    names = [*choose_default_series(run)[:1], *source.peaks[:1], *(name for name in drive_series if name in run.names)][
         :2
     ]
     names += [name for name in force_series if name in run.names and np.isfinite(run[name]).any()][:1]
@@ -80,13 +80,12 @@ def _choose_first_traces(run: Result) -> list[str]:
 
 
 def _choose_first_values(run: Result) -> list[str]:
-    """Return the names of the live values: watched series with their rates, outputs, drives, eccentricities, joint
-    forces.
+    """Return the names of the live values: default series and rates, outputs, peaks, drives, eccentricities, forces.
 
     Names that the run lacks are left out.
     """
     source, candidates = run.source, list[str]()
-    for name in choose_watched_series(run):
+    for name in choose_default_series(run):
         candidates += [name, find_rate_names(name)[0]]
     candidates += [*source.outputs, *source.peaks]
     candidates += [f"{drive.name}.{quantity}" for drive in source.drives for quantity in ("torque", "force")]
@@ -97,7 +96,11 @@ def _choose_first_values(run: Result) -> list[str]:
 
 def _choose_first_path(rig: Rig) -> str:
     """Return the first named point that no joint or force element uses, whose path is drawn; "" if there is none."""
-    points = [carried.shape.part.partition(" ")[2] for carried in rig.shapes if carried.shape.part.startswith("point ")]
+    points = [
+        moving_shape.shape.part.partition(" ")[2]
+        for moving_shape in rig.shapes
+        if moving_shape.shape.part.startswith("point ")
+    ]
     return points[0] if points else ""
 
 
@@ -106,7 +109,7 @@ def list_styles(rig: Rig) -> tuple[list[tuple[str, int]], list[tuple[str, int]]]
 
     Roles that exist on pages only are included.
     """
-    shape_styles = dict.fromkeys((carried.shape.role, carried.shape.tint) for carried in rig.shapes)
+    shape_styles = dict.fromkeys((moving_shape.shape.role, moving_shape.shape.tint) for moving_shape in rig.shapes)
     unique_shape_styles = {
         make_css_class(role, tint): (role, tint) for role, tint in [*shape_styles, *((role, 0) for role in PAGE_ROLES)]
     }
@@ -116,7 +119,7 @@ def list_styles(rig: Rig) -> tuple[list[tuple[str, int]], list[tuple[str, int]]]
 
 def _iterate_name_styles(rig: Rig) -> Iterator[tuple[str, int]]:
     """Yield (role, tint) of each name of the drawing; the tint is that of its part."""
-    tints = {carried.shape.part: carried.shape.tint for carried in rig.shapes}
+    tints = {moving_shape.shape.part: moving_shape.shape.tint for moving_shape in rig.shapes}
     for label in rig.sketch.labels:
         yield label.role, tints.get(label.part, 0)
 
@@ -154,11 +157,11 @@ def _iterate_names(rig: Rig) -> Iterator[list[Any]]:
 def _compute_name_offsets(sketch: Sketch, width_in_inches: float) -> dict[str, tuple[float, float]]:
     """Return the offsets of names from their parts in pixels, y up, by part.
 
-    width_in_inches: of the figure. matplotlib places the names; a name without room is left out.
+    width_in_inches: of the figure. matplotlib places the names; a name without a free position is left out.
     """
     from matplotlib.figure import Figure
 
-    figure = Figure(figsize=compute_figure_size(sketch, width_in_inches), dpi=PIXELS)
+    figure = Figure(figsize=compute_figure_size(sketch, width_in_inches), dpi=PIXELS_PER_INCH)
     ax = figure.add_axes((0.0, 0.0, 1.0, 1.0))
     draw_sketch(ax, sketch)
     figure.draw_without_rendering()
@@ -167,10 +170,10 @@ def _compute_name_offsets(sketch: Sketch, width_in_inches: float) -> dict[str, t
 
 
 def pack_run(run: Result, first_names: list[str]) -> dict[str, Any]:
-    """Return a run for a page without simulator, as packed float32.
+    """Return a run for a page without simulator as a dictionary for JSON; "bits" is gzip, base64 of float32 rows.
 
-    It has at most MAX_SAMPLES samples of at most MAX_SERIES series: those of `first_names` first, then forces and
-    eccentricities. The result can be written as JSON.
+    It has at most MAX_SAMPLES samples of t, q, v and at most MAX_SERIES series: `first_names` first, then forces and
+    eccentricities.
     """
     sample_indices = np.unique(np.linspace(0, len(run.t) - 1, MAX_SAMPLES).round().astype(int))
     drawn_series = [name for name in run.names if name.endswith((".Fx", ".Fy", ".ex", ".ey"))]

@@ -38,7 +38,7 @@ SECTIONS = {
 MAX_FACTOR = 4.0  # largest value of the slider of a positive number, over the present value
 HALF_TURN = 3.141592653589793  # half the range of an angle, rad
 MIN_LINK_FRACTION = 0.05  # lengths below this fraction of the mechanism's size are not link lengths
-# sections whose positive numbers keep their sign
+# sections whose positive parameters have no negative values on the slider
 SIGNED_SECTIONS = ("bodies", "bearings", "guides", "contacts", "materials", "baumgarte")
 N_BISECTIONS = 30  # bisections between a valid value and a refused end
 BOUND_MARGIN = 1e-3  # distance of a slider from an open bound, over its range
@@ -101,13 +101,14 @@ def list_units(source: KernelSource) -> dict[str, dict[str, float]]:
 
 
 def _limit_range_end(compiled: CompiledModel, parameter: RuntimeParameter, value: float, end: float) -> float:
-    """Return the end of a slider's range, or if a condition refuses `end`, the accepted value nearest to it.
+    """Return the end of a slider's range, or if `end` is not allowed, the allowed value nearest to it, by bisection.
 
-    The value is found by bisection from the current `value`. `end` is returned too if the current value is refused.
+    The bisection begins at the current `value`; a margin of BOUND_MARGIN is kept. `end` is also returned if the current
+    value is not allowed.
     """
 
     def is_value_refused(new_value: float) -> bool:
-        """Return whether a value of the parameter breaks a condition."""
+        """Return whether a value of the parameter violates a condition."""
         try:
             prepare_values(compiled, {parameter.address: new_value})
         except GudgeonError:
@@ -128,10 +129,12 @@ def _limit_range_end(compiled: CompiledModel, parameter: RuntimeParameter, value
 
 
 class _Units:
-    """Units of parameters as the file writes them, or as it writes similar ones, or as figures have them."""
+    """Units of parameters: those in the file, else those of similar parameters in the file, else those of plots."""
 
     def __init__(self, simulation: Simulation) -> None:
-        """Read the units from the mechanism file; if it does not exist any more, none are known."""
+        """Read the unit of each parameter from the mechanism file and count units by SI unit; a file that cannot be
+        read has none.
+        """
         from gudgeon.generator.yaml import parse_yaml
 
         try:
@@ -166,7 +169,7 @@ class _Units:
 def _read_unit(document: Any, parameter: RuntimeParameter) -> tuple[str, float] | None:
     """Return the unit written at a parameter's address in the file, and its value in SI; None if there is none.
 
-    An expression of π counts as radians that are shown in degrees.
+    An expression with π of a dimensionless parameter, such as pi/6, is an angle: ("deg", π/180).
     """
     node = document
     for key in parameter.address.split("."):
@@ -191,8 +194,8 @@ def _compute_slider_range(
 ) -> tuple[float, float]:
     """Return the range (low, high) of a parameter's slider in SI, within the constant conditions.
 
-    Positive numbers: 0 to four times the value; lengths: 0 to twice the value; angles: half a turn in both directions;
-    positions: zero to twice the value; other numbers: twice the value in both directions.
+    Positive parameters (bounded below, small lengths, SIGNED_SECTIONS): 0 to four times the value, lengths to twice.
+    Angles: ±π about the value. Zeros: a range by unit. Other lengths: 0 to twice the value. Others: ± twice the value.
     """
     value = float(p[[other_slot.address for other_slot in source.slots].index(parameter.address)])
     own_conditions = [

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from functools import cache
 from pathlib import Path
 
-from gudgeon.drawing.page import PIXELS
+from gudgeon.drawing.page import PIXELS_PER_INCH
 from gudgeon.drawing.roles import DRIVEN, EDGES, GREY, INK, LOADED, NAMES, ROLES, TINTS, WOUND, WRONG, resolve_colour
 
 # colours of paper and ink, which depend on the colour scheme
@@ -43,7 +43,7 @@ def build_style_sheet(shape_styles: Iterable[tuple[str, int]], name_styles: Iter
         dark_edge, dark_face = (_format_dark_colour(name, tint) for name in (role_style.edge, role_style.face))
         light_rules.append(
             f"{selector}{{stroke:{light_edge};fill:{light_face};"
-            f"stroke-width:{role_style.width * PIXELS / 72.0:.2f};{dashes}}}"
+            f"stroke-width:{role_style.width * PIXELS_PER_INCH / 72.0:.2f};{dashes}}}"
         )
         dark_rules.append(f"{selector}{{stroke:{dark_edge};fill:{dark_face}}}")
     for role, tint in name_styles:
@@ -66,7 +66,7 @@ def make_css_class(role: str, tint: int) -> str:
 
 @cache
 def _read_style_sheet() -> str:
-    """Return page.css in the form for pages."""
+    """Return the compressed text of page.css; cached."""
     from gudgeon.generator.targets.javascript.compression import compress_style_sheet
 
     return compress_style_sheet(Path(__file__).with_name("page.css").read_text(encoding="utf-8"))

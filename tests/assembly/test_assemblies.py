@@ -117,7 +117,7 @@ def test_a_driven_crank_without_its_shaft_is_named() -> None:
         mechanism = read_mechanism(four_bar(joints), "four.yaml")
         return [text for whose, text in yield_remarks(mechanism, assemble_scenes(mechanism, False)) if whose == "shaft"]
 
-    assert message(B + C + D) == ["no joint ties crank to the ground, against which drive motor turns it"]
+    assert message(B + C + D) == ["no joint connects crank to the ground, the reference of drive motor"]
     assert message(A + B + C) == [] == message(A + B + C + D)
 
 
@@ -351,7 +351,9 @@ def test_what_else_to_guess_of_jansens_leg(tmp_path: Path) -> None:
     message = assemble_scenes(read_mechanism(file.read_bytes(), "jansen.yaml"), branches=True)
     assert len(message.assemblies) == 8 and len(message.equivalent_assemblies) == 1
     output = CliRunner().invoke(app, ["check", str(file), "--branches"]).output
-    assert "2 fit the start's guesses alike: guess f.theta too, -29.82 deg" in " ".join(output.split())
+    assert "2 assemblies follow the guesses of the start equally well: also guess f.theta, -29.82 deg" in " ".join(
+        output.split()
+    )
     assert "8 assemblies found" in output
     document = json.loads(CliRunner().invoke(app, ["check", str(JANSEN), "--json"]).output)
     assert document["assembled"]["ideal"]["degrees of freedom"] == 0

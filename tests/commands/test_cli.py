@@ -20,7 +20,7 @@ from gudgeon.commands import check
 from gudgeon.commands.check import check_mechanism
 from gudgeon.commands.emit import emit_c
 from gudgeon.commands.equations import write_equations
-from gudgeon.commands.studies import Request, load_scenes
+from gudgeon.commands.studies import MeasurementRequest, load_scenes
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.language.deprecations import STRESS
 from gudgeon.loading.kernel_sources import derive_kernel_source
@@ -279,7 +279,10 @@ def test_a_terminal_is_told_what_is_derived_and_compiled(
 
     tasks: list[tuple[Callable[[], object], list[str]]] = [
         (lambda: emit_c(pump, tmp_path / "c", ("worn",)), ["deriving pump, scene worn"]),
-        (lambda: load_scenes(Request(pump, ("ideal",))), ["deriving pump, scene ideal", "compiling pump, scene ideal"]),
+        (
+            lambda: load_scenes(MeasurementRequest(pump, ("ideal",))),
+            ["deriving pump, scene ideal", "compiling pump, scene ideal"],
+        ),
     ]
     for task, message in tasks:
         cold = shown(task, Screen())

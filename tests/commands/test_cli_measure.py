@@ -30,7 +30,7 @@ PENDULUM = str(Path(__file__).parents[1] / "mechanisms" / "valid" / "double_pend
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (("--range", "c=1mm..2mm"), "there is no --box"),
+        (("--range", "c=1mm..2mm"), "--range needs --box"),
         (("--box", "2"), "give its edges"),
         (("--box", "2", "--range", "c=1mm"), "expected NAME=LOW..HIGH"),
         (("--box", "2", "--range", "c=1mm..2mm:4"), "expected NAME=LOW..HIGH"),

@@ -155,7 +155,7 @@ def test_an_interrupt_keeps_what_was_computed(
         return simulate(self, *args, **options)
 
     monkeypatch.setattr(Simulation, "simulate", interrupted)
-    monkeypatch.setattr("gudgeon.waiting.cancellation.EVERY", 0.0)  # C asks at every right-hand side
+    monkeypatch.setattr("gudgeon.waiting.cancellation.POLL_INTERVAL_S", 0.0)  # C asks at every right-hand side
     done = call("run", pump)
     assert done.exit_code == 130, done.output
     run = gudgeon.Result.load(tmp_path / "out/pump_worn.nc")
@@ -211,7 +211,7 @@ def test_tables_are_not_cut_where_the_screen_is_narrow(call: Gudgeon, pump: str)
         assert max(map(len, shown[width].splitlines())) <= width
     for text in shown[200].replace("─", "").split():
         assert text in shown[70]
-    assert "no row is left" in shown[200]
+    assert "no constraints" in shown[200]
     assert runs[1].diagnostics.phi_max == 0.0 and not runs[1].source.closures
 
 

@@ -90,7 +90,7 @@ def test_masses_are_not_asked_for(call: Gudgeon, tmp_path: Path) -> None:
         ("four_bar --set bodies.crank.len=3mm", "nearest: bodies.crank.length"),
         ("four_bar --set bodies.crank.mass=-1kg", "a mass is positive"),
         ("four_bar --at 1kg", "expected a time"),
-        ("four_bar --at=-1s", "--at is -1 s: the motion starts at 0 s"),
+        ("four_bar --at=-1s", "--at is -1 s: expected 0 s or more"),
         ("four_bar --at 1e30s", "--at is 1e+30 s: expected 1e+18 s at most"),
         ("four_bar --at 1s --branches", "leave one of them out"),
         ("four_bar -o x.svg/", "this is a folder"),

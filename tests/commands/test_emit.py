@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 
 from gudgeon.commands import emit
-from gudgeon.commands.emit import LIST, emit_c, refuse_foreign_files
+from gudgeon.commands.emit import CHECKSUM_LIST, emit_c, refuse_foreign_files
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import GudgeonError, InputError, OutputError
 from gudgeon.loading.compiler import find_compiler
@@ -47,7 +47,7 @@ def test_what_an_earlier_version_wrote_goes(source: list[KernelSource], tmp_path
     source[0] = tiny(3)
     after = run(tmp_path / "c")
     assert "dry/old.c" not in after and after["dry/tiny.h"] != before["dry/tiny.h"]
-    for line in after[f"dry/{LIST}"].decode().splitlines():
+    for line in after[f"dry/{CHECKSUM_LIST}"].decode().splitlines():
         total, name = line.split("  ")
         assert sha256(after[f"dry/{name}"]).hexdigest() == total
     assert run(tmp_path / "c") == after
@@ -60,19 +60,19 @@ def test_no_list_makes_emit_remove_a_users_file(source: list[KernelSource], tmp_
     total = sha256(b"precious").hexdigest()
     folder = tmp_path / "c" / "dry"
     run(tmp_path / "c")
-    listed = (folder / LIST).read_text()
+    listed = (folder / CHECKSUM_LIST).read_text()
     if how == "link":
         (folder / "old.c").symlink_to(precious)
-        (folder / LIST).write_text(f"{listed}{total}  old.c\n")
+        (folder / CHECKSUM_LIST).write_text(f"{listed}{total}  old.c\n")
     elif how == "other bytes":
         (folder / "old.c").write_text("mine")
-        (folder / LIST).write_text(f"{listed}{total}  old.c\n")
+        (folder / CHECKSUM_LIST).write_text(f"{listed}{total}  old.c\n")
     elif how == "folder is a link":
         folder.rename(tmp_path / "elsewhere")
         folder.symlink_to(tmp_path / "elsewhere")
         source[0] = tiny(5)
     else:
-        (folder / LIST).write_text(f"{listed}{total}  {how.format(tmp_path)}\n")
+        (folder / CHECKSUM_LIST).write_text(f"{listed}{total}  {how.format(tmp_path)}\n")
     before = contents(tmp_path)
     with pytest.raises(InputError):
         run(tmp_path / "c")
@@ -91,8 +91,8 @@ def test_a_file_that_changes_after_it_was_looked_at_stays(source: list[KernelSou
 
 def test_a_list_of_ones_own_is_not_replaced(source: list[KernelSource], tmp_path: Path) -> None:
     (tmp_path / "c/dry").mkdir(parents=True)
-    (tmp_path / "c/dry" / LIST).write_text("things to buy\n")
-    with pytest.raises(InputError, match=LIST):
+    (tmp_path / "c/dry" / CHECKSUM_LIST).write_text("things to buy\n")
+    with pytest.raises(InputError, match=CHECKSUM_LIST):
         run(tmp_path / "c")
 
 
@@ -130,7 +130,7 @@ def test_a_failure_at_any_file_is_no_obstacle_to_the_next_emit(
         there = contents(tmp_path / "c")
         if call == "write":
             assert there == older
-        names = there.keys() - {f"dry/{LIST}"}
+        names = there.keys() - {f"dry/{CHECKSUM_LIST}"}
         assert older.keys() <= there.keys() and all(there[n] in (older.get(n), expected[n]) for n in names)
         refuse_foreign_files(tmp_path / "c/dry")
     assert run(tmp_path / "c") == expected
@@ -167,19 +167,21 @@ def test_a_folder_that_cannot_be_is_told(source: list[KernelSource], tmp_path: P
 def test_a_list_that_was_altered_is_what_is_told(tmp_path: Path) -> None:
     """Not the files that it no longer lists."""
     emit_c("pendulum", tmp_path, ("ideal",))
-    file = tmp_path / "ideal" / LIST
+    file = tmp_path / "ideal" / CHECKSUM_LIST
     good = file.read_text()
     file.write_text(good.replace("  model.h", "  ../model.h"))
     with pytest.raises(InputError) as caught:
         refuse_foreign_files(tmp_path / "ideal")
-    assert str(caught.value).startswith(f"{file} is no list")
+    assert str(caught.value).startswith(f"{file} is not a list")
     assert "dynamics.c" not in str(caught.value)
     line = next(each for each in good.splitlines() if each.endswith("  model.h"))
     file.write_text(good.replace(line, "0" * 64 + "  model.h"))
-    with pytest.raises(InputError, match=rf": model.h and the checksums in {LIST} differ: files or list were changed"):
+    with pytest.raises(
+        InputError, match=rf": model.h and the checksums in {CHECKSUM_LIST} differ: files or list were changed"
+    ):
         refuse_foreign_files(tmp_path / "ideal")
     (tmp_path / "ideal" / "mine.txt").write_text("x")
-    with pytest.raises(InputError, match=r"did not write so: mine\.txt\n"):
+    with pytest.raises(InputError, match=r"did not write: mine\.txt\n"):
         refuse_foreign_files(tmp_path / "ideal")
 
 
@@ -188,7 +190,9 @@ def test_the_engine_is_written_once_beside_the_scenes(tmp_path: Path) -> None:
     emit_c("pendulum", tmp_path, ())
     before = contents(tmp_path)
     texts = {name: text.encode() for name, text in (*read_engine_files().items(), read_engine_readme())}
-    assert texts == {name: before[name] for name in before if name.startswith("engine/") and not name.endswith(LIST)}
+    assert texts == {
+        name: before[name] for name in before if name.startswith("engine/") and not name.endswith(CHECKSUM_LIST)
+    }
     flags = ["-std=c11", "-O0", "-ffp-contract=off", "-fPIC", "-shared", "-I.", "-I.."]
     for scene in ("ideal", "two_seconds"):
         made = str(tmp_path.with_name(f"{tmp_path.name}.so"))
@@ -198,7 +202,7 @@ def test_the_engine_is_written_once_beside_the_scenes(tmp_path: Path) -> None:
     emit_c("pendulum", tmp_path, ("ideal",))
     assert contents(tmp_path) == before
     (tmp_path / "engine" / "run" / "mine.c").write_text("mine")
-    with pytest.raises(InputError, match=r"engine/run holds files that `emit` did not write so: mine\.c"):
+    with pytest.raises(InputError, match=r"engine/run contains files that `emit` did not write: mine\.c"):
         emit_c("pendulum", tmp_path, ())
 
 

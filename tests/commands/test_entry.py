@@ -28,7 +28,7 @@ signal.signal(signal.SIGINT, signal.default_int_handler)
 signal.signal(signal.SIGTERM, signal.SIG_DFL)  # whoever runs the tests may have it ignored
 from gudgeon.integrators import single_run
 from gudgeon.waiting import cancellation
-cancellation.EVERY, real, looks = 0.0, single_run.SingleRun._poll_and_report_progress, []
+cancellation.POLL_INTERVAL_S, real, looks = 0.0, single_run.SingleRun._poll_and_report_progress, []
 
 def look(*arguments):
     looks.append(0)
@@ -165,7 +165,7 @@ def test_signals_that_end_a_program_keep_what_was_computed(ending: str, tmp_path
     gudgeon.load("pendulum", "ideal")  # compiled before: who asks without a pause waits for no compiler
     done = gudgeon_process(line, tmp_path, TERMINATED.replace("SIGTERM", ending))
     assert done.returncode == 128 + getattr(signal, ending), done.stderr
-    assert done.stderr.startswith("interrupted: what was computed is shown and saved; ideal ends at")
+    assert done.stderr.startswith("interrupted: the computed results are shown and saved; ideal ends at")
     assert gudgeon.Result.load(tmp_path / "out/pendulum_ideal.nc").diagnostics.interrupted
     assert not list((tmp_path / "out").glob(".*"))
 

@@ -40,8 +40,8 @@ def test_a_study_to_begin_with_runs(call: Gudgeon, tmp_path: Path) -> None:
     text = (tmp_path / "play.yaml").read_text(encoding="utf-8")
     assert text.count("#") > 12 and max(map(len, text.splitlines())) <= 120
     for line, why in (
-        ("play --study", "is there already"),
-        ("a --study --like four_bar", "--like is of mechanisms"),
+        ("play --study", "already exists"),
+        ("a --study --like four_bar", "--like needs a mechanism"),
         ("a-b --study", "a_b"),
     ):
         refused = call("new", *line.split())
@@ -64,13 +64,13 @@ def test_like_any_that_is_shipped(like: str, call: Gudgeon, tmp_path: Path) -> N
     ("line", "message"),
     [
         ("my-engine", "my_engine"),
-        ("engine.yml", "without .yaml"),
-        ("true", "YAML takes it"),
-        ("../x", "no identifier"),
+        ("engine.yml", "expected a name without suffix"),
+        ("true", "YAML reads it"),
+        ("../x", "not an identifier"),
         ("a__x", "reserved for emitted code"),
         ("crane --like double_rocke", "did you mean 'double_rocker'"),
-        ("there", "is there already"),
-        ("link", "is there already"),
+        ("there", "already exists"),
+        ("link", "already exists"),
     ],
 )
 def test_what_is_refused_leaves_all_as_it_was(line: str, message: str, call: Gudgeon, tmp_path: Path) -> None:

@@ -194,7 +194,8 @@ def test_a_mechanism_in_millimetres_by_mistake_is_remarked(call: Gudgeon, tmp_pa
     message = " ".join(done.stdout.split())
     assert done.exit_code == 0, done.output
     assert (
-        "size: bodies.rod.length is 120 m: bare numbers are metres; if millimetres are meant, write 120 mm" in message
+        "size: bodies.rod.length is 120 m: numbers without a unit are metres; if millimetres are meant, write 120 mm"
+        in message
     )
     (tmp_path / "crane.yaml").write_text(bare.replace("30,", "12,").replace("120,", "48,").replace("140}", "58}"))
     for name in ("crane.yaml", "nine_bar_press", "car_axis"):

@@ -28,7 +28,12 @@ from gudgeon.drawing.page import _iterate_name_offsets  # noqa: E402
 from gudgeon.drawing.roles import INK, TINTS  # noqa: E402
 from gudgeon.drawing.shapes import Sketch  # noqa: E402
 from gudgeon.errors import BadValueError, GudgeonError, OutputError, UnknownNameError  # noqa: E402
-from gudgeon.results.figures.animation import RED, check_animation_options, draw_sketches, find_contacts_between  # noqa: E402
+from gudgeon.results.figures.animation import (
+    CONTACT_NOTE,
+    check_animation_options,
+    draw_sketches,
+    find_contacts_between,
+)  # noqa: E402
 from gudgeon.results.figures.configurations import compute_configuration  # noqa: E402
 from gudgeon.results.figures.mechanism_plots import find_contacts_at_configuration  # noqa: E402
 from gudgeon.results.results import Result  # noqa: E402
@@ -171,7 +176,7 @@ def test_red_is_what_is_at_that_time(crank: Result) -> None:
     on, off, t = crank.impacts["t_on"], np.nan_to_num(crank.impacts["t_off"], nan=np.inf), crank.t
     met = np.array([((on <= end) & (off >= begin)).any() for begin, end in zip(t, t[1:], strict=False)])
     assert (since[1:] == (met & ~now[1:])).all() and since.any()
-    assert all(RED in sketch.notes for sketch in every)
+    assert all(CONTACT_NOTE in sketch.notes for sketch in every)
 
 
 def roles(sketch: Sketch) -> set[str]:

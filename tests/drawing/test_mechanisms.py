@@ -87,7 +87,7 @@ def test_names_without_room_are_left_out_and_counted() -> None:
     picture = build_figure([replace(sketch, labels=crowd)], [""], "x")
     svg = encode_figure(picture, ".svg").decode()
     placed = dict(boxes(picture))
-    assert 10 < len(placed) < 400 and f"{400 - len(placed)} names left out" in svg
+    assert 10 < len(placed) < 400 and f"{400 - len(placed)} names omitted" in svg
     for a, b in combinations(placed.values(), 2):
         assert a[2] <= b[0] or b[2] <= a[0] or a[3] <= b[1] or b[3] <= a[1]
 

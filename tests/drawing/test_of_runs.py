@@ -12,7 +12,7 @@ import pytest
 pytest.importorskip("matplotlib")
 
 import gudgeon  # noqa: E402
-from gudgeon.drawing.drives_and_forces import ARROW  # noqa: E402
+from gudgeon.drawing.drives_and_forces import ARROW_LENGTH  # noqa: E402
 from gudgeon.drawing.labels import NameLabels, count_crossings  # noqa: E402
 from gudgeon.errors import BadValueError, UnknownNameError  # noqa: E402
 from gudgeon.results.figures import plots  # noqa: E402
@@ -145,7 +145,7 @@ def test_applied_forces_are_to_the_scale_of_reactions(pushed: Result) -> None:
         assert span == pytest.approx([metres * pushed[f"{series}.F{axis}"][20] for axis in "xy"], rel=1e-9, abs=1e-12)
     plain = by_gid(pushed.plot.mechanism(float(pushed.t[20])))
     shaft = plain["force-push-2"].get_xy()[0] - plain["force-push"].get_xy()[0]
-    assert np.hypot(*shaft) == pytest.approx(ARROW * names.sketch.unit)
+    assert np.hypot(*shaft) == pytest.approx(ARROW_LENGTH * names.sketch.unit)
 
 
 def test_a_force_has_an_arrow_in_every_drawing_of_a_run(pushed: Result) -> None:
@@ -173,11 +173,11 @@ def test_a_paths_legend_lies_beside_the_drawing(four_bar: Result) -> None:
 def test_what_cannot_be_drawn_is_told(four_bar: Result) -> None:
     for requested, kind, message in (
         (lambda: four_bar.plot.mechanism(None), BadValueError, "t is None: expected a time"),  # type: ignore[arg-type]
-        (lambda: four_bar.plot.mechanism(2.0), BadValueError, "from 0 s to 1 s"),
+        (lambda: four_bar.plot.mechanism(2.0), BadValueError, "of the run, 0 s to 1 s"),
         (lambda: four_bar.plot.mechanism("0.1 kg"), gudgeon.InputError, "time"),
         (lambda: four_bar.plot.mechanism(float("nan")), BadValueError, "not a finite number"),
         (lambda: four_bar.plot.mechanism(0.1, forces=1), BadValueError, "forces is 1"),  # type: ignore[arg-type]
-        (lambda: four_bar.plot.path(), BadValueError, "a point at least"),
+        (lambda: four_bar.plot.path(), BadValueError, "at least one name of a point"),
         (lambda: four_bar.plot.path("coupler.trace"), UnknownNameError, "nearest: coupler.tracer"),
         (lambda: four_bar.plot.path("ground.A0"), UnknownNameError, "that moves"),
         (lambda: four_bar.plot.path(3), BadValueError, "points is 3: expected the name of a point"),  # type: ignore[arg-type]

@@ -310,10 +310,10 @@ def test_the_command(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     done = emitted("nine_bar_press", "--scene", "dry")
     assert done.exit_code == 0 and fmpy.read_model_description(str(target)).modelName == "nine_bar_press_dry"
     assert "Co-Simulation and Model Exchange, scene dry" in done.output and "other scenes" not in done.output
-    assert "sources alone" in done.output
+    assert "only sources" in done.output
     done = emitted("nine_bar_press")
     assert "scene ideal\n" in done.output and "other scenes, by --scene: dry, lubricated" in done.output
-    assert "Co-Simulation alone (no freedom is left" in emitted("four_bar").output
+    assert "Co-Simulation only (no degrees of freedom" in emitted("four_bar").output
     assert emitted("nine_bar_press", "--scene", "dry", "--scene", "ideal").exit_code == InputError.exit_code
 
 

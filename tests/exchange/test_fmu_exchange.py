@@ -303,7 +303,7 @@ def test_a_state_goes_through_bytes(tmp_path: Path) -> None:
 
 
 def test_what_others_cannot_integrate_says_why(tmp_path: Path) -> None:
-    for name, why in (("four_bar", "no freedom"), ("shaker", "drives alone")):
+    for name, why in (("four_bar", "no degrees of freedom"), ("shaker", "only drives")):
         simulation = scene(name, "ideal")
         assert why in explain_exchange_obstacle(simulation.source)
         assert fmpy.read_model_description(written(simulation, tmp_path)).modelExchange is None

@@ -110,7 +110,7 @@ def test_what_is_not_said_is_told(tmp_path: Path) -> None:
     stored = json.loads((DATA / "pylinkage_fourbar.json").read_text(encoding="utf-8"))
     text = write_mechanism_text(read_pylinkage(stored["file"]))
     head = text.partition("format:")[0]
-    assert "counts steps" in head and "Masses are not in it" in head and "no units" in head
+    assert "counts steps" in head and "Masses are not in the file" in head and "no units" in head
     assert f"mass: {3.0 * LINE_MASS:g} kg" in text
     assert (
         "\n"
@@ -149,17 +149,17 @@ def changed(k: int, **values: Any) -> dict[str, Any]:
         ([], "no joints"),
         ({"joints": []}, "no joints"),
         ({"joints": [1]}, "no joints"),
-        (changed(3, type="Cam"), "'Cam' is no joint of pylinkage"),
-        (changed(3, joint0={"ref": "X"}), "hangs on .X., which is not in the file"),
-        (changed(3, joint1=None), "too few joints"),
+        (changed(3, type="Cam"), "'Cam' is not a joint of pylinkage"),
+        (changed(3, joint0={"ref": "X"}), "depends on .X., which is not in the file"),
+        (changed(3, joint1=None), "depends is missing"),
         (changed(2, distance="long"), "distance is 'long'"),
         (changed(2, distance=True), "distance is True"),
         (changed(2, distance=float("nan")), "distance is nan"),
-        (changed(3, type="Fixed", distance=1, angle=0.2), "which nothing holds at a distance"),
-        (changed(3, type="Prismatic", revolute_radius=3, joint1={"ref": "B"}, joint2={"ref": "D"}), "no body holds"),
+        (changed(3, type="Fixed", distance=1, angle=0.2), "which are not points of one rigid body"),
+        (changed(3, type="Prismatic", revolute_radius=3, joint1={"ref": "B"}, joint2={"ref": "D"}), "no body contains"),
         ({"joints": [{"id": "A", "type": "ground", "position": [0, 0]}]}, "no links"),
         ({"joints": [{"id": "A", "type": "ground", "position": None}], "links": []}, "has no position"),
-        ({"joints": [{"id": "A", "type": "ground", "position": [0, 0]}], "links": []}, "nothing in it moves"),
+        ({"joints": [{"id": "A", "type": "ground", "position": [0, 0]}], "links": []}, "no moving body"),
     ],
 )
 def test_what_cannot_be_read_is_refused(data: Any, message: str, tmp_path: Path) -> None:

@@ -232,7 +232,8 @@ def test_an_input_at_a_floating_pin_turns_one_link_against_the_other(tmp_path: P
 
 
 @pytest.mark.parametrize(
-    ("joint", "message"), [("4A,A,0,0,0", "A: it is an input and joins"), ("2A,A,0,0,0", "A: it is an input and joins")]
+    ("joint", "message"),
+    [("4A,A,0,0,0", "A: it is an input of no link"), ("2A,A,0,0,0", "A: it is an input of no link")],
 )
 def test_no_input_is_left_out(joint: str, message: str) -> None:
     """An input that joins nothing is refused, and so is one among three links."""
@@ -242,7 +243,7 @@ def test_no_input_is_left_out(joint: str, message: str) -> None:
         read_pmks(lone)
     three = ".".join(f"YRA{k},A{k},1,1,0,0,ccc,A,{k},," for k in "BCD")
     points = "2A,A,0,0,0.0B,B,1,0,0.0C,C,0,1,0.0D,D,1,1,0"
-    with pytest.raises(InputError, match="A: it is an input and joins 3 links"):
+    with pytest.raises(InputError, match="A: it is an input of 3 links"):
         read_pmks(f"0.0.A.1.{points}..{three}...NT")
 
 

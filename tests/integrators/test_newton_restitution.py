@@ -307,8 +307,8 @@ def test_batches_files_and_going_on_have_the_same_run(folder: Path, tmp_path: Pa
 def test_bounces_that_pile_up_are_told(folder: Path) -> None:
     run = made(folder, BALL).simulate(4.2, stop=False)
     times, _ = bounces(0.8, 1e-4)
-    (note,) = [note for note in run.diagnostics.notes if "piled up" in note]
-    assert f"A: {len(times)} bounces piled up until t = {times[-1]:.6f}"[:50] in note
+    (note,) = [note for note in run.diagnostics.notes if "bounces accumulated" in note]
+    assert f"A: {len(times)} bounces accumulated until t = {times[-1]:.6f}"[:50] in note
     assert note in str(run.report())
 
 

@@ -136,7 +136,7 @@ WRONG = [
     ('"normal"', '"tangential"', r"(?s)dashpot.py: law dashpot: unknown role 'tangential'.*normal, friction, film"),
     ('name="dashpot"', 'name="hertz"', "law hertz: hertz is the name of a law of gudgeon"),
     ('name="dashpot"', 'name="flores"', "flores is the name of a law of gudgeon"),
-    ('name="dashpot"', 'name="dash pot"', "'dash pot' cannot name this law: it is no identifier"),
+    ('name="dashpot"', 'name="dash pot"', "'dash pot' cannot name this law: it is not an identifier"),
     ('"stiffness", "force', '"damping", "force', "'damping' names two keys"),
     ('"stiffness", "force', '"law", "force', "'law' names two keys"),
     ("bounds=POSITIVE)", "varies='t')", "stiffness is not a key of a law"),

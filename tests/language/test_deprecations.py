@@ -29,7 +29,7 @@ def test_a_call_is_told_where_it_stands() -> None:
         warn_deprecated(STRESS)
 
     with pytest.warns(
-        DeprecationWarning, match=r"since gudgeon 0\.1\.0 \(2026-11-26\) and gone from 0\.3\.0"
+        DeprecationWarning, match=r"since gudgeon 0\.1\.0 \(2026-11-26\) and will be removed in 0\.3\.0"
     ) as message:
         old()
     assert message[0].filename == __file__

@@ -278,7 +278,7 @@ def test_a_decimal_comma_and_an_equals_sign() -> None:
     assert isinstance(error, ExpressionError) and error.hint == "a number is written with a point: 0.12"
     assert "expected an operator" in refused("length: 120 mm", 'length: "L‸, 2"').hint
     error = refused("scenes: {", "parameters: {‸omega = 600 rpm}\nscenes: {")
-    assert isinstance(error, BadNameError) and error.hint == "a value stands behind a colon: omega: 600 rpm"
+    assert isinstance(error, BadNameError) and error.hint == "a value follows a colon: omega: 600 rpm"
 
 
 def test_a_material_where_there_is_none() -> None:

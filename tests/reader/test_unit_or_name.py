@@ -109,7 +109,7 @@ def test_what_no_dimension_can_decide_is_refused_and_both_remedies_are_accepted(
 def test_a_name_of_another_dimension_is_refused_with_the_reason() -> None:
     with pytest.raises(InputError, match="expected a torque") as caught:
         torque("m: 2 kg", "3 N*m*s.theta")
-    assert caught.value.hint == "m is a name of this file here: the unit is written m^1"
+    assert caught.value.hint == "m is a name of this file: the unit is written m^1"
 
 
 UNITS = {

@@ -114,7 +114,7 @@ def test_a_reader_of_netcdf_finds_long_tables(tmp_path: Path) -> None:
 def test_damaged_foreign_and_other_files_are_refused(tmp_path: Path, run: Result) -> None:
     path = tmp_path / "batch.nc"
     valve(tmp_path).simulate_many({"w": [5.0, 7.0]}, 0.2, output=7).save(path)
-    with pytest.raises(InputError, match=r"batch\.nc holds a batch of runs .*\n.*gudgeon\.Batch\.load") as caught:
+    with pytest.raises(InputError, match=r"batch\.nc contains a batch of runs .*\n.*gudgeon\.Batch\.load") as caught:
         Result.load(path)
     assert "run the scene again" not in str(caught.value)
     data = bytearray(path.read_bytes())
@@ -123,7 +123,7 @@ def test_damaged_foreign_and_other_files_are_refused(tmp_path: Path, run: Result
     with pytest.raises(InputError, match="damaged"):
         Batch.load(tmp_path / "damaged.nc")
     run.save(tmp_path / "run.nc")
-    with pytest.raises(InputError, match=r"run\.nc holds a single run .*\n.*gudgeon\.Result\.load"):
+    with pytest.raises(InputError, match=r"run\.nc contains a single run .*\n.*gudgeon\.Result\.load"):
         Batch.load(tmp_path / "run.nc")
     with pytest.raises(OutputError):
         valve(tmp_path).simulate_many({"w": [5.0]}, 0.2, output=7).save(tmp_path)
@@ -198,9 +198,13 @@ def swapped(values: Any) -> None:
     [
         ("times/time", swapped, "the times of samples do not ascend"),
         ("series/time", swapped, "the times of samples do not ascend"),
-        ("given/parameters.w", lambda values: values.put(1, 8.0), "run 1: parameters.w is 7.0, and was given as 8.0"),
+        ("given/parameters.w", lambda values: values.put(1, 8.0), "run 1: parameters.w is 7.0, but was given as 8.0"),
         ("parameters/given", lambda values: values.fill(3.25), "was given as 3.25"),
-        ("given", lambda group: group.move("parameters.w", "parameters.v"), "'parameters.v' was given, and is no"),
+        (
+            "given",
+            lambda group: group.move("parameters.w", "parameters.v"),
+            "'parameters.v' was given, but its scene has no such",
+        ),
     ],
 )
 def test_what_another_program_changed_is_told(what: str, change: Any, message: str, tmp_path: Path) -> None:

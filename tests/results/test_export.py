@@ -84,7 +84,7 @@ def test_csv_gives_back_every_bit(run: Result, tmp_path: Path) -> None:
 
 def test_csv_in_parts_is_the_same_file(run: Result, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     run.to_csv(tmp_path / "whole.csv", ["S9.y", "A.state"])
-    monkeypatch.setattr(export, "ROWS", 7)
+    monkeypatch.setattr(export, "ROWS_PER_WRITE", 7)
     run.to_csv(tmp_path / "parts.csv", ["S9.y", "A.state"])
     assert (tmp_path / "parts.csv").read_bytes() == (tmp_path / "whole.csv").read_bytes()
     assert len((tmp_path / "whole.csv").read_text().splitlines()) == 1 + len(run.t)

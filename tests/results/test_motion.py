@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from gudgeon.results.motion import DRAWS, classify_motion, compute_zero_one_test
+from gudgeon.results.motion import N_FREQUENCIES, classify_motion, compute_zero_one_test
 
 
 def logistic(r: float, count: int = 600) -> np.ndarray:
@@ -91,7 +91,7 @@ def test_the_0_1_test_written_in_loops() -> None:
     """In loops, as G. A. Gottwald and I. Melbourne (2009) have it: p, q, M(n), D(n), the median of correlations."""
     x, found = logistic(3.97, 120)[:, 0], []
     N, most = len(x), len(x) // 10
-    for c in np.random.default_rng(1).uniform(math.pi / 5, 4 * math.pi / 5, DRAWS):
+    for c in np.random.default_rng(1).uniform(math.pi / 5, 4 * math.pi / 5, N_FREQUENCIES):
         p = [sum(x[j - 1] * math.cos(j * c) for j in range(1, n + 1)) for n in range(1, N + 1)]
         q = [sum(x[j - 1] * math.sin(j * c) for j in range(1, n + 1)) for n in range(1, N + 1)]
         D = []

@@ -168,9 +168,9 @@ def test_what_lies_beyond_the_horizon_is_marked_and_told(run: Result, ideal: Res
     for shown, marked in ((short, True), (run, False)):
         picture = plots.draw_run_figure({"dry": shown}, ideal, ["S9.y"])
         message = [text.get_text() for text in picture.legends[0].get_texts()]
-        assert ("not to be trusted" in message) == marked
+        assert ("unpredictable" in message) == marked
         lines: Any = picture.subfigs[1].axes[0].lines
-        grey = [line for line in lines if line.get_color() == plots.UNTRUSTED]
+        grey = [line for line in lines if line.get_color() == plots.UNPREDICTABLE]
         assert len(grey) == marked
     trusted = lines[0].get_xdata()
     part: Any = short.plot.orbit("A").lines
@@ -185,7 +185,7 @@ def test_numbers_that_cannot_be_drawn_are_told(tmp_path: Path) -> None:
 
     picture = Figure()
     picture.subplots().plot([0.0, 1.0], [1e308, 1e308])
-    with pytest.raises(GudgeonError, match="its numbers cannot be drawn"):
+    with pytest.raises(GudgeonError, match="its values cannot be drawn"):
         plots.save_figure(picture, tmp_path / "x.png")
     assert not list(tmp_path.iterdir())
 

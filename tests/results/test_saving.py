@@ -21,7 +21,7 @@ from gudgeon.results.files.netcdf import build_tables  # noqa: E402
 from gudgeon.results.results import Result, read  # noqa: E402
 from tests.slow import slow_but  # noqa: E402
 
-LIMITED = """
+FILE_SIZE_LIMIT_HINT = """
 import os, resource, sys
 from pathlib import Path
 from gudgeon.errors import OutputError
@@ -47,7 +47,7 @@ print(told)
 def test_a_limit_of_many_sizes_kills_nothing(count: int, run: Result, tmp_path: Path) -> None:
     """In a process of its own, for HDF5 died at its end."""
     run.save(tmp_path / "run.nc")
-    line = [sys.executable, "-c", LIMITED, str(tmp_path / "run.nc"), str(count)]
+    line = [sys.executable, "-c", FILE_SIZE_LIMIT_HINT, str(tmp_path / "run.nc"), str(count)]
     done = subprocess.run(line, capture_output=True, text=True, timeout=120)
     assert (done.returncode, done.stdout, done.stderr) == (0, f"{count}\n", "")
 
@@ -147,4 +147,4 @@ def test_an_interrupt_is_never_swallowed(count: int, run: Result, tmp_path: Path
 def test_saving_takes_no_memory_for_the_numbers(make: Callable[..., Result]) -> None:
     """What is held besides the result is what describes it, far less than the file."""
     image, _ = hdf5._lay_out_file(list(build_tables(make(samples=20_000))))
-    assert image.size > 5_000_000 and len(image._pages) * hdf5.PAGE < 500_000
+    assert image.size > 5_000_000 and len(image._pages) * hdf5.PAGE_BYTES < 500_000

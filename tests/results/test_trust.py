@@ -150,7 +150,7 @@ def test_what_was_not_asked_for_is_named(bounces: dict[str, Result]) -> None:
     run = replace(bounces["damped"], diagnostics=replace(bounces["damped"].diagnostics, examined=None))
     joint = run.report().to_dict()["joints"]["fall"]
     assert joint["restitution"] is None and joint["work"] is None and joint["contacts"] == 3
-    assert str(run.report()).count("not asked for: gudgeon run --report") == 4
+    assert str(run.report()).count("not requested: gudgeon run --report") == 4
     with pytest.raises(BadValueError, match="whose run it is"):
         gudgeon.examine(gudgeon.load("bouncing_ball", "elastic"), run)
 
@@ -212,7 +212,7 @@ def test_a_run_at_the_command_line_tells_what_a_film_is_beyond(tmp_path: Path) -
     message = CliRunner().invoke(app, arguments)
     assert message.exit_code == 0
     for joint in "AB":
-        assert f"note: lubricated: {joint}: L/D is 1.36: pinkus_sternlicht is good for L/D above 4" in message.output
+        assert f"note: lubricated: {joint}: L/D is 1.36: pinkus_sternlicht is valid for L/D above 4" in message.output
     document = json.loads(CliRunner().invoke(app, [*arguments, "--json"]).stdout)
     beyond = {name: scene["beyond"] for name, scene in document["scenes"].items()}
     assert len(beyond["lubricated"]) >= 2 and beyond.get("ideal", []) == []
@@ -227,7 +227,7 @@ def test_stiffness_and_what_its_damping_delivers_are_told(press: tuple[Result, R
     assert joint["stiffness"] == {"K": pytest.approx(K_of, rel=1e-12), "unit": "N/m^1.5"}
     assert joint["asked"] == 0.9 and joint["free_impact"] == pytest.approx(0.91318, abs=5e-6)
     text = str(run.report())
-    assert f"{K_of:.4g} N/m^1.5" in text and "0.9, of which a free impact delivers 0.91318" in text
+    assert f"{K_of:.4g} N/m^1.5" in text and "0.9, delivered in a free impact 0.91318" in text
 
 
 LAWS = """

@@ -179,7 +179,7 @@ def test_a_number_that_is_set_twice_is_told(call: Gudgeon) -> None:
         for command in ("run", "bench", "map"):
             line = [part for setting in settings for part in ("--set", setting)]
             done = call(command, "pendulum", *line)
-            assert done.exit_code == 2 and f"this number is set already, by --set {settings[0]}" in done.output
+            assert done.exit_code == 2 and f"this parameter is set already, by --set {settings[0]}" in done.output
 
 
 @pytest.mark.parametrize(

@@ -106,7 +106,7 @@ PLAIN = pytest.param("lubricated", "scipy:DOP853", 331, marks=pytest.mark.plain)
 
 @pytest.mark.parametrize(("name", "method", "stride"), [*slow_rows_but(USUAL, STRIDES), PLAIN])
 def test_what_is_kept_is_the_whole_run_s(name: str, method: str, stride: int, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(cancellation, "EVERY", 0.0)
+    monkeypatch.setattr(cancellation, "POLL_INTERVAL_S", 0.0)
     simulation, options = case(name, method)
     number, cut = 1, 0
     while True:
@@ -126,7 +126,7 @@ def test_what_is_kept_is_the_whole_run_s(name: str, method: str, stride: int, mo
 @pytest.mark.parametrize(("name", "method"), [("lubricated", "dop853"), ("lubricated", "rodas5p"), ("dry", "rk4")])
 def test_the_last_sample_is_a_state_to_go_on_from(name: str, method: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """The state when Ctrl-C came is that of the run at that time, and leads to the same end."""
-    monkeypatch.setattr(cancellation, "EVERY", 0.0)
+    monkeypatch.setattr(cancellation, "POLL_INTERVAL_S", 0.0)
     simulation, options = case(name, method)
     options["t_end"] = 0.006 if name == "dry" else options["t_end"]
     run, t_end = simulation.simulate(progress=signal_at(200), **options), options.pop("t_end")
@@ -145,7 +145,7 @@ def test_the_last_sample_is_a_state_to_go_on_from(name: str, method: str, monkey
 @pytest.mark.parametrize(("name", "number"), [("dry", 700), ("four_bar", 250)])
 def test_what_follows_from_the_samples_can_wait(name: str, number: int, monkeypatch: pytest.MonkeyPatch) -> None:
     """After Ctrl-C nothing is evaluated that takes long; asked for later it is the whole run's."""
-    monkeypatch.setattr(cancellation, "EVERY", 0.0)
+    monkeypatch.setattr(cancellation, "POLL_INTERVAL_S", 0.0)
     monkeypatch.setattr(result_builder, "AFTER_CTRL_C", 0.0)
     simulation, options = case(name, "auto")
     run, complete = simulation.simulate(progress=signal_at(number), **options), whole(name, "auto")
@@ -162,7 +162,7 @@ def test_what_follows_from_the_samples_can_wait(name: str, number: int, monkeypa
 @pytest.mark.parametrize("look", [1, 2, 4])
 def test_ctrl_c_while_the_energy_is_balanced(look: int, monkeypatch: pytest.MonkeyPatch) -> None:
     """All samples are there, and their accelerations are found when they are asked for."""
-    monkeypatch.setattr(result_builder, "EVERY", -1.0)
+    monkeypatch.setattr(result_builder, "POLL_INTERVAL_S", -1.0)
     monkeypatch.setattr(evaluation, "FIRST", 1)
     simulation, options = case("dry", "auto")
     looks = 0
@@ -238,7 +238,7 @@ def test_in_another_thread_progress_ends_a_run() -> None:
 
 def test_ctrl_c_in_a_dense_solve(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """At its singular position, where each right-hand side takes the dense way: between its rows, the state unhurt."""
-    monkeypatch.setattr(cancellation, "EVERY", 0.0)
+    monkeypatch.setattr(cancellation, "POLL_INTERVAL_S", 0.0)
     file = tmp_path / "bars.yaml"
     file.write_text(n_four_bar(1), encoding="utf-8")
     bars = gudgeon.load(file, formulation="full")
@@ -344,4 +344,4 @@ def test_an_end_that_nobody_lives_to_see(simulation: str) -> None:
 
 def test_glances_are_short() -> None:
     """Ctrl-C is answered within half a second: these are the longest waits that are built in."""
-    assert max(cancellation.EVERY, POLL_INTERVAL_S) <= 0.1
+    assert max(cancellation.POLL_INTERVAL_S, POLL_INTERVAL_S) <= 0.1

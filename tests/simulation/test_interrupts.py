@@ -159,7 +159,7 @@ def test_a_box_is_written_as_a_part(
     monkeypatch.setattr(maps, "judge_point", ctrl_c_at(3, judged))
     done = call(*arguments)
     assert done.exit_code == 130, done.output
-    assert "partial (dry: 2 of 3 runs; lubricated: not begun)" in done.stderr
+    assert "partial (dry: 2 of 3 runs; lubricated: not started)" in done.stderr
     assert "interrupted after 2 of 3 runs" in done.stdout and "1 not judged" in done.stdout
     with open(tmp_path / "out/nine_bar_press_map.csv", encoding="utf-8") as file:
         assert [row["status"] for row in csv.DictReader(file)].count("not judged") == 1
@@ -188,6 +188,6 @@ def test_bench_says_that_it_is_a_part(call: Gudgeon, tmp_path: Path, monkeypatch
     monkeypatch.setattr(benches, "_measure_row", ctrl_c_at(3, benches._measure_row))
     done = call("bench", PENDULUM, "--scene", "ideal", "--quick")
     assert done.exit_code == 130, done.output
-    assert "interrupted: what is shown and written is partial (ideal: 2 of" in done.stderr
+    assert "interrupted: the results shown and written are partial (ideal: 2 of" in done.stderr
     assert "partial: interrupted after 2 of" in done.stdout
     assert written(tmp_path) == {"out/double_pendulum_bench.csv", "out/double_pendulum_bench.png"}

@@ -106,11 +106,11 @@ def test_what_was_not_kept_is_told(some: Batch) -> None:
         lambda: press().simulate_many(C, 1e-4, output=1, keep=[])["S9.y"],
     ]
     for call in calls:
-        with pytest.raises(GudgeonError, match=r"kept.*\n.*keep="):
+        with pytest.raises(GudgeonError, match=r"stored.*\n.*keep="):
             call()
     with pytest.raises(UnknownNameError, match=r"S9\.y"):
         some["S9.yy"]
-    assert "no series kept" in repr(press().simulate_many(C, 1e-4, output=1, keep=[])) and "S9.y, A.F" in repr(some)
+    assert "no series stored" in repr(press().simulate_many(C, 1e-4, output=1, keep=[])) and "S9.y, A.F" in repr(some)
     with pytest.raises(IndexError):
         some[7]
 
@@ -135,9 +135,9 @@ def test_tables_and_files_have_what_was_kept(some: Batch, tmp_path: Path) -> Non
     some.save(tmp_path / "batch.nc")
     for back in (Batch.load(tmp_path / "batch.nc"), pickle.loads(pickle.dumps(some))):
         same(back, some, ("S9.y", "A.F"))
-        with pytest.raises(GudgeonError, match="kept"):
+        with pytest.raises(GudgeonError, match="stored"):
             back[0]
-    with pytest.raises(GudgeonError, match="kept"):
+    with pytest.raises(GudgeonError, match="stored"):
         Batch.load(tmp_path / "batch.nc")["S9.vy"]
 
 
@@ -147,7 +147,7 @@ def test_events_of_runs_are_there(tmp_path: Path) -> None:
     assert all(map(len, batch.events))
     batch.save(tmp_path / "batch.nc")
     same(Batch.load(tmp_path / "batch.nc"), batch, ("lift",))
-    with pytest.raises(GudgeonError, match="not kept"):
+    with pytest.raises(GudgeonError, match="not stored"):
         batch.at_events("rising")
 
 

@@ -147,7 +147,7 @@ def test_all_that_is_missing_is_told_at_once(tmp_path: Path, capsys: pytest.Capt
     assert check_mechanism(str(file), verbose=False, as_json=False) == 2  # as run has it
     message = " ".join(capsys.readouterr().out.split())
     assert message.startswith("valid, but scene dry cannot be run: 3 bodies,")
-    assert "masses: scene dry moves by forces and cannot be run: crank has no mass and no inertia" in message
+    assert "masses: scene dry has degrees of freedom and cannot be run: crank has no mass and no inertia" in message
 
 
 def test_mass_without_inertia_asks_for_nothing_where_nothing_moves_by_forces(tmp_path: Path) -> None:

@@ -34,7 +34,7 @@ def test_a_scene_without_memory_loses_no_other(
     monkeypatch.setattr(Simulation, "simulate", short)
     done = call("run", pump)
     assert done.exit_code == 1
-    assert "error: scene ideal: not enough memory: Unable to allocate 9 GiB\n  ask for fewer samples" in done.stderr
+    assert "error: scene ideal: not enough memory: Unable to allocate 9 GiB\n  request fewer samples" in done.stderr
     assert gudgeon.Result.load(tmp_path / "out/pump_worn.nc").t[-1] == 0.02
 
 

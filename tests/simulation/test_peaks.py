@@ -261,7 +261,7 @@ def test_a_run_that_comes_to_no_end() -> None:
 
 def test_what_was_not_asked_for(pendulum: Simulation) -> None:
     run = pendulum.simulate(0.1, output=2, peaks=["rod.F"])
-    with pytest.raises(BadValueError, match=r"the peak of bob.y over all steps was not asked for"):
+    with pytest.raises(BadValueError, match=r"the peak of bob.y over all steps was not requested"):
         run.peak("bob.y")
     with pytest.raises(BadValueError, match=r"the error of rod.F over all steps is not known"):
         run.peak_error("rod.F")

@@ -124,9 +124,9 @@ def test_it_is_stored_and_shown(make: Callable[..., Result], tmp_path: Path) -> 
         table = build_tables("", [compute_scene_report(shown, None, ["S9.y"])], 200)[0]
         names = list(table.columns[0].cells)
         if text is None:
-            assert "  trusted until" not in names
+            assert "  predictable until" not in names
         else:
-            assert list(table.columns[1].cells)[names.index("  trusted until")] == text
+            assert list(table.columns[1].cells)[names.index("  predictable until")] == text
 
 
 def test_figures_mark_it(make: Callable[..., Result]) -> None:

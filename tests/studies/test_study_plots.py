@@ -252,7 +252,7 @@ def test_spectra_have_the_amplitude_and_the_frequency(study: gudgeon.Study) -> N
 
 def test_a_low_pass_of_every_run(study: gudgeon.Study) -> None:
     """As scipy makes it of one run; Butterworth's gain 1/√(1 + (ω/ω_c)⁴) at twice its cutoff is 1/√17."""
-    from gudgeon.results.series import apply_low_pass
+    from gudgeon.results.signals import apply_low_pass
 
     own = study.dataset["load.x"].isel(k=2, way=0)
     cutoff = 30.0 / (4 * np.pi)

@@ -263,7 +263,7 @@ def test_the_command_writes_a_page(folder: Path, page: str, tmp_path: Path, monk
     message = CliRunner().invoke(app, ["study", "report", str(folder)])
     assert message.exit_code == 0 and folder.with_suffix(".html").read_text(encoding="utf-8") == page
     for wrong, why in (
-        (["report"], "of which study"),
+        (["report"], "the folder is missing"),
         (["report", "none.study"], "no folder of a study"),
         (["mass.yaml", "x"], "takes one file"),
         (["mass.yaml", "--out", "x.html"], "a study is a folder"),

@@ -47,7 +47,7 @@ def test_its_cells_run_and_agree(name: str, scene: str, capsys: pytest.CaptureFi
     names, printed = executed(write_notebook(model, name), capsys)
     assert isinstance(names["run"], gudgeon.Result)
     if model.rows:
-        assert printed.count("apart at most") == 5
+        assert printed.count("largest difference") == 5
         q, v = names["run"].q[-1], names["run"].v[-1]
         theirs = names["simulation"].gamma(float(names["run"].t[-1]), q, v)
         ours = names["derived"]["gamma"](float(names["run"].t[-1]), q, v)[:, 0]
@@ -104,7 +104,7 @@ def test_curves_are_refused(call: Gudgeon, tmp_path: Path) -> None:
     text += "\ncurves:\n  lift: {points: [[0, 0], [1, 1], [2, 3]], x: s, y: rad, extrapolate: line}\n"
     (tmp_path / "cam.yaml").write_text(text, encoding="utf-8")
     done = call("equations", "cam.yaml", "-o", "x.ipynb")
-    assert done.exit_code != 0 and "holds no curves" in done.stderr
+    assert done.exit_code != 0 and "cannot contain curves" in done.stderr
     assert written(tmp_path) == {"cam.yaml"}
 
 
@@ -116,10 +116,10 @@ def test_a_run_that_fails_is_told(call: Gudgeon, tmp_path: Path) -> None:
     (tmp_path / "short.yaml").write_text(text, encoding="utf-8")
     done = call("equations", "short.yaml", "-o", "x.ipynb")
     assert done.exit_code == 1 and written(tmp_path) == {"short.yaml", "x.ipynb"}
-    assert "x.ipynb is written, but what it runs in its last cells fails: " in done.stderr
+    assert "x.ipynb is written, but the run in its last cells fails: " in done.stderr
     assert "cannot be assembled" in done.stderr
     done = call("exercise", "short.yaml", "-o", "x.md")
-    assert done.exit_code == 1 and "no sheet: the run that its numbers come from fails" in done.stderr
+    assert done.exit_code == 1 and "no sheet: the run fails with drawn values" in done.stderr
     assert written(tmp_path) == {"short.yaml", "x.ipynb"}
 
 

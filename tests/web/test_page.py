@@ -264,5 +264,5 @@ drives: {motor: {angle: crank, value: acos(t/(1 s))}}
 scenes: {s: {simulate: {t_end: 2 s, output: 20}}}
 """
     (tmp_path / "fails.yaml").write_text(text, encoding="utf-8")
-    with pytest.warns(UserWarning, match=r"up to where it fails: drives\.motor\.value .* at t = 1 s"):
+    with pytest.warns(UserWarning, match=r"up to its failure: drives\.motor\.value .* at t = 1 s"):
         written(tmp_path, gudgeon.load(tmp_path / "fails.yaml", "s"))

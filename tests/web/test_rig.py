@@ -17,7 +17,7 @@ pytest.importorskip("matplotlib")
 import gudgeon  # noqa: E402
 from gudgeon.drawing.configuration import Configuration  # noqa: E402
 from gudgeon.drawing.layout import Layout, make_layout  # noqa: E402
-from gudgeon.drawing.rig import EXACT, Rig, make_rig  # noqa: E402
+from gudgeon.drawing.rig import FRAME_TOL, Rig, make_rig  # noqa: E402
 from gudgeon.drawing.shapes import Disc, Shape, Sketch  # noqa: E402
 from gudgeon.drawing.sketch import compute_common_box, make_sketch  # noqa: E402
 from gudgeon.loading.shipped import list_shipped_mechanisms  # noqa: E402
@@ -77,7 +77,7 @@ def test_points_are_where_they_are_drawn(name: str) -> None:
     rows = np.random.default_rng(4).integers(0, len(run.t), 12)
     first = run.v[0]
     others = [replace(compute_configuration(run, float(run.t[k])), v=first) for k in rows]
-    assert max(off(rig, configuration, plan, box) for configuration in others) < EXACT
+    assert max(off(rig, configuration, plan, box) for configuration in others) < FRAME_TOL
     assert max(one.max_error for one in rig.shapes) < NEAR * rig.size
 
 
@@ -85,9 +85,9 @@ def test_a_slider_with_play_is_carried_between_its_walls() -> None:
     run, rig, plan, box = ran("guided_slider_crank", "hard")
     others = [replace(compute_configuration(run, float(t)), v=run.v[0]) for t in run.t[5::9]]
     assert np.ptp([configuration.q[7] for configuration in others]) > 1.9e-3  # from wall to wall
-    assert max(off(rig, configuration, plan, box) for configuration in others) < EXACT
+    assert max(off(rig, configuration, plan, box) for configuration in others) < FRAME_TOL
     numbers = prepare_values(gudgeon.load("guided_slider_crank", "hard").compiled, {"parameters.c": 2e-4})[0]
-    assert off(rig, replace(others[0], p=numbers), plan, box) < EXACT
+    assert off(rig, replace(others[0], p=numbers), plan, box) < FRAME_TOL
 
 
 def test_a_length_moves_what_it_carries() -> None:
@@ -101,7 +101,7 @@ def test_a_length_moves_what_it_carries() -> None:
     drawn = make_sketch(configuration, plan, box=box, shows_insets=False).of("joint B0")
     carried = {id(one.shape): one for one in rig.shapes}
     for shape, there in zip(rig.sketch.of("joint B0"), drawn, strict=True):
-        assert np.allclose(points(carried[id(shape)].move_to(configuration)), points(there), atol=EXACT * rig.size)
+        assert np.allclose(points(carried[id(shape)].move_to(configuration)), points(there), atol=FRAME_TOL * rig.size)
 
 
 PLACES = """
@@ -134,4 +134,4 @@ def test_a_page_places_them_alike(name: str, tmp_path: Path) -> None:
     for configuration, placed in zip(configurations, json.loads(done.stdout), strict=True):
         for carried, found in zip(rig.shapes, placed, strict=True):
             there = points(carried.move_to(configuration))
-            assert np.abs(np.reshape(found, (-1, 2)) - there).max() < 0.1 * EXACT * rig.size
+            assert np.abs(np.reshape(found, (-1, 2)) - there).max() < 0.1 * FRAME_TOL * rig.size

@@ -28,7 +28,7 @@ def derive_constraint_equations(first_frame: Any, second_frame: Any, joint_field
 
 def draw_symbol(pen: Any) -> None:
     """Draw the rod between two pins, with a fixed support at a point of the ground."""
-    pen.add_stand()
+    pen.add_fixed_support()
     pen.add_line("rod", [pen.first, pen.second])
     for point in (pen.first, pen.second):
         pen.add_pin(point, 0.8)

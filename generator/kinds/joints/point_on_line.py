@@ -33,7 +33,7 @@ def draw_symbol(pen: Any) -> None:
     else:
         pen.add_slot()
         pen.add_box("block", pen.slider, pen.along, 1.25, 0.8)
-        pen.add_stand()
+        pen.add_fixed_support()
     pen.add_pin(pen.slider)
 
 

@@ -33,7 +33,7 @@ from gudgeon.generator.targets.numpy.printer import (
     print_statements,
 )
 from gudgeon.language.argument_checks import check_mapping, check_number
-from gudgeon.language.curves import MARGIN, Curve
+from gudgeon.language.curves import RANGE_TOL, Curve
 from gudgeon.language.names import make_missing_name_error, make_unknown_name_error
 from gudgeon.language.quantities import parse_quantity
 
@@ -320,7 +320,7 @@ _CURVE = f'''def curve(table, order, x):
     """Return a cubic spline or its derivative; outside its range NaN, unless it is periodic."""
     knots, c, is_periodic = table
     first, last = knots[0], knots[-1]
-    margin = {MARGIN} * (last - first)
+    margin = {RANGE_TOL} * (last - first)
     inside = is_periodic | ((x >= first - margin) & (x <= last + margin))
     x = x - (last - first) * np.floor((x - first) / (last - first)) if is_periodic else x
     k = np.clip(np.searchsorted(knots, x, side="right") - 1, 0, len(c) - 1)

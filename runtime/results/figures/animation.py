@@ -17,7 +17,7 @@ import numpy as np
 
 from gudgeon.drawing.labels import NameLabels
 from gudgeon.drawing.layout import make_layout
-from gudgeon.drawing.page import PIXELS, write_animation_page
+from gudgeon.drawing.page import PIXELS_PER_INCH, write_animation_page
 from gudgeon.drawing.picture import STYLE, compute_figure_size, draw_sketch
 from gudgeon.drawing.roles import EDGES, ROLES, TINTS
 from gudgeon.drawing.sketch import compute_common_box, make_sketch
@@ -44,11 +44,12 @@ if TYPE_CHECKING:
     from gudgeon.results.results import Result
 
 SUFFIXES = (".gif", ".mp4", ".html")
-COLOURS, STRIPE = 128, 6  # of a GIF; pixels, by which a colour of the drawing counts for its palette
-NAMED = 60  # characters of a title, next to which the time fits
-RATE, LONGEST = 25.0, 1000  # pictures a second, and pictures in all
-RED = "red journal or corner: in contact now; red bearing or wall: touched since the picture before"
-SLOW, QUICK, SHOWN = 2.0, 20.0, 6.0  # s: runs shorter than SLOW or longer than QUICK play in SHOWN seconds
+N_COLOURS, STRIPE_PIXELS = 128, 6  # of a GIF palette; height of the stripe of a colour from which it is computed
+MAX_TITLE = 60  # characters of a title, next to which the time fits
+DEFAULT_RATE, MAX_PICTURES = 25.0, 1000  # frames per second; frames of an animation
+CONTACT_NOTE = "red journal or corner: in contact now; red bearing or wall: touched since the picture before"
+MIN_REAL_TIME, MAX_REAL_TIME = 2.0, 20.0  # s, durations of runs that play in real time
+DEFAULT_DURATION = 6.0  # s, of the animation of a shorter or longer run
 
 
 @dataclass(frozen=True)
@@ -61,7 +62,7 @@ class Animation:
 
     def __repr__(self) -> str:
         """Return the size of the page in one line."""
-        return f"<Animation: a page of {len(self.html) / 1e3:.0f} kB; a notebook shows it>"
+        return f"<Animation: a page of {len(self.html) / 1e3:.0f} kB; a notebook displays it>"
 
     def _repr_html_(self) -> str:
         """Return an iframe that contains the page."""
@@ -84,22 +85,24 @@ class AnimationOptions:
 def check_animation_options(
     run: Result, seconds: Any, rate: Any, points: Any, velocities: Any, forces: Any, progress: Any = None
 ) -> AnimationOptions:
-    """Return the checked options of an animation, with the times of its pictures.
+    """Return the checked options of an animation, with evenly spaced times (s) of its pictures.
 
-    A default is set for `seconds`. Raises BadValueError for options out of range or too many pictures, UnknownNameError
-    for a point. `progress` None: nothing is reported.
+    `seconds` None: the duration of the run, or DEFAULT_DURATION if that is below MIN_REAL_TIME or above MAX_REAL_TIME.
+    Raises BadValueError for options out of range or over MAX_PICTURES pictures, UnknownNameError for a point.
     """
     duration = float(run.t[-1] - run.t[0])
     seconds = (
-        (duration if SLOW <= duration <= QUICK else SHOWN) if seconds is None else check_number(seconds, "seconds")
+        (duration if MIN_REAL_TIME <= duration <= MAX_REAL_TIME else DEFAULT_DURATION)
+        if seconds is None
+        else check_number(seconds, "seconds")
     )
     rate = check_number(rate, "rate")
     if not (seconds > 0.0 and rate > 0.0):
         raise BadValueError(f"seconds {seconds:g}, rate {rate:g}: expected numbers above 0")
     n_pictures = max(2, round(seconds * rate))
-    if n_pictures > LONGEST:
-        hint = "ask for fewer seconds, or a lower rate"
-        raise BadValueError(f"{n_pictures} pictures: expected at most {LONGEST}", hint=hint)
+    if n_pictures > MAX_PICTURES:
+        hint = "choose fewer seconds or a lower rate"
+        raise BadValueError(f"{n_pictures} pictures: expected at most {MAX_PICTURES}", hint=hint)
     times = np.linspace(float(run.t[0]), float(run.t[-1]), n_pictures)
     arrows = check_flag(velocities, "velocities"), check_flag(forces, "forces")
     return AnimationOptions(times, seconds, check_points(run, [points]), *arrows, check_callable(progress, "progress"))
@@ -117,15 +120,15 @@ def write_animation(run: Result, target: Any, options: AnimationOptions) -> Anim
     if suffix not in SUFFIXES or os.fspath(target).endswith(os.sep):
         raise_bad_value("the file of an animation", os.fspath(target), "a name that ends in .gif, .mp4 or .html")
     if suffix == ".mp4" and shutil.which("ffmpeg") is None:
-        message = f"{file}: a film needs the program ffmpeg, which is not there"
-        raise GudgeonError(f"{message}\n  install it, or name a .gif or .html")
+        message = f"{file}: an mp4 file needs the program ffmpeg, which was not found"
+        raise GudgeonError(f"{message}\n  install it, or write a .gif or .html file")
     check_output_path(file)
     if suffix == ".html":
         animation = _build_animation(run, options)
         write_text(file, animation.html)
         return animation
     try:
-        with convert_os_errors(file):  # a folder of its own, and what is written there first
+        with convert_os_errors(file):  # errors in the temporary folder
             film_bytes = _encode_film(run, options, suffix)
     except subprocess.CalledProcessError as error:
         raise OutputError(file, f"ffmpeg ended with {error.returncode}") from error
@@ -156,7 +159,7 @@ def draw_sketches(run: Result, options: AnimationOptions) -> Iterator[Sketch]:
             box=box,
             shows_zero_loads=False,
         )
-        yield replace(sketch, notes=(*sketch.notes, RED)) if sketch.notes else sketch
+        yield replace(sketch, notes=(*sketch.notes, CONTACT_NOTE)) if sketch.notes else sketch
         previous_time = t
 
 
@@ -173,17 +176,18 @@ def find_contacts_between(run: Result, begin: float, end: float) -> frozenset[st
 
 
 def _format_caption(run: Result, t: float, options: AnimationOptions) -> str:
-    """Return the caption of a picture: mechanism, scene, time, and how much slower or faster the animation plays."""
+    """Return the caption of a picture: mechanism, scene, time, and the factor of slow or fast motion."""
     slowdown = options.seconds / float(run.t[-1] - run.t[0]) if run.t[-1] > run.t[0] else 1.0
     speed_text = f", {slowdown:.3g} times slower" if slowdown > 1.0 else f", {1 / slowdown:.3g} times faster"
-    title = textwrap.shorten(format_caption(run), NAMED, placeholder="…")
+    title = textwrap.shorten(format_caption(run), MAX_TITLE, placeholder="…")
     return f"{title}, t = {t:.4f} s{speed_text if abs(slowdown - 1.0) > 1e-9 else ''}"
 
 
 def _build_animation(run: Result, options: AnimationOptions) -> Animation:
     """Return the Animation of an HTML page.
 
-    matplotlib places the names once; each then keeps its offset from its part until it would overlap another.
+    matplotlib places the names in the first picture. Each then has the same offset from its part until it would overlap
+    another.
     """
     sketch_list = list(draw_sketches(run, options))
     figure, name_artist = _build_sketch_figure(sketch_list[0], _format_caption(run, options.times[0], options))
@@ -191,7 +195,7 @@ def _build_animation(run: Result, options: AnimationOptions) -> Animation:
     half_sizes = (
         {part: 0.5 * (np.array(box[2:]) - box[:2]) for part, box in name_artist.boxes.items()} if name_artist else {}
     )
-    width = float(figure.get_size_inches()[0]) * PIXELS
+    width = float(figure.get_size_inches()[0]) * PIXELS_PER_INCH
     title = format_one_line(f"{run.source.title or run.source.mechanism}: {run.source.scene}")
     text = write_animation_page(
         title, sketch_list, [float(t) for t in options.times], options.seconds, width, offsets, half_sizes
@@ -200,9 +204,9 @@ def _build_animation(run: Result, options: AnimationOptions) -> Animation:
 
 
 def _build_sketch_figure(sketch: Sketch, caption: str) -> tuple[Figure, NameLabels | None]:
-    """Return a figure of the sketch with a caption at PIXELS per inch, and its names; None without names."""
+    """Return a figure of the sketch with a caption (PIXELS_PER_INCH dpi), and its names; None without names."""
     width, height = compute_figure_size(sketch, 7.0)
-    figure = Figure(figsize=(width, height + 0.3), dpi=PIXELS)
+    figure = Figure(figsize=(width, height + 0.3), dpi=PIXELS_PER_INCH)
     ax = figure.add_axes((0.0, 0.0, 1.0, height / (height + 0.3)))
     draw_sketch(ax, sketch)
     figure.text(0.01, 0.99, caption, va="top", fontsize=9, parse_math=False)
@@ -210,13 +214,13 @@ def _build_sketch_figure(sketch: Sketch, caption: str) -> tuple[Figure, NameLabe
 
 
 def _compute_name_offsets(figure: Figure, name_labels: NameLabels | None) -> dict[str, tuple[float, float]]:
-    """Return the offsets of the placed names after the layout of a figure."""
+    """Lay out a figure and return the offsets of its names from their parts; {} without names."""
     figure.draw_without_rendering()
     return name_labels.label_offsets if name_labels is not None else {}
 
 
 class _GifWriter(PillowWriter):
-    """Writer of GIF files with one palette, so that flat areas stay flat and only moving parts need space."""
+    """Writer of GIF files with one palette for all frames, so that unchanged areas are compressed well."""
 
     _frames: list[Any]
     _palette: Any
@@ -230,7 +234,7 @@ class _GifWriter(PillowWriter):
         super().grab_frame(**options)
         image = self._frames[-1].convert("RGB")
         if len(self._frames) == 1:
-            self._palette = _append_colour_stripes(image).quantize(COLOURS)
+            self._palette = _append_colour_stripes(image).quantize(N_COLOURS)
         self._frames[-1] = image.quantize(palette=self._palette, dither=0)
 
 
@@ -243,10 +247,10 @@ def _append_colour_stripes(image: Any) -> Any:
     ]
     width, height = image.size
     unique_codes = list(dict.fromkeys(colour_codes))
-    extended_image = image.crop((0, 0, width, height + STRIPE * len(unique_codes)))
+    extended_image = image.crop((0, 0, width, height + STRIPE_PIXELS * len(unique_codes)))
     for k, code in enumerate(unique_codes):
         colour = tuple(round(255 * component) for component in matplotlib.colors.to_rgb(code))
-        extended_image.paste(colour, (0, height + STRIPE * k, width, height + STRIPE * (k + 1)))
+        extended_image.paste(colour, (0, height + STRIPE_PIXELS * k, width, height + STRIPE_PIXELS * (k + 1)))
     return extended_image
 
 
@@ -268,7 +272,7 @@ def _encode_film(run: Result, options: AnimationOptions, suffix: str) -> bytes:
                 name_artist.previous_offsets = offsets
             offsets = _compute_name_offsets(figure, name_artist)
             if t == options.times[0]:
-                writer.setup(figure, file, PIXELS)
+                writer.setup(figure, file, PIXELS_PER_INCH)
             writer.fig = figure
             writer.grab_frame()
         writer.finish()

@@ -17,8 +17,8 @@ if TYPE_CHECKING:
     from gudgeon.contract.kernel_source import KernelSource
     from gudgeon.results.results import Array, Result
 
-N_PROJECTIONS = 4  # times that a position between samples is led to Φ = 0
-N_MOTION_CONFIGURATIONS = 24  # positions that stand for a motion where a drawing makes room for it
+N_PROJECTIONS = 4  # Newton corrections that project a position between samples onto Φ = 0
+N_MOTION_CONFIGURATIONS = 24  # positions of a motion from which the box of a drawing is computed
 
 
 def read_time(run: Result, t: Any) -> float:
@@ -36,7 +36,8 @@ def read_time(run: Result, t: Any) -> float:
     time, begin, end = check_number(t, "t"), float(run.t[0]), float(run.t[-1])
     if not begin <= time <= end:
         raise BadValueError(
-            f"t is {time:g} s: the run goes from {begin:g} s to {end:g} s", hint="take a time within it"
+            f"t is {time:g} s: expected a time of the run, {begin:g} s to {end:g} s",
+            hint="choose a time within the run",
         )
     return time
 
@@ -44,8 +45,8 @@ def read_time(run: Result, t: Any) -> float:
 def compute_configuration(run: Result, t: float) -> Configuration:
     """Return the configuration of the mechanism at t (s), with its forces and torques.
 
-    At a sample the stored state is used. Between samples it is a cubic, projected onto the constraints if the compiled
-    scene is available; loads are interpolated linearly.
+    At a sample the stored state is used. Between samples the state is interpolated by a Hermite cubic and projected
+    onto the constraints if the compiled scene is available. Loads are interpolated linearly.
     """
     k = int(np.clip(np.searchsorted(run.t, t), 1, max(len(run.t) - 1, 1)))
     neighbours = slice(max(k - 1, 0), k + 1)
@@ -60,7 +61,7 @@ def compute_configuration(run: Result, t: float) -> Configuration:
         q, v = run.q[sample_indices[0]], run.v[sample_indices[0]]
     else:
         q, v = _interpolate_cubic(run, k, t)
-        if run.compiled is not None:  # between coarse samples the cubic takes joints apart
+        if run.compiled is not None:  # between coarse samples the cubic violates the constraints
             for _ in range(N_PROJECTIONS):
                 q, v = project_state(run.compiled, t, q, v, run.p)
     return Configuration(run.source, run.p, q, t, v, loads)
@@ -92,7 +93,7 @@ def _iterate_load_series(run: Result) -> Iterator[tuple[str, Any, Any]]:
 
 
 def _interpolate_cubic(run: Result, k: int, t: float) -> tuple[Any, Any]:
-    """Return q and q̇ at time t of the cubic through the states and rates of samples k − 1 and k."""
+    """Return q and q̇ at time t of the Hermite cubic through the positions and velocities of samples k − 1 and k."""
     h = float(run.t[k] - run.t[k - 1])
     s = (t - float(run.t[k - 1])) / h
     q_0, q_1, v_0, v_1 = run.q[k - 1], run.q[k], run.v[k - 1], run.v[k]
@@ -104,7 +105,8 @@ def _interpolate_cubic(run: Result, k: int, t: float) -> tuple[Any, Any]:
 def evaluate_loads(source: KernelSource, p: Array, q: Array, v: Array) -> dict[str, tuple[float, float]]:
     """Return the loads of the file's force and torque elements at t = 0, by name, for the state q, v (n,).
 
-    A force has its components in ground axes (N), a torque its value and 0 (N·m). Used for scenes that have no run.
+    p: values of the parameters, in the order of `source.slots`.
+    A force has its components in ground axes (N), a torque its value and 0 (N·m). Used for drawings without a run.
     """
     from gudgeon.language.tree import evaluate, from_json
     from gudgeon.model.written import make_value_function

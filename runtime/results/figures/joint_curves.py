@@ -24,12 +24,10 @@ MAX_PANELS = 4  # panels of a figure
 
 
 def get_force_curve(run: Result, joint: str) -> tuple[Array, Array]:
-    """Return times and magnitudes of the force at a joint by time, (k,) each: samples, and extremes of the steps
-    between.
+    """Return times and force magnitudes (N) of a joint, sorted by time, (k,) each: samples and extremes over steps.
 
-    The extremes are those of the envelope. Without one they are the peaks of all impacts with a duration, and the
-    largest force of the joint in the run (diagnostics.peaks), also of a film without impacts. For a joint without play
-    there are samples only.
+    The extremes are those of the envelope. Without an envelope they are the peaks of all impacts with a duration, and
+    the peak of the run (diagnostics.peaks). For a joint without play there are samples only.
     """
     k = _find_clearance_index(run, joint)
     if k is None:
@@ -61,7 +59,7 @@ def get_journal_path(run: Result, joint: str) -> tuple[Array, Array, Array]:
 
 
 def _find_clearance_index(run: Result, joint: str) -> int | None:
-    """Return the number of a joint with play; None for another name."""
+    """Return the index in source.clearances of a joint with play; None for another name."""
     names = [clearance.name for clearance in run.source.clearances]
     return names.index(joint) if joint in names else None
 
@@ -73,10 +71,10 @@ def _sort_by_time(t: Array, values: Array) -> tuple[Array, Array]:
 
 
 def assign_panels(runs: Iterable[Result]) -> dict[str, list[str]]:
-    """Return the names of the series of each panel of forces, by the panel's title; at most MAX_PANELS panels.
+    """Return the names of the series in each panel of a force figure, by the panel's title; the first MAX_PANELS.
 
-    A bearing has a panel for its force. A guide has panels for force and moment on its slider, at samples, and for the
-    forces at its corners, with the extremes of all steps.
+    A bearing "A" has {"force at A": ["A.F"]}. A guide has panels for force and moment on its slider, at samples, and
+    for the forces at its corners, with the extremes of all steps.
     """
     series_by_title = dict[str, list[str]]()
     for joint in dict.fromkeys(joint.name for run in runs for joint in run.source.clearances):
@@ -89,7 +87,7 @@ def assign_panels(runs: Iterable[Result]) -> dict[str, list[str]]:
 
 
 def get_curve(run: Result, name: str) -> tuple[Array, Array]:
-    """Return times and values of a series of a panel, (k,) each."""
+    """Return times and values of a series of a panel, (k,) each; of a force "A.F" with the extremes over all steps."""
     return get_force_curve(run, name.removesuffix(".F")) if name.endswith(".F") else (run.t, run[name])
 
 

@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 
 Array = Any
 POINTS = "the name of a point that moves, or a list of such names"
-MAX_NAMES = 60  # names for which a panel has no room
+MAX_NAMES = 60  # names that fit in a panel
 
 
 def draw_sketch_at_time(run: Result, t: Any, velocities: bool = False, forces: bool = False) -> Sketch:
@@ -52,7 +52,7 @@ def draw_sketch_at_time(run: Result, t: Any, velocities: bool = False, forces: b
 def find_contacts_at_configuration(run: Result, configuration: Configuration) -> frozenset[str]:
     """Return the names of joints and slider corners with play that are in contact at a configuration's time.
 
-    The stored contact state decides at a sample; between two samples, the overlap in the drawing.
+    At a sample the stored contact states are used, between samples the overlap of the surfaces in the drawing.
     """
     if (sample_indices := np.flatnonzero(run.t == configuration.t)).size:
         return frozenset(
@@ -71,7 +71,7 @@ def draw_requested_arrows(
 ) -> tuple[Layout, list[Arrows]]:
     """Return the layout, and a list of the requested arrows of velocities and forces.
 
-    `motion` has configurations of the whole run, to which the scale of velocities belongs. With `forces` the returned
+    The scale of velocities is that of the whole run, from the configurations `motion`. With `forces` the returned
     layout draws applied forces to the scale of the reactions.
     """
     all_arrows = [draw_velocity_arrows(configuration, motion, layout)] if velocities else []
@@ -97,8 +97,8 @@ def draw_force_arrows(run: Result, configuration: Configuration, layout: Layout)
     """Return the arrows of joint forces at a configuration, and the length of 1 N (m of the drawing; 0 without forces).
 
     Forces act on the second body, for a joint with play on the journal, and are interpolated between samples. The
-    longest arrow is the largest force of this moment, applied forces included, since a scale for the whole run would
-    shrink most forces to nothing next to impacts. Raises UnknownNameError without masses.
+    longest arrow is the largest force at this time, applied forces included: with a scale for the whole run, impacts
+    would make most arrows invisible. Raises UnknownNameError without masses.
     """
     reactions = dict(_iterate_joint_forces(run, configuration))
     applied_forces = [configuration.loads[part.name] for part in configuration.iterate_parts("forces", "force")]

@@ -34,9 +34,9 @@ if TYPE_CHECKING:
 
 # Okabe and Ito's palette: distinguished by readers with any of the common colour deficiencies
 COLOURS = ("#D55E00", "#0072B2", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
-IDEAL, UNTRUSTED = "#222222", "#888888"  # beyond a run's horizon
-ACROSS, BESIDE = 4, 6  # orbits in a row; entries of a legend that fits next to the title
-TITLE = 66  # characters of a line, next to which the legend fits
+IDEAL, UNPREDICTABLE = "#222222", "#888888"  # colours of the ideal scene, and of a run beyond its horizon
+MAX_ORBIT_COLUMNS, MAX_LEGEND_ENTRIES = 4, 6  # orbits in a row; entries of a legend that fits next to the title
+TITLE_WIDTH = 66  # characters of a line, next to which the legend fits
 STYLE = {
     "font.size": 9,
     "axes.titlesize": 9.5,
@@ -68,7 +68,7 @@ def choose_colours(count: int) -> list[str]:
 
 
 def find_largest_magnitude(values: Any) -> float:
-    """Return the largest magnitude of the values, 0 for none."""
+    """Return the largest magnitude of the values, without NaN; 0 if there are no values."""
     return float(np.nanmax(np.abs(values), initial=0.0))
 
 
@@ -93,12 +93,12 @@ def _get_horizon_within_run(run: Result) -> float | None:
 
 
 def mark_horizon(ax: Axes, run: Result, colour: str) -> None:
-    """Mark the predictability horizon of a run on a time axis: a thin line, and grey beyond it.
+    """Mark the predictability horizon of a run on a time axis: a dotted line, and a grey background after it.
 
     Nothing is drawn if the horizon is unknown or beyond the end.
     """
     if (horizon := _get_horizon_within_run(run)) is not None:
-        ax.axvspan(horizon, float(run.t[-1]), color=UNTRUSTED, alpha=0.1, lw=0, zorder=0)
+        ax.axvspan(horizon, float(run.t[-1]), color=UNPREDICTABLE, alpha=0.1, lw=0, zorder=0)
         ax.axvline(horizon, color=colour, lw=0.8, ls=":", zorder=1)
 
 
@@ -117,7 +117,7 @@ def draw_orbit(ax: Axes, run: Result, joint: str, colour: str, half_width: float
     ax.plot(x[is_reliable], y[is_reliable], color=colour, lw=0.7, alpha=0.8, zorder=2)
     ax.plot(x[touching & is_reliable], y[touching & is_reliable], ".", color=colour, ms=1.4, zorder=3)
     if not is_reliable.all():
-        ax.plot(x[is_after], y[is_after], color=UNTRUSTED, lw=0.5, alpha=0.6, zorder=1.5)
+        ax.plot(x[is_after], y[is_after], color=UNPREDICTABLE, lw=0.5, alpha=0.6, zorder=1.5)
     ax.plot(x[:1], y[:1], "o", ms=4, mfc="white", mec=IDEAL, mew=0.9, zorder=4)
     ax.set(xlim=(-half_width, half_width), ylim=(-half_width, half_width), aspect="equal", xticks=[], yticks=[])
     factor, text = choose_prefix(c, "m")
@@ -182,7 +182,7 @@ def draw_run_figure(
 
 
 def _split_figure(figure: Figure, n_orbits: int, has_mechanism: bool) -> tuple[Any, Any, Any]:
-    """Return the subfigures for curves over time, for the mechanism and for orbits; None for one without content.
+    """Return the subfigures for curves over time, for the mechanism and for orbits; None for an empty one.
 
     `n_orbits` is the number of columns of orbits, 0 for none.
     """
@@ -217,8 +217,8 @@ def _draw_motion_column(
 ) -> None:
     """Draw a series, its velocity and its acceleration in three rows of a column of the grid.
 
-    `runs`, `references` and `colours` are by scene. Scenes with a reference show the difference
-    from it. A series that no scene has is left out.
+    `runs`, `references` and `colours` are by scene. If any scene has a reference with the series, only the differences
+    from references are drawn. A series without rates spans the three rows. A series that no scene has is left out.
     """
     names = [series for series in (series_name, *find_rate_names(series_name)) if series]
     for row, series in enumerate(names):
@@ -251,7 +251,7 @@ def _draw_forces(
     """Draw the force panels: forces in every scene, with their peaks (▾), and the ideal reaction over them, dashed.
 
     `panels` has the names of the series of each panel by title, in the order of `axes`. `runs`, the ideal runs
-    `references` and `colours` are by scene.
+    `references` and `colours` are by scene. The ideal reaction is that of the reference that ends last.
     """
     for ax, (title, names) in zip(axes, panels.items(), strict=True):
         available = [(scene, run, name) for scene, run in runs.items() for name in names if name in run]
@@ -277,9 +277,10 @@ def _draw_forces(
 
 
 def _format_time_axis(ax: Axes, y_label: str, times: Sequence[Any], is_last_row: bool) -> None:
-    """Set the labels, limits and ticks of axes over time; only the last row of a column has the label of the time.
+    """Set the labels, limits and ticks of axes over time.
 
-    `y_label` is wrapped to the height of the axes. `times` are the time arrays of the curves, which set the limits.
+    `y_label` is wrapped to the height of the axes. The limits contain all `times`, the time arrays of the curves. Only
+    the last row of a column has the label and tick labels of the time.
     """
     ax.set_ylabel(_wrap_label(ax, y_label))
     start, end = min(float(t[0]) for t in times), max(float(t[-1]) for t in times)
@@ -293,9 +294,9 @@ def _format_time_axis(ax: Axes, y_label: str, times: Sequence[Any], is_last_row:
 
 
 def _wrap_label(ax: Axes, label: str) -> str:
-    """Return a label wrapped to the height of its axes, since names of bodies may be long.
+    """Return a y label with line breaks, such that its lines are no longer than the height of its axes.
 
-    Words that are too long are broken after points.
+    Too long words are broken before their dots.
     """
     spec = ax.get_subplotspec()
     n_spanned = spec.rowspan.stop - spec.rowspan.start if spec else 1
@@ -310,7 +311,7 @@ def _wrap_label(ax: Axes, label: str) -> str:
 def _draw_orbits(subfigure: Any, joints: Sequence[str], runs: Mapping[str, Result], colours: Mapping[str, str]) -> None:
     """Draw an orbit for each joint (down) and scene (across, in several rows if needed), all to one scale."""
     scenes = list(runs)
-    n_columns = min(len(scenes), ACROSS)
+    n_columns = min(len(scenes), MAX_ORBIT_COLUMNS)
     n_rows = -(-len(scenes) // n_columns)
     grid = subfigure.add_gridspec(len(joints) * n_rows, n_columns)
     joint_scenes = [(joint, scene) for joint in joints for scene in scenes if f"{joint}.e" in runs[scene]]
@@ -332,27 +333,32 @@ def _draw_orbits(subfigure: Any, joints: Sequence[str], runs: Mapping[str, Resul
 def _draw_title_and_legend(
     figure: Figure, runs: Mapping[str, Result], colours: Mapping[str, str], has_reference: bool
 ) -> None:
-    """Draw the title of the mechanism and one legend for all panels, below them if it has many entries."""
+    """Draw the title of the mechanism and one legend for all panels.
+
+    The legend is next to the title, or below all panels if it has more than MAX_LEGEND_ENTRIES entries.
+    """
     from matplotlib.lines import Line2D
     from matplotlib.patches import Patch
 
     run = next(iter(runs.values()))
-    title = format_figure_title(run.source.title or run.source.mechanism, TITLE)
+    title = format_figure_title(run.source.title or run.source.mechanism, TITLE_WIDTH)
     figure.suptitle(title, fontsize=13, fontweight="bold", x=0.012, ha="left")
     labels = {scene: f"{scene}{_format_early_end(scene, runs)}" for scene in colours}
     handles: list[Any] = [Line2D([], [], color=colour, lw=2.2, label=labels[s]) for s, colour in colours.items()]
     if has_reference:
         handles.append(Line2D([], [], color=IDEAL, lw=1.4, ls="--", label="ideal"))
     if any(_get_horizon_within_run(run) is not None for run in runs.values()):
-        handles.append(Patch(facecolor=UNTRUSTED, alpha=0.25, lw=0, label="not to be trusted"))
-    if len(handles) > BESIDE:  # outside, below all panels
-        figure.legend(handles=handles, loc="outside lower center", ncols=min(len(handles), BESIDE), fontsize=9.5)
+        handles.append(Patch(facecolor=UNPREDICTABLE, alpha=0.25, lw=0, label="unpredictable"))
+    if len(handles) > MAX_LEGEND_ENTRIES:  # outside, below all panels
+        figure.legend(
+            handles=handles, loc="outside lower center", ncols=min(len(handles), MAX_LEGEND_ENTRIES), fontsize=9.5
+        )
         return
     figure.legend(handles=handles, loc="upper right", ncols=len(handles), fontsize=9.5, bbox_to_anchor=(0.995, 0.998))
 
 
 def _format_early_end(scene: str, runs: Mapping[str, Result]) -> str:
-    """Return ", to T s" for a scene whose run ends before others in the figure, else ""."""
+    """Return ", to 0.2 s" for a scene whose run ends before the last end of the runs, else ""."""
     run_end, last_end = (float(max(run.t[-1] for run in some_runs)) for some_runs in ([runs[scene]], runs.values()))
     return f", to {run_end:.4g} s" if run_end < (1.0 - 1e-9) * last_end else ""
 
@@ -368,7 +374,7 @@ def save_figure(figure: Figure, path: str | os.PathLike[str]) -> None:
     try:
         with report_missing_glyphs():
             figure.savefig(buffer, format=suffix, metadata={"Software": None} if suffix == "png" else None)
-    except (ValueError, ArithmeticError) as error:  # matplotlib finds no ticks for numbers near the largest one
-        message = f"no picture {shorten_path(path)}: its numbers cannot be drawn ({error})"
-        raise GudgeonError(f"{message}\n  watch others") from error
+    except (ValueError, ArithmeticError) as error:  # matplotlib finds no ticks for numbers near the largest double
+        message = f"no figure {shorten_path(path)}: its values cannot be drawn ({error})"
+        raise GudgeonError(f"{message}\n  choose other series") from error
     write_bytes(path, buffer.getvalue())

@@ -24,8 +24,8 @@ from gudgeon.results.figures.plots import (
     COLOURS,
     IDEAL,
     STYLE,
-    TITLE,
-    UNTRUSTED,
+    TITLE_WIDTH,
+    UNPREDICTABLE,
     choose_colours,
     compute_orbit_half_width,
     draw_orbit,
@@ -33,7 +33,7 @@ from gudgeon.results.figures.plots import (
     format_caption,
     mark_horizon,
 )
-from gudgeon.results.series import choose_watched_series, find_rate_names, list_drive_series
+from gudgeon.results.series import choose_default_series, find_rate_names, list_drive_series
 
 import matplotlib  # isort: skip  (labels.py says where it is missing)
 from matplotlib.axes import Axes  # isort: skip
@@ -44,9 +44,9 @@ if TYPE_CHECKING:
     from gudgeon.results.results import Result
     from gudgeon.results.wear import Wear
 
-LEGEND = 1.2  # inches for a legend next to a drawing
-SERIES = "the name of a series, or a list of such names"
-_OF_A_PAGE = ContextVar("of_a_page", default=False)
+LEGEND_WIDTH = 1.2  # inches for a legend next to a drawing
+SERIES_ARGUMENT = "the name of a series, or a list of such names"
+_IS_FOR_PAGE = ContextVar("of_a_page", default=False)
 
 
 class Plot:
@@ -63,17 +63,19 @@ class Plot:
     def __call__(self, *names: str | Sequence[str]) -> Figure:
         """Return a figure of series with a panel for each unit, in one or two columns.
 
-        Without names these are the default series (default_watch), drives and forces. Forces include the extremes of
-        all steps.
+        Without names these are the default series (choose_default_series), torques of drives and joint forces. Forces
+        include the extremes of all steps.
         """
-        requested_names = [name for names_argument in names for name in check_names(names_argument, "names", SERIES)]
+        requested_names = [
+            name for names_argument in names for name in check_names(names_argument, "names", SERIES_ARGUMENT)
+        ]
         run, panels = self.run, dict[str, list[str]]()
         joints = [joint.name for joint in run.source.clearances or run.source.joints]
         forces = {
             f"{joint}.F": joint_curves.get_force_curve(run, joint) for joint in joints
         }  # with the extremes of all steps
         guides = [f"{guide}.{last}" for guide in run.source.guides for last in "FM"]
-        for name in requested_names or (*choose_watched_series(run), *list_drive_series(run.source), *forces, *guides):
+        for name in requested_names or (*choose_default_series(run), *list_drive_series(run.source), *forces, *guides):
             panels.setdefault(run.unit(name), []).append(name)
         n_columns = 1 if len(panels) < 3 else 2
         n_rows = -(-len(panels) // n_columns)
@@ -84,12 +86,14 @@ class Plot:
                 self._plot_curves({name: forces.get(name, (run.t, run[name])) for name in panel_names}, ax).set_title(
                     ""
                 )
-            figure.suptitle(format_figure_title(format_caption(run), TITLE), fontsize=10)
+            figure.suptitle(format_figure_title(format_caption(run), TITLE_WIDTH), fontsize=10)
         return figure
 
     def series(self, *names: str | Sequence[str], ax: Axes | None = None) -> Axes:
         """Plot series of one unit over time in one panel, and return the axes."""
-        series_names = [name for names_argument in names for name in check_names(names_argument, "names", SERIES)]
+        series_names = [
+            name for names_argument in names for name in check_names(names_argument, "names", SERIES_ARGUMENT)
+        ]
         return self._plot_curves({name: (self.run.t, self.run[name]) for name in series_names}, ax)
 
     def _plot_curves(self, curves: Mapping[str, tuple[Any, Any]], ax: Axes | None, x_label: str = "t [s]") -> Axes:
@@ -100,7 +104,7 @@ class Plot:
         """
         run, names = self.run, list(curves)
         if not names:
-            raise BadValueError("plot.series: expected the name of a series at least")
+            raise BadValueError("plot.series: expected at least one name of a series")
         with matplotlib.rc_context(STYLE):
             ax = create_axes(8.0, 3.6) if ax is None else check_axes(ax)
             factor, text = choose_plot_unit(
@@ -109,7 +113,7 @@ class Plot:
             for (name, (t, values)), colour in zip(curves.items(), choose_colours(len(names)), strict=True):
                 ax.plot(t, values * factor, color=colour, lw=1.0, label=name)
             ax.set(xlabel=x_label, ylabel=format_label(names[0] if len(names) == 1 else "", text))
-            ax.set_title(format_figure_title(format_caption(run), TITLE))
+            ax.set_title(format_figure_title(format_caption(run), TITLE_WIDTH))
             if x_label == "t [s]":
                 mark_horizon(ax, run, IDEAL)
             if len(names) > 1:
@@ -164,7 +168,7 @@ class Plot:
         rate_name = next((rate for rate in find_rate_names(name) if rate in self.run), "")
         if not rate_name:
             self.run.unit(name)  # UnknownNameError
-            raise BadValueError(f"{name} has no rate by name: name the other series too")
+            raise BadValueError(f"{name} has no series of its rate: give the name of the other series too")
         return rate_name
 
     def _plot_series_pair(
@@ -185,7 +189,7 @@ class Plot:
             if style == "-":
                 ax.plot(x_values[:1] * x_factor, y_values[:1] * y_factor, "o", ms=4, mfc="white", mec=IDEAL, mew=0.9)
             ax.set(xlabel=format_label(x_name, x_unit), ylabel=format_label(y_name, y_unit))
-            ax.set_title(format_figure_title(format_caption(self.run) + suffix, TITLE))
+            ax.set_title(format_figure_title(format_caption(self.run) + suffix, TITLE_WIDTH))
         return ax
 
     def spectrum(self, *names: str | Sequence[str], window: str = "hann", ax: Axes | None = None) -> Axes:
@@ -195,12 +199,14 @@ class Plot:
         amplitude A on a line of the spectrum has A (between lines the error of flattop is smallest). Raises
         BadValueError for uneven samples, or values that are not finite. Returns the axes, new ones if `ax` is None.
         """
-        from gudgeon.results.series import compute_spectrum
+        from gudgeon.results.signals import compute_spectrum
 
-        series_names = [name for names_argument in names for name in check_names(names_argument, "names", SERIES)]
+        series_names = [
+            name for names_argument in names for name in check_names(names_argument, "names", SERIES_ARGUMENT)
+        ]
         spectra = {name: compute_spectrum(self.run.t, self.run[name], window) for name in series_names}
         ax = self._plot_curves(spectra, ax, "f [Hz]")
-        ax.set_title(format_figure_title(f"{format_caption(self.run)}, window {window}", TITLE))
+        ax.set_title(format_figure_title(f"{format_caption(self.run)}, window {window}", TITLE_WIDTH))
         return ax
 
     def low_pass(
@@ -212,7 +218,7 @@ class Plot:
         causal: as in an amplifier, with its delay; False: forwards and backwards, without phase. Raises BadValueError
         for uneven samples, or a cutoff above half their rate. Returns the axes, new ones if `ax` is None.
         """
-        from gudgeon.results.series import apply_low_pass
+        from gudgeon.results.signals import apply_low_pass
 
         run = self.run
         smoothed = apply_low_pass(
@@ -225,10 +231,10 @@ class Plot:
             factor, text = choose_plot_unit(
                 max(find_largest_magnitude(run[name]), find_largest_magnitude(smoothed)), run.unit(name)
             )
-            ax.plot(run.t, run[name] * factor, color=UNTRUSTED, lw=0.6, alpha=0.7, label=name)
+            ax.plot(run.t, run[name] * factor, color=UNPREDICTABLE, lw=0.6, alpha=0.7, label=name)
             ax.plot(run.t, smoothed * factor, color=COLOURS[1], lw=1.2, label=filter_text)
             ax.set(xlabel="t [s]", ylabel=format_label(name, text))
-            ax.set_title(format_figure_title(format_caption(run), TITLE))
+            ax.set_title(format_figure_title(format_caption(run), TITLE_WIDTH))
             ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.18), ncols=2)
         return ax
 
@@ -263,11 +269,11 @@ class Plot:
         from gudgeon.results.figures.mechanism_plots import check_points, draw_path, draw_path_sketch
 
         if not (names := check_points(self.run, points)):
-            raise BadValueError("plot.path: expected the name of a point at least", hint='for example "coupler.head"')
+            raise BadValueError("plot.path: expected at least one name of a point", hint='for example "coupler.head"')
         sketch = draw_path_sketch(self.run)
         caption = f"{format_caption(self.run)}, drawn at t\u00a0=\u00a0{float(self.run.t[0]):.6g}\u00a0s"
         return self._draw_sketch_with_caption(
-            sketch, ax, lambda on: draw_path(self.run, sketch, names, on), caption, LEGEND
+            sketch, ax, lambda on: draw_path(self.run, sketch, names, on), caption, LEGEND_WIDTH
         )
 
     def _draw_sketch_with_caption(
@@ -277,11 +283,13 @@ class Plot:
 
         `draw_content` paints the sketch on axes. `margin` is space in inches that new axes leave for a legend.
         """
-        from gudgeon.drawing.picture import PER_INCH, compute_figure_size
+        from gudgeon.drawing.picture import CHARACTERS_PER_INCH, compute_figure_size
 
         with matplotlib.rc_context(STYLE):
             width, height = compute_figure_size(sketch, 7.0)
-            caption_width = TITLE if ax is not None else min(TITLE, int(PER_INCH * (width + margin)))
+            caption_width = (
+                TITLE_WIDTH if ax is not None else min(TITLE_WIDTH, int(CHARACTERS_PER_INCH * (width + margin)))
+            )
             ax = create_axes(width + margin, height) if ax is None else check_axes(ax)
             draw_content(ax)
             ax.set_title(format_figure_title(caption, caption_width))
@@ -304,7 +312,7 @@ def plot_wear(wear: Wear, ax: Axes | None) -> Axes:
             )
             ax.plot(np.degrees(wear.angle), surface.depth * factor, color=colour, lw=1.0, label=label_text)
         ax.set(xlabel="angle in the body's own frame [°]", ylabel=format_label("depth", unit), xlim=(0.0, 360.0))
-        ax.set_title(format_figure_title(f"{wear.title}, {wear.joint}: wear by {wear.law.title()}", TITLE))
+        ax.set_title(format_figure_title(f"{wear.title}, {wear.joint}: wear by {wear.law.title()}", TITLE_WIDTH))
         ax.legend(loc="best")
     return ax
 
@@ -313,8 +321,8 @@ class ShownFigure(Figure):
     """Figure that a notebook displays if it is the last value of a cell."""
 
     def _repr_png_(self) -> bytes | None:
-        """Return the figure as PNG bytes; None if pyplot displays it."""
-        if self.canvas.manager is not None:  # pyplot shows its own
+        """Return the figure as PNG bytes; None if pyplot owns it, which then displays it."""
+        if self.canvas.manager is not None:  # pyplot displays it
             return None
         buffer = io.BytesIO()
         self.savefig(buffer, format="png", metadata={"Software": None})
@@ -325,28 +333,28 @@ class ShownAxes(Axes):
     """Axes whose figure a notebook displays if they are the last value of a cell."""
 
     def _repr_png_(self) -> bytes | None:
-        """Return the figure of the axes as PNG; None if another program displays it."""
+        """Return the figure of the axes as PNG bytes; None if pyplot owns it, or if it is not a ShownFigure."""
         shown = getattr(self.figure, "_repr_png_", None)
         return shown() if shown is not None else None
 
 
 @contextmanager
 def suppress_figure_display() -> Iterator[None]:
-    """Create figures for a page within this context, without a manager of pyplot, so that nothing displays them."""
-    token = _OF_A_PAGE.set(True)
+    """Return a context in which new figures are not pyplot's, so that nothing displays them; for figures of pages."""
+    token = _IS_FOR_PAGE.set(True)
     try:
         yield
     finally:
-        _OF_A_PAGE.reset(token)
+        _IS_FOR_PAGE.reset(token)
 
 
 def _create_figure(width: float, height: float) -> Figure:
     """Return a new figure of a size in inches.
 
-    It is pyplot's if the caller has imported pyplot, so that plt.show() displays it, except within
+    It is managed by pyplot if the caller has imported pyplot, so that plt.show() displays it, except within
     `suppress_figure_display`.
     """
-    if (pyplot := sys.modules.get("matplotlib.pyplot")) is not None and not _OF_A_PAGE.get():
+    if (pyplot := sys.modules.get("matplotlib.pyplot")) is not None and not _IS_FOR_PAGE.get():
         figure: Figure = pyplot.figure(figsize=(width, height), layout="constrained", FigureClass=ShownFigure)
         return figure
     return ShownFigure(figsize=(width, height), layout="constrained")

@@ -36,11 +36,11 @@ if TYPE_CHECKING:
 
 Columns: TypeAlias = "dict[str, Array]"  # name -> (rows,)
 
-ROWS = 4096  # rows of a CSV file that are formatted at once
-SOME = 64  # rows of a run from which the size of the file is estimated
-DATE = 116  # bytes at the head of a MATLAB file in which SciPy puts the day
-MATLAB = b"MATLAB 5.0 MAT-file, written by gudgeon"
-LONGEST = 63  # characters of a name in MATLAB
+ROWS_PER_WRITE = 4096  # rows of a CSV file that are formatted at once
+N_SAMPLE_ROWS = 64  # rows of a run from which the size of the file is estimated
+MATLAB_HEADER_TEXT_BYTES = 116  # text at the start of a MATLAB file, in which SciPy writes the date
+MATLAB_HEADER = b"MATLAB 5.0 MAT-file, written by gudgeon"
+MAX_MATLAB_NAME = 63  # characters of a name in MATLAB
 KEYWORDS = frozenset(
     {
         "break",
@@ -68,7 +68,7 @@ KEYWORDS = frozenset(
 
 
 def list_requested_series(run: Result, names: Iterable[str] | None) -> list[str]:
-    """Return the names of series without t and without repetitions, or all for None.
+    """Return the names of the series to export, without t and without repetitions; all for None.
 
     Raises UnknownNameError for an unknown name, BadValueError for a text instead of a list.
     """
@@ -140,10 +140,7 @@ def _select_batch_series(batch: Batch, names: Iterable[str] | None) -> list[str]
 
 
 def _iterate_columns_by_run(batch: Batch, names: Iterable[str] | None) -> Iterator[Columns]:
-    """Yield the columns of one run after the other: run, given parameters, t, series.
-
-    A run that did not begin has none.
-    """
+    """Yield for each run that has samples its columns by name: run, given parameters, t, series."""
     columns = collect_given_columns(batch)
     for i, t, series_by_name in iterate_run_series(batch, _select_batch_series(batch, names)):
         given_values = {name: values[i] for name, values in columns.items()}
@@ -174,19 +171,22 @@ def write_batch_csv(batch: Batch, path: str | os.PathLike[str], names: Iterable[
 def _write_csv(path: str | os.PathLike[str], columns_by_run: Iterator[Columns], n_rows: float) -> None:
     """Write a line of names, then a line for each row, with the shortest digits that read back as the same number.
 
-    Raises OutputError at once if `n_rows` lines of the length of some of the first do not fit on the disk.
+    Raises OutputError before the first row if `n_rows` lines of the average length of a few rows of the first run do
+    not fit on the disk.
     """
     with open_atomic(check_path(path, "path")) as file:
         for k, run_columns in enumerate(columns_by_run):
             columns = list(run_columns.values())
             if k == 0:
-                sample_lines = _format_lines([column[:: max(1, len(column) // SOME)] for column in columns])
+                sample_lines = _format_lines([column[:: max(1, len(column) // N_SAMPLE_ROWS)] for column in columns])
                 check_disk(
                     Path(path).parent, n_rows * len("".join(sample_lines)) / max(1, len(sample_lines)), "it", path
                 )
                 file.write((",".join(run_columns) + "\n").encode())
-            for start in range(0, len(columns[0]), ROWS):
-                file.write("".join(_format_lines([column[start : start + ROWS] for column in columns])).encode())
+            for start in range(0, len(columns[0]), ROWS_PER_WRITE):
+                file.write(
+                    "".join(_format_lines([column[start : start + ROWS_PER_WRITE] for column in columns])).encode()
+                )
 
 
 def _format_lines(columns: Sequence[Array]) -> list[str]:
@@ -201,7 +201,7 @@ def _format_lines(columns: Sequence[Array]) -> list[str]:
 
 
 def _format_cell(value: object) -> str:
-    """Return a number's digits, or the name of a choice, which contains no comma."""
+    """Return a cell of a CSV file: a number with all digits, or a text escaped for spreadsheets (without commas)."""
     return str(escape_for_spreadsheet(value)) if isinstance(value, str) else repr(value)
 
 
@@ -231,7 +231,9 @@ def write_batch_mat(batch: Batch, path: str | os.PathLike[str], names: Iterable[
     ]
     given = collect_given_columns(batch)
     columns_and_addresses = zip(given, batch.parameters, strict=True)
-    descriptions += [(column, parameters[name].unit, "given to each run") for column, name in columns_and_addresses]
+    descriptions += [
+        (column, parameters[name].unit, "given value of each run") for column, name in columns_and_addresses
+    ]
     size = 8.0 * (len(names_of_series) + 1) * len(batch) * batch.t.shape[-1]
     check_memory(size, f"{len(names_of_series)} series of {len(batch)} runs")
     _write_mat(path, batch, descriptions, collect_series(batch, ["t", *names_of_series]) | given)
@@ -257,7 +259,7 @@ def _write_mat(
     with open_atomic(path) as file:
         savemat(file, contents, long_field_names=True, oned_as="column")
         file.seek(0)
-        file.write(MATLAB.ljust(DATE))  # the same run gives the same bytes
+        file.write(MATLAB_HEADER.ljust(MATLAB_HEADER_TEXT_BYTES))  # the same run gives the same bytes
 
 
 def _make_matlab_names(names: Sequence[str]) -> dict[str, str]:
@@ -271,11 +273,11 @@ def _make_matlab_names(names: Sequence[str]) -> dict[str, str]:
         valid_name = re.sub(r"\W", "_", name, flags=re.ASCII)
         valid_name = (
             f"{valid_name}_" if valid_name in KEYWORDS else valid_name if valid_name[0].isalpha() else f"x{valid_name}"
-        )[:LONGEST]
+        )[:MAX_MATLAB_NAME]
         candidate, number = valid_name, 2
         while candidate in used:
             suffix = f"_{number}"
-            candidate, number = valid_name[: LONGEST - len(suffix)] + suffix, number + 1
+            candidate, number = valid_name[: MAX_MATLAB_NAME - len(suffix)] + suffix, number + 1
         used.add(candidate)
         matlab_names[name] = candidate
     return matlab_names
@@ -294,10 +296,11 @@ def join(runs: Iterable[Result | Batch]) -> xarray.Dataset:
     if not scenes or len({*map(type, results)}) > 1:
         raise BadValueError("join: expected results, or batches, of one scene or more")
     if repeated_scenes := [scene for scene in scenes if scenes.count(scene) > 1]:
-        hint = "runs of one scene with other numbers are a batch: simulate_many"
+        hint = "use simulate_many for runs of one scene with different parameters"
         raise BadValueError(f"join: two results are of the scene {repeated_scenes[0]!r}", hint=hint)
     if len(names := list(dict.fromkeys(run.source.mechanism for run in results))) > 1:
-        raise BadValueError(f"join: {names[0]!r} and {names[1]!r} are two mechanisms", hint="join scenes of one")
+        hint = "join results of one mechanism"
+        raise BadValueError(f"join: {names[0]!r} and {names[1]!r} are two mechanisms", hint=hint)
     xarray = import_xarray()
     _check_output_times(results)
     datasets, scene_index = [run.to_xarray() for run in results], _import_pandas().Index(scenes, name="scene")
@@ -323,6 +326,6 @@ def _check_output_times(results: list[Result | Batch]) -> None:
         run_with_own_times = next(run for run in results if run.t.ndim == 2)
         raise BadValueError(
             f"join: the runs of scene {run_with_own_times.source.scene!r} have times of their own,"
-            " and not as many as those of others",
-            hint="join batches over common times, or of as many samples each",
+            " in a different number than those of other scenes",
+            hint="join batches with common times, or with equal numbers of samples",
         )

@@ -1,4 +1,4 @@
-"""Write tables as an HDF5 file that NetCDF 4 tools read: h5py lays it out in memory, then it is streamed to a file.
+"""Write tables as an HDF5 file that NetCDF 4 tools read: h5py creates the metadata, then the file is streamed to disk.
 
 HDF5 never writes to a file itself: a full disk would leave it with handles that it cannot close and that crash it at
 exit. It lays out the metadata (about 70 kB) and the offsets of the arrays; the arrays go straight to the file. The
@@ -31,12 +31,12 @@ from gudgeon.waiting.ctrl_c import DelayedCtrlC
 
 Array: TypeAlias = NDArray[Any]
 
-# what a dimension without a coordinate variable is called in the file: NetCDF's own words
+# label of a dimension without a coordinate variable, as the NetCDF library writes it
 NO_VARIABLE = "This is a netCDF dimension but not a netCDF variable.%10d"
-LONGEST = 60_000  # bytes of a compact attribute; longer ones are stored in a heap
-PAGE = 4096
-SEAL = b"\ngudgeon crc32 %08x\n"
-SEAL_SIZE = len(SEAL % 0)
+MAX_COMPACT_BYTES = 60_000  # of a compact attribute; longer ones are stored in a heap
+PAGE_BYTES = 4096
+CHECKSUM_LINE = b"\ngudgeon crc32 %08x\n"
+CHECKSUM_BYTES = len(CHECKSUM_LINE % 0)
 
 
 @dataclass(frozen=True)
@@ -78,9 +78,9 @@ class Table:
 
 
 def generate_file_chunks(tables: Sequence[Table]) -> Iterator[Any]:
-    """Yield the bytes of an HDF5 file with these tables in order, and the checksum last.
+    """Yield the bytes of an HDF5 file with these tables in the order of the file, and the checksum line last.
 
-    The layout is made in another thread; the arrays are not copied.
+    h5py creates the layout in another thread; the arrays are not copied.
     """
     image, offsets_and_values = run_interruptible(partial(_lay_out_file, tables))
     checksum = position = 0
@@ -91,14 +91,14 @@ def generate_file_chunks(tables: Sequence[Table]) -> Iterator[Any]:
         position = offset + values.nbytes
     tail = image.read_range(position, image.size)
     yield tail
-    yield SEAL % zlib.crc32(tail, checksum)
+    yield CHECKSUM_LINE % zlib.crc32(tail, checksum)
 
 
 def write_tables(tables: Iterator[Table], path: str | os.PathLike[str]) -> None:
-    """Write a file with these tables under a temporary name, then move it into place.
+    """Write a NetCDF file with these tables under a temporary name, then move it into place.
 
-    The tables are computed one after the other, and Ctrl-C is handled in between. Raises OutputError if the disk is too
-    small or writing fails. Raises GudgeonError without h5py.
+    Ctrl-C is raised between tables and between chunks. Raises OutputError if the disk is too small or writing fails,
+    GudgeonError without h5py.
     """
     try:
         import h5py  # noqa: F401
@@ -121,22 +121,22 @@ def write_tables(tables: Iterator[Table], path: str | os.PathLike[str]) -> None:
 def is_damaged(path: Path) -> bool:
     """Return whether the checksum of a file does not match; False for a file without a checksum."""
     with open(path, "rb") as file:
-        size = file.seek(0, io.SEEK_END) - SEAL_SIZE
+        size = file.seek(0, io.SEEK_END) - CHECKSUM_BYTES
         if size <= 0:
             return False
         file.seek(size)
         stored_checksum, checksum = file.read(), 0
-        if not stored_checksum.startswith(SEAL.partition(b"%")[0]):
+        if not stored_checksum.startswith(CHECKSUM_LINE.partition(b"%")[0]):
             return False
         file.seek(0)
         while size > 0 and (chunk := file.read(min(size, 1 << 20))):
             checksum = zlib.crc32(chunk, checksum)
             size -= len(chunk)
-        return stored_checksum != SEAL % checksum
+        return stored_checksum != CHECKSUM_LINE % checksum
 
 
 class _FileImage(io.RawIOBase):
-    """A file in memory that stores only the written pages, so that the gaps for arrays need no memory."""
+    """Sparse file in memory: only written pages are stored, so that the gaps for arrays need no memory."""
 
     def __init__(self) -> None:
         """Create an empty file."""
@@ -152,9 +152,9 @@ class _FileImage(io.RawIOBase):
         """Write bytes at the position, advance it, and return their number."""
         start, n_bytes = self._at, len(data)
         while self._at < start + n_bytes:
-            page, offset = divmod(self._at, PAGE)
-            page_data = data[self._at - start :][: PAGE - offset]
-            self._pages.setdefault(page, bytearray(PAGE))[offset : offset + len(page_data)] = page_data
+            page, offset = divmod(self._at, PAGE_BYTES)
+            page_data = data[self._at - start :][: PAGE_BYTES - offset]
+            self._pages.setdefault(page, bytearray(PAGE_BYTES))[offset : offset + len(page_data)] = page_data
             self._at += len(page_data)
         self.size = max(self.size, self._at)
         return n_bytes
@@ -172,15 +172,15 @@ class _FileImage(io.RawIOBase):
 
     def read_range(self, begin: int, end: int) -> bytes:
         """Return the bytes [begin, end), zeros where nothing was written."""
-        empty_page, first_page = bytes(PAGE), begin // PAGE
-        pages = (self._pages.get(page, empty_page) for page in range(first_page, -(-end // PAGE)))
-        return b"".join(pages)[begin - first_page * PAGE : end - first_page * PAGE]
+        empty_page, first_page = bytes(PAGE_BYTES), begin // PAGE_BYTES
+        pages = (self._pages.get(page, empty_page) for page in range(first_page, -(-end // PAGE_BYTES)))
+        return b"".join(pages)[begin - first_page * PAGE_BYTES : end - first_page * PAGE_BYTES]
 
 
 def _lay_out_file(tables: Sequence[Table]) -> tuple[_FileImage, list[tuple[int, Array]]]:
-    """Return the image of the file without numeric arrays, and (offset, values) of each array.
+    """Create the HDF5 file in memory; return it without its numeric arrays, and (offset in bytes, values) of each.
 
-    Tables without rows and attributes are left out.
+    Tables with neither rows nor attributes are left out.
     """
     import h5py
 
@@ -199,10 +199,10 @@ def _lay_out_file(tables: Sequence[Table]) -> tuple[_FileImage, list[tuple[int, 
 
 
 def _lay_out_table(group: Any, table: Table, dimension_number: int) -> Iterator[tuple[Any, Variable]]:
-    """Yield (dataset, variable) for each variable of a table, created in the HDF5 group.
+    """Create the HDF5 datasets of a table in a group, and yield (dataset, variable) of each.
 
     A dimension without a coordinate variable gets a placeholder dataset, which is not yielded. `dimension_number` is
-    the NetCDF number of the dimension.
+    the NetCDF number of the dimension, unique in the file.
     """
     from h5py import h5ds
 
@@ -241,14 +241,14 @@ def _create_dataset(group: Any, variable: Variable) -> Any:
 
 
 def _write_text_attribute(owner: Any, attribute_name: str, text: str) -> None:
-    """Write a text attribute of a group or dataset, in compact form if it is short enough, as NetCDF does.
+    """Write a text attribute of a group or dataset, up to MAX_COMPACT_BYTES in compact form, as NetCDF does.
 
     The compact form is ten times faster.
     """
     from h5py import h5a, h5s, h5t
 
     data = text.encode()
-    if len(data) > LONGEST:
+    if len(data) > MAX_COMPACT_BYTES:
         owner.attrs[attribute_name] = text
         return
     type_ = h5t.C_S1.copy()

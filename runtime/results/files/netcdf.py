@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     import xarray
 
 FORMAT = "gudgeon-result/2"
-LONGEST = 200  # characters of the name of an attribute
+MAX_ATTRIBUTE_NAME = 200  # characters
 SERIES, TRACE, STATES, COMPILED, PEAKS = "series", "trace", "at_events", "compiled", "peaks"
 START = "start_row"  # series at the start of a run, where that is not a sample
 GIVEN_START = "given_start"  # the state that a run was given as `start`
@@ -39,14 +39,14 @@ PARTS = ("impacts", "events", STATES, "parameters", TRACE, PEAKS)
 IMPACTS = {
     "joint": ("", "joint with play"),
     "t_on": ("s", "onset of the contact"),
-    "t_off": ("s", "separation, NaN: still closed; of a blow between surfaces that do not give its onset"),
+    "t_off": ("s", "separation, NaN: still closed; of an impact of rigid surfaces its onset"),
     "deltadot": ("m/s", "rate of the penetration at the onset"),
-    "F_peak": ("N", "largest force of the contact; of a blow its impulse, N s"),
+    "F_peak": ("N", "largest force of the contact; of an impact of rigid surfaces its impulse, N s"),
     "t_peak": ("s", "time of the largest force"),
 }
 EVENTS = {"event": ("", "event of the mechanism's file"), "t": ("s", "time of the event")}
 PROVENANCE_GROUP = "provenance"
-TRACE_TIME = ("s", "end of the last step that the row tells of")
+TRACE_TIME = ("s", "end of the last step of the row")
 EXTREMES = {
     "name": ("", "series"),
     "against": ("", "scene whose series was subtracted"),
@@ -56,7 +56,7 @@ EXTREMES = {
     "min": ("", "smallest value over all steps, SI"),
     "t_min": ("s", "its time"),
 }
-OLD_NAMES = ("time", "impact", "event", "slot", "prepared")  # of the root of an old file, over dimensions of their own
+OLD_NAMES = ("time", "impact", "event", "slot", "prepared")  # dimensions at the root of a file in OLD_FORMAT
 NAME, UNIT = re.compile(r"[A-Za-z][\w.]*", re.ASCII), re.compile(r"[\w^*/. ()-]*", re.ASCII)
 
 
@@ -73,13 +73,13 @@ def build_tables(run: Result) -> Iterator[Table]:
     yield Table("parameters", "address", tuple(_iterate_parameter_variables(run)), {})
     yield Table(TRACE, "t", tuple(_iterate_envelope_variables(run)), {})
     yield Table(PEAKS, "row", tuple(_iterate_peak_variables(run)), {})
-    derived = Variable("value", run.p[len(run.given) :], "", "what was derived from the parameters, SI")
+    derived = Variable("value", run.p[len(run.given) :], "", "value derived from the parameters, SI")
     yield Table(COMPILED, "derived", (derived,), {"source": run.source.to_json()})
     yield Table(PROVENANCE_GROUP, "", (), run.provenance)
 
 
 def _iterate_series_variables(run: Result) -> Iterator[Variable]:
-    """Yield the time and every series of a run as variables; without the drift for a run of an older file."""
+    """Yield the time and every series of a run as variables; without the drift if an older file lacks it."""
     yield Variable("time", run.t, "s", "time")
     missing_names = () if run.compiled or DRIFT[0] in run.stored else DRIFT  # read from a file that lacks it
     for name, unit in run.names.items():
@@ -89,7 +89,7 @@ def _iterate_series_variables(run: Result) -> Iterator[Variable]:
 
 
 def _iterate_start_variables(run: Result) -> Iterator[Variable]:
-    """Yield the state that the run was given as `start` as one column; nothing if it was given none."""
+    """Yield the given `start` of a run as one column: t, q, v, contact codes, discrete states; nothing without one."""
     if run.begun is not None:
         fields = ([run.begun.t], run.begun.q, run.begun.v, run.begun.state, run.begun.memory)
         values = np.concatenate([np.asarray(values_of_field, dtype=np.float64) for values_of_field in fields])
@@ -97,14 +97,15 @@ def _iterate_start_variables(run: Result) -> Iterator[Variable]:
 
 
 def _iterate_event_variables(run: Result, events: list[str]) -> Iterator[Variable]:
-    """Yield the columns of events and every series at the events; nothing where the states are not known. `events` are
-    the names of the scene's events.
+    """Yield the columns of events and every series at the events; `events` are the names of the scene's events.
+
+    Yields nothing without events, or if the states at the events cannot be evaluated.
     """
     try:
         states = run.states_at_events if len(run.events) else None
         names = [name for name in run.names if states is not None and (states.compiled or name in states.stored)]
         values_by_name = {name: states[name][1:] for name in names} if states is not None else {}
-    except GudgeonError:  # an older file, a motion that cannot be followed or evaluated there: the samples are whole
+    except GudgeonError:  # an older file, or no states can be computed at the events: the samples are complete
         return
     if values_by_name:
         yield from list(build_record_variables(run.events, EVENTS, events))
@@ -113,13 +114,14 @@ def _iterate_event_variables(run: Result, events: list[str]) -> Iterator[Variabl
 
 
 def name_event_column(name: str) -> str:
-    """Return the name of a series in the table of events, other than the columns of that table."""
+    """Return the column name of a series in the table of events: the name itself, or "output.NAME" if it is used."""
     return f"output.{name}" if name in (*EVENTS, "occurrence") else name
 
 
 def build_record_variables(table: Array, columns: dict[str, tuple[str, str]], names: list[str]) -> Iterator[Variable]:
-    """Yield the columns of a table of impacts or events as variables. `columns` has unit and meaning of each; the first
-    column holds indices, which are written as the `names`.
+    """Yield the columns of a table of impacts or events as variables; `columns` has (unit, meaning) of each by name.
+
+    The first column contains indices of joints or events, which are replaced by the `names`.
     """
     for k, (name, (unit, meaning)) in enumerate(columns.items()):
         yield Variable(
@@ -134,9 +136,9 @@ def _iterate_parameter_variables(run: Result) -> Iterator[Variable]:
     """Yield the columns of the table of run-time parameters: address, value, unit, given value, name of a choice."""
     slots = run.source.slots
     yield Variable(
-        "address", _convert_to_text_array([slot.address for slot in slots]), "", "where the number stands in the file"
+        "address", _convert_to_text_array([slot.address for slot in slots]), "", "address in the mechanism's file"
     )
-    yield Variable("value", run.p[: len(slots)], "", "what the run had, SI")
+    yield Variable("value", run.p[: len(slots)], "", "value in this run, SI")
     yield Variable("unit", _convert_to_text_array([slot.unit for slot in slots]), "", "of the value")
     yield Variable("given", run.given, "", "overridden value, SI")
     yield Variable("is_given", run.is_given.astype(np.int8), "", "1 where it was overridden")
@@ -145,13 +147,11 @@ def _iterate_parameter_variables(run: Result) -> Iterator[Variable]:
             str(format_parameter(slot, float(value))) if slot.words else ""
             for slot, value in zip(slots, run.p, strict=False)
         ]
-        yield Variable(
-            "name", _convert_to_text_array(choice_names), "", "of what was chosen where the value is its place"
-        )
+        yield Variable("name", _convert_to_text_array(choice_names), "", "name of the choice if the value is its index")
 
 
 def _convert_to_text_array(values: list[str]) -> Array:
-    """Return texts as an array of objects."""
+    """Return texts as a NumPy array of dtype object, as h5py needs them."""
     return np.array(values, dtype=object)
 
 
@@ -191,7 +191,7 @@ def build_attributes(run: Result) -> dict[str, str]:
 
 
 def name_variable(name: str) -> str:
-    """Return the name of a series in the file: an output with the name of a group or of the time gets a prefix."""
+    """Return the name of a series in the file; an output named like a group or "time" becomes "output.NAME"."""
     return f"output.{name}" if name in ("time", *PARTS, START, GIVEN_START, COMPILED, PROVENANCE_GROUP) else name
 
 
@@ -232,9 +232,9 @@ def _check_attributes(user_attributes: Any, root: Table) -> dict[str, str]:
     """Return the user's attributes as texts. Raises BadValueError for reserved, long or unprintable names."""
     checked = {}
     for name, value in check_mapping(user_attributes, "attributes", "{name: text}").items():
-        if not 0 < len(name) <= LONGEST or not name.isprintable() or name in root.attributes:
+        if not 0 < len(name) <= MAX_ATTRIBUTE_NAME or not name.isprintable() or name in root.attributes:
             hint = f"expected a name other than {', '.join(root.attributes)}"
-            raise BadValueError(f"attributes: {shorten_value(name)} is no name for one of your own", hint=hint)
+            raise BadValueError(f"attributes: {shorten_value(name)} is not a valid name", hint=hint)
         checked[name] = check_text(value, f"attributes: {name}")
     return checked
 
@@ -266,7 +266,7 @@ def read_result(file: File, source: KernelSource, series_names: tuple[str, ...])
     check_type(diagnostics, Diagnostics, "diagnostics")
     t = file.read_numbers("time")
     if not len(t):
-        raise ValueError("it has no sample")
+        raise ValueError("it has no samples")
     check_times(t)
     stored = {name: _read_series(file, name, len(t)) for name in series_names if _has_series(file, name)}
     p, given, is_given = _read_parameters(file, source)
@@ -291,13 +291,13 @@ def read_result(file: File, source: KernelSource, series_names: tuple[str, ...])
         run.begun = _read_given_start(file, run.final)
     if file.has_entry(STATES):
         run.__dict__["states_at_events"] = read_states_at_events(file, run)
-    _ = run.names, run.parameters, run.constants, run.final  # what these need is there, or it is no result
+    _ = run.names, run.parameters, run.constants, run.final  # raise an error if the file lacks their data
     check_extremes(diagnostics.extremes, run.names)
     return run
 
 
 def check_times(t: Array) -> None:
-    """Raise ValueError unless sample times are finite and ascend."""
+    """Raise ValueError unless sample times are finite and strictly ascending."""
     if not (np.isfinite(t).all() and (np.diff(t) > 0.0).all()):
         raise ValueError("the times of samples do not ascend")
 
@@ -308,7 +308,7 @@ def _check_given_values(source: KernelSource, p: Array, given_values: Array, is_
         source.slots, p.tolist(), given_values.tolist(), is_given.tolist(), strict=False
     ):
         if was_overridden not in (0, 1) or was_overridden and not overriding_value == value:
-            raise ValueError(f"{slot.address} is {value!r}, and was given as {overriding_value!r}")
+            raise ValueError(f"{slot.address} is {value!r}, but was given as {overriding_value!r}")
 
 
 def check_extremes(extremes: tuple[Extremes, ...], names: Container[str]) -> tuple[Extremes, ...]:
@@ -320,7 +320,7 @@ def check_extremes(extremes: tuple[Extremes, ...], names: Container[str]) -> tup
             or series_extremes.against
             and not NAME.fullmatch(series_extremes.against)
         ):
-            raise ValueError(f"peaks of {series_extremes.name[:64]!r} are of no series")
+            raise ValueError(f"peaks of {series_extremes.name[:64]!r}: the scene has no such series")
     return extremes
 
 
@@ -333,22 +333,22 @@ def _check_names_and_units(source: KernelSource) -> None:
     names = [item.name for item in named_items] + [slot.address for slot in source.slots] + [*source.outputs]
     for name in (source.mechanism, source.scene, *names, *choices, *(series.name for series in source.series)):
         if not NAME.fullmatch(name):
-            raise ValueError(f"{name[:64]!r} is no name")
+            raise ValueError(f"{name[:64]!r} is not a valid name")
     if invalid_units := [unit for unit in units if not UNIT.fullmatch(unit)]:
-        raise ValueError(f"{invalid_units[0][:64]!r} is no unit")
+        raise ValueError(f"{invalid_units[0][:64]!r} is not a unit")
 
 
 def _has_series(file: File, name: str) -> bool:
-    """Return whether a series must be in the file; older files lack the drift, which is then not read."""
+    """Return whether a series is to be read: always, except the drift if an older file lacks it."""
     return name not in DRIFT or file.has_entry(name)
 
 
 def _read_series(file: File, name: str, n_samples: int) -> Array:
-    """Return a series of the file, read-only, with `n_samples` values; older files name some outputs otherwise."""
+    """Return a series of the file, read-only, with `n_samples` values; contact states are int8."""
     stored_name = (
         f"output.{name}" if file.is_old and name in OLD_NAMES else name if file.is_old else name_variable(name)
     )
-    # an output that is called like a group that older files have not
+    # the plain name, for an output named like a group that older versions did not write
     stored_name = stored_name if file.has_entry(stored_name) else name
     values = file.read_numbers(stored_name, n_samples, "i1" if name.endswith(".state") else "f8")
     values.flags.writeable = False
@@ -359,10 +359,8 @@ def _read_parameters(file: File, source: KernelSource) -> tuple[Array, Array, Ar
     """Return p, given and is_given of the file, as in Result. Raises ValueError if given values differ."""
     n_parameters, n_derived = len(source.slots), len(source.derived)
     if file.is_old:
-        p, given = (
-            file.read_numbers("parameters.prepared", n_parameters + n_derived),
-            file.read_numbers("parameters.given", n_parameters),
-        )
+        p = file.read_numbers("parameters.prepared", n_parameters + n_derived)
+        given = file.read_numbers("parameters.given", n_parameters)
         is_given = file.read_numbers("parameters.is_given", n_parameters, "i1")
         _check_given_values(source, p, given, is_given)
         return p, given, is_given.astype(bool)
@@ -397,7 +395,7 @@ def _read_records(file: File, kind: str, dtype: np.dtype[Any], names: list[str])
         index: Mapping[str, int] = {name: k for k, name in enumerate(names)}
         owner_indices = np.array([index[name] for name in file.read_texts(f"{kind}s/{owner_column}")], "i4")
     if len(owner_indices) and not (owner_indices.min() >= 0 and owner_indices.max() < len(names)):
-        raise ValueError(f"the {kind}s are of something that the scene does not have")
+        raise ValueError(f"the {kind}s refer to a name that the scene does not have")
     table = np.empty(len(owner_indices), dtype)
     table[owner_column] = owner_indices
     for name in other_columns:
@@ -416,7 +414,7 @@ def _read_envelope(file: File, source: KernelSource) -> Envelope | None:
 
 
 def rebuild_samples(source: KernelSource, stored_series: Mapping[str, Array], n_samples: int) -> dict[str, Any]:
-    """Return the arrays that the integrator stores, rebuilt from `n_samples` samples of their series."""
+    """Return q, v, accelerations, state, memory and work of a Result by name, rebuilt from samples of their series."""
     q, v, a = (_read_motion(source, stored_series, n_samples, order) for order in range(3))
     return {
         "q": q,
@@ -433,7 +431,7 @@ def rebuild_samples(source: KernelSource, stored_series: Mapping[str, Array], n_
 def _read_motion(source: KernelSource, stored_series: Mapping[str, Array], n_samples: int, order: int) -> Array:
     """Return q, q̇ or q̈ (order 0, 1, 2), (N, n), from series of bodies. Raises ValueError for wrong indices."""
     if sorted(body.index for body in source.bodies) != list(range(0, 3 * len(source.bodies), 3)):
-        raise ValueError("the bodies' places in q are not theirs")
+        raise ValueError("the bodies have wrong indices in q")
     values = np.empty((n_samples, 3 * len(source.bodies)))
     for body in source.bodies:
         for axis, names in enumerate(MOTION):
@@ -442,10 +440,10 @@ def _read_motion(source: KernelSource, stored_series: Mapping[str, Array], n_sam
 
 
 def _read_columns(stored_series: Mapping[str, Array], names: list[str], n_samples: int, dtype: Any = float) -> Array:
-    """Return the named series as the columns of an array (N, k); a column is 0 for an empty name."""
+    """Return the named series as the columns of an array (N, k); the column of an empty name is 0."""
     values = np.empty((n_samples, len(names)), dtype)
     for column, name in enumerate(names):
-        values[:, column] = stored_series[name] if name else 0.0  # a place that no law's state has
+        values[:, column] = stored_series[name] if name else 0.0  # an unnamed state
     return values
 
 
@@ -457,7 +455,7 @@ def _read_works(source: KernelSource, stored_series: Mapping[str, Array], n_samp
 
 
 def _list_discrete_state_series(source: KernelSource) -> list[str]:
-    """Return the names of the series that contain the discrete states, in the order of Result.memory."""
+    """Return the names of the series of the discrete states, in the order of Result.memory; "" for unnamed ones."""
     approach_speeds = [f"{joint.name}.deltadot_minus" for joint in source.clearances]
     return [*approach_speeds, *(f"{friction}.mode" for friction in source.frictions), *source.states]
 

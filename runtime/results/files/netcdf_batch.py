@@ -31,15 +31,6 @@ from gudgeon.results.batch import (
 from gudgeon.results.diagnostics import Extremes, convert_extremes_from_json, convert_extremes_to_json
 from gudgeon.results.files import netcdf
 from gudgeon.results.files.hdf5 import Table, Variable
-from gudgeon.results.files.netcdf import (
-    check_extremes,
-    check_times,
-    read_events,
-    read_impacts,
-    read_provenance,
-    read_result,
-    read_source,
-)
 from gudgeon.results.files.untrusted import File, check_type, open_result_file
 from gudgeon.results.peaks import PEAK_DTYPE, build_extreme_columns
 from gudgeon.results.results import Array, Result, make_empty_result
@@ -48,7 +39,7 @@ from gudgeon.results.series import MOTION_UNITS, find_rate_names, get_catalogue
 if TYPE_CHECKING:
     import xarray
 
-FORMATS = ("gudgeon-batch/2", "gudgeon-batch/1")  # what is written, and what was before runs had their own times
+FORMATS = ("gudgeon-batch/2", "gudgeon-batch/1")  # the written format; the former one, with common times of all runs
 RUNS, GIVEN, EXTREMES, NUMBER = "runs", "given", "extremes", "number"
 TIMES, KEPT, OWNER = "times", "kept", "run"
 COUNTS = (*STORED_COUNTS, "seconds")
@@ -94,8 +85,9 @@ def build_batch_tables(batch: Batch) -> Iterator[Table]:
 
 
 def build_long_table(group: str, tables_by_run: list[tuple[int, Table]], attributes: dict[str, str]) -> Table:
-    """Return the same table of several runs as one, whose first column is the number of the run. `tables_by_run` has
-    (run, table) of each run with rows; without any, the result has no variables.
+    """Return the concatenated tables of several runs, whose first column is the number of the run.
+
+    `tables_by_run` has (run, table) of each run with rows; without any, the result has no variables.
     """
     run_numbers = [np.full(table.length, i, np.int32) for i, table in tables_by_run]
     variables = [Variable(OWNER, np.concatenate(run_numbers), "", "number of the run")] if tables_by_run else []
@@ -106,7 +98,7 @@ def build_long_table(group: str, tables_by_run: list[tuple[int, Table]], attribu
 
 
 def name_column(name: str) -> str:
-    """Return the name of a series in a long table, other than the column of runs and the dimension."""
+    """Return the column name of a series in a long table: the name itself, or "output.NAME" for "run" and "row"."""
     return f"output.{name}" if name in (OWNER, "row") else name
 
 
@@ -117,7 +109,7 @@ def _format_stored_name(name: str) -> str:
 
 def build_times_table(batch: Batch) -> Table:
     """Return the table of requested times: (N,) if all runs have the same; else a long table with those of each run."""
-    meaning = "time that was asked for"
+    meaning = "requested output time"
     if batch.t.ndim == 1:
         return Table(TIMES, "time", (Variable("time", batch.t, "s", meaning),), {})
     variables = (
@@ -127,18 +119,13 @@ def build_times_table(batch: Batch) -> Table:
 
 
 def build_stored_series_tables(batch: Batch) -> Iterator[tuple[int, Table]]:
-    """Yield (run, table) of a batch without states for stored series, impacts and events, without empty tables."""
+    """Yield (run, table) for the stored series, impacts and events of a batch without states; no empty tables."""
     source, empty_result = batch.source, make_empty_result(batch.source)
     joints, events = [joint.name for joint in source.clearances], [event.name for event in source.events]
     for i, n_samples in enumerate(batch.samples.tolist()):
         stored_columns = ((name, values[i, :n_samples]) for name, values in batch.kept.items())
         variables = (
-            Variable(
-                _format_stored_name(column),
-                x,
-                empty_result.unit(column),
-                empty_result.meaning(column),
-            )
+            Variable(_format_stored_name(column), x, empty_result.unit(column), empty_result.meaning(column))
             for column, x in stored_columns
         )
         run_tables = (
@@ -154,15 +141,16 @@ def build_stored_series_tables(batch: Batch) -> Iterator[tuple[int, Table]]:
 
 
 def build_batch_dataset(batch: Batch, names: Iterable[str] | str = (), part: str = netcdf.SERIES) -> xarray.Dataset:
-    """Return a batch as an xarray Dataset over run and time, or one of its other tables; see Batch.to_xarray. A text as
-    `names` is the name of such a part. Raises UnknownNameError.
+    """Return a batch as an xarray Dataset over run and time, or the table `part` over rows; see Batch.to_xarray.
+
+    A text as `names` is the name of a part. Raises UnknownNameError.
     """
     names, part = ((), names) if isinstance(names, str) else (names, part)
     xarray = netcdf.import_xarray()
     if check_text(part, "part", "the name of a table") != netcdf.SERIES:
         variables = {
             variable.name: ("row", variable.values, variable.attributes)
-            for variable in _read_table_group(batch, part).variables
+            for variable in _build_table_of_runs(batch, part).variables
         }
         return xarray.Dataset(variables)
     failure_texts = dict((failure.run, str(failure.error)) for failure in batch.failures)
@@ -183,7 +171,10 @@ def build_batch_dataset(batch: Batch, names: Iterable[str] | str = (), part: str
 
 
 def _collect_sample_variables(batch: Batch, names: Iterable[str]) -> dict[str, Any]:
-    """Return (dimensions, values, or attributes too) by name of motion, works, stored series and `names`, (n, N)."""
+    """Return xarray variables (dimensions, values) or (dimensions, values, attributes) by name, of values (n, N).
+
+    They are coordinates, velocities and works of a batch with states, the stored series, and the series `names`.
+    """
     dimensions, variables = ("run", "time"), dict[str, Any]()
     if batch.t.ndim == 2:
         variables["t"] = dimensions, batch.t, {"units": "s"}
@@ -198,8 +189,8 @@ def _collect_sample_variables(batch: Batch, names: Iterable[str]) -> dict[str, A
     }
 
 
-def _read_table_group(batch: Batch, group: str) -> Table:
-    """Return one table of all runs from netcdf.PARTS, with a column of run numbers. Raises UnknownNameError."""
+def _build_table_of_runs(batch: Batch, group: str) -> Table:
+    """Return a table of netcdf.PARTS for all runs, with a column of run numbers. Raises UnknownNameError."""
     if group not in netcdf.PARTS:
         raise UnknownNameError(f"a batch has no part {group!r}", hint=f"there are: series, {', '.join(netcdf.PARTS)}")
     if batch.states is None and group in ("impacts", "events"):
@@ -220,14 +211,14 @@ def _iterate_run_variables(batch: Batch, runs: Mapping[int, Result]) -> Iterator
     errors_by_run = {failure.run: failure.error for failure in batch.failures}
     if batch.states:
         texts = [runs[i].diagnostics.to_json() if i in runs else "" for i in range(len(batch))]
-        yield Variable("diagnostics", np.array(texts, dtype=object), "", "what the run says of itself, JSON")
+        yield Variable("diagnostics", np.array(texts, dtype=object), "", "diagnostics of the run, JSON")
     elif batch.extremes:
         texts = [convert_extremes_to_json(run_extremes) for run_extremes in batch.extremes]
         yield Variable(EXTREMES, np.array(texts, dtype=object), "", "peaks over all steps, JSON")
     texts = [_convert_error_to_json(errors_by_run[i]) if i in errors_by_run else "" for i in range(len(batch))]
-    yield Variable("failure", np.array(texts, dtype=object), "", "why it did not come to its end, JSON")
-    yield Variable("samples", batch.samples.astype(np.int64), "", "output times that were reached")
-    yield Variable("t_last", batch.t_last, "s", "where the run ended")
+    yield Variable("failure", np.array(texts, dtype=object), "", "error of a failed run, JSON")
+    yield Variable("samples", batch.samples.astype(np.int64), "", "number of samples")
+    yield Variable("t_last", batch.t_last, "s", "time at which the run ended")
     for name in COUNTS:
         yield Variable(name, batch.diagnostics[name], "", "see Diagnostics")
     for k, joint in enumerate(batch.source.clearances):
@@ -236,7 +227,7 @@ def _iterate_run_variables(batch: Batch, runs: Mapping[int, Result]) -> Iterator
 
 
 def _convert_error_to_json(error: GudgeonError) -> str:
-    """Return an error as JSON: class, text, time, and the fields of a SingularError."""
+    """Return an error as JSON: class, text, time (NaN if it has none), and the fields of a SingularError."""
     time = repr(float(getattr(error, "time", math.nan)))
     other_fields = {"pivot": getattr(error, "pivot", ""), "outside_model": bool(getattr(error, "outside_model", False))}
     return json.dumps(
@@ -245,11 +236,11 @@ def _convert_error_to_json(error: GudgeonError) -> str:
 
 
 def _read_error_json(text: str, partial_result: Result | None) -> GudgeonError:
-    """Return the error from its JSON, with the partial result. Raises ValueError for an unknown class."""
+    """Return the error from the JSON of `_convert_error_to_json`, with the partial result. Raises ValueError."""
     data = json.loads(text)
     cls = getattr(errors, str(data["kind"]), None)
     if not (isinstance(cls, type) and issubclass(cls, GudgeonError)):
-        raise ValueError(f"there is no error {data['kind']!r}")
+        raise ValueError(f"unknown class of an error: {data['kind']!r}")
     error = cls.__new__(cls, str(data["text"]))
     error.__dict__ |= {"time": float(data["time"]), "pivot": str(data["pivot"]), "partial": partial_result}
     error.__dict__ |= {"outside_model": bool(data["outside_model"]), "message": str(data["text"]), "where": None}
@@ -262,7 +253,7 @@ def load(path: str | os.PathLike[str]) -> Batch:
 
 
 class _RunRows(File):
-    """The rows of one run in the long tables, with the interface of a single run's file."""
+    """Adapter that reads the rows of one run in the long tables through the interface of a single run's file."""
 
     def __init__(self, long_tables: LongTables, run: int) -> None:
         """Store the file of the batch and the number of the run."""
@@ -274,7 +265,7 @@ class _RunRows(File):
         return tables.count_rows(group, self.run) > 0 or tables.file.has_entry(f"{netcdf.SERIES}/{group}")
 
     def read_text_attribute(self, key: str, group: str = "") -> str:
-        """Return the diagnostics of the run, JSON."""
+        """Return the diagnostics of the run, JSON; `key` and `group` are not used."""
         return self.long_tables.diagnostics[self.run]
 
     def read_numbers(self, name: str, length: int | None = None, dtype: str = "f8") -> Array:
@@ -311,16 +302,16 @@ class LongTables:
             if len(run_numbers) and (
                 run_numbers[0] < 0 or run_numbers[-1] >= n_runs or (np.diff(run_numbers) < 0).any()
             ):
-                raise ValueError(f"the rows of {group} are of no run")
+                raise ValueError(f"the rows of {group} have invalid run numbers")
             self.begins[group] = np.searchsorted(run_numbers, np.arange(n_runs + 1))
 
     def count_rows(self, group: str, run: int) -> int:
-        """Return the number of rows of a run in a group."""
+        """Return the number of rows of a run in a group; 0 for an unknown group."""
         begins = self.begins.get(group, np.zeros(run + 2, np.int64))
         return int(begins[run + 1] - begins[run])
 
     def find_rows(self, name: str, run: int) -> slice:
-        """Return the rows of a run in the table of a column."""
+        """Return the rows of a run in the table of a column ("group/name", or the name of a series)."""
         begins = self.begins[name.rpartition("/")[0] or netcdf.SERIES]
         return slice(int(begins[run]), int(begins[run + 1]))
 
@@ -359,15 +350,13 @@ class _StoredResults:
 def _read_batch(opened_file: Any, size: int) -> Batch:
     """Return the batch of an open HDF5 file of `size` bytes. Raises ValueError, TypeError or KeyError if invalid."""
     file = File(opened_file, size, FORMATS)
-    source, count = read_source(file), len(file.read_numbers(OWNER, None, "i8"))
+    source, count = netcdf.read_source(file), len(file.read_numbers(OWNER, None, "i8"))
     batch_values = json.loads(file.read_text_attribute("batch"))
     stored_names = batch_values.get("kept")
     series_names, long_tables = tuple(get_catalogue(source)), LongTables(file, count, stored_names is None)
     begun_runs = [i for i in range(count) if long_tables.diagnostics[i]]
-    runs, provenance = (
-        {i: read_result(_RunRows(long_tables, i), source, series_names) for i in begun_runs},
-        read_provenance(file),
-    )
+    runs = {i: netcdf.read_result(_RunRows(long_tables, i), source, series_names) for i in begun_runs}
+    provenance = netcdf.read_provenance(file)
     for run in runs.values():
         run.provenance = provenance
     failure_texts = file.read_texts(f"{RUNS}/failure", count)
@@ -376,10 +365,8 @@ def _read_batch(opened_file: Any, size: int) -> Batch:
         raise ValueError(f"run {missing_runs[0]} has neither a result nor a failure")
     t = read_times(long_tables, count, bool(batch_values.get("own_times")))
     counts = {name: file.read_integers_or_floats(f"{RUNS}/{name}", count) for name in COUNTS}
-    run_files, samples = (
-        [_RunRows(long_tables, i) for i in range(count)],
-        file.read_numbers(f"{RUNS}/samples", count, "i8"),
-    )
+    run_files = [_RunRows(long_tables, i) for i in range(count)]
+    samples = file.read_numbers(f"{RUNS}/samples", count, "i8")
     padded = [_pad_samples(runs, name, count, t.shape[-1], source) for name in ("q", "v", "work", "state")]
     return Batch(
         source=source,
@@ -391,8 +378,8 @@ def _read_batch(opened_file: Any, size: int) -> Batch:
         else read_stored_series(long_tables, stored_names, series_names, samples, t.shape[-1]),
         t_last=file.read_numbers(f"{RUNS}/t_last", count),
         parameters=_read_parameters(file, source, count, runs),
-        impacts=tuple(read_impacts(run, source) for run in run_files),
-        events=tuple(read_events(run, source) for run in run_files),
+        impacts=tuple(netcdf.read_impacts(run, source) for run in run_files),
+        events=tuple(netcdf.read_events(run, source) for run in run_files),
         peaks=_read_peaks(file, source, count),
         diagnostics=counts,
         failures=make_failures(errors_by_run),
@@ -408,15 +395,15 @@ def read_times(long_tables: LongTables, n_runs: int, has_times_by_run: bool) -> 
     """Return the requested times: (N,), or (n, N) padded with NaN where each run has its own. Raises ValueError."""
     t = long_tables.file.read_numbers(f"{TIMES}/time")
     if not has_times_by_run:
-        check_times(t)
+        netcdf.check_times(t)
         return t
     for i in range(n_runs):
-        check_times(t[long_tables.begins[TIMES][i] : long_tables.begins[TIMES][i + 1]])
+        netcdf.check_times(t[long_tables.begins[TIMES][i] : long_tables.begins[TIMES][i + 1]])
     return _unroll_column(long_tables, TIMES, t, n_runs, max(long_tables.count_rows(TIMES, i) for i in range(n_runs)))
 
 
 def _unroll_column(long_tables: LongTables, group: str, column: Array, n_runs: int, n_columns: int) -> Array:
-    """Return a column of a long table as (n, N), NaN where a run has no row. Raises ValueError for a wrong length."""
+    """Return a column of a long table as (n, N), a row for each run padded with NaN. Raises ValueError."""
     values = np.full((n_runs, n_columns), np.nan)
     if len(column) != long_tables.begins[group][-1]:
         raise ValueError(f"{group} has {len(column)} values, expected {long_tables.begins[group][-1]}")
@@ -434,7 +421,7 @@ def read_stored_series(
         isinstance(stored_names, list) and "t" in stored_names and all(name in ("t", *names) for name in stored_names)
     )
     if not is_valid or [long_tables.count_rows(KEPT, i) for i in range(len(samples))] != samples.tolist():
-        raise ValueError("the series that were kept are not those of its runs")
+        raise ValueError("the stored series do not match its runs")
     series_by_name = {}
     for name in stored_names:
         dataset_name = f"{KEPT}/{name_column(_format_stored_name(name))}"
@@ -444,8 +431,9 @@ def read_stored_series(
 
 
 def _read_extremes(file: File, source: KernelSource, n_runs: int, runs: Mapping[int, Result] | None) -> Any:
-    """Return the peaks over all steps of each run, a tuple a run; () if the file has none. They are those of the
-    diagnostics of `runs`, or with None those of the table `runs` of the file.
+    """Return the peaks over all steps as a tuple of Extremes for each run; () if the file has none.
+
+    They are read from the diagnostics of `runs`, or if `runs` is None from the table `runs` of the file.
     """
     if runs is not None:
         return tuple(runs[i].diagnostics.extremes if i in runs else () for i in range(n_runs))
@@ -453,7 +441,7 @@ def _read_extremes(file: File, source: KernelSource, n_runs: int, runs: Mapping[
         return ()
     extremes = tuple(map(convert_extremes_from_json, file.read_texts(f"{RUNS}/{EXTREMES}", n_runs)))
     check_type(extremes, tuple[tuple[Extremes, ...], ...], EXTREMES)
-    return tuple(check_extremes(run_extremes, get_catalogue(source)) for run_extremes in extremes)
+    return tuple(netcdf.check_extremes(run_extremes, get_catalogue(source)) for run_extremes in extremes)
 
 
 def _pad_samples(runs: Mapping[int, Result], name: str, n_runs: int, n_samples: int, source: KernelSource) -> Array:
@@ -468,12 +456,15 @@ def _pad_samples(runs: Mapping[int, Result], name: str, n_runs: int, n_samples: 
 
 
 def _read_parameters(file: File, source: KernelSource, n_runs: int, runs: Mapping[int, Result]) -> dict[str, Array]:
-    """Return the given parameters of the runs, (n,) each, by address. Raises ValueError for invalid ones."""
+    """Return the given parameters of the runs, (n,) each, by address.
+
+    Raises ValueError for an unknown parameter or choice, and for a value other than that in the run's result.
+    """
     if not file.has_entry(GIVEN):
         return {}
     given_slots = {slot.address: slot for slot in source.slots if file.has_entry(f"{GIVEN}/{slot.address}")}
     if unknown_names := sorted({*file.list_names(GIVEN)} - {*given_slots, NUMBER}):
-        raise ValueError(f"{unknown_names[0][:64]!r} was given, and is no number of its scene")
+        raise ValueError(f"{unknown_names[0][:64]!r} was given, but its scene has no such parameter")
     given = {
         address: np.array(file.read_texts(f"{GIVEN}/{address}", n_runs), dtype=object)
         if slot.words
@@ -483,10 +474,10 @@ def _read_parameters(file: File, source: KernelSource, n_runs: int, runs: Mappin
     for address, values in given.items():
         for i, value in enumerate(values.tolist()):
             if given_slots[address].words and value not in given_slots[address].words:
-                raise ValueError(f"run {i}: {address} is {value[:64]!r}, which is no choice")
+                raise ValueError(f"run {i}: {address} is {value[:64]!r}, which is not a choice")
             if i in runs and value != runs[i].parameters[address]:
                 actual = runs[i].parameters[address]
-                raise ValueError(f"run {i}: {address} is {actual!r}, and was given as {value!r}")
+                raise ValueError(f"run {i}: {address} is {actual!r}, but was given as {value!r}")
     return given
 
 

@@ -1,4 +1,4 @@
-"""Read arrays and texts of NetCDF files from untrusted sources; a file that is not valid raises InputError.
+"""Read and validate arrays and texts of NetCDF files from untrusted sources; an invalid file raises InputError.
 
 The checksum, types, lengths and names are checked before data is read. Links to other files are not followed, and no
 more is read than the size of the file allows. `check_type` checks the types of objects from JSON.
@@ -23,16 +23,16 @@ from gudgeon.results.files.hdf5 import is_damaged
 from gudgeon.results.state import Array
 
 OLD_FORMAT = "gudgeon-result/1"  # impacts, events, parameters at the root, over other dimensions
-DEFLATE = 1100  # no filter of HDF5's own makes data this many times smaller
+MAX_COMPRESSION = 1100  # compression ratio that no built-in filter of HDF5 exceeds
 LOADERS = {
     "gudgeon-result": ("a single run", "gudgeon.Result.load"),
     "gudgeon-batch": ("a batch of runs", "gudgeon.Batch.load"),
 }
-Made = TypeVar("Made")
-AGAIN = "it is no result of gudgeon, or was damaged or cut short; run the scene again"
+Content = TypeVar("Content")
+DAMAGED_HINT = "the file is not a result of gudgeon, or is damaged or truncated; run the scene again"
 
 
-def open_result_file(path: str | os.PathLike[str], read_content: Callable[[Any, int], Made]) -> Made:
+def open_result_file(path: str | os.PathLike[str], read_content: Callable[[Any, int], Content]) -> Content:
     """Return `read_content(file, size)` for an open HDF5 file and its size in bytes.
 
     Raises InputError for every fault of the file, also for what `read_content` raises; GudgeonError without h5py.
@@ -49,14 +49,14 @@ def open_result_file(path: str | os.PathLike[str], read_content: Callable[[Any, 
     check_regular_file(status, path_text)
     try:
         if is_damaged(path):
-            raise InputError(f"{path_text} is not as it was written: it was damaged", hint="run the scene again")
+            raise InputError(f"{path_text} is damaged: its checksum does not match", hint="run the scene again")
         with h5py.File(path, "r") as file:
             return read_content(file, status.st_size)
     except InputError:
         raise
-    except Exception as error:  # whatever HDF5, JSON or NumPy make of what should not be
+    except Exception as error:  # any error of HDF5, JSON or NumPy for invalid contents
         message = str(error).partition("\n")[0][:200] or type(error).__name__
-        raise InputError(f"{path_text} cannot be read as a result: {message}", hint=AGAIN) from error
+        raise InputError(f"{path_text} cannot be read as a result: {message}", hint=DAMAGED_HINT) from error
 
 
 class File:
@@ -73,7 +73,8 @@ class File:
         if format_name in LOADERS and not formats[0].startswith(f"{format_name}/"):
             content, loader = LOADERS[format_name]
             raise InputError(
-                f"{escape_line_breaks(file.filename)} holds {content} ({stored_format})", hint=f"read it with {loader}"
+                f"{escape_line_breaks(file.filename)} contains {content} ({stored_format})",
+                hint=f"read it with {loader}",
             )
         if stored_format not in formats:
             raise ValueError(f"expected the attribute gudgeon = {formats[0]!r}, found {stored_format!r}")
@@ -96,7 +97,7 @@ class File:
         if isinstance(value, bytes):
             value = value.decode()
         if not isinstance(value, str):
-            raise ValueError(f"the attribute {key!r} is no text")
+            raise ValueError(f"the attribute {key!r} is not a text")
         return str(value)
 
     def read_numbers(self, name: str, length: int | None = None, dtype: str = "f8") -> Array:
@@ -127,10 +128,10 @@ class File:
         return [str(text) for text in item.asstr()[...]]
 
     def _get_dataset(self, name: str, length: int | None) -> Any:
-        """Return a one-dimensional dataset whose data is in this file and no larger than the file allows.
+        """Return a one-dimensional dataset after checks of its length, storage and size; raise ValueError otherwise.
 
-        Its size is subtracted from what remains of the file. Raises ValueError otherwise. `length` None allows any
-        length.
+        Its data must be in this file. Its uncompressed size, over MAX_COMPRESSION if compressed, is subtracted from the
+        bytes of the file that remain, which must not become negative. `length` None allows any length.
         """
         import h5py
         from h5py import h5d
@@ -138,30 +139,30 @@ class File:
         group, _, entry_name = name.rpartition("/")
         item = _get_hard_linked_entry(self._get_group(group) if group else self._file, entry_name)
         if not isinstance(item, h5py.Dataset) or len(item.shape or ()) != 1:
-            raise ValueError(f"{name} is no variable over one dimension")
+            raise ValueError(f"{name} is not a one-dimensional variable")
         if length is not None and item.shape[0] != length:
             raise ValueError(f"{name} has {item.shape[0]} values, expected {length}")
         creation_properties, n_bytes = item.id.get_create_plist(), item.shape[0] * item.dtype.itemsize
         if creation_properties.get_layout() == h5d.VIRTUAL or creation_properties.get_external_count():
             raise ValueError(f"{name} is in another file")
-        compression_limit = DEFLATE if creation_properties.get_nfilters() else 1
+        compression_limit = MAX_COMPRESSION if creation_properties.get_nfilters() else 1
         self._left -= n_bytes / compression_limit
         if self._left < 0 or item.id.get_storage_size() * compression_limit < n_bytes:
-            raise ValueError(f"{name} has more values than the file has room for")
+            raise ValueError(f"{name} has more values than fit in the file")
         return item
 
     def _get_group(self, name: str) -> Any:
-        """Return a group. Raises ValueError if there is none."""
+        """Return a group. Raises ValueError if there is none, or if it is a link or a dataset."""
         import h5py
 
         item = _get_hard_linked_entry(self._file, name)
         if not isinstance(item, h5py.Group):
-            raise ValueError(f"{name} is no group")
+            raise ValueError(f"{name} is not a group")
         return item
 
 
 def _get_hard_linked_entry(group: Any, name: str) -> Any:
-    """Return the entry of a group that is stored in the file itself; a link or a missing entry raises ValueError."""
+    """Return an entry of a group; raise ValueError for a missing entry, and for a soft or external link."""
     import h5py
 
     if not isinstance(group.get(name, getlink=True), h5py.HardLink):
@@ -216,7 +217,10 @@ def _check_tuple(value: Any, item_types: tuple[Any, ...], location: str) -> None
 
 
 def _check_instance(value: Any, expected_class: Any, location: str) -> None:
-    """Raise TypeError unless a value is an instance of a class or None for None; a bool does not count as a number."""
+    """Raise TypeError unless a value is an instance of a class; `expected_class` None expects None.
+
+    A bool does not count as a number.
+    """
     is_unexpected_bool = isinstance(value, bool) and expected_class is not bool
     if is_unexpected_bool or not isinstance(value, NoneType if expected_class is None else expected_class):
         raise TypeError(f"{location} is {type(value).__name__}, expected {expected_class}")

@@ -23,11 +23,11 @@ from gudgeon.results.series import MOTION_UNITS, find_rate_names, find_rigid_gui
 if TYPE_CHECKING:
     from rich.table import Table
 
-ROUNDING_TOL, ZERO = 1e-9, "≈ 0"  # a value below this fraction of the run's largest of its unit is shown as ≈ 0
-COLUMNS = 4  # scenes in one table
-# of a joint with play: name -> (unit that a table can scale, what it is); the rest is in --json
+ROUNDING_TOL, ZERO_CELL = 1e-9, "≈ 0"  # fraction of the run's largest value of the unit below which a cell is "≈ 0"
+MAX_SCENE_COLUMNS = 4  # scenes in one table
+# of a joint with play: name -> (unit that a table can scale, row label); other constants are in --json only
 CONSTANTS = {"c": ("m", "clearance c"), "K": ("", "contact stiffness K [N/mⁿ]"), "S": ("N*s", "film factor S")}
-AUDIT_SHOWN = 1e-3  # limits, from which on a check of the audit has a row of its own
+MIN_SHOWN_AUDIT = 1e-3  # value, as a multiple of the limit, from which on a check of the audit has its own row
 NEED_A_LEGEND = ("δ̇/δ̇⁻ during contact", "steps with it outside ±1", CONSTANTS["K"][1], CONSTANTS["S"][1])
 
 
@@ -44,15 +44,16 @@ class SceneReport:
     events: Mapping[str, tuple[float, ...]] = field(default_factory=dict)  # event -> its times
     drives: tuple[Extreme, ...] = ()  # torques and forces of the drives
     guides: tuple[Extreme, ...] = ()  # force and moment of those with play; of an ideal scene of all
-    constrained: bool = True  # whether rows are left that could open
-    scales: Mapping[str, float] = field(default_factory=dict)  # unit -> how large such numbers are in this run
+    constrained: bool = True  # whether constraint equations remain that can be violated
+    scales: Mapping[str, float] = field(default_factory=dict)  # unit -> largest magnitude in this run
 
 
 def compute_scene_report(run: Result, reference: Result | None, watch: Sequence[str]) -> SceneReport:
-    """Return the main values of one run for tables and JSON.
+    """Return the main values of one run for tables and JSON: extremes of series, errors, peak forces, events.
 
     `reference` is the ideal run at the same times, None for the ideal run itself; `watch` are names of series, which
-    are shown with their rates. Names that the run lacks are left out.
+    are shown with their rates. Names that the run lacks are left out. Without play, forces are of all ideal joints;
+    without masses there are none.
     """
     watched_and_rates = dict.fromkeys(
         name for position_name in watch for name in (position_name, *find_rate_names(position_name)) if name
@@ -94,9 +95,10 @@ def compute_scene_report(run: Result, reference: Result | None, watch: Sequence[
 def _find_largest_magnitudes(
     run: Result, forces: Mapping[str, tuple[float, float]], drives_and_guides: Sequence[Extreme]
 ) -> dict[str, float]:
-    """Return the largest magnitude in a run by unit, with which rounding errors are compared.
+    """Return the largest magnitude in a run by unit: of forces, drives and all of q, v and a.
 
-    The entry of an angle is at least that of the length divided by the largest length.
+    It is the scale of rounding errors. The entry of rad, rad/s, rad/s^2 is at least that of m, m/s, m/s^2 divided by
+    the largest length.
     """
     largest: dict[str, float] = {}
     magnitudes = [("N", force) for force, _ in forces.values()] + [
@@ -111,7 +113,7 @@ def _find_largest_magnitudes(
             largest[unit] = max(magnitude, largest.get(unit, 0.0))
     for length_unit, angle_unit in zip(
         *MOTION_UNITS[::2], strict=True
-    ):  # where nothing turns: what turned as far would
+    ):  # the scale of angles in a motion without rotation
         if max_length := largest.get("m", 0.0):
             largest[angle_unit] = max(largest.get(angle_unit, 0.0), largest.get(length_unit, 0.0) / max_length)
     return largest
@@ -144,7 +146,7 @@ def convert_to_json_values(reports: Sequence[SceneReport]) -> dict[str, Any]:
 
 
 def replace_non_finite_numbers(value: Any) -> Any:
-    """Return a value with NaN and infinity, which JSON lacks, replaced by None at any depth of lists and dicts.
+    """Return a copy of a value with NaN and infinity, which JSON lacks, replaced by None at any depth.
 
     Tuples become lists, NumPy scalars Python numbers.
     """
@@ -158,10 +160,10 @@ def replace_non_finite_numbers(value: Any) -> Any:
 
 
 def build_tables(title: str, reports: Sequence[SceneReport], width: int, verbose: bool = False) -> list[Table]:
-    """Return tables with a column for each scene and a row for each quantity.
+    """Return rich tables for a terminal, with a column for each scene and a row for each quantity.
 
-    Each table has as many columns as fit `width` characters, at most COLUMNS, at least one. `verbose` adds the rows of
-    NEED_A_LEGEND. Only the first table has the title.
+    Each table has as many columns as fit `width` characters, at least one and at most MAX_SCENE_COLUMNS. `verbose` adds
+    the rows of NEED_A_LEGEND. Only the first table has the title.
     """
     from rich.measure import Measurement
 
@@ -170,7 +172,7 @@ def build_tables(title: str, reports: Sequence[SceneReport], width: int, verbose
     wide_console = make_plain_console(10_000)
     rows = [row for row in _build_rows(reports) if verbose or not row[0].endswith(NEED_A_LEGEND)]
     table_list: list[Table] = []
-    for n_columns in range(min(COLUMNS, len(reports)), 0, -1):
+    for n_columns in range(min(MAX_SCENE_COLUMNS, len(reports)), 0, -1):
         column_ranges = [slice(first, first + n_columns) for first in range(0, len(reports), n_columns)]
         table_list = [_build_table("" if columns.start else title, reports, rows, columns) for columns in column_ranges]
         if all(Measurement.get(wide_console, wide_console.options, table).maximum <= width for table in table_list):
@@ -223,7 +225,7 @@ def _build_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
         ("Peak of drives, of samples", _format_peak_rows(reports, [report.drives for report in reports])),
         ("Joints with play", _format_play_rows(reports)),
         ("Events", _format_event_rows(reports)),
-        ("Trust", _format_accuracy_rows(reports)),
+        ("Accuracy", _format_accuracy_rows(reports)),
         ("Cost", _format_cost_rows(reports)),
     ):
         filled_rows = [(name, cells) for name, cells in section_rows if any(cell not in ("", "–") for cell in cells)]
@@ -237,14 +239,14 @@ def _format_peak_cell(value: float, unit: str, t: float, max_magnitudes: Mapping
     `max_magnitudes` has the largest magnitude of the run by unit.
     """
     if math.isfinite(t) and _is_rounding_error(abs(value), unit, max_magnitudes):
-        return ZERO
+        return ZERO_CELL
     factor, unit_text = choose_plot_unit(value, unit)
     time_text = format_quantity(t, "s") if 0.0 < abs(t) < 1e-3 else f"{t:.4f} s"
     return f"{value * factor + 0.0:.4g} {unit_text}".strip() + f" at {time_text}" if math.isfinite(t) else "–"
 
 
 def _is_rounding_error(magnitude: float, unit: str, max_magnitudes: Mapping[str, float]) -> bool:
-    """Return whether a value is no larger than rounding errors."""
+    """Return whether a magnitude is rounding error: not 0, but below ROUNDING_TOL times the largest of its unit."""
     return 0.0 < magnitude < ROUNDING_TOL * max_magnitudes.get(unit, 0.0)
 
 
@@ -259,7 +261,7 @@ def _format_error_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[s
 
 
 def _format_motion_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
-    """Return the rows (series, one cell a scene) of smallest and largest value of the watched series at the samples."""
+    """Return the rows (series, one cell a scene) of the ranges of the watched series and their rates at the samples."""
     cells_by_scene = [
         {extreme.name: _format_range_cell(extreme, report.scales) for extreme in report.motion} for report in reports
     ]
@@ -270,7 +272,7 @@ def _format_motion_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[
 def _format_extreme_rows(reports: Sequence[SceneReport], is_error: bool) -> list[tuple[str, list[str]]]:
     """Return the rows of peaks over all steps of the series in `peaks:` of a scene.
 
-    With `is_error` they are those of the errors against another scene.
+    With `is_error` they are peaks of the errors against another scene; other series have rows for max and min.
     """
     formatters = [partial(_format_peak_cell, max_magnitudes=report.scales) for report in reports]
     return build_extreme_rows([report.diagnostics.extremes for report in reports], formatters, is_error)
@@ -279,7 +281,7 @@ def _format_extreme_rows(reports: Sequence[SceneReport], is_error: bool) -> list
 def _format_range_cell(extreme: Extreme, max_magnitudes: Mapping[str, float]) -> str:
     """Return the smallest and largest value of a series as a cell; "≈ 0" if both are rounding errors."""
     if _is_rounding_error(magnitude := max(abs(extreme.low), abs(extreme.high)), extreme.unit, max_magnitudes):
-        return ZERO
+        return ZERO_CELL
     factor, unit_text = choose_plot_unit(magnitude, extreme.unit)
     low, high = (
         0.0 if _is_rounding_error(abs(value), extreme.unit, max_magnitudes) else value * factor
@@ -327,7 +329,7 @@ def _format_guide_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[s
 def _format_peak_rows(
     reports: Sequence[SceneReport], peaks: Sequence[tuple[Extreme, ...]]
 ) -> list[tuple[str, list[str]]]:
-    """Return the rows of peaks at the samples of each scene, without series whose peaks over all steps are known.
+    """Return the rows of peaks at the samples, one cell a scene, without series whose peaks over all steps are known.
 
     `peaks` has the extremes of the series of each scene, in the order of `reports`.
     """
@@ -337,7 +339,7 @@ def _format_peak_rows(
     ]
     names_over_all_steps = {
         extremes.name for report in reports for extremes in report.diagnostics.extremes
-    }  # over all steps, which is more
+    }  # these have a row with the peaks over all steps
     names = dict.fromkeys(
         peak.name for scene_peaks in peaks for peak in scene_peaks if peak.name not in names_over_all_steps
     )
@@ -395,7 +397,7 @@ def _format_accuracy_rows(reports: Sequence[SceneReport]) -> list[tuple[str, lis
         (
             "max |Φ|",
             [
-                f"{scene_report.diagnostics.phi_max:.2e}" if scene_report.constrained else "no row is left"
+                f"{scene_report.diagnostics.phi_max:.2e}" if scene_report.constrained else "no constraints"
                 for scene_report in reports
             ],
         ),
@@ -407,8 +409,8 @@ def _format_accuracy_rows(reports: Sequence[SceneReport]) -> list[tuple[str, lis
             ],
         ),
         ("energy residual", [format_quantity(run.energy_residual, "J", 3) for run in diagnostics]),
-        ("energy turned over", [format_quantity(run.energy_turned_over, "J", 3) for run in diagnostics]),
-        ("trusted until", [_format_horizon_cell(run.horizon) for run in diagnostics]),
+        ("energy throughput", [format_quantity(run.energy_turned_over, "J", 3) for run in diagnostics]),
+        ("predictable until", [_format_horizon_cell(run.horizon) for run in diagnostics]),
         (
             "contacts that began",
             [str(run.onsets) if has_contacts else "–" for run, has_contacts in zip(diagnostics, has_play, strict=True)],
@@ -423,13 +425,19 @@ def _format_accuracy_rows(reports: Sequence[SceneReport]) -> list[tuple[str, lis
 
 
 def _format_audit_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
-    """Return a row with the largest value of the audit, in limits, and one for each check that is above rounding."""
+    """Return the row of the largest value of the audit, as a multiple of its limit, then rows of single checks.
+
+    A check has a row if its value is MIN_SHOWN_AUDIT or more in any scene. "–": without audit.
+    """
     worst_by_scene = [
         {worst_by_check.check: worst_by_check.worst for worst_by_check in report.diagnostics.audit}
         for report in reports
     ]
     checks = dict.fromkeys(
-        check for worst_by_check in worst_by_scene for check, worst in worst_by_check.items() if worst >= AUDIT_SHOWN
+        check
+        for worst_by_check in worst_by_scene
+        for check, worst in worst_by_check.items()
+        if worst >= MIN_SHOWN_AUDIT
     )
     max_values = [max(worst_by_check.values(), default=math.nan) for worst_by_check in worst_by_scene]
     return [
@@ -448,7 +456,7 @@ def _format_audit_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[s
 
 
 def _format_horizon_cell(horizon: float) -> str:
-    """Return the predictability horizon as a cell; NaN: not requested. See predictability.py."""
+    """Return the predictability horizon (s) as a cell: "to the end" for infinity, "–" for NaN (not requested)."""
     return "to the end" if horizon == math.inf else format_quantity(horizon, "s", 3)
 
 

@@ -11,7 +11,7 @@ from html import escape
 from gudgeon.language.text_output import escape_invisible, format_one_line
 
 Section = tuple[str, str]  # heading, text; what is under it, HTML
-_PLACE = "chapter-"  # of a heading to which a link goes
+_HEADING_ID = "chapter-"  # of a heading to which a link goes
 
 STYLE = """
 .g-report { --ink: #1c1c1e; --paper: #fff; --quiet: #62656a; --line: #d9dce0; --panel: #f5f6f7; --accent: #0067a8;
@@ -75,7 +75,7 @@ def build_page(title: str, description: str, sections: Iterable[Section], chapte
         name for name in dict.fromkeys(chapters) if any(name == section_name for section_name, _ in filled_sections)
     ]
     links = "".join(
-        f'<li><a href="#{_PLACE}{k}">{escape(escape_invisible(name))}</a></li>'
+        f'<li><a href="#{_HEADING_ID}{k}">{escape(escape_invisible(name))}</a></li>'
         for k, name in enumerate(linked_headings)
     )
     table_of_contents = f"<nav class='g-contents'><ul>{links}</ul></nav>" if links else ""
@@ -90,7 +90,7 @@ def build_article(sections: Iterable[Section], head: str = "", linked_headings: 
 
     `head` is HTML above the sections, `linked_headings` the headings that get an id for links.
     """
-    id_attributes = {name: f' id="{_PLACE}{k}"' for k, name in enumerate(linked_headings)}
+    id_attributes = {name: f' id="{_HEADING_ID}{k}"' for k, name in enumerate(linked_headings)}
     section_elements = [
         f"<section{id_attributes.pop(name, '')}><h2>{escape(escape_invisible(name))}</h2>{content}</section>"
         for name, content in sections

@@ -13,12 +13,12 @@ from gudgeon.language.plot_units import format_quantity
 from gudgeon.language.text_output import escape_invisible, format_one_line
 from gudgeon.results.figures import joint_curves
 from gudgeon.results.reports.html_page import Section, build_page, build_paragraphs, build_table
-from gudgeon.results.reports.run_report import NOT_ASKED
+from gudgeon.results.reports.run_report import NOT_REQUESTED
 
 if TYPE_CHECKING:
     from gudgeon.results.results import Result
 
-SIDE, MAX_POINTS = 260, 6000  # pixels of an orbit, its points
+ORBIT_SIZE, MAX_POINTS = 260, 6000  # width of an orbit's figure in pixels, points of its path
 Rows = list[tuple[str, str]]
 
 
@@ -107,8 +107,8 @@ def _describe_run(report: Mapping[str, Any]) -> str:
 def build_joint_rows(joint: Mapping[str, Any], has_examination: bool) -> Rows:
     """Return the rows (name, cell) of a joint with play, or of a slider's corner.
 
-    `has_examination` is whether additional runs were requested: otherwise rows that need them say how to request them.
-    Quantities without a value have no row.
+    `joint` has the values of `run_report._compute_joint_values`. `has_examination`: additional runs were requested;
+    without them, the rows that need them contain NOT_REQUESTED. Quantities without a value have no row.
     """
     time_fractions = ((name, joint["time"][name]) for name in ("free", "impacting", "contact", "film"))
     time_text = ", ".join(
@@ -116,7 +116,7 @@ def build_joint_rows(joint: Mapping[str, Any], has_examination: bool) -> Rows:
     )
     rows = [
         ("gap c" if joint["corner"] else "clearance c", format_quantity(joint["c"], "m")),
-        ("share of the time", time_text),
+        ("fraction of the time", time_text),
     ]
     closed_text = f", {joint['still_closed']} to the end" if joint["still_closed"] else ""
     rows.append(("contacts", f"{joint['contacts']}{closed_text}"))
@@ -124,14 +124,15 @@ def build_joint_rows(joint: Mapping[str, Any], has_examination: bool) -> Rows:
         rows.append(("stiffness K of its law", f"{stiffness['K']:.4g} {stiffness['unit']}"))
     if joint["asked"] is not None:
         free_restitution = joint["free_impact"]
-        text = "" if free_restitution is None else f", of which a free impact delivers {free_restitution:.5g}"
-        rows.append(("restitution asked for", f"{joint['asked']:g}{text}"))
+        text = "" if free_restitution is None else f", delivered in a free impact {free_restitution:.5g}"
+        rows.append(("restitution requested", f"{joint['asked']:g}{text}"))
     if joint["approach"]:
-        rows.append(("approach, least … median … largest", _format_range_cell(joint["approach"], "m/s")))
+        rows.append(("approach, min … median … max", _format_range_cell(joint["approach"], "m/s")))
         restitution = joint["restitution"]
         is_known = restitution is not None and math.isfinite(restitution["median"])
-        reason = "no contact that met at a rate ended" if restitution is not None else NOT_ASKED
-        rows.append(("restitution delivered, the same", _format_range_cell(restitution, "") if is_known else reason))
+        reason = "no contact with an approach speed ended" if restitution is not None else NOT_REQUESTED
+        cell = _format_range_cell(restitution, "") if is_known else reason
+        rows.append(("restitution, min … median … max", cell))
     rows.append(
         ("peak force", f"{format_quantity(joint['peak']['F'], 'N')} at {format_quantity(joint['peak']['t'], 's')}")
     )
@@ -139,9 +140,9 @@ def build_joint_rows(joint: Mapping[str, Any], has_examination: bool) -> Rows:
     rows += [] if joint["corner"] else _format_ideal_rows(joint, has_examination)  # of a guide the sum has one
     if math.isfinite(joint["penetration"]):
         text = f"{format_quantity(joint['penetration'], 'm')}, {joint['penetration_share']:.3g} c"
-        rows.append(("deepest penetration", text if joint["penetration"] else "none"))
+        rows.append(("largest penetration", text if joint["penetration"] else "none"))
     if math.isfinite(joint["film_least"]):
-        rows.append(("least film thickness", format_quantity(joint["film_least"], "m")))
+        rows.append(("smallest film thickness", format_quantity(joint["film_least"], "m")))
     return rows + _format_work_rows(joint["work"], has_examination)
 
 
@@ -166,12 +167,12 @@ def build_guide_rows(guide: Mapping[str, Any], has_examination: bool) -> Rows:
 
 
 def _format_ideal_rows(joint: Mapping[str, Any], has_examination: bool) -> Rows:
-    """Return the rows of peak and RMS force in the ideal scene, each with the ratio to them.
+    """Return the rows of peak and RMS force in the ideal scene, each with the ratio of the force with play to it.
 
-    If they are not known, one row says so, or how to request them.
+    Without these forces there is one row with "not known", or with NOT_REQUESTED without `has_examination`.
     """
     if not (ideal := joint["ideal"]):
-        return [("ideal forces", NOT_ASKED if not has_examination else "not known")]
+        return [("ideal forces", NOT_REQUESTED if not has_examination else "not known")]
     return [
         ("ideal peak force", f"{format_quantity(ideal['F'], 'N')}{_format_ratio(joint['peak']['F'], ideal['F'])}"),
         ("ideal RMS force", f"{format_quantity(ideal['rms'], 'N')}{_format_ratio(joint['rms'], ideal['rms'])}"),
@@ -181,16 +182,16 @@ def _format_ideal_rows(joint: Mapping[str, Any], has_examination: bool) -> Rows:
 def _format_work_rows(work: Mapping[str, float] | None, has_examination: bool) -> Rows:
     """Return the rows of the energies that contact, friction and film dissipate, without those that are not finite.
 
-    If `work` is None, one row says that they are not known, or how to request them.
+    If `work` is None, there is one row with "not known", or with NOT_REQUESTED without `has_examination`.
     """
     if work is None:
-        return [("where its work went", NOT_ASKED if not has_examination else "not known")]
+        return [("dissipated energy", NOT_REQUESTED if not has_examination else "not known")]
     names = {
         "taken": "energy into contact",
-        "returned": "given back",
-        "damping": "taken by damping",
-        "friction": "taken by friction",
-        "film": "taken by the film",
+        "returned": "returned by contact",
+        "damping": "dissipated by damping",
+        "friction": "dissipated by friction",
+        "film": "dissipated by the film",
     }
     return [(label, format_quantity(work[name], "J")) for name, label in names.items() if math.isfinite(work[name])]
 
@@ -201,15 +202,14 @@ def _format_range_cell(quantiles: Mapping[str, float], unit: str) -> str:
 
 
 def _format_ratio(value: float, ideal: float) -> str:
-    """Return the ratio of a value to the ideal one as a text; "" if that is 0."""
+    """Return the ratio of a value to the ideal one: ", with play 1.2 times that"; "" if the ideal value is 0."""
     return f", with play {value / ideal:.3g} times that" if ideal > 0.0 else ""
 
 
 def build_energy_rows(report: Mapping[str, Any]) -> Rows:
     """Return the rows (name, cell) of the energy balance.
 
-    Without masses one row says that it is not known. Works of joints with play have a row only if there are such
-    joints.
+    Without masses there is one row, "not known". Works of joints with play have a row only if there are such joints.
     """
     energy = report["energy"]
     if energy is None:
@@ -218,10 +218,10 @@ def build_energy_rows(report: Mapping[str, Any]) -> Rows:
         "drives": "work of the drives",
         "forces": "work of the forces",
         "clearances": "work of the joints with play",
-        "not_told_apart": "taken by joints, not told apart",
+        "not_told_apart": "dissipated by joints, not assigned",
         "change": "kinetic and potential energy, change",
         "residual": "largest residual of the balance",
-        "turned_over": "turned over",
+        "turned_over": "energy throughput",
     }
     rows = [(label, format_quantity(energy[name], "J")) for name, label in names.items() if name in energy]
     return [row for row in rows if report["joints"] or row[0] != names["clearances"]]
@@ -242,7 +242,7 @@ def build_accuracy_rows(accuracy: Mapping[str, Any]) -> Rows:
         if isinstance(horizon, str)
         else format_quantity(horizon, "s")
         if math.isfinite(horizon)
-        else "not sought"
+        else "not requested"
     )
     rows.append(("predictability horizon", horizon_text))
     for difference in accuracy["differences"]:
@@ -250,7 +250,7 @@ def build_accuracy_rows(accuracy: Mapping[str, Any]) -> Rows:
             f"{format_quantity(difference['largest'], difference['unit'])} at {format_quantity(difference['t'], 's')}"
         )
         rows.append((f"{difference['name']}, against {accuracy['compared_with']}", text))
-    return rows if accuracy["asked"] else [*rows, ("against smaller steps", NOT_ASKED)]
+    return rows if accuracy["asked"] else [*rows, ("against smaller steps", NOT_REQUESTED)]
 
 
 def draw_orbit_svg(run: Result, joint: str) -> str:
@@ -263,17 +263,18 @@ def draw_orbit_svg(run: Result, joint: str) -> str:
     is_finite = np.isfinite(x) & np.isfinite(y)
     x, y = x[is_finite] / c, y[is_finite] / c
     half_width = 1.06 * max(1.0, float(np.hypot(x, y).max(initial=0.0)))
-    scale = SIDE / (2.0 * half_width)
+    scale = ORBIT_SIZE / (2.0 * half_width)
     stride = slice(None, None, max(1, -(-len(x) // MAX_POINTS)))
-    points_in_pixels = zip(SIDE / 2 + scale * x[stride], SIDE / 2 - scale * y[stride], strict=True)
+    points_in_pixels = zip(ORBIT_SIZE / 2 + scale * x[stride], ORBIT_SIZE / 2 - scale * y[stride], strict=True)
     path = " ".join(f"{pixel_x:.1f},{pixel_y:.1f}" for pixel_x, pixel_y in points_in_pixels)
     start_coordinates = path.partition(" ")[0].partition(",")
     start_element = (
         f"<circle class='g-start' cx='{start_coordinates[0]}' cy='{start_coordinates[2]}' r='3.5'/>" if path else ""
     )
     return (
-        f"<figure><svg role='img' aria-label='orbit of the journal of {escape(joint, quote=True)}' width='{SIDE}'"
-        f" height='{SIDE}' viewBox='0 0 {SIDE} {SIDE}'><circle class='g-circle' cx='{SIDE / 2:g}' cy='{SIDE / 2:g}'"
-        f" r='{scale:.1f}'/><polyline class='g-path' stroke-width='.8' points='{path}'/>{start_element}</svg>"
+        f"<figure><svg role='img' aria-label='orbit of the journal of {escape(joint, quote=True)}' width='{ORBIT_SIZE}'"
+        f" height='{ORBIT_SIZE}' viewBox='0 0 {ORBIT_SIZE} {ORBIT_SIZE}'><circle class='g-circle'"
+        f" cx='{ORBIT_SIZE / 2:g}' cy='{ORBIT_SIZE / 2:g}' r='{scale:.1f}'/>"
+        f"<polyline class='g-path' stroke-width='.8' points='{path}'/>{start_element}</svg>"
         "<figcaption>the journal in the circle e = c, ○ start</figcaption></figure>"
     )

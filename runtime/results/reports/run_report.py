@@ -26,14 +26,16 @@ if TYPE_CHECKING:
     from gudgeon.generator.kinds.laws.law import Law
     from gudgeon.results.results import Array, Result
 
-MAX_SLOW_SQUEEZE = 0.5  # largest |ε̇| over the surfaces' mean rate that counts as slow squeezing
-OFF = 0.02  # fraction of the joints' work; a quadrature that misses more is reported
+MAX_SLOW_SQUEEZE = 0.5  # largest |ε̇| over the surfaces' mean angular velocity that counts as slow squeezing
+UNASSIGNED_WORK_TOL = (
+    0.02  # fraction of the joints' work that no dissipation accounts for, up to which none is reported
+)
 _COMMENT = re.compile(r"/\*\n(.*?)\n \*/", re.DOTALL)
 _LAW = re.compile(
     r"(?P<title>.*?)\. (?:.*? )??Source: (?P<source>.*?)\. Valid: (?P<valid>.*?)\."
     r"(?: Options: (?P<options>.*?)\.)?(?: |$)"
 )
-NOT_ASKED = "not asked for: gudgeon run --report, or gudgeon.examine(simulation, run, ideal)"
+NOT_REQUESTED = "not requested: gudgeon run --report, or gudgeon.examine(simulation, run, ideal)"
 
 
 @dataclass(frozen=True)
@@ -92,10 +94,11 @@ class RunReport:
 
 
 def _compute_joint_values(run: Result, k: int, joint: ClearanceInfo) -> dict[str, Any]:
-    """Return the values of a joint with play by the keys of the report.
+    """Return the values of a joint with play (clearance k) by the keys of the report, in SI.
 
-    Peak and eccentricity are over all steps, fractions of time from onsets and separations. Restitution and works are
-    None without additional runs.
+    Peak and eccentricity are over all steps, fractions of time from onsets and separations. Without additional runs
+    restitution and work are None, and the rms force is that of the samples. Values of a missing film or dry contact are
+    NaN.
     """
     peak, clearance = run.diagnostics.peak(joint.name), float(run.p[joint.clearance])
     impacts = run.impacts[run.impacts["joint"] == k]
@@ -141,9 +144,9 @@ def _compute_joint_values(run: Result, k: int, joint: ClearanceInfo) -> dict[str
 
 
 def _compute_guide_values(run: Result, name: str) -> dict[str, Any]:
-    """Return peak and rms of force and moment on the slider of a guide with play, at the samples.
+    """Return the force (peak, rms) and the peak moment on the slider of a guide with play, at the samples.
 
-    The ideal force is included if it is known.
+    "ideal" is the force in the ideal scene; None if it is not known.
     """
     force, moment = (find_sample_extreme("", "", run.t, run[f"{name}.{component}"]) for component in "FM")
     values = {
@@ -155,7 +158,7 @@ def _compute_guide_values(run: Result, name: str) -> dict[str, Any]:
 
 
 def _find_ideal_force(run: Result, joint: str) -> dict[str, float] | None:
-    """Return peak and rms of the force at a joint of the ideal scene; None if they were not requested."""
+    """Return {"F": peak, "t": its time, "rms": rms} of the force at a joint of the ideal scene; None if not known."""
     for ideal in (run.diagnostics.examined or Examination()).ideal:
         if ideal.joint == joint:
             return {"F": ideal.peak, "t": ideal.t_peak, "rms": ideal.rms}
@@ -165,7 +168,7 @@ def _find_ideal_force(run: Result, joint: str) -> dict[str, float] | None:
 def _find_stiffness(run: Result, joint: ClearanceInfo) -> dict[str, Any] | None:
     """Return the stiffness {"K": value, "unit": unit} of a joint's contact law; None for a law without one.
 
-    The unit depends on the exponent of the law.
+    The unit is N/m^n with the exponent n of the law; N/m for n = 1.
     """
     for name in ("K", "spring"):
         if name in joint.constants:
@@ -176,10 +179,10 @@ def _find_stiffness(run: Result, joint: ClearanceInfo) -> dict[str, Any] | None:
 
 
 def _find_contact_name(run: Result, joint: ClearanceInfo) -> str:
-    """Return the name of the contact whose normal law a joint has; "" if it is not known.
+    """Return the name, in section `contacts` of the file, of the contact law of a joint; "" if it is not known.
 
-    Derived parameters of a law contain the name of its contact. Without them, the only contact of a scene with one
-    joint is that of the joint.
+    Derived parameters are named CONTACT_BEARING_CONSTANT, which contains it. Otherwise it is the only contact of the
+    scene, if the scene has only one joint with play.
     """
     source = run.source
     contact_names = [
@@ -210,7 +213,7 @@ def _find_specified_restitution(run: Result, joint: ClearanceInfo) -> float | No
 
 
 def _compute_free_restitution(run: Result, joint: ClearanceInfo) -> float | None:
-    """Return the restitution that the hysteresis damping of a joint delivers in an impact without other forces.
+    """Return the coefficient of restitution of a free impact (no other forces) with the hysteresis damping of a joint.
 
     Returns None for a law without such damping.
     """
@@ -236,8 +239,9 @@ def _compute_time_fractions(run: Result, k: int, joint: ClearanceInfo, impacts: 
     """Return the fractions of the time by mode: free, impacting (from an onset to the first maximum of δ), contact,
     film.
 
-    Contact follows from onsets and separations; its impacting part is from the second pass, else from samples. All are
-    NaN for a run without duration.
+    The time in contact follows from onsets and separations. Its impacting part is from the second pass, else from the
+    contact states at the samples. A joint with a film has "film" instead of "free". All are NaN for a run without
+    duration.
     """
     begin, end = float(run.t[0]), float(run.t[-1])
     if not end > begin:
@@ -271,8 +275,9 @@ def _compute_quantiles(values: Array) -> dict[str, float] | None:
 
 
 def _compute_rms_force(run: Result, joint: str) -> float:
-    """Return the rms force of a joint or guide over the time of the run, by the trapezoidal rule over the samples, in
-    N.
+    """Return the rms force (N) of a joint or guide over the run, by the trapezoidal rule over the samples.
+
+    For a run without duration it is the force at the first sample.
     """
     force, duration = run[f"{joint}.F"], float(run.t[-1] - run.t[0])
     return math.sqrt(float(np.trapezoid(force**2, run.t)) / duration) if duration > 0.0 else float(force[0])
@@ -281,7 +286,8 @@ def _compute_rms_force(run: Result, joint: str) -> float:
 def _compute_energy_balance(run: Result) -> dict[str, float] | None:
     """Return the works up to the end and the terms of the energy balance, in J; None for a scene without masses.
 
-    "not_told_apart" is the work of joints that statistics do not assign; it needs statistics of all joints.
+    "turned_over" is the energy throughput. "not_told_apart" is the work of joints with play that is in no dissipated
+    energy; it is present only if all joints have contact statistics.
     """
     if run.source.massless:
         return None
@@ -329,9 +335,9 @@ def _collect_accuracy_values(run: Result) -> dict[str, Any]:
 
 
 def read_laws(source: KernelSource) -> list[dict[str, str]]:
-    """Return title, source, validity and options of each law of contact, friction and film, without repetitions.
+    """Return {"title", "source", "valid", "options"} of each law of contact, friction and film, without repetitions.
 
-    They are read from the comments of the scene's generated C.
+    The texts are parsed from the comments of the scene's generated C; "options" is "" without options.
     """
     laws: dict[tuple[str, str], dict[str, str]] = {}
     for comment in _COMMENT.findall(source.files.get("clearance.c", "")):
@@ -345,27 +351,27 @@ def read_laws(source: KernelSource) -> list[dict[str, str]]:
 
 
 def _list_validity_warnings(run: Result, joints: dict[str, dict[str, Any]]) -> list[str]:
-    """Return sentences for runs beyond the validity of their laws: damping outside impacts, films, work that is not
-    assigned.
+    """Return a warning for each limit of validity that the run exceeds.
 
-    Other warnings are among the notes of the run.
+    Checked are: |δ̇/δ̇⁻| > 1 in contact, the limits of film laws, and work in no dissipated energy (more than
+    UNASSIGNED_WORK_TOL of the joints' work). Other warnings are among the notes of the run.
     """
     diagnostics, warnings = run.diagnostics, []
     if diagnostics.ratio_outside:
         warnings.append(
             f"in {diagnostics.ratio_outside} steps in contact δ̇/δ̇⁻ was outside ±1,"
-            f" {diagnostics.ratio_min:.3g} … {diagnostics.ratio_max:.3g}: damping laws are made"
-            " for impacts that nothing drives on"
+            f" {diagnostics.ratio_min:.3g} … {diagnostics.ratio_max:.3g}: damping laws are valid"
+            " for free impacts without driving forces"
         )
     warnings += find_exceeded_limits(run)
     energy = _compute_energy_balance(run) or {}
     is_balance_complete = not run.source.rigid  # the energy loss of rigid impacts is in no other term
-    if is_balance_complete and abs(energy.get("not_told_apart", 0.0)) > OFF * max(
+    if is_balance_complete and abs(energy.get("not_told_apart", 0.0)) > UNASSIGNED_WORK_TOL * max(
         abs(energy.get("clearances", 0.0)), 1e-300
     ):
         warnings.append(
-            f"{energy['not_told_apart']:.3g} J of the joints' work is of neither contact, friction nor the film's"
-            " force: its shear, or contacts that the second pass did not resolve"
+            f"{energy['not_told_apart']:.3g} J of the joints' work was dissipated neither by contact, friction nor"
+            " the film's force: film shear, or contacts that the second pass did not resolve"
         )
     return warnings
 
@@ -376,9 +382,9 @@ def find_exceeded_limits(run: Result) -> list[str]:
 
 
 def _iterate_exceeded_limits(run: Result, joint: ClearanceInfo) -> Iterator[str]:
-    """Yield a sentence for each limit that the film of a joint exceeds: L/D, eccentricity ratio, fast squeezing.
+    """Yield a warning for each limit that the film of a joint exceeds: L/D, eccentricity ratio, squeeze rate.
 
-    Nothing is yielded for an unknown law.
+    Yields nothing if the film's law is not known.
     """
     law = _find_film_law(run.source, joint)
     if law is None:
@@ -389,7 +395,7 @@ def _iterate_exceeded_limits(run: Result, joint: ClearanceInfo) -> Iterator[str]
         valid_range = (
             f"below {high:g}" if low == 0.0 else f"above {low:g}" if high == math.inf else f"{low:g} to {high:g}"
         )
-        yield f"{joint.name}: L/D is {length_ratio:.3g}: {law.name} is good for L/D {valid_range}"
+        yield f"{joint.name}: L/D is {length_ratio:.3g}: {law.name} is valid for L/D {valid_range}"
     mean_clearance = joint.constants.get("mean_clearance", joint.clearance)  # of rough surfaces: their means
     film_clearance = float(run.p[joint.constants.get("film_clearance", mean_clearance)])
     eccentricity_ratios, max_ratio = (
@@ -406,14 +412,15 @@ def _iterate_exceeded_limits(run: Result, joint: ClearanceInfo) -> Iterator[str]
     if fast_fraction > 0.0:
         yield (
             f"{joint.name}: at {100 * fast_fraction:.3g} % of the samples on the film |ε̇| is over half the"
-            f" surfaces' mean rate: {law.name} holds for |ω| ≫ |ε̇|"
+            f" surfaces' mean angular velocity: {law.name} is valid for |ω| ≫ |ε̇|"
         )
 
 
 def _find_film_law(source: KernelSource, joint: ClearanceInfo) -> Law | None:
     """Return the law that the generated C of a joint's film calls; None if it is not known.
 
-    Of several laws whose names begin alike, it is the one with the longest name.
+    The name is parsed from the function call in the C source. If several law names are prefixes of it, the longest is
+    used.
     """
     from gudgeon.generator.kinds.laws.law import find_laws_of_role
 

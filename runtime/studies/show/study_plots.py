@@ -17,7 +17,7 @@ from gudgeon.errors import BadValueError
 from gudgeon.language.argument_checks import check_flag, check_number, check_positive, raise_bad_value
 from gudgeon.language.plot_units import choose_plot_unit, format_label
 from gudgeon.language.text_output import format_figure_title, format_one_line
-from gudgeon.results.figures.plots import COLOURS, IDEAL, STYLE, TITLE, choose_colours, find_largest_magnitude
+from gudgeon.results.figures.plots import COLOURS, IDEAL, STYLE, TITLE_WIDTH, choose_colours, find_largest_magnitude
 from gudgeon.results.figures.run_plots import check_axes, create_axes
 from gudgeon.studies.show.study_data import Coords, StudyData
 from gudgeon.studies.show.study_signals import compute_spectra, filter_low_pass, resample_over_fractions
@@ -192,7 +192,7 @@ class StudyPlot:
         filtered = filter_low_pass(t, values, cutoff, order, check_flag(causal, "causal"))
         ax = self._plot_curves(t, filtered, "t [s]", series, by, at, ax)
         message = f"low-pass {cutoff:g} Hz, Butterworth of order {order}, {'causal' if causal else 'zero phase'}"
-        ax.set_title(format_figure_title(f"{ax.get_title()}: {message}", TITLE))
+        ax.set_title(format_figure_title(f"{ax.get_title()}: {message}", TITLE_WIDTH))
         return ax
 
     def phase(self, x: str, y: str, by: str | None = None, *, at: Coords | None = None, ax: Axes | None = None) -> Axes:
@@ -336,7 +336,9 @@ class StudyPlot:
         `coordinates` None: all runs.
         """
         picked = ", ".join(self.data.describe_coordinate(name, value) for name, value in (coordinates or {}).items())
-        ax.set_title(format_figure_title(": ".join(filter(None, (format_one_line(self.data.title), picked))), TITLE))
+        ax.set_title(
+            format_figure_title(": ".join(filter(None, (format_one_line(self.data.title), picked))), TITLE_WIDTH)
+        )
         if has_legend and ax.get_legend_handles_labels()[0]:
             ax.legend(fontsize=8)
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from gudgeon.errors import BadValueError
 from gudgeon.language.text_output import format_one_line
-from gudgeon.results.series import apply_low_pass, compute_spectrum
+from gudgeon.results.signals import apply_low_pass, compute_spectrum
 
 TIME_TOL = 0.01  # of the time between two samples: so far apart, samples are of the same time
 SAME = 1e-9  # tolerance of fractions of a run that count as equal
