@@ -37,9 +37,8 @@ Array: TypeAlias = NDArray[np.float64]
 
 RUNS_PER_CALL = 1024  # runs whose parameter values are computed in one call, so that they stay in the processor's cache
 MAX_MASS_RATIO = 1e14  # largest ratio of two masses: in doubles, a sum of both still contains the lighter one
-MAX_MASS_RATIO_WITH_POINT_MASS = (
-    1e12  # the same if an inertia is 0: the body's rotation then has the inertia m l² alone
-)
+# the same if an inertia is 0: the body's rotation then has the inertia m l² alone
+MAX_MASS_RATIO_WITH_POINT_MASS = 1e12
 
 
 class CompiledModel:

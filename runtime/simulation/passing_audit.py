@@ -57,7 +57,7 @@ class ShortRunSamples:
     def __init__(self, problem: Problem, trajectory: Trajectory, times: Array) -> None:
         compiled, x, N = problem.compiled, trajectory, len(trajectory.t)
         self.problem, self.trajectory = problem, trajectory
-        self.layout = layout = _find_layout(compiled, N, problem.method)
+        self.layout = layout = _compute_block_layout(compiled, N, problem.method)
         self.block = block = np.empty(layout.n_total)
         self.values = values = block[: layout.n_values]
         values.fill(np.nan)
@@ -78,7 +78,7 @@ class ShortRunSamples:
         """Return the evaluated quantities as views of a new block."""
         return view_evaluation(self.problem.compiled, self.values.copy(), len(self.trajectory.t))
 
-    def pass_audit(self) -> bool:
+    def passes_audit(self) -> bool:
         """Return whether no check of the run fails, neither of its steps nor of its samples; False: unknown."""
         problem, layout = self.problem, self.layout
         if not problem.audit:
@@ -129,7 +129,7 @@ class ShortRunSamples:
         return b"\0" not in (errors <= layout.limits).tobytes()  # quicker than all()
 
 
-class _Layout(NamedTuple):
+class _BlockLayout(NamedTuple):
     """Hold where quantities lie in the block of a run's samples, and what else depends on the scene alone."""
 
     offsets: tuple[int, ...]  # of each field of an Evaluation
@@ -143,14 +143,14 @@ class _Layout(NamedTuple):
 
 
 @cache_by_values
-def _find_layout(compiled: CompiledModel, n_samples: int, method: str) -> _Layout:
+def _compute_block_layout(compiled: CompiledModel, n_samples: int, method: str) -> _BlockLayout:
     """Return the layout of the block of so many samples."""
     source, names = compiled.source, [name for name, *_ in compiled.field_shapes]
     ends = np.cumsum([0, *(n_samples * width for *_, width in compiled.field_shapes)]).tolist()
     first_error = ends[-1] + 2 * n_samples * compiled.n
     clearances, energy = (slice(ends[k], ends[k + 1]) for k in map(names.index, ("clearance", "energy")))
     left_out = list_checks_left_out(source, method)
-    return _Layout(
+    return _BlockLayout(
         tuple(ends[:-1]),
         clearances,
         energy,

@@ -40,7 +40,7 @@ from gudgeon.simulation.arguments import (
     select_method,
 )
 from gudgeon.simulation.audit import parse_audit_level
-from gudgeon.simulation.hidden_jumps import may_jump
+from gudgeon.simulation.hidden_jumps import needs_jump_search
 from gudgeon.simulation.sample_audit import ReusableSampleAudit
 from gudgeon.simulation.sample_reader import SampleReader
 from gudgeon.simulation.step_observers import check_requested_peaks
@@ -101,7 +101,11 @@ class RunSetup:
     def needs_simulate(self) -> bool:
         """Return whether runs need checks or a time loop in Python, which `simulate` has."""
         compiled = self.scene.compiled
-        return self.method in PYTHON_TIME_LOOPS or bool(list_redundant_equations(compiled)) or may_jump(compiled.source)
+        return (
+            self.method in PYTHON_TIME_LOOPS
+            or bool(list_redundant_equations(compiled))
+            or needs_jump_search(compiled.source)
+        )
 
     @property
     def has_journal_positions(self) -> bool:
@@ -257,7 +261,7 @@ class PreparedRun:
         status = run.integrate_row(k)
         if status not in (0, ENDED):
             raise run.build_error(k)
-        if self._sample_audit.has_failed(k):
+        if self._sample_audit.audit_samples(k):
             return self._simulate(x)
         return self._reader.read_row(k)
 

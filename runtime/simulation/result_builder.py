@@ -43,11 +43,14 @@ from gudgeon.waiting.cancellation import EVERY
 from gudgeon.waiting.ctrl_c import DelayedCtrlC
 
 INTERRUPTED_NOTE = "interrupted: samples after the last one, and what is computed from all of them, are missing"
-APART = 0.01  # of the mechanism's size: constraint violations that are too large for drift
-MANY = 10_000  # steps of an explicit method that indicate a stiff film
-THIN = 0.9999  # e/c at which a film's law is capped (generator/equations/contact_steps.py)
-DEEP_CLEARANCE, DEEP_RADIUS = 0.5, 0.01  # penetrations beyond these fractions of c and of R are outside the model
-AFTER_CTRL_C = 0.1  # s: time limit for the energy balance of an interrupted run; without it the residual is NaN
+MAX_DRIFT_OVER_SIZE = 0.01  # of the mechanism's size: constraint violations that are too large for drift
+MAX_EXPLICIT_STEPS = 10_000  # steps of an explicit method that indicate a stiff film
+MAX_FILM_RATIO = 0.9999  # e/c at which a film's law is capped (generator/equations/contact_steps.py)
+MAX_DEPTH_OVER_CLEARANCE, MAX_DEPTH_OVER_RADIUS = (
+    0.5,
+    0.01,
+)  # penetrations beyond these fractions of c and of R are outside the model
+MAX_BALANCE_TIME_S = 0.1  # s: time limit for the energy balance of an interrupted run; without it the residual is NaN
 
 
 def _build_diagnostics(problem: Problem, trajectory: Trajectory, checked: CheckedSamples | None) -> Diagnostics:
@@ -148,12 +151,12 @@ def yield_redundancy_note(source: KernelSource) -> Iterator[str]:
 
 
 def _yield_stiff_film_note(source: KernelSource, problem: Problem, counts: Counts) -> Iterator[str]:
-    """Yield a note if a stiff film needed more than MANY adaptive steps in a scene with rigid contacts.
+    """Yield a note if a stiff film needed more than MAX_EXPLICIT_STEPS adaptive steps in a scene with rigid contacts.
 
     No implicit method fits such a scene. Called for scenes with rigid contacts only.
     """
     films = [joint.name for joint in source.clearances if joint.film]
-    if films and counts.steps > MANY and math.isinf(problem.step):
+    if films and counts.steps > MAX_EXPLICIT_STEPS and math.isinf(problem.step):
         yield (
             f"{counts.steps} steps: the film in {', '.join(films)} is stiff, and no implicit method fits a scene whose"
             f" contact in {source.rigid[0]} is a constraint (newton_restitution): a contact law that gives there"
@@ -180,13 +183,14 @@ def _yield_unbounded_sample_note(compiled: CompiledModel, problem: Problem, traj
 def may_exceed_validity_range(source: KernelSource, p: Array, size: Array, phi_max: Array, peaks: Array) -> Any:
     """Return a mask (n_runs,) of the runs of a batch that may have left the range of validity of their model.
 
-    A run may have left it if its constraint error exceeds APART of the mechanism's size, or if the peak eccentricity of
-    a joint exceeds its clearance (THIN of it for a joint with a film only). `yield_range_notes` then tests the run.
-    Shapes: parameter values p (n_runs, …), mechanism sizes and `phi_max` (n_runs,), peaks (n_runs, n_clearances, 3).
+    A run may have left it if its constraint error exceeds MAX_DRIFT_OVER_SIZE of the mechanism's size, or if the peak
+    eccentricity of a joint exceeds its clearance (MAX_FILM_RATIO of it for a joint with a film only).
+    `yield_range_notes` then tests the run. Shapes: parameter values p (n_runs, …), mechanism sizes and `phi_max`
+    (n_runs,), peaks (n_runs, n_clearances, 3).
     """
     c, e_max = p[:, [joint.clearance for joint in source.clearances]], peaks[:, :, PEAK_e_max]
-    least = np.array([THIN if joint.film and not joint.dry else 1.0 for joint in source.clearances])
-    return (phi_max > APART * size) | (e_max > least * c).any(axis=1)
+    least = np.array([MAX_FILM_RATIO if joint.film and not joint.dry else 1.0 for joint in source.clearances])
+    return (phi_max > MAX_DRIFT_OVER_SIZE * size) | (e_max > least * c).any(axis=1)
 
 
 def yield_range_notes(
@@ -196,7 +200,7 @@ def yield_range_notes(
 
     `t0`, `q0`: time (s) and coordinates of the start. `peaks` (n_clearances, 3).
     """
-    if counts.phi_max > APART * compute_mechanism_size(compiled, p):
+    if counts.phi_max > MAX_DRIFT_OVER_SIZE * compute_mechanism_size(compiled, p):
         yield (
             f"the linkage came apart: constraints are violated by up to {counts.phi_max:.3g}: nothing after that means"
             " anything; a step too long does this, or a drive that pushes the links through a dead centre"
@@ -214,18 +218,18 @@ def _yield_law_range_notes(compiled: CompiledModel, p: Array, t0: float, q0: Arr
         c, radius = float(p[joint.clearance]), float(p[joint.constants["R_i"]])
         penetration = float(e_max) - compute_max_clearance(compiled.source, p, joint)
         ratio = float(e_max) / float(p[joint.film_clearance])
-        if joint.film and not joint.dry and ratio > THIN:
+        if joint.film and not joint.dry and ratio > MAX_FILM_RATIO:
             yield (
                 f"{joint.name}: the film is squeezed out, e/c = {ratio:.7g}: its law, singular at e = c, is"
                 " capped there: a dry contact beyond it, or a thicker oil, keeps the surfaces apart"
             )
-        elif joint.film and not joint.dry and penetration > (1.0 - THIN) * c:
+        elif joint.film and not joint.dry and penetration > (1.0 - MAX_FILM_RATIO) * c:
             yield (
                 f"{joint.name}: the journal is up to {1e3 * penetration:.3g} mm within its bearing"
                 f" (c = {1e3 * c:.3g} mm), where a film with extra_clearance still carries it:"
                 " a dry contact takes its force there"
             )
-        if penetration > (limit := min(DEEP_CLEARANCE * c, DEEP_RADIUS * radius)):
+        if penetration > (limit := min(MAX_DEPTH_OVER_CLEARANCE * c, MAX_DEPTH_OVER_RADIUS * radius)):
             begins_deep = _compute_penetration(compiled, p, t0, q0, k, joint) > limit
             location = (
                 "corner goes {} mm into its wall (gap" if joint.is_corner else "journal goes {} mm into its bearing (c"
@@ -276,8 +280,8 @@ def build_result(
     notes.
 
     The evaluation is left out if Ctrl-C or a lack of memory ends it. If Ctrl-C ended the run and `is_time_limited`, it
-    is left out after AFTER_CTRL_C seconds. It is stored with the Result of a short run. A start that is not a requested
-    sample is removed from the samples.
+    is left out after MAX_BALANCE_TIME_S seconds. It is stored with the Result of a short run. A start that is not a
+    requested sample is removed from the samples.
     """
     compiled, x, is_unsolvable = problem.compiled, _clear_undefined_works(problem.compiled, trajectory), False
     checked: CheckedSamples | None = None
@@ -289,7 +293,7 @@ def build_result(
         if is_short_run(problem, x):
             short_run = ShortRunSamples(problem, x, times)
             problem.poll_cancellation()
-            passing = short_run if short_run.pass_audit() else None
+            passing = short_run if short_run.passes_audit() else None
             evaluation = None if passing else short_run.build_evaluation()
         if not passing:
             poll = _make_poll_function(problem, x.interrupted, is_time_limited)
@@ -392,8 +396,8 @@ def _clear_undefined_works(compiled: CompiledModel, trajectory: Trajectory) -> T
 def _make_poll_function(problem: Problem, is_interrupted: bool, is_time_limited: bool) -> Callable[[], None]:
     """Return a function without arguments that polls for Ctrl-C, for the evaluation of samples to call often.
 
-    It also reports progress, and raises _TimeLimitReached AFTER_CTRL_C seconds from now if the run `is_interrupted` and
-    the evaluation `is_time_limited`.
+    It also reports progress, and raises _TimeLimitReached MAX_BALANCE_TIME_S seconds from now if the run
+    `is_interrupted` and the evaluation `is_time_limited`.
     """
     time_at_begin = last_report = monotonic()
 
@@ -405,7 +409,7 @@ def _make_poll_function(problem: Problem, is_interrupted: bool, is_time_limited:
         if problem.progress and not is_interrupted and now - last_report > EVERY:
             last_report = now
             problem.progress(1.0, "balancing energy")
-        if is_interrupted and is_time_limited and now - time_at_begin > AFTER_CTRL_C:
+        if is_interrupted and is_time_limited and now - time_at_begin > MAX_BALANCE_TIME_S:
             raise _TimeLimitReached
 
     return poll

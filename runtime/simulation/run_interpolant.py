@@ -25,17 +25,14 @@ from gudgeon.results.results import Result
 from gudgeon.results.series import get_catalogue
 
 NODES = 0.5 * (leggauss(6)[0] + 1.0)  # fractions of an interval between two states at which powers are evaluated
-INNER_FRACTION = (
-    0.381966  # fraction of an interval: no multiple of it is near the period of a force that a step could hide
-)
+# fraction of an interval: no multiple of it is near the period of a force that a step could hide
+INNER_FRACTION = 0.381966
 MAX_CACHED = 256  # largest number of evaluated places that are cached for the next series
-MAX_SPEED_ERROR = (
-    1e-7  # of the speed: in shorter intervals, differences of positions are too rounded to check the speed
-)
+# of the speed: in shorter intervals, differences of positions are too rounded to check the speed
+MAX_SPEED_ERROR = 1e-7
 MAX_MOTION_AT_REST = 1e-9  # of the positions: a block that moves by less is at rest
-MAX_ACCELERATION_ERROR = (
-    1e-3  # of the largest acceleration: interpolated states whose accelerations err by more are left out
-)
+# of the largest acceleration: interpolated states whose accelerations err by more are left out
+MAX_ACCELERATION_ERROR = 1e-3
 # diagnostics of a block of states, in which nothing is known
 UNKNOWN_DIAGNOSTICS = Diagnostics(
     method="",

@@ -40,7 +40,7 @@ class ReusableSampleAudit:
         # by row, number of samples, and whether the run is short
         self._arguments: dict[tuple[int, int, bool], list[tuple[Arguments, Any]]] = {}
 
-    def has_failed(self, k: int) -> bool:
+    def audit_samples(self, k: int) -> bool:
         """Return whether a check of the samples of the run in row k exceeds the value at which `simulate` fails."""
         run, x = self.run, self.run.arrays
         if not run.audit:

@@ -22,8 +22,8 @@ from gudgeon.simulation.audit import SampleAudit
 from gudgeon.simulation.undefined_outputs import UndefinedOutputs
 
 MAX_STORED = 20_000  # samples up to which the evaluation is stored with the Result; longer runs are checked in blocks
-COARSE = 1e-4  # of the energy throughput: a larger residual of rk4 is reported
-BLOCK = 1 << 16  # samples of the energy balance between two polls for cancellation
+MAX_RELATIVE_RESIDUAL = 1e-4  # of the energy throughput: a larger residual of rk4 is reported
+POLLED_SAMPLES = 1 << 16  # samples of the energy balance between two polls for cancellation
 
 
 @dataclass(frozen=True)
@@ -124,8 +124,8 @@ def compute_energy_balance(energy: Array, work: Array, poll: Callable[[], object
     kinetic, potential = energy.T
     by_drives, by_forces, by_clearances = work.T
     with np.errstate(invalid="ignore", over="ignore"):  # infinities: reported by `_build_unbalanced_note`
-        for first in range(0, len(energy), BLOCK):
-            rows, following = slice(first, first + BLOCK), slice(first + 1, first + BLOCK + 1)
+        for first in range(0, len(energy), POLLED_SAMPLES):
+            rows, following = slice(first, first + POLLED_SAMPLES), slice(first + 1, first + POLLED_SAMPLES + 1)
             change = (kinetic[rows] + potential[rows]) - (kinetic[0] + potential[0])
             total = by_drives[rows] + by_forces[rows] + by_clearances[rows]
             residual = change - (total - (by_drives[0] + by_forces[0] + by_clearances[0]))
@@ -141,7 +141,7 @@ def _build_coarse_step_note(problem: Problem, residual: float, throughput: float
 
     `residual`, `throughput`: those of the energy balance (J). Methods with error control get no note.
     """
-    if math.isinf(problem.step) or not residual > COARSE * throughput:
+    if math.isinf(problem.step) or not residual > MAX_RELATIVE_RESIDUAL * throughput:
         return ()
     return (
         f"energy balances to {residual:.3g} J of {throughput:.3g} J turned over: a step of {problem.step:.3g} s is too"

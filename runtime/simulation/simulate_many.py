@@ -319,7 +319,7 @@ class _Results:
         """
         runs = self.runs
         if runs.python_loop:
-            suspects = self._suspects.select_runs(finished_runs)
+            suspects = self._suspects.select_runs_to_check(finished_runs)
             for i in runs.complete_runs(suspects):
                 result = self._build_checked_result(i)
                 if self.stored_series:

@@ -238,7 +238,7 @@ class Stepper:
             raise run.build_error(0)
         if n_samples == 1:
             return self._reader.read_row(0)[:, 0]
-        if self._sample_audit.has_failed(0):
+        if self._sample_audit.audit_samples(0):
             self._simulate(t, x, self.final)  # raises the error
         values, last = self._reader.read_row(0)[:, 0], run.arrays["done"].item(0) - 1
         self._is_reset = False  # an interrupt within the next lines leaves no state

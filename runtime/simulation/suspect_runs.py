@@ -44,7 +44,7 @@ class SuspectRuns:
             limits = [np.inf if check in left_out else limit for check, limit in LIMITS.items()]
             runs.kinematic.set_sample_audit(SHORT_RUN_POSITIONS, np.array(limits))
 
-    def select_runs(self, finished_runs: Sequence[int]) -> list[int]:
+    def select_runs_to_check(self, finished_runs: Sequence[int]) -> list[int]:
         """Return the indices of those of the finished runs that Python must check."""
         if self.checks_all:
             return list(finished_runs)

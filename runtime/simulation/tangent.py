@@ -50,9 +50,8 @@ MAX_TRANSPORT_ERROR = 1e-4  # of the rates ẏ: allowed error of those that P ma
 INSIDE = 1e-6  # of the time between two contacts: distance from its ends at which rates are evaluated
 CLEARANCE_OFFSET = 1e-9  # of the clearance: distance from the surface at which f⁻ and f⁺ are evaluated
 DIFFERENCE_STEP = 1e-4  # of the clearance: difference for derivatives of gaps
-MAX_LOG_GROWTH = (
-    30.0  # ln of the growth over one interval: if it is larger, the interval is repeated with half its length
-)
+# ln of the growth over one interval: if it is larger, the interval is repeated with half its length
+MAX_LOG_GROWTH = 30.0
 
 
 class Flow:

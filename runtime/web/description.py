@@ -33,7 +33,7 @@ from gudgeon.model.sizes import find_size_indices
 from gudgeon.model.written import find_partial_expressions
 from gudgeon.results.series import get_catalogue
 from gudgeon.simulation.arguments import DEFAULT_OUTPUT
-from gudgeon.simulation.hidden_jumps import may_jump
+from gudgeon.simulation.hidden_jumps import needs_jump_search
 
 DRIFT_STEP_FRACTION = 1.0 / 60.0  # step of rk4 at which constraints drift visibly, over the length of the run
 HIDDEN_JUMPS_NOTE = "jumps of drives that their expressions do not show are searched in Python only"
@@ -94,7 +94,7 @@ def build_description(compiled: CompiledModel, drift_step: float | None = None) 
             for name, series in get_catalogue(source).items()
             if name in source.outputs
         },
-        "notes": [HIDDEN_JUMPS_NOTE] if may_jump(source) else [],
+        "notes": [HIDDEN_JUMPS_NOTE] if needs_jump_search(source) else [],
     }
     return json.dumps(values, ensure_ascii=False, separators=(",", ":"), allow_nan=False)
 

@@ -146,7 +146,7 @@ def test_the_last_sample_is_a_state_to_go_on_from(name: str, method: str, monkey
 def test_what_follows_from_the_samples_can_wait(name: str, number: int, monkeypatch: pytest.MonkeyPatch) -> None:
     """After Ctrl-C nothing is evaluated that takes long; asked for later it is the whole run's."""
     monkeypatch.setattr(cancellation, "EVERY", 0.0)
-    monkeypatch.setattr(result_builder, "AFTER_CTRL_C", 0.0)
+    monkeypatch.setattr(result_builder, "MAX_BALANCE_TIME_S", 0.0)
     simulation, options = case(name, "auto")
     run, complete = simulation.simulate(progress=signal_at(number), **options), whole(name, "auto")
     assert run.diagnostics.interrupted and math.isnan(run.diagnostics.energy_residual)

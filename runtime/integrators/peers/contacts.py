@@ -30,9 +30,8 @@ from gudgeon.contract.boundary import (
 from gudgeon.model.compiled import Array, CompiledModel
 
 NODES = np.linspace(0.0, 1.0, 9)  # fractions of a step at which it is sampled
-EVENT_TIME_TOL = (
-    0.5e-12  # tolerance of event times relative to the searched interval; 2 ulp of the time where these are more
-)
+# tolerance of event times relative to the searched interval; 2 ulp of the time where these are more
+EVENT_TIME_TOL = 0.5e-12
 MIN_PEAK_FRACTION = 0.9  # fraction of the known peak from which on a step's own peak is refined
 LOST_TOL = 1e-3  # of c: a free journal further outside its bearing was lost
 ROUNDING_TOL = 1e-7  # of the bearing's radius, in addition
