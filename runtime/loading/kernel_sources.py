@@ -142,11 +142,11 @@ def find_kernel_source(
         return KernelSource.from_json((entry / SOURCE).read_bytes().decode())
 
     source = fetch_source(key, regenerate)
-    present_files = hash_present_tables(source, file), find_present_law_keys(source)
+    present_files = hash_current_tables(source, file), list_current_law_keys(source)
     if present_files != (source.tables, source.laws):  # of other bytes: an entry of its own
         key = compute_digest([key, json.dumps(present_files)])
         source = fetch_source(key, False)
-        if (hash_present_tables(source, file), find_present_law_keys(source)) != (
+        if (hash_current_tables(source, file), list_current_law_keys(source)) != (
             source.tables,
             source.laws,
         ):  # edited meanwhile
@@ -171,7 +171,7 @@ def _has_structural_overrides(data: bytes, file: Path, scene: str, overrides: Ov
     return overrides_change_scene(data, str(file), scene, overrides)
 
 
-def hash_present_tables(source: KernelSource, file: Path) -> tuple[tuple[str, str], ...]:
+def hash_current_tables(source: KernelSource, file: Path) -> tuple[tuple[str, str], ...]:
     """Return the tables of a kernel source as pairs of name and SHA-256 of its present file next to `file`.
 
     Raises InputError if one is missing.
@@ -179,7 +179,7 @@ def hash_present_tables(source: KernelSource, file: Path) -> tuple[tuple[str, st
     return tuple((name, sha256(read_table_file(file, name, MAX_TABLE_BYTES)).hexdigest()) for name, _ in source.tables)
 
 
-def find_present_law_keys(source: KernelSource) -> tuple[tuple[str, str], ...]:
+def list_current_law_keys(source: KernelSource) -> tuple[tuple[str, str], ...]:
     """Return the user-defined laws of a kernel source as pairs of name and present key, "" if not registered."""
     if not source.laws:
         return ()

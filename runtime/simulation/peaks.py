@@ -29,11 +29,9 @@ NODES = 0.5 - 0.5 * np.cos(np.linspace(0.0, np.pi, 9))
 # matrix from values at the points to Chebyshev coefficients
 COEFFICIENTS = np.linalg.inv(chebvander(2.0 * NODES - 1.0, len(NODES) - 1))
 FINE = chebvander(np.linspace(-1.0, 1.0, 129), len(NODES) - 1)  # matrix from coefficients to values at 129 points
-MAX_REFINEMENTS, MAX_REFINEMENTS_AT_END = (
-    12,
-    3,
-)  # largest number of refinements, and the number if the maximum is at an end
-MAX_INTERVALS = 16  # intervals of a block that are searched; the most promising first
+# largest number of refinements of a maximum, and that of a maximum at an end of its interval
+MAX_REFINEMENTS, MAX_REFINEMENTS_AT_END = 12, 3
+MAX_INTERVALS = 16  # intervals of a block that are searched; those with the largest estimates first
 PEAK_TOL = 1e-14  # of a value: a smaller increase is rounding, and the earlier time is reported
 RESOLUTION_TOL = 2e-4  # of the largest value of a block: allowed error of states predicted from their neighbours
 # matrix from five states to the values at INNER_FRACTION of their four intervals
@@ -125,10 +123,10 @@ class PeakSearch:
         return tuple(message)
 
     def _update_peaks(self, name: str, is_error: bool, interpolants: list[RunInterpolant]) -> None:
-        """Update the peaks of one series, or if `is_error` of its error, from the present block of states.
+        """Update the peaks of one series, or if `is_error` of its error, from the current block of states.
 
-        `interpolants`: that of the run, then for errors that of the other scene. At most MAX_INTERVALS intervals
-        between states are searched, the most promising first.
+        `interpolants`: that of the run, then for errors that of the other scene. Intervals whose states do not resolve
+        the series are halved first. Then at most MAX_INTERVALS intervals are searched, in the order of the estimates.
         """
         values = _subtract_compared_series([path.evaluate_series_at_states(name) for path in interpolants])
         t, inner = self.interpolant.steps.t, self.interpolant.is_within_step
@@ -294,6 +292,6 @@ def _estimate_maxima(t: Array, values: Array, is_within_step: NDArray[np.bool_])
         curvature = np.abs(np.diff(differences / h)) / (t[2:] - t[:-2]) * 2.0  # at states 1 to K − 2
         curvature = np.where(is_within_step[1:] & is_within_step[:-1] & np.isfinite(curvature), curvature, 0.0)
         curvature_term = 2.0 * np.maximum(np.append(curvature, 0.0), np.insert(curvature, 0, 0.0)) * h**2
-        top = 0.5 + differences / curvature_term  # share of the part at which the parabola is highest
+        top = 0.5 + differences / curvature_term  # fraction of the interval at which the parabola has its maximum
         height = values[:-1] + differences * top + 0.5 * curvature_term * top * (1.0 - top)
     return np.where(is_within_step & (top > 0.0) & (top < 1.0) & np.isfinite(height), height, estimates)

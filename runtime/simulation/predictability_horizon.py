@@ -39,7 +39,7 @@ MAX_PATH_DIFFERENCE = 0.25  # of the clearance: difference at which runs count a
 # relative change of the start: about the error of one step at this tolerance (integrators/adaptive.py)
 PERTURBATION = 1e-12
 RTOL_RATIO, STEP_RATIO = 100.0, 4.0  # factors of tolerance and of step between the run and the more accurate one
-UNFINISHED = "interrupted while its horizon was sought: the run is complete, how far to trust it is not known"
+UNFINISHED = "interrupted during the search of its horizon: the run is complete, its predictability horizon is unknown"
 N_COMPARED_TIMES = 4000  # compared times between 4^k s and 4^(k + 1) s: the horizon's resolution
 MIN_INTERVAL = 1.0 / 256.0  # of the run's length, about: the end of the first compared interval
 
@@ -146,9 +146,10 @@ def repeat_run(
 
 
 def _compare_runs(simulation: Simulation, runs: list[Result], max_difference: float) -> tuple[float, bool]:
-    """Return the last time (s) at which all runs agree with the first, and whether they differ later.
+    """Return the last time (s) at which the second and third run agree with the first, and whether they differ later.
 
-    Runs agree within `max_difference`, and are compared at the samples that all have. A run that ends early differs.
+    Runs agree within `max_difference`, and are compared at the samples that all have. A run that ends early differs. If
+    the first samples differ, the time is that of the start.
     """
     count = min(len(run.t) for run in runs)
     paths = [_compute_compared_coordinates(simulation, run)[:count] for run in runs]
@@ -190,7 +191,7 @@ def check_simulation_of_run(simulation: Simulation, run: Result, function_name: 
     check_instance(simulation, "simulation", Simulation)
     check_instance(run, "run", Result)
     if run.source.whole_sha256 != simulation.source.whole_sha256 or run.source.scene != simulation.source.scene:
-        raise BadValueError(f"{function_name}: expected the simulation whose run it is")
+        raise BadValueError(f"{function_name}: the run is of another file or scene: expected the simulation of the run")
 
 
 def build_repeat_settings(run: Result) -> tuple[dict[str, Any], dict[str, Any]]:
@@ -202,11 +203,11 @@ def build_repeat_settings(run: Result) -> tuple[dict[str, Any], dict[str, Any]]:
     from gudgeon.simulation.arguments import METHODS
 
     d = run.diagnostics
-    method = d.method if d.method in METHODS else "adaptive"  # what its steps were made with is not one name
+    method = d.method if d.method in METHODS else "adaptive"  # the methods of a run by "auto" are joined by "+"
     settings = {"method": method, "parameters": dict(run.final.parameters)}
     if math.isfinite(d.step):
         return settings | {"step": d.step}, settings | {"step": d.step / STEP_RATIO}
-    # at the tightest tolerance that there is, the other run is the looser one
+    # at the tightest allowed tolerance, the other run has the looser one
     rtol = d.rtol / RTOL_RATIO if d.rtol >= RTOL_RATIO * SMALLEST else d.rtol * RTOL_RATIO
     return settings | {"rtol": d.rtol}, settings | {"rtol": rtol}
 

@@ -105,8 +105,9 @@ def _build_notes(
     p, notes, counts = problem.p, list(problem.remarks), trajectory.counts
     if problem.state is None and (dependent := find_dependent_equations(compiled, p, float(problem.t[0]), problem.q)):
         notes.append(
-            f"the start is a dead centre: rows {', '.join(dependent)} tie each other there; velocities that drives and"
-            " start.rates leave open were taken least: give a rate of each body that may move"
+            f"the start is a dead centre: constraint equations {', '.join(dependent)} depend on each other there;"
+            " velocities that drives and start.rates do not determine have the smallest norm: give a rate of each body"
+            " that may move"
         )
     notes += yield_missing_mass_note(compiled.source)
     if problem.stop and len(trajectory.events):
@@ -117,14 +118,15 @@ def _build_notes(
         notes.append(INTERRUPTED_NOTE)
     for event, t in trajectory.undefined_events:
         name = compiled.source.events[event].name
-        notes.append(f"event {name} is no number (NaN) at t = {t:.9g} s: where it is none it has no zeros")
+        notes.append(f"event {name} is NaN at t = {t:.9g} s: where it is NaN, no zeros are found")
     if compiled.source.events and ":" in problem.method:
-        notes.append(f"events are not watched by method {problem.method}")
+        notes.append(f"method {problem.method} does not locate events")
     n_passed, first = trajectory.change_points
     if n_passed and not explain_missing_masses(compiled.source):
         notes.append(
-            f"{n_passed} samples lie at or near a change point (the first at t = {first:.9g} s): positions and rates"
-            " pass on the smooth branch; forces and torques there are not determined by the rows"
+            f"{n_passed} samples are at or near a change point (the first at t = {first:.9g} s): positions and"
+            " velocities continue on the smooth branch; the constraint equations do not determine forces and torques"
+            " there"
         )
     notes += _yield_unbounded_sample_note(compiled, problem, trajectory)
     notes += iterate_seam_notes(compiled.source, p, float(problem.t[0]), float(trajectory.t[-1]))
@@ -159,8 +161,8 @@ def _yield_stiff_film_note(source: KernelSource, problem: Problem, counts: Count
     if films and counts.steps > MAX_EXPLICIT_STEPS and math.isinf(problem.step):
         yield (
             f"{counts.steps} steps: the film in {', '.join(films)} is stiff, and no implicit method fits a scene whose"
-            f" contact in {source.rigid[0]} is a constraint (newton_restitution): a contact law that gives there"
-            " (hertz with a stiffness) lets method auto take long steps"
+            f" contact in {source.rigid[0]} is a constraint (newton_restitution): with an elastic contact law there"
+            " (hertz with a stiffness), method auto makes long steps"
         )
 
 
@@ -176,7 +178,7 @@ def _yield_unbounded_sample_note(compiled: CompiledModel, problem: Problem, traj
     if largest.max() > 100.0 * np.median(largest) and (drive := find_unbounded_drive(compiled, problem.p, t)):
         yield (
             f"the second rate of drive {drive} is unbounded at t = {t:.9g} s: accelerations, forces and torques of that"
-            " sample mean nothing: write the drive with powers of 2 and more, or take samples at other times"
+            " sample are not meaningful: write the drive with powers of 2 and more, or request samples at other times"
         )
 
 
@@ -196,14 +198,14 @@ def may_exceed_validity_range(source: KernelSource, p: Array, size: Array, phi_m
 def yield_range_notes(
     compiled: CompiledModel, p: Array, t0: float, q0: Array, counts: Counts, peaks: Array
 ) -> Iterator[str]:
-    """Yield notes on a run that left its model: a linkage that came apart, or joints outside their contact laws.
+    """Yield notes on a run outside the validity of its model: large constraint violations, or invalid contact laws.
 
     `t0`, `q0`: time (s) and coordinates of the start. `peaks` (n_clearances, 3).
     """
     if counts.phi_max > MAX_DRIFT_OVER_SIZE * compute_mechanism_size(compiled, p):
         yield (
-            f"the linkage came apart: constraints are violated by up to {counts.phi_max:.3g}: nothing after that means"
-            " anything; a step too long does this, or a drive that pushes the links through a dead centre"
+            f"constraint equations are violated by up to {counts.phi_max:.3g}: results from then on are not"
+            " meaningful; the cause is a step that is too long, or a drive that pushes the links through a dead centre"
         )
     yield from _yield_law_range_notes(compiled, p, t0, q0, peaks)
 
@@ -221,25 +223,26 @@ def _yield_law_range_notes(compiled: CompiledModel, p: Array, t0: float, q0: Arr
         if joint.film and not joint.dry and ratio > MAX_FILM_RATIO:
             yield (
                 f"{joint.name}: the film is squeezed out, e/c = {ratio:.7g}: its law, singular at e = c, is"
-                " capped there: a dry contact beyond it, or a thicker oil, keeps the surfaces apart"
+                " capped there: add a dry contact to the joint, or use an oil of higher viscosity"
             )
         elif joint.film and not joint.dry and penetration > (1.0 - MAX_FILM_RATIO) * c:
             yield (
-                f"{joint.name}: the journal is up to {1e3 * penetration:.3g} mm within its bearing"
-                f" (c = {1e3 * c:.3g} mm), where a film with extra_clearance still carries it:"
-                " a dry contact takes its force there"
+                f"{joint.name}: the journal penetrates its bearing by up to {1e3 * penetration:.3g} mm"
+                f" (c = {1e3 * c:.3g} mm), where the film still has a force by extra_clearance:"
+                " add a dry contact to the joint"
             )
         if penetration > (limit := min(MAX_DEPTH_OVER_CLEARANCE * c, MAX_DEPTH_OVER_RADIUS * radius)):
             begins_deep = _compute_penetration(compiled, p, t0, q0, k, joint) > limit
             location = (
-                "corner goes {} mm into its wall (gap" if joint.is_corner else "journal goes {} mm into its bearing (c"
+                "corner penetrates its wall by {} mm (gap"
+                if joint.is_corner
+                else "journal penetrates its bearing by {} mm (c"
             )
             yield (
                 f"{joint.name}: the {location.format(f'{1e3 * penetration:.3g}')} {1e3 * c:.3g} mm,"
                 f" {'half the width' if joint.is_corner else 'radius'} {1e3 * radius:.3g} mm): outside "
-                "what contact laws"
-                " hold for; "
-                + ("it lies so deep from the start on" if begins_deep else "a step too long does this too")
+                "the validity of contact laws; "
+                + ("the start is that deep" if begins_deep else "a step that is too long has this effect too")
             )
 
 
@@ -270,7 +273,7 @@ def _build_peaks(compiled: CompiledModel, trajectory: Trajectory) -> tuple[Peak,
 
 
 class _TimeLimitReached(Exception):
-    """Signal that the rest of an interrupted evaluation is left for later."""
+    """Signal that the evaluation of an interrupted run has used its time limit and ends."""
 
 
 def build_result(
@@ -333,7 +336,10 @@ def build_result(
 
 
 class _ResultParts:
-    """Build the fields of a Result that few callers read; what follows from its samples if they pass the audit."""
+    """Build fields of a Result at their first access, for make_with_deferred_fields.
+
+    With `passing` samples, the evaluation and the diagnostics are built at their first access too.
+    """
 
     fields: tuple[str, ...] = ("events", "event_states", "trace", "provenance")
 

@@ -1,4 +1,4 @@
-"""Audit a few samples of a run in reusable memory by the checks that C makes: power, torques, constraint equations.
+"""Audit a few samples of a run in reusable memory by the checks in C: power, torques, constraint equations.
 
 These are those of `audit._check_random_samples`. The other checks of samples in audit.py need all quantities at all
 samples, which only `simulate` evaluates.
@@ -41,7 +41,11 @@ class ReusableSampleAudit:
         self._arguments: dict[tuple[int, int, bool], list[tuple[Arguments, Any]]] = {}
 
     def audit_samples(self, k: int) -> bool:
-        """Return whether a check of the samples of the run in row k exceeds the value at which `simulate` fails."""
+        """Audit samples of the run in row k, and return whether one exceeds the error at which `simulate` fails.
+
+        Return False without an audit. Errors that are not finite do not count: the check "finite" of `simulate`
+        reports them.
+        """
         run, x = self.run, self.run.arrays
         if not run.audit:
             return False
@@ -55,10 +59,13 @@ class ReusableSampleAudit:
         errors = self._errors[: len(arguments)]
         if b"\0" not in (errors <= self._limits).tobytes():  # quicker than all()
             return False
-        return bool(((errors > self._limits) & (errors < np.inf)).any())  # not finite: those of another check
+        return bool(((errors > self._limits) & (errors < np.inf)).any())
 
     def _list_arguments(self, k: int, samples: NDArray[np.intp]) -> list[tuple[Arguments, Any]]:
-        """Return the arguments of C for each of these samples of row k: pointers to the state, and to the errors."""
+        """Return the arguments of C for each of these samples of row k: pointers to the state, and to the errors.
+
+        The first sample of a resumed run is left out.
+        """
         compiled, (y, latched, p) = self.run.compiled, self._rows[k]
         if self.is_resumed and len(samples) > 1:
             samples = samples[samples > 0]

@@ -284,5 +284,5 @@ def test_check_tells_of_a_start_in_the_wall(scenes: Scenes) -> None:
 
 def test_a_deep_start_is_not_the_steps_fault(scenes: Scenes) -> None:
     run = scenes.free.simulate(1e-6, output=2, parameters=numbers([C + 0.2e-3, 0.0], [-0.01, 0.0]))
-    notes = [note for note in run.diagnostics.notes if "outside what contact laws hold for" in note]
-    assert len(notes) == 1 and "from the start on" in notes[0] and "step" not in notes[0]
+    notes = [note for note in run.diagnostics.notes if "outside the validity of contact laws" in note]
+    assert len(notes) == 1 and "the start is that deep" in notes[0] and "step" not in notes[0]
