@@ -25,7 +25,7 @@ import numpy as np
 
 from gudgeon.assembly.linkage import compute_mechanism_size, project_state
 from gudgeon.errors import BadValueError, SolverError
-from gudgeon.integrators.adaptive import SMALLEST, compute_error_lengths
+from gudgeon.integrators.adaptive import MIN_RTOL, compute_error_lengths
 from gudgeon.language.argument_checks import check_instance
 from gudgeon.model.compiled import Array
 
@@ -208,7 +208,7 @@ def build_repeat_settings(run: Result) -> tuple[dict[str, Any], dict[str, Any]]:
     if math.isfinite(d.step):
         return settings | {"step": d.step}, settings | {"step": d.step / STEP_RATIO}
     # at the tightest allowed tolerance, the other run has the looser one
-    rtol = d.rtol / RTOL_RATIO if d.rtol >= RTOL_RATIO * SMALLEST else d.rtol * RTOL_RATIO
+    rtol = d.rtol / RTOL_RATIO if d.rtol >= RTOL_RATIO * MIN_RTOL else d.rtol * RTOL_RATIO
     return settings | {"rtol": d.rtol}, settings | {"rtol": rtol}
 
 

@@ -16,13 +16,13 @@ from gudgeon.assembly.start import assemble_start
 from gudgeon.contract.kernel_source import KernelSource, PointInfo, RuntimeParameter
 from gudgeon.contract.methods import EXPLICIT, KINEMATIC, TAYLOR
 from gudgeon.integrators.adaptive import (
-    FELT_BY_FILMS,
+    MAX_FILM_SPEED_ERROR,
     RTOL,
     find_integrated_angles,
     select_first_method,
     select_stiff_method,
 )
-from gudgeon.integrators.kinematic import REACH
+from gudgeon.integrators.kinematic import MAX_CORRECTION
 from gudgeon.language.tree import to_json
 from gudgeon.language.undefined_parts import DIVIDING
 from gudgeon.model.choices import format_parameter
@@ -75,8 +75,8 @@ def build_description(compiled: CompiledModel, drift_step: float | None = None) 
         "film": any(joint.film for joint in source.clearances),
         "beyond": compiled.has_mod_in_drives,
         "rtol": RTOL,
-        "felt_by_films": FELT_BY_FILMS,
-        "reach": REACH,
+        "felt_by_films": MAX_FILM_SPEED_ERROR,
+        "reach": MAX_CORRECTION,
         "memory": source.n_memory,
         "events": [[event.name, event.action] for event in source.events],
         "widths": _count_array_columns(source),

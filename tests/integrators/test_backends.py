@@ -146,7 +146,7 @@ def test_an_unknown_name_is_told_what_there_is() -> None:
 def test_what_the_backends_refuse() -> None:
     with pytest.raises(BadValueError, match="dry_friction.*C methods"):
         gudgeon.load("belt_block").simulate(1.0, method="scipy:BDF")
-    with pytest.raises(BadValueError, match="chooses its step"):
+    with pytest.raises(BadValueError, match="controls its step"):
         gudgeon.load("pendulum").simulate(1.0, method="scipy:BDF", step=1e-3)
     with pytest.raises(BadValueError, match="kinematic"):
         gudgeon.load("nine_bar_press").simulate(0.1, method="scipy:BDF")

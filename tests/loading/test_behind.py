@@ -72,7 +72,7 @@ def same(a: Result, b: Result) -> bool:
 @pytest.mark.usefixtures("nobody")
 @pytest.mark.parametrize("method", ["rodas5p", pytest.param("rk4", marks=pytest.mark.slow)])
 def test_a_run_goes_on_with_the_optimized_library(cache: Cache, method: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(many, "CHUNK", 7)
+    monkeypatch.setattr(many, "MAX_STEPS_PER_CALL", 7)
     step = {"step": 1e-2} if method == "rk4" else {}
     simulation, called = loaded(), list[int]()
 

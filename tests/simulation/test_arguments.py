@@ -26,7 +26,7 @@ pytestmark = needs_compiler
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        ({"rtol": "x"}, "rtol is 'x': expected a share from 1e-14 to 1"),
+        ({"rtol": "x"}, "rtol is 'x': expected a number from 1e-14 to 1"),
         ({"rtol": float("nan")}, "expected a share"),
         ({"rtol": 1e-16}, "rounding would be controlled"),
         ({"rtol": 2.0}, "expected a share"),

@@ -280,7 +280,7 @@ def test_what_a_batch_compiles_meanwhile_ends_with_it(monkeypatch: pytest.Monkey
             raise KeyboardInterrupt
 
     monkeypatch.setattr(lanes, "MIN_REMAINING_S", 1e-9)
-    monkeypatch.setattr(lanes, "_made", WeakKeyDictionary())
+    monkeypatch.setattr(lanes, "_loaded_lanes", WeakKeyDictionary())
     monkeypatch.setattr(lanes, "_is_compiled", lambda *_: False)
     monkeypatch.setattr(lanes, "_load_lanes", compiled)
     batch = press.simulate_many({"c": np.full(40, 3e-4)}, 0.01, output=2, rtol=1e-4, threads=1, progress=progress)
@@ -294,7 +294,7 @@ def test_a_run_that_no_longer_advances_ends(tmp_path: Path) -> None:
     given = (MECHANISMS / "nine_bar_press.yaml").read_text(encoding="utf-8")
     file = tmp_path / "printed.yaml"
     file.write_text(given.replace("viscosity: 100 cP}", "viscosity: 100 cP, as_printed: true}"), encoding="utf-8")
-    message = r"no longer advances at t = 0\.212(.|\n)*changes its form \(a corner of a law\)(.|\n)*computed is kept"
+    message = r"no longer advances at t = 0\.212(.|\n)*changes its form \(a switching point of a law\)(.|\n)*is stored"
     with pytest.raises(SolverError, match=message) as caught:
         gudgeon.load(file, "lubricated").simulate(0.5, output=500, parameters={"c": "0.6 mm", "omega": 3 * math.pi})
     run = caught.value.partial

@@ -115,7 +115,7 @@ def test_contacts_that_come_in_any_order_are_each_runs_own_by_onset(monkeypatch:
             numbers[first : first + N_IMPACT_COLUMNS] = [float(contact[name]) for name in IMPACT_COLUMN_NAMES]
         return len(own)
 
-    monkeypatch.setattr(stored, "FIRST_BLOCK", 21)
+    monkeypatch.setattr(stored, "FIRST_BLOCK_CONTACTS", 21)
     monkeypatch.setattr(stored, "BLOCK", 21)
     lib, pointer = SimpleNamespace(gudgeon_run_impacts=listed), gudgeon.load("bouncing_ball", "damped").compiled.pointer
     fetched = stored.Contacts(cast(CompiledModel, SimpleNamespace(lib=lib, pointer=pointer)))

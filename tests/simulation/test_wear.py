@@ -297,5 +297,5 @@ def test_what_cannot_be_is_refused(crank: tuple[gudgeon.Simulation, gudgeon.Resu
     for one, other in ((simulation, "run"), ("rig", run)):
         with pytest.raises(BadValueError, match="expected a (Result|Simulation)"):
             gudgeon.wear(one, other, "wristpin", k=1.0)  # type: ignore[arg-type]
-    with pytest.raises(BadValueError, match="whose run it is"):
+    with pytest.raises(BadValueError, match="expected the simulation of the run"):
         gudgeon.wear(gudgeon.load("bouncing_ball", "elastic"), run, "wristpin", k=1.0)
