@@ -18,7 +18,7 @@ from gudgeon.assembly.linkage import find_point_in_body
 from gudgeon.assembly.rank import compute_left_null_maxima
 from gudgeon.errors import AssemblyError
 from gudgeon.model.compiled import Array, describe_mass_ratio
-from gudgeon.model.written import explain_undefined_value_after
+from gudgeon.model.file_expressions import explain_undefined_value_after
 
 FAR = 100.0  # times the next longest length: a sign of lengths in mm next to lengths in m
 FEW = 60  # coordinates up to which wrong lengths are searched

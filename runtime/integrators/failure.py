@@ -34,7 +34,7 @@ from gudgeon.language.functions import WITH_SWITCHING_POINTS
 from gudgeon.language.tree import list_functions
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.contours import compute_max_clearance
-from gudgeon.model.written import (
+from gudgeon.model.file_expressions import (
     evaluate_at_times,
     explain_undefined_rate,
     explain_undefined_value_after,

@@ -39,7 +39,11 @@ from gudgeon.integrators.trajectory import (
     make_empty_events,
 )
 from gudgeon.model.compiled import Array, CompiledModel
-from gudgeon.model.written import explain_undefined_rate, explain_undefined_value_after, explain_undefined_value_between
+from gudgeon.model.file_expressions import (
+    explain_undefined_rate,
+    explain_undefined_value_after,
+    explain_undefined_value_between,
+)
 from gudgeon.waiting.cancellation import CancellationPoll
 
 NAME, ORDER, SOURCE = "kinematic", 0, "Newton's method on the constraints"

@@ -25,7 +25,7 @@ from gudgeon.language.functions import JUMPING, WITH_SWITCHING_POINTS, select_fu
 from gudgeon.language.tree import Binary, Call, Expr, Number, Unary, iterate_names, list_functions
 from gudgeon.model.cached_values import cache_by_values
 from gudgeon.model.compiled import Array
-from gudgeon.model.written import evaluate_at_times, find_undefined_value_at_switch, read_expression_trees
+from gudgeon.model.file_expressions import evaluate_at_times, find_undefined_value_at_switch, read_expression_trees
 
 _HIDING = select_function_names(lambda f: f.hides_corners)  # functions that may hide a switching point
 # grid intervals, largest number of candidates of `_find_jumps`, and of `_find_first_discontinuity`

@@ -27,9 +27,9 @@ from gudgeon.language.argument_checks import check_text, raise_bad_value
 from gudgeon.language.functions import JUMPING
 from gudgeon.language.tree import iterate_names, list_functions
 from gudgeon.model.compiled import Array
+from gudgeon.model.file_expressions import read_expression_trees
 from gudgeon.model.parameters import prepare_run_values
 from gudgeon.model.sizes import compute_mechanism_sizes
-from gudgeon.model.written import read_expression_trees
 from gudgeon.results.lyapunov import Lyapunov, Section
 from gudgeon.results.results import Result
 from gudgeon.simulation.arguments import evaluate_end_time, parse_seconds

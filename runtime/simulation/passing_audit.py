@@ -16,7 +16,7 @@ from gudgeon.contract.boundary import AUDIT_FAILS, AUDIT_ON, N_CLEARANCE_COLUMNS
 from gudgeon.integrators.trajectory import Problem, Trajectory
 from gudgeon.model.cached_values import cache_by_values
 from gudgeon.model.compiled import Array, CompiledModel
-from gudgeon.model.evaluation import FIRST, Evaluation, view_evaluation
+from gudgeon.model.evaluation import FIRST_CHUNK_SAMPLES, Evaluation, view_evaluation
 from gudgeon.simulation.audit import (
     LIMITS,
     MIN_CALLS_OF_LONG_RUN,
@@ -29,7 +29,7 @@ from gudgeon.simulation.audit import (
 )
 from gudgeon.simulation.sample_checks import compute_energy_balance
 
-MAX_SAMPLES = FIRST  # which C evaluates in one call
+MAX_SAMPLES = FIRST_CHUNK_SAMPLES  # which C evaluates in one call
 
 
 def is_short_run(problem: Problem, trajectory: Trajectory) -> bool:

@@ -28,9 +28,9 @@ from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.contours import compute_corner_penetration, compute_max_clearance
 from gudgeon.model.deferred_fields import find_deferred_function, make_with_deferred_fields
 from gudgeon.model.evaluation import Evaluation
+from gudgeon.model.file_expressions import find_unbounded_drive
 from gudgeon.model.left_limit import find_evaluation_times
 from gudgeon.model.seams import iterate_seam_notes
-from gudgeon.model.written import find_unbounded_drive
 from gudgeon.results.diagnostics import Diagnostics, Peak, collect_provenance, find_date
 from gudgeon.results.peaks import describe_zeno_points, find_first_contact_force
 from gudgeon.results.results import Result

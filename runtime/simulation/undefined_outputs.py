@@ -13,7 +13,7 @@ from gudgeon.language.undefined_parts import is_total_expression
 from gudgeon.model.cached_values import cache_by_values
 from gudgeon.model.choices import format_parameter
 from gudgeon.model.compiled import Array
-from gudgeon.model.written import explain_nonfinite_part, read_expression_trees
+from gudgeon.model.file_expressions import explain_nonfinite_part, read_expression_trees
 from gudgeon.results.results import Result
 from gudgeon.results.series import get_catalogue
 

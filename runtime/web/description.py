@@ -27,10 +27,10 @@ from gudgeon.language.tree import to_json
 from gudgeon.language.undefined_parts import DIVIDING
 from gudgeon.model.choices import format_parameter
 from gudgeon.model.compiled import CompiledModel
-from gudgeon.model.default_step import SMOOTH, T_END, estimate_default_step
+from gudgeon.model.default_step import MAX_STEP_FRACTION, T_END, estimate_default_step
+from gudgeon.model.file_expressions import find_partial_expressions
 from gudgeon.model.parameters import GAINS, list_conditions, prepare_values
 from gudgeon.model.sizes import find_size_indices
-from gudgeon.model.written import find_partial_expressions
 from gudgeon.results.series import get_catalogue
 from gudgeon.simulation.arguments import DEFAULT_OUTPUT
 from gudgeon.simulation.hidden_jumps import needs_jump_search
@@ -189,7 +189,7 @@ def _compute_default_step(compiled: CompiledModel, drift_step: float | None) -> 
     """
     if "rk4" not in compiled.source.methods:
         return None if drift_step is None else [DRIFT_STEP_FRACTION, drift_step]
-    return [SMOOTH, estimate_default_step(compiled, prepare_values(compiled, {})[0], math.inf)]
+    return [MAX_STEP_FRACTION, estimate_default_step(compiled, prepare_values(compiled, {})[0], math.inf)]
 
 
 def _compute_stored_start(compiled: CompiledModel) -> dict[str, Any] | None:
