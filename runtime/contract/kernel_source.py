@@ -117,7 +117,7 @@ class SeriesInfo:
 
 
 @dataclass(frozen=True)
-class WrittenInfo:
+class ExpressionInfo:
     """Describe an expression of t or motion, or of a scene's `simulate`, as JSON; or a literal or missing 0."""
 
     address: str  # "drives.crank.value"
@@ -193,8 +193,8 @@ class KernelSource:
     chain_rows: tuple[str, ...] = ()  # constraint equations of these loops
     events: tuple[EventInfo, ...] = ()
     story: ReductionLog = ReductionLog()  # record of the reduction (check -v)
-    written: tuple[WrittenInfo, ...] = ()
-    expressions: tuple[WrittenInfo, ...] = ()  # named expressions of the file that are used by name here
+    written: tuple[ExpressionInfo, ...] = ()
+    expressions: tuple[ExpressionInfo, ...] = ()  # named expressions of the file that are used by name here
     lines: tuple[tuple[str, int], ...] = ()  # lines of the file at which joints and drives are
     states: tuple[str, ...] = ()  # internal states of laws, "A.z", equally many per joint with play; "": none
     # parts in which `main` is compiled in parallel, as PART in C counts them; (): as a whole
@@ -206,7 +206,7 @@ class KernelSource:
     cdef: str = ""  # what `main` declares where it is compiled alone; "": with the engine, by the engine's calls
     overrides: tuple[tuple[str, str | float | bool], ...] = ()  # of the file: (address, value), sorted (load)
     # expressions of `simulate` that depend on parameters; their values are the defaults
-    simulate_written: tuple[WrittenInfo, ...] = ()
+    simulate_written: tuple[ExpressionInfo, ...] = ()
     tables: tuple[tuple[str, str], ...] = ()  # table files of curves in the mechanism's folder, and their SHA-256
     laws: tuple[tuple[str, str], ...] = ()  # user-defined laws and their keys (kinds/laws/registered.py)
 
@@ -305,9 +305,9 @@ class KernelSource:
             "conditions": Condition,
             "series": SeriesInfo,
             "events": EventInfo,
-            "written": WrittenInfo,
-            "expressions": WrittenInfo,
-            "simulate_written": WrittenInfo,
+            "written": ExpressionInfo,
+            "expressions": ExpressionInfo,
+            "simulate_written": ExpressionInfo,
             "parts": PartInfo,
             "contours": ContourInfo,
         }

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gudgeon.assembly.guess_warnings import find_guess_deviations
-from gudgeon.assembly.large import LARGE
+from gudgeon.assembly.large import MIN_SPARSE_COORDINATES
 from gudgeon.assembly.rank import check_redundant_equations, list_redundant_equations
 from gudgeon.assembly.start import assemble_start
 from gudgeon.contract.boundary import (
@@ -197,7 +197,7 @@ class Runs(StoredRuns):
     @property
     def _has_starts_in_python(self) -> bool:
         """Return whether Python assembles all starts, because C does not or because they must be checked."""
-        is_in_c = self.struct or (self.kinematic and self.compiled.n < LARGE and not self.observers)
+        is_in_c = self.struct or (self.kinematic and self.compiled.n < MIN_SPARSE_COORDINATES and not self.observers)
         return not is_in_c or bool(list_redundant_equations(self.compiled))
 
     def _record_failures(self) -> None:

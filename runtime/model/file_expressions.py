@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from gudgeon.contract.kernel_source import KernelSource, WrittenInfo
+from gudgeon.contract.kernel_source import ExpressionInfo, KernelSource
 from gudgeon.language.tree import (
     Binary,
     Call,
@@ -94,7 +94,7 @@ def evaluate_at_times(source: KernelSource, p: Array, tree: Expr, t: Array) -> A
 
 
 @cache_by_values
-def read_expression_trees(source: KernelSource, kinds: Iterable[str]) -> list[tuple[WrittenInfo, Expr]]:
+def read_expression_trees(source: KernelSource, kinds: Iterable[str]) -> list[tuple[ExpressionInfo, Expr]]:
     """Return the expressions of t and motion in sections `kinds` of the file (drives, forces, events), with trees."""
     return [(info, from_json(json.loads(info.tree))) for info in source.written if info.address.split(".")[0] in kinds]
 
@@ -166,7 +166,7 @@ def explain_undefined_value_near(
 
 
 def find_undefined_value_at_switch(
-    source: KernelSource, p: Array, info: WrittenInfo, tree: Expr, t: Array
+    source: KernelSource, p: Array, info: ExpressionInfo, tree: Expr, t: Array
 ) -> tuple[str, float] | None:
     """Return (message, time) for a drive that is not a number at the switching point of a `where`; None if it is one.
 
@@ -203,7 +203,7 @@ def _bisect_switching_point(predicate: Callable[[float], bool], low: float, high
 
 
 def _explain_undefined_branch(
-    source: KernelSource, p: Array, info: WrittenInfo, call: Call, t: float, q: Array, v: Array
+    source: KernelSource, p: Array, info: ExpressionInfo, call: Call, t: float, q: Array, v: Array
 ) -> str:
     """Return a text on an active branch of a where that is not a number, at its switching point; else "".
 
@@ -256,7 +256,7 @@ def explain_undefined_rate(compiled: CompiledModel, p: Array, times: Array, q: A
 
 
 def _explain_undefined_expression(
-    source: KernelSource, expressions: Iterable[tuple[WrittenInfo, Expr]], p: Array, t: float, q: Array, v: Array
+    source: KernelSource, expressions: Iterable[tuple[ExpressionInfo, Expr]], p: Array, t: float, q: Array, v: Array
 ) -> str:
     """Return a message on the first of the expressions that is not finite at t, q, v; "" if all are finite.
 
@@ -284,7 +284,7 @@ def explain_nonfinite_part(source: KernelSource, tree: Expr, values: Values) -> 
     return location + _describe_part(path[-1], values)
 
 
-def _expand_named_expressions(source: KernelSource) -> list[tuple[WrittenInfo, Expr]]:
+def _expand_named_expressions(source: KernelSource) -> list[tuple[ExpressionInfo, Expr]]:
     """Return the file's named expressions, with the names of others replaced by their trees."""
     trees_by_name = {info.address.partition(".")[2]: from_json(json.loads(info.tree)) for info in source.expressions}
     expanded_trees: dict[str, Expr] = {}

@@ -418,7 +418,7 @@ def list_conditions(source: KernelSource) -> tuple[Condition, ...]:
     floor_addresses = {parameter.address for parameter in source.slots if parameter.address.endswith(".velocity_floor")}
     unconditioned_floors = sorted(floor_addresses - {condition.address for condition in source.conditions})
     floor_conditions = (
-        Condition(floor, ">", 0.0, "the smallest impact velocity is positive") for floor in unconditioned_floors
+        Condition(floor, ">", 0.0, "the least impact velocity is positive") for floor in unconditioned_floors
     )
     return (
         *source.conditions,

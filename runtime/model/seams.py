@@ -8,7 +8,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from gudgeon.contract.kernel_source import KernelSource, WrittenInfo
+from gudgeon.contract.kernel_source import ExpressionInfo, KernelSource
 from gudgeon.language.curves import Curve
 from gudgeon.language.tree import Call, CurveCall, from_json, iterate_curve_calls, iterate_names
 from gudgeon.model.cached_values import cache_by_values
@@ -35,7 +35,7 @@ def iterate_seam_notes(source: KernelSource, p: Array, t0: float = 0.0, t1: floa
 
 
 @cache_by_values
-def list_periodic_drives(source: KernelSource) -> tuple[WrittenInfo, ...]:
+def list_periodic_drives(source: KernelSource) -> tuple[ExpressionInfo, ...]:
     """Return the expressions of drives with a curve and `mod`."""
     drives = (info for info in source.written if info.address.startswith("drives."))
     return tuple(info for info in drives if '"curve"' in info.tree and '"mod"' in info.tree)

@@ -9,9 +9,9 @@ from typing import Any
 
 import numpy as np
 
-from gudgeon.assembly.large import LARGE
+from gudgeon.assembly.large import MIN_SPARSE_COORDINATES
 from gudgeon.assembly.linkage import compute_mechanism_size
-from gudgeon.assembly.rank import OPEN, list_redundant_equations
+from gudgeon.assembly.rank import MAX_REDUNDANT_VIOLATION, list_redundant_equations
 from gudgeon.assembly.start import assemble_start
 from gudgeon.contract.kernel_source import KernelSource, PointInfo, RuntimeParameter
 from gudgeon.contract.methods import EXPLICIT, KINEMATIC, TAYLOR
@@ -82,7 +82,7 @@ def build_description(compiled: CompiledModel, drift_step: float | None = None) 
         "widths": _count_array_columns(source),
         "unknown": _list_indeterminate_series(source),
         "left_out": _list_redundant_rows(compiled),
-        "open": OPEN,
+        "open": MAX_REDUNDANT_VIOLATION,
         "rows": [[row.owner, row.unit] for row in source.start_rows],
         "simulate": _collect_default_options(source),
         "step": _compute_default_step(compiled, drift_step),
@@ -198,11 +198,14 @@ def _compute_stored_start(compiled: CompiledModel) -> dict[str, Any] | None:
     Large mechanisms are always stored, since a page cannot solve them.
     """
     p = prepare_values(compiled, {})[0]
-    if compiled.n < LARGE:
+    if compiled.n < MIN_SPARSE_COORDINATES:
         start_position = compiled.close_linkage(0.0, p, compute_mechanism_size(compiled, p))
         if start_position is not None and np.isfinite(start_position[1]).all():
             return None
-    start, is_large = assemble_start(compiled, p), compiled.n >= LARGE  # neither a page nor Python calls C then
+    start, is_large = (
+        assemble_start(compiled, p),
+        compiled.n >= MIN_SPARSE_COORDINATES,
+    )  # neither a page nor Python calls C then
     array_sizes = [max(len(array), 1) for array in compiled.start_values(p)]
     start_json = {
         "q": start.q.tolist(),

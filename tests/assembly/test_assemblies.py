@@ -235,7 +235,7 @@ def test_a_guess_that_is_not_followed_is_told(tmp_path: Path) -> None:
             gudgeon.load(bars).simulate_many({"start.guess.coupler.theta": angles}, t_end=0.1, output=1)
         (one,) = caught
         message = str(one.message)
-        assert message.startswith("runs begin away from their guess: coupler.theta in 2 of 3 runs by up to 55°:")
+        assert message.startswith("starts deviate from their guess: coupler.theta in 2 of 3 runs by up to 55°:")
         assert one.filename == __file__
     close = four_bar(start=f"start: {{guess: {{coupler.theta: {angle - 45} deg}}}}")
     assert found(close).scenes["ideal"].guess_deviations == {}

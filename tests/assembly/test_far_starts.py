@@ -61,7 +61,9 @@ def test_a_start_far_away_assembles(written: float, x: float, ask: str, hangs: b
 
 def test_what_cannot_be_met_far_away_is_told(tmp_path: Path) -> None:
     ask = 'drives: {push: {coordinate: cart.x, value: "1000 m"}}\nstart: {set: {cart.x: 999 m}}'
-    with pytest.raises(AssemblyError, match=r"cannot be assembled: rows set cart.x .500 mm., push .-500 mm, line 12."):
+    with pytest.raises(
+        AssemblyError, match=r"cannot be assembled: constraint equations set cart.x .500 mm., push .-500 mm, line 12."
+    ):
         loader(tmp_path)(CART.format(x=0, bob="", pin="", ask=ask)).start()
 
 
