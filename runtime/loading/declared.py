@@ -2,7 +2,7 @@
 
 from _cffi_backend import FFI
 
-OF = "20920897b4acbc6eb39a972bf0c8379ad1a59ec65caff8d957d7b3646fecf2b0"  # SHA-256 of these declarations
+SHA256 = "20920897b4acbc6eb39a972bf0c8379ad1a59ec65caff8d957d7b3646fecf2b0"  # SHA-256 of these declarations
 ffi = FFI(
     "gudgeon",
     _version=0x2601,
