@@ -102,7 +102,7 @@ def select_first_method(source: KernelSource, rtol: float = RTOL) -> str:
 
 
 def select_explicit_method(source: KernelSource, rtol: float) -> str:
-    """Return the name of the explicit method of `auto`: Taylor's below the tolerance from which it takes less time.
+    """Return the name of the explicit method of `auto`: TAYLOR for tolerances at which it is faster, else EXPLICIT.
 
     The generator predicts this tolerance from the numbers of operations (generator/kernels/taylor.py).
     """

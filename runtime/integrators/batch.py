@@ -1,4 +1,4 @@
-"""Drive the time loop in C (engine/batch/ensemble.c) for one run or many, and own the arrays that the runs fill.
+"""Call the time loop in C (engine/batch/ensemble.c) for one run or many, with arrays that the runs fill.
 
 A call of C integrates runs from start to end without Python's global lock. Python distributes the runs and fetches the
 lists of contacts and events. Many runs use threads (threads.py); a single one stays in the calling thread

@@ -113,7 +113,7 @@ class _ThreadContacts:
         self._allocate_block(FIRST_BLOCK_CONTACTS)
 
     def _allocate_block(self, capacity: int) -> None:
-        """Allocate an empty block for so many contacts, with C pointers to it."""
+        """Allocate an empty block for `capacity` contacts, with C pointers to it."""
         self.numbers, self.joints, self.n = np.empty((capacity, N_IMPACT_COLUMNS)), np.empty(capacity, np.intc), 0
         pointer = self.compiled.pointer
         self.pointers = pointer(self.numbers, is_written=True), pointer(self.joints, "int *", is_written=True)

@@ -27,7 +27,7 @@ from gudgeon.waiting.ctrl_c import DelayedCtrlC
 
 CHECKSUM_FILE = "checksums"
 LAST_LINE_PREFIX = "whole"  # begins the last line of the list; without it the list is incomplete
-# names of temporary folders made by `_make_entry`: the key, and mkdtemp's letters
+# names of temporary folders of `_make_entry`: the key, and the letters of mkdtemp
 TEMPORARY_NAME = re.compile(r"[0-9a-f]{64}\.[a-z0-9_]{8}(\.old)?")
 LOCK_SECONDS = 300.0  # longer than any compilation; a lock held longer means a process that hangs
 

@@ -451,7 +451,7 @@ def describe_mass_ratio(source: KernelSource, mass: NDArray[Any]) -> str:
         lightest, heaviest = min(values, key=values.__getitem__), max(values, key=values.__getitem__)
         if values[heaviest] >= limit * values[lightest]:
             message = f"the {quantity} of {heaviest} ({values[heaviest]:g} {unit})"
-            message += f" and {lightest} ({values[lightest]:g} {unit}) are too far apart"
+            message += f" and {lightest} ({values[lightest]:g} {unit}) have too large a ratio"
             condition = " where a body has an inertia of 0" if limit < MAX_MASS_RATIO else ""
-            return f"{message} for doubles\n  expected none {limit:g} times another one{condition}; check their units"
+            return f"{message} for doubles\n  expected less than {limit:g} times{condition}; check their units"
     return ""

@@ -310,7 +310,7 @@ def check_sample_memory(
     field_names: Collection[str] = (),
     max_concurrent_runs: int = 1,
 ) -> None:
-    """Raise MemoryError if the samples of so many runs do not fit into memory.
+    """Raise MemoryError if the samples of `n_runs` runs do not fit into memory.
 
     n_samples: of each run; stored_series: names of series that are stored in place of the states, None for the states.
     The states then exist for `max_concurrent_runs` runs at a time, with the `field_names` that the series need.

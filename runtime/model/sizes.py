@@ -113,8 +113,8 @@ def compute_norm_weights(source: KernelSource, p: Array, mass: Array) -> Array:
 def find_size_indices(source: KernelSource) -> list[tuple[int, int]]:
     """Return a pair (larger index, smaller index) into p for the coordinates of each point and for each joint length.
 
-    A pair of a point is in this order whichever of x and y comes first. −1 stands for a coordinate that is 0; joint
-    lengths are (index, −1). Points without any coordinate in p are left out.
+    Indices of x and y are in this order, whichever is larger. −1 is the index of a coordinate that is 0; joint lengths
+    are (index, −1). Points without any coordinate in p are left out.
     """
     index_pairs = [(max(point.x, point.y), min(point.x, point.y)) for point in source.points]
     lengths = [parameter.dimension == _LENGTH and parameter.address.startswith("joints.") for parameter in source.slots]

@@ -283,20 +283,20 @@ def check_energy_balance(
     Yields nothing for a fixed step, which has no tolerance, for few samples, and where the energy throughput is too
     small. `largest_energy`: kinetic or potential (J). `balance`: residual and throughput (J).
     """
-    residual, turned = balance[0], balance[1] + largest_energy
+    residual, throughput = balance[0], balance[1] + largest_energy
     adaptive = math.isinf(problem.step) and problem.method != "kinematic"
     if not adaptive or len(trajectory.t) < MIN_SAMPLES or not math.isfinite(residual):
         return
-    crossing = size / max(abs(float(trajectory.t[-1] - trajectory.t[0])), 1e-300)
-    most = 0.5 * float(compiled.mass(problem.p)[::3].sum()) * crossing * crossing
-    if not turned > max(MIN_WORK_J, REST_SPEED_TOL**2 * most):
+    crossing_speed = size / max(abs(float(trajectory.t[-1] - trajectory.t[0])), 1e-300)
+    crossing_energy = 0.5 * float(compiled.mass(problem.p)[::3].sum()) * crossing_speed * crossing_speed
+    if not throughput > max(MIN_WORK_J, REST_SPEED_TOL**2 * crossing_energy):
         return
     tolerance = max(ENERGY_TOL_FACTOR * problem.rtol * math.sqrt(trajectory.counts.steps + 1.0), MIN_ENERGY_TOL)
-    if not trajectory.v[0].any():  # tolerances of a motion that begins at rest are those of one by its size in the time
-        turned += most
-    if residual > tolerance * turned:  # samples at one phase of a periodic motion may all lie where it is slow
-        turned = max(turned, _estimate_kinetic_energy(compiled, problem, trajectory, size))
-    yield Finding("energy", residual / (tolerance * turned), float(trajectory.t[-1]), "")
+    if not trajectory.v[0].any():  # tolerances of velocities from rest are those of the crossing speed
+        throughput += crossing_energy
+    if residual > tolerance * throughput:  # samples at one phase of a periodic motion may all be slow
+        throughput = max(throughput, _estimate_kinetic_energy(compiled, problem, trajectory, size))
+    yield Finding("energy", residual / (tolerance * throughput), float(trajectory.t[-1]), "")
 
 
 def _estimate_kinetic_energy(compiled: CompiledModel, problem: Problem, trajectory: Trajectory, size: float) -> float:
@@ -379,5 +379,5 @@ def draw_samples(problem: Problem, trajectory: Trajectory) -> NDArray[np.intp]:
     """
     N = len(trajectory.t)
     samples = choose_samples(N, problem.audit, trajectory.counts.right_hand_sides)
-    # a resumed state may lie off its constraints
+    # a resumed state may violate the constraints
     return samples[samples > 0] if problem.state is not None and N > 1 else samples

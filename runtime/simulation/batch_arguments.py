@@ -22,7 +22,7 @@ Errors = dict[int, BadValueError]
 
 
 def _split_times_by_run(output: Any) -> list[Any] | None:
-    """Split the argument `output` into one row of times per run; return None if all runs share their times.
+    """Split the argument `output` into one row of times per run; return None if all runs have the same times.
 
     Rows come from an array (n, N), or from a list, tuple or object array that contains sequences. Rows are not checked.
     """

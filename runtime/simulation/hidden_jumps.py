@@ -48,7 +48,7 @@ class Jump:
     t: float
     kind: str
     size: float
-    is_between_branches: bool = False  # whether it lies between the branches of where or mod
+    is_between_branches: bool = False  # whether the jump is between branches of where or mod
     message: str = ""  # message: a branch of a where is not a number at its own switching point
 
 
@@ -203,7 +203,7 @@ def _is_possibly_nonsmooth(tree: Expr) -> bool:
 
 
 def _list_drives_with_branches(source: KernelSource) -> list[tuple[str, Expr]]:
-    """Return name and expression of the drives with where or mod, whose branches may not meet at switching points."""
+    """Return name and expression of the drives with where or mod, whose branches may differ at switching points."""
     return [
         (drive, tree) for drive, tree in _list_drive_expressions(source) if not JUMPING.isdisjoint(list_functions(tree))
     ]

@@ -47,7 +47,7 @@ if TYPE_CHECKING:
 
 METHODS = ("auto", "tangent", "twin")  # methods for the growth of differences
 RTOL = 1e-12  # default tolerance of the runs: far below the distance of neighbours
-# loosest tolerance of a second run: if only one run takes another step, they differ by the error of the step
+# largest tolerance of a second run: if the steps of both runs differ, the runs differ by the error of a step
 MAX_RTOL_OF_SECOND_RUN = 1e-10
 N_SAMPLES = 1000  # samples by which the motion is measured
 MIN_INTERVALS = 60  # number of intervals of the time; at least one per period
@@ -158,7 +158,7 @@ def _read_run_settings(
 ) -> tuple[float, State, dict[str, Any]]:
     """Return end (s), start and settings of simulate for the exponent of a given run.
 
-    Method and step are those of the run unless `settings` has others; the tolerance is not taken over. Raises
+    Method and step are those of the run unless `settings` has others; its tolerance is not used. Raises
     BadValueError for a run of another scene, or if parameters or a start are given too. `parameters` and `start` must
     be None.
     """
@@ -234,7 +234,7 @@ def _add_default_rtol(settings: dict[str, Any], has_second_run: bool) -> dict[st
 def limit_rtol_of_neighbours(source: KernelSource, rtol: float | None) -> float | None:
     """Return the relative tolerance of runs that are compared with a neighbour: `rtol`, limited; None stays None.
 
-    It is at most MAX_RTOL_OF_SECOND_RUN where by="auto" follows a second run.
+    It is at most MAX_RTOL_OF_SECOND_RUN where by="auto" integrates a second run.
     """
     return (
         min(rtol, MAX_RTOL_OF_SECOND_RUN)

@@ -368,7 +368,7 @@ class _ResultParts:
         return collect_provenance(self.problem.compiled, self.date)
 
     def evaluation(self) -> Evaluation:
-        """Return the evaluation of samples that pass the audit, in memory of its own."""
+        """Return the evaluation of samples that pass the audit, as a copy."""
         assert self.passing
         return self.passing.build_evaluation()
 

@@ -70,7 +70,7 @@ class Stepper:
         if setup.needs_simulate:
             return
         self._run = setup.make_run(np.array([0.0, 1.0]), np.full(N_ROWS, setup.evaluate_step(0, 1.0)))
-        self._run.arrays["started"][0] = 1  # C takes each start from the array
+        self._run.arrays["started"][0] = 1  # C reads each start from the array
         self._reader = SampleReader(self._run, setup.series, 1)
         self._sample_audit = ReusableSampleAudit(self._run, is_resumed=True)
         self._arrays = {
@@ -191,7 +191,7 @@ class Stepper:
         self._state, self._start, self.ended, self._is_reset = state, pickled["start"], pickled["ended"], True
 
     def _check_inputs(self, inputs: ArrayLike | None) -> Array:
-        """Return the inputs as an array (n_inputs,); None stands for an empty array. Raises ArrayError."""
+        """Return the inputs as an array (n_inputs,); for None, an empty array. Raises ArrayError."""
         return as_c_array(() if inputs is None else inputs, "inputs", (len(self._setup.names),))
 
     def _check_reset(self) -> None:

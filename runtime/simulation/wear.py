@@ -115,7 +115,7 @@ def _build_sliding_request(
 ) -> SlidingRequest:
     """Check the arguments of `wear` and build the request to observe the joint between `since` and `until` (s).
 
-    None stands for the start or the end of the run. Raises BadValueError, UnknownNameError.
+    None: the start or the end of the run. Raises BadValueError, UnknownNameError.
     """
     check_joint_can_wear(run.source, joint)
     if check_text(contact_model, "contact") not in CONTACT_MODELS:
@@ -253,7 +253,7 @@ class WearObserver:
             self.rigid | (delta > 0.0),
         )  # a rigid contact is closed at δ = 0
         slip = w * np.where(touching, np.abs(v_t), 0.0)
-        loads = np.stack([slip * np.maximum(F_n, 0.0), slip * np.abs(F_t)]).reshape(2, -1)  # nothing is worn by a pull
+        loads = np.stack([slip * np.maximum(F_n, 0.0), slip * np.abs(F_t)]).reshape(2, -1)  # tension causes no wear
         self.slip += float(slip.sum())
         half_widths = np.arccos(np.clip(1.0 - delta / e, -1.0, 1.0)).ravel() if self.requested.overlap else None
         for side, body in enumerate((self.joint.first, self.joint.second)):
