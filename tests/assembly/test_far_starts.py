@@ -93,5 +93,5 @@ def test_masses_that_no_double_holds_together_are_told(tmp_path: Path) -> None:
     with pytest.raises(AssemblyError, match=rf"the inertias of {heavier}.*have too large a ratio"):
         heavy.start({"bodies.crank.mass": 1.0, "bodies.rod.inertia": 1e100})
     p = prepare_values(heavy.compiled, {"bodies.crank.mass": 1.0, "bodies.rod.inertia": 1e-20})[0]
-.* and rod .* too large a ratio"):
+    with pytest.raises(SingularError, match=r"(?s)vanished.*the inertias of crank .* and rod .* too large a ratio"):
         heavy.compiled.check_pivot(1, 0.0, p=p)
