@@ -85,7 +85,10 @@ def _check_slider_tilt(linkage: Linkage, p: Array, joint: ClearanceInfo) -> None
 
 
 def _check_corner_depth(linkage: Linkage, p: Array, joint: ClearanceInfo, depth: float) -> None:
-    """Raise AssemblyError for a slider's corner that is too deep in its wall; `depth` in m, negative outside."""
+    """Raise AssemblyError for a slider's corner that is too deep in its wall; `depth` in m, negative outside.
+
+    The limit is MAX_DEPTH_OVER_RADIUS of half the guide's width; for rigid surfaces, CLEARANCE_TOL of the gap.
+    """
     rigid, c = joint.name in linkage.source.rigid, float(p[joint.clearance])
     limit = CLEARANCE_TOL * c if rigid else MAX_DEPTH_OVER_RADIUS * float(p[joint.constants["R_i"]])
     if depth > limit:

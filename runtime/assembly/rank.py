@@ -51,8 +51,8 @@ MIN_BRANCH_DIFFERENCE = 1e-6  # smallest relative difference of the rates of two
 def compute_rank(matrix: Array, relative_limit: float = RANK_TOL) -> int:
     """Return the number of independent rows of a matrix.
 
-    relative_limit: singular values below this fraction of the largest count as zero. Large matrices are treated
-    without singular values.
+    relative_limit: singular values below this fraction of the largest count as zero. From MIN_SPARSE_COORDINATES
+    columns on, sparse factorization and Gram–Schmidt with pivoting replace the singular values.
     """
     if matrix.shape[1] >= MIN_SPARSE_COORDINATES:
         return (
@@ -178,7 +178,7 @@ def find_nearby_configurations(
 def list_redundant_equations(compiled: CompiledModel) -> list[int]:
     """Return the indices in source.start_rows of equations that were found redundant and are not integrated.
 
-    Equations of joints with play do not count.
+    Equations of joints with play do not count. The list is cached: callers must not change it.
     """
     source = compiled.source
     integrated, with_play = {row.name for row in source.rows}, {joint.joint for joint in source.clearances}

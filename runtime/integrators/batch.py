@@ -320,7 +320,7 @@ class Runs(StoredRuns):
             self.integrate_run_in_python(i)
         return failed
 
-    def complete_runs(self, indices: Sequence[int]) -> list[int]:
+    def recompute_runs_in_full(self, indices: Sequence[int]) -> list[int]:
         """Compute kinematic runs again with all states and works, unless C has stored them, before Python checks them.
 
         Return the indices of the runs to check, without those that fail now, which are stored already, and without

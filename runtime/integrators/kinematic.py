@@ -132,7 +132,7 @@ class KinematicRun:
         while first < last or not self.has_first_sample:
             before = perf_counter()
             end, failed = self._compute_motion(first, min(first + chunk, last))
-            stops = self.events is not None and end > first and self.events.find_events(self, first, end)
+            stops = self.events is not None and end > first and self.events.search_events(self, first, end)
             if stops:
                 end = last = self._truncate_at_event(first, end)
             self.last_complete = self._compute_works(first, end)

@@ -101,9 +101,9 @@ class KinematicEnsemble:
         return bool(self._struct.has_states and self._struct.has_works)
 
     def set_sample_audit(self, positions: Array, limits: Array) -> None:
-        """Set the audit of samples: positions in a run, 0 to 1, of the checked ones, and the limits of C's checks.
+        """Set the samples that C audits, and the limits (4,) of its checks, in the order of audit.LIMITS.
 
-        `positions`: at most 8, all samples of a run with no more; `limits`: (4,).
+        `positions`: at most 8 fractions of a run, 0 to 1; runs with no more samples are audited at all of them.
         """
         self._struct.n_drawn = len(positions)
         self._struct.drawn[0 : len(positions)] = positions.tolist()

@@ -29,7 +29,7 @@ class KinematicEvents:
         self.signs = np.zeros(len(problem.compiled.source.events), dtype=np.int8)  # of zero, seen last
         self.found_events, self.capacity = make_empty_events(), MAX_LISTED
 
-    def find_events(self, run_state: KinematicRun, first: int, last: int) -> bool:
+    def search_events(self, run_state: KinematicRun, first: int, last: int) -> bool:
         """Search the intervals between samples `first` to `last`; return whether an event ends the run there.
 
         Events are appended to `found_events`. The last interval is searched slightly beyond the end. Raises SolverError

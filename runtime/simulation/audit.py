@@ -77,7 +77,7 @@ class SampleAudit:
             if not joint.film and joint.name not in self.source.rigid
         ]
         self.contact_forces = [_ContactForces() for _ in self.joints]
-        self.samples = draw_samples(problem, trajectory) if self.is_on else np.zeros(0, np.intp)
+        self.samples = select_audit_samples_of_run(problem, trajectory) if self.is_on else np.zeros(0, np.intp)
         self.drawn: list[Evaluation] = []  # the evaluation of `samples`
         self.largest_energy = 0.0  # J
         self.first_undefined: float | None = None  # s, first sample at which an evaluated result is not finite
@@ -342,7 +342,7 @@ class _ContactForces:
         self.touching = touching if _exceeds(touching, self.touching) else self.touching
 
 
-def choose_samples(n_samples: int, audit: int, right_hand_sides: int) -> NDArray[np.intp]:
+def select_audit_samples(n_samples: int, audit: int, right_hand_sides: int) -> NDArray[np.intp]:
     """Return the indices of the pseudo-random samples that C checks, of a run with `n_samples` samples.
 
     There are 8; 4 after at most MAX_CALLS_OF_SHORT_RUN evaluations (`right_hand_sides`), unless `audit`, the level of
@@ -372,12 +372,12 @@ def _exceeds(value: float, largest: float) -> bool:
     return not value <= largest and largest == largest
 
 
-def draw_samples(problem: Problem, trajectory: Trajectory) -> NDArray[np.intp]:
-    """Return the indices of the pseudo-random samples that C checks, as `choose_samples`, from a problem and its run.
+def select_audit_samples_of_run(problem: Problem, trajectory: Trajectory) -> NDArray[np.intp]:
+    """Return the indices of the pseudo-random samples that C checks, as `select_audit_samples`, from a problem and its run.
 
     The first sample of a resumed run is left out.
     """
     N = len(trajectory.t)
-    samples = choose_samples(N, problem.audit, trajectory.counts.right_hand_sides)
+    samples = select_audit_samples(N, problem.audit, trajectory.counts.right_hand_sides)
     # a resumed state may violate the constraints
     return samples[samples > 0] if problem.state is not None and N > 1 else samples

@@ -179,7 +179,8 @@ def _compute_quadrature(run: Result) -> tuple[Array, Array]:
     """Return times and weights (s) of a Gauss quadrature over all contacts of a run, or over the whole run if it has a
     film.
 
-    Six points lie between successive samples, onsets, peaks, separations and recorded step ends.
+    Six points lie between successive samples, onsets, peaks, separations and recorded step ends. In runs with more than
+    MAX_INTERVALS samples, some samples are skipped.
     """
     edges = [
         run.t[:: max(1, len(run.t) // MAX_INTERVALS)],

@@ -30,7 +30,7 @@ class FileStart:
 
 @cache_by_values
 def assemble_file_start(compiled: CompiledModel, p: Array) -> FileStart:
-    """Return the start that the file describes, assembled at the first call with these values; not to be changed.
+    """Return the start that the file describes, cached for equal parameter values; callers must not change it.
 
     Raises AssemblyError if the linkage does not close, or if an equation that was redundant is not with these values.
     """

@@ -22,10 +22,10 @@ from gudgeon.simulation.audit import (
     MIN_CALLS_OF_LONG_RUN,
     MIN_SAMPLES,
     check_energy_balance,
-    choose_samples,
-    draw_samples,
     has_failed_finding,
     list_checks_left_out,
+    select_audit_samples,
+    select_audit_samples_of_run,
 )
 from gudgeon.simulation.sample_checks import compute_energy_balance
 
@@ -124,7 +124,7 @@ class ShortRunSamples:
         problem, x, compiled, layout = self.problem, self.trajectory, self.problem.compiled, self.layout
         t, state, n, pointer = self.t, self.state, len(x.t), compiled.pointer
         if n > layout.n_undrawn or problem.state is not None:
-            samples = draw_samples(problem, x)
+            samples = select_audit_samples_of_run(problem, x)
             n = len(samples)
             drawn = [np.ascontiguousarray(array[samples]) for array in (x.t, *self.motion, x.memory)]
             t, *drawn_state = (pointer(array) if array.size else self.p for array in drawn)
@@ -164,6 +164,6 @@ def _compute_block_layout(compiled: CompiledModel, n_samples: int, method: str) 
         ends[-1],
         first_error,
         first_error + n_samples * len(LIMITS),
-        len(choose_samples(MAX_SAMPLES, AUDIT_ON, 0)),
+        len(select_audit_samples(MAX_SAMPLES, AUDIT_ON, 0)),
         np.array([np.inf if check in left_out else AUDIT_FAILS * limit for check, limit in LIMITS.items()]),
     )

@@ -101,7 +101,10 @@ def _build_diagnostics(problem: Problem, trajectory: Trajectory, checked: Checke
 def _build_notes(
     compiled: CompiledModel, problem: Problem, trajectory: Trajectory, findings: tuple[Finding, ...]
 ) -> tuple[str, ...]:
-    """Return the notes of a run: warnings that a reader should know before trusting it. `findings`: of its audit."""
+    """Return the notes of a run for its diagnostics: warnings on start, events, model and audit, in a fixed order.
+
+    `findings`: of its audit.
+    """
     p, notes, counts = problem.p, list(problem.remarks), trajectory.counts
     if problem.state is None and (dependent := find_dependent_equations(compiled, p, float(problem.t[0]), problem.q)):
         notes.append(
@@ -213,8 +216,9 @@ def yield_range_notes(
 def _yield_law_range_notes(compiled: CompiledModel, p: Array, t0: float, q0: Array, peaks: Array) -> Iterator[str]:
     """Yield notes for each joint with play whose largest eccentricity left the range of its contact or film law.
 
-    The notes are on squeezed-out films, journals too near the bearing for a film, and penetrations too deep. `t0`,
-    `q0`: the start, which may be too deep already. `peaks` (n_clearances, 3).
+    The notes are on squeezed-out films (e/c above MAX_FILM_RATIO), penetrations of joints with a film only, and
+    penetrations above MAX_DEPTH_OVER_CLEARANCE or MAX_DEPTH_OVER_RADIUS. `t0`, `q0`: the start, which may be too deep
+    already. `peaks` (n_clearances, 3).
     """
     for k, (joint, e_max) in enumerate(zip(compiled.source.clearances, peaks[:, PEAK_e_max], strict=True)):
         c, radius = float(p[joint.clearance]), float(p[joint.constants["R_i"]])

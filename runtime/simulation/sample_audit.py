@@ -17,8 +17,8 @@ from gudgeon.simulation.audit import (
     LIMITS,
     MAX_CALLS_OF_SHORT_RUN,
     SAMPLE_POSITIONS,
-    choose_samples,
     list_checks_left_out,
+    select_audit_samples,
 )
 
 Arguments = tuple[Any, ...]
@@ -26,7 +26,7 @@ RIGHT_HAND_SIDES = COUNT_NAMES.index("right_hand_sides")  # column of the counts
 
 
 class ReusableSampleAudit:
-    """Check samples of the runs of a ReusableRun; `is_resumed`: runs begin at a state, which is not checked."""
+    """Audit samples of the runs of a ReusableRun; `is_resumed`: the first sample is the resumed state, not checked."""
 
     def __init__(self, run: ReusableRun, is_resumed: bool) -> None:
         self.run, self.is_resumed = run, is_resumed
@@ -52,7 +52,7 @@ class ReusableSampleAudit:
         n_samples, right_hand_sides = x["done"].item(k), x["counts"].item(k, RIGHT_HAND_SIDES)
         key = k, n_samples, run.audit <= 1 and right_hand_sides <= MAX_CALLS_OF_SHORT_RUN
         if key not in self._arguments:
-            self._arguments[key] = self._list_arguments(k, choose_samples(n_samples, run.audit, right_hand_sides))
+            self._arguments[key] = self._list_arguments(k, select_audit_samples(n_samples, run.audit, right_hand_sides))
         size, arguments = x["size"].item(k), self._arguments[key]
         for pointers, errors_of_sample in arguments:
             run.compiled.lib.gudgeon_audit_samples(1, *pointers, size, errors_of_sample)

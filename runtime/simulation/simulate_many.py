@@ -321,7 +321,7 @@ class _Results:
         runs = self.runs
         if runs.python_loop:
             suspects = self._suspects.select_runs_to_check(finished_runs)
-            for i in runs.complete_runs(suspects):
+            for i in runs.recompute_runs_in_full(suspects):
                 result = self._build_checked_result(i)
                 if self.stored_series:
                     self.stored_series.store_run(runs, i, result)
@@ -423,7 +423,7 @@ def _build_batch(results: _Results, times: Times) -> Batch:
     runs, source, stored_series = results.runs, results.simulation.source, results.stored_series
     x, n, joints = runs.arrays, results.simulation.compiled.n, len(source.clearances)
     if stored_series:
-        stored_series.complete(runs)
+        stored_series.fill_times_and_gaps(runs)
     without_samples = np.flatnonzero((x["done"] == 1) & (times.n_skipped == 1))  # runs that have only their start
     for rows in (
         (stored_series.arrays.values() if stored_series else (x["y"], x["state"])) if len(without_samples) else ()

@@ -179,7 +179,7 @@ class Stepper:
         return {"simulation": self._simulation, "arguments": self._arguments} | reached
 
     def __setstate__(self, pickled: dict[str, Any]) -> None:
-        """Make the stepper again, in the state that was reached."""
+        """Restore the stepper after unpickling: check its arguments again, and set the state that was reached."""
         self.__init__(pickled["simulation"], pickled["arguments"])  # type: ignore[misc]
         state = pickled["state"]
         if state is None:

@@ -67,7 +67,7 @@ class StoredSeries:
             has_works=needs_works or may_powers_be_undefined(self._source),
         )
 
-    def complete(self, runs: Runs) -> None:
+    def fill_times_and_gaps(self, runs: Runs) -> None:
         """Store "t", the times of all samples, and set all series to NaN where a run has no sample.
 
         Called once, when all runs are over. "t" is read-only if all runs have the same times.

@@ -180,7 +180,7 @@ class _Driver:
         end = self.stepper.interpolate(t1)
         if not np.isfinite(end).all():
             raise self.equations.failure or NonFiniteError(f"the motion is no longer finite at t = {t1:.9g} s", t1)
-        event = self._find_event(step)
+        event = self._locate_event_and_refine_peaks(step)
         t_new = t1 if event is None else event[0]
         self._store_samples_before(step, t_new)
         self._pass_step_to_observer(step, t_new)
@@ -215,8 +215,8 @@ class _Driver:
             )
         self.is_after_change = False
 
-    def _find_event(self, step: AcceptedStep) -> tuple[float, int] | None:
-        """Return time (s) and joint of the contact event that ends the step, or None; refine force peaks before it."""
+    def _locate_event_and_refine_peaks(self, step: AcceptedStep) -> tuple[float, int] | None:
+        """Return time (s) and joint of the first contact event in the step, or None; refine force peaks before it."""
         if not self.contacts.count:
             return None
         t = step.compute_sample_times()
