@@ -373,10 +373,7 @@ def _exceeds(value: float, largest: float) -> bool:
 
 
 def select_audit_samples_of_run(problem: Problem, trajectory: Trajectory) -> NDArray[np.intp]:
-    """Return the indices of the pseudo-random samples that C checks, as `select_audit_samples`, from a problem and its run.
-
-    The first sample of a resumed run is left out.
-    """
+    """Return the result of `select_audit_samples` for a problem and its run; a resumed run without its first sample."""
     N = len(trajectory.t)
     samples = select_audit_samples(N, problem.audit, trajectory.counts.right_hand_sides)
     # a resumed state may violate the constraints
