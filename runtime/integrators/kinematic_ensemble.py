@@ -140,8 +140,9 @@ class KinematicEnsemble:
     def compute_short_run(self, problem: Problem) -> bool:
         """Compute the only run of the batch and return whether it is complete.
 
-        Return False for a long run and for one with an observer or a report of progress, which KinematicRun computes,
-        and if C cannot complete it within 0.02 s: KinematicRun then computes it again, with polls for cancellation.
+        Nothing is computed, and False returned, for more than MAX_SHORT_RUN_SAMPLES samples, an observer or a report of
+        progress. Return False too if C cannot complete the run within 0.02 s. KinematicRun then computes it, with polls
+        for cancellation.
         """
         if len(problem.t) > MAX_SHORT_RUN_SAMPLES or problem.observer or problem.progress:
             return False

@@ -87,8 +87,8 @@ def _compile_quick_library(
 ) -> Library | None:
     """Build an unoptimized library, start another process that builds the optimized one (`key`), and return the first.
 
-    Return None if the optimized library must be awaited: no process may be started, or the cache has an unoptimized
-    library already, so that the other process is running or has failed.
+    Return None if the optimized library must be awaited. That is so if no process may be started, or if the cache has
+    an unoptimized library already: the other process is then running or has failed.
     """
     if not may_compile_in_background(cache) or cache.has_folder("libraries", key):
         return None

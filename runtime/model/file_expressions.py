@@ -102,8 +102,8 @@ def read_expression_trees(source: KernelSource, kinds: Iterable[str]) -> list[tu
 def may_powers_be_undefined(source: KernelSource) -> bool:
     """Return whether a drive or force of a scene, and thus its power, may be undefined at some time or position.
 
-    It may with functions that are not defined for all numbers, with parameters that are expressions, and with force
-    elements along a line between two points, whose direction is undefined where both coincide.
+    It may with functions that are not defined for all numbers, and with parameters that are expressions. It may too
+    with force elements along a line between two points, whose direction is undefined where both coincide.
     """
     trees = [tree for _, tree in read_expression_trees(source, ("drives", "forces"))]
     has_line = any(part.section == "forces" and part.kind not in DEFINED_EVERYWHERE for part in source.parts)

@@ -183,8 +183,8 @@ def _format_jump_error(jump: Jump, reason: str) -> str:
 def _is_possibly_nonsmooth(tree: Expr) -> bool:
     """Return whether an expression may be non-smooth at points that the generator does not detect.
 
-    This is true of functions with `hides_corners`, such as acos and sqrt, of powers whose exponent is not a natural
-    number, and of divisions by other than a number.
+    Such are functions with `hides_corners`, as acos and sqrt, powers whose exponent is not a natural number, and
+    divisions by other than a number.
     """
     match tree:
         case Unary(operand=operand):
