@@ -163,7 +163,7 @@ def test_what_follows_from_the_samples_can_wait(name: str, number: int, monkeypa
 def test_ctrl_c_while_the_energy_is_balanced(look: int, monkeypatch: pytest.MonkeyPatch) -> None:
     """All samples are there, and their accelerations are found when they are asked for."""
     monkeypatch.setattr(result_builder, "EVERY", -1.0)
-    monkeypatch.setattr(evaluation, "FIRST", 1)
+    monkeypatch.setattr(evaluation, "FIRST_CHUNK_SAMPLES", 1)
     simulation, options = case("dry", "auto")
     looks = 0
 

@@ -116,7 +116,7 @@ def test_contacts_that_come_in_any_order_are_each_runs_own_by_onset(monkeypatch:
         return len(own)
 
     monkeypatch.setattr(stored, "FIRST_BLOCK_CONTACTS", 21)
-    monkeypatch.setattr(stored, "BLOCK", 21)
+    monkeypatch.setattr(stored, "BLOCK_CONTACTS", 21)
     lib, pointer = SimpleNamespace(gudgeon_run_impacts=listed), gudgeon.load("bouncing_ball", "damped").compiled.pointer
     fetched = stored.Contacts(cast(CompiledModel, SimpleNamespace(lib=lib, pointer=pointer)))
     rng, runs, each = np.random.default_rng(5), Runs.__new__(Runs), [list[np.ndarray]() for _ in range(9)]
