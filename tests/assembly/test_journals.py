@@ -159,7 +159,7 @@ DEEP = 2e-6
 
 
 @pytest.mark.parametrize("method", ["dop853", "rk4", "scipy:DOP853"])
-@pytest.mark.parametrize(("speed", "message"), [(0.02, ""), (-0.02, "part at 0.02 m/s"), (0.0, "are at rest")])
+@pytest.mark.parametrize(("speed", "message"), [(0.02, ""), (-0.02, "separate at 0.02 m/s"), (0.0, "are at rest")])
 def test_a_run_that_begins_in_contact(scenes: Scenes, method: str, speed: float, message: str) -> None:
     """δ̇⁻ of an onset without loss: m δ̇⁻²/2 = m δ̇²/2 + K δ^2.5/2.5; the first force by hand; the run tells of it."""
     n = np.array([0.6, 0.8])
