@@ -53,7 +53,7 @@ def test_a_state_keeps_the_numbers_of_its_run(options: dict[str, Any], tmp_path:
         rest = pendulum.simulate(output=np.linspace(0.5, 1.0, 6), start=state, **options)
         assert rest.parameters["g"] == 1.62 and rest.final.parameters == {"parameters.g": 1.62}
         np.testing.assert_allclose(rest.q, whole.q[5:], rtol=0, atol=2e-7)
-        assert not [note for note in rest.diagnostics.notes if "goes on" in note]
+        assert not [note for note in rest.diagnostics.notes if "resumed at" in note]
 
 
 @pytest.mark.parametrize("options", METHODS)
