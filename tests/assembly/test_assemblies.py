@@ -198,11 +198,11 @@ def test_what_is_too_short_is_measured_between_points_that_joints_use(tmp_path: 
 def test_a_length_left_in_metres_is_named(tmp_path: Path) -> None:
     """One that is by hundreds longer than all others; not one that is only too long."""
     file = tmp_path / "four.yaml"
-    for ground, message in (("180", "times the next longest: was 180 mm meant?"), ("5", "")):
+    for ground, message in (("180", "times the next longest: is it 180 mm?"), ("5", "")):
         file.write_bytes(four_bar(ground=ground))
         with pytest.raises(AssemblyError) as caught:
             gudgeon.load(file).start()
-        assert message in str(caught.value) and ("was" in str(caught.value)) == bool(message)
+        assert message in str(caught.value) and ("is it" in str(caught.value)) == bool(message)
 
 
 def test_a_link_that_is_too_long_is_told_by_how_much(tmp_path: Path) -> None:
