@@ -59,7 +59,7 @@ def test_smaller_tolerances_give_smaller_errors(method: str) -> None:
 def test_a_drive_whose_rate_jumps_is_refused() -> None:
     """The impulse there belongs to the C methods: silently wrong numbers would follow."""
     jump = gudgeon.load(Path(__file__).parent.parent / "mechanisms/methods/jump.yaml")
-    with pytest.raises(BadValueError, match="the rate of crank jumps"):
+    with pytest.raises(BadValueError, match="a jump of the rate of crank needs an impulse"):
         jump.simulate(0.2, method="scipy:DOP853")
 
 
