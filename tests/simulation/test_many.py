@@ -201,7 +201,7 @@ events: {floor: {zero: ball.y, action: stop}}
 MISTAKES: list[tuple[Any, dict[str, Any], str]] = [
     ({"c": [1e-3, 2e-3], "omega": [1.0, 2.0, 3.0]}, {}, "different lengths: c has 2, omega has 3"),
     ({"c": np.zeros((2, 2))}, {}, r"c has shape \(2, 2\)"),
-    ([], {}, "no run"),
+    ([], {}, "at least one run"),
     ([1.0], {}, "a mapping for every run"),
     ({"c": 1e-3}, {"threads": 0}, "threads is 0"),
     ({"c": 1e-3}, {"step": -1.0}, "positive"),
